@@ -1,0 +1,1 @@
+//! What are K and M?

@@ -1,0 +1,1 @@
+//! What shape is a gear pair, exactly?

@@ -1,0 +1,1 @@
+//! The same pair with few degrees of freedom

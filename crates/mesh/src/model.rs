@@ -1,0 +1,104 @@
+//! The mesh as data: nodes, volume elements in blocks of one kind, named surface groups.
+
+use crate::{ElementKind, FaceKind};
+
+/// A finite-element mesh of one body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// Node positions, mm; an index into this list is *the* node number inside the program.
+    pub nodes: Vec<[f64; 3]>,
+    /// The file's own tag of each node (1, 2, ... for a generated mesh), for messages.
+    pub node_tags: Vec<u64>,
+    /// Volume elements, one block a kind.
+    pub blocks: Vec<ElementBlock>,
+    /// Physical groups of dimension 2 by name, in name order.
+    pub surfaces: Vec<SurfaceGroup>,
+    /// Names of the physical groups of dimension 3, in name order.
+    pub volumes: Vec<String>,
+}
+
+/// Volume elements of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElementBlock {
+    /// Kind of every element here.
+    pub kind: ElementKind,
+    /// Nodes, `kind.node_count()` an element, in Gmsh order.
+    pub connectivity: Vec<u32>,
+    /// The file's own tag of each element.
+    pub tags: Vec<u64>,
+}
+
+/// A named set of boundary faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceGroup {
+    /// Name of the physical group.
+    pub name: String,
+    /// Its faces.
+    pub faces: Vec<Face>,
+}
+
+/// One boundary face: nodes in Gmsh order (corners, then edges, then centre).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Face {
+    /// Shape and order.
+    pub kind: FaceKind,
+    /// Nodes; entries past `kind.node_count()` are `u32::MAX`.
+    nodes: [u32; 9],
+}
+
+impl Face {
+    /// A face from its nodes.
+    ///
+    /// # Panics
+    /// When the number of nodes is not `kind.node_count()`.
+    pub fn new(kind: FaceKind, nodes: &[u32]) -> Self {
+        assert_eq!(nodes.len(), kind.node_count(), "{kind:?} with {} nodes", nodes.len());
+        let mut all = [u32::MAX; 9];
+        all[..nodes.len()].copy_from_slice(nodes);
+        Self { kind, nodes: all }
+    }
+
+    /// The face's nodes in Gmsh order.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes[..self.kind.node_count()]
+    }
+}
+
+impl ElementBlock {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.connectivity.len() / self.kind.node_count()
+    }
+
+    /// Whether the block is empty.
+    pub fn is_empty(&self) -> bool {
+        self.connectivity.is_empty()
+    }
+
+    /// Nodes of each element in turn.
+    pub fn elements(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        self.connectivity.chunks_exact(self.kind.node_count())
+    }
+}
+
+impl Mesh {
+    /// Number of volume elements.
+    pub fn element_count(&self) -> usize {
+        self.blocks.iter().map(ElementBlock::len).sum()
+    }
+
+    /// The surface group of that name.
+    pub fn surface(&self, name: &str) -> Option<&SurfaceGroup> {
+        self.surfaces.iter().find(|s| s.name == name)
+    }
+}
+
+impl SurfaceGroup {
+    /// The nodes of all faces, ascending, each once.
+    pub fn nodes(&self) -> Vec<u32> {
+        let mut all: Vec<u32> = self.faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}

@@ -1,0 +1,1 @@
+//! What does the gear look like from its flanks?
