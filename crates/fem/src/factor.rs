@@ -71,12 +71,7 @@ impl BoundaryLastFactor {
             Spec::default(),
         );
         if let Err(LltError::NonPositivePivot { index }) = result {
-            // the index counts from 0 or 1, depending on the kernel that met it
-            let dof = ordering
-                .forward
-                .get(index.min(stiffness.n() - 1))
-                .copied()
-                .unwrap_or(0);
+            let dof = ordering.forward.get(index).copied().unwrap_or(index);
             return Err(FemError::NotPositiveDefinite {
                 dof,
                 pivot_ratio: 0.0,

@@ -173,6 +173,10 @@ mod tests {
         [0.31, 0.17, -0.6],
     ];
 
+    fn middle(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
+    }
+
     #[test]
     fn each_shape_function_is_one_at_its_node_and_zero_at_the_others() {
         for kind in ElementKind::ALL {
@@ -294,10 +298,12 @@ mod tests {
                     let corners = face.corner_count();
                     for k in 0..corners {
                         let (a, b, m) = (local[k], local[(k + 1) % corners], local[corners + k]);
-                        for d in 0..3 {
-                            let middle = 0.5 * (nodes[a][d] + nodes[b][d]);
-                            assert_eq!(nodes[m][d], middle, "{}: node {m}", kind.name());
-                        }
+                        assert_eq!(
+                            nodes[m],
+                            middle(nodes[a], nodes[b]),
+                            "{}: node {m}",
+                            kind.name()
+                        );
                     }
                 }
             }
@@ -314,12 +320,7 @@ mod tests {
         for kind in ElementKind::ALL.into_iter().filter(|k| k.order() == 2) {
             let nodes = kind.reference_nodes();
             for (k, &[a, b]) in kind.edges().iter().enumerate() {
-                for d in 0..3 {
-                    assert_eq!(
-                        nodes[kind.corner_count() + k][d],
-                        0.5 * (nodes[a][d] + nodes[b][d])
-                    );
-                }
+                assert_eq!(nodes[kind.corner_count() + k], middle(nodes[a], nodes[b]));
             }
         }
     }
