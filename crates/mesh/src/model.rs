@@ -70,7 +70,7 @@ impl Face {
 
     /// The corner nodes, counter-clockwise seen from where the normal points.
     pub fn corners(&self) -> &[u32] {
-        &self.nodes[..corner_count(self.kind)]
+        &self.nodes[..self.kind.corner_count()]
     }
 
     /// The corner nodes ascending, the last `u32::MAX` for a triangle: the same for the two
@@ -82,7 +82,7 @@ impl Face {
     /// The same face seen from the other side: the normal is turned.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        let (corners, count) = (corner_count(self.kind), self.kind.node_count());
+        let (corners, count) = (self.kind.corner_count(), self.kind.node_count());
         let mut turned = *self;
         turned.nodes[1..corners].reverse();
         if count >= 2 * corners {
@@ -90,14 +90,6 @@ impl Face {
             turned.nodes[corners..2 * corners].reverse();
         }
         turned
-    }
-}
-
-/// Number of corners of a face.
-fn corner_count(kind: FaceKind) -> usize {
-    match kind {
-        FaceKind::Tri3 | FaceKind::Tri6 => 3,
-        FaceKind::Quad4 | FaceKind::Quad8 | FaceKind::Quad9 => 4,
     }
 }
 
