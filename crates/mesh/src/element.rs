@@ -1,97 +1,55 @@
-//! Reference elements: node order, faces, shape functions (Gmsh conventions).
+//! Reference elements: node order, faces, shape functions, integration points.
+//!
+//! Node order and reference coordinates are Gmsh's:
+//!
+//! | family | reference element                                   | volume |
+//! |--------|-----------------------------------------------------|--------|
+//! | hex    | [-1, 1]^3                                           | 8      |
+//! | tet    | x, y, z >= 0, x + y + z <= 1                        | 1/6    |
+//! | wedge  | x, y >= 0, x + y <= 1 times z in [-1, 1]            | 1      |
+//! | quad   | [-1, 1]^2                                           | 4      |
+//! | tri    | x, y >= 0, x + y <= 1                               | 1/2    |
+//!
+//! Corners come first, then the middles of the edges in the order of `edges()`, then centres of
+//! faces in the order of `faces()`, then the centre of the element.
+
+mod face_shape;
+mod quadrature;
+mod shape;
+mod topology;
+
+pub use quadrature::{FaceQuadraturePoint, QuadraturePoint, QuadratureRule};
 
 /// Kinds of volume elements; node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 pub enum ElementKind {
+    /// Trilinear brick.
     Hex8,
+    /// Quadratic brick of the serendipity family.
     Hex20,
+    /// Triquadratic brick.
     Hex27,
+    /// Linear tetrahedron.
     Tet4,
+    /// Quadratic tetrahedron.
     Tet10,
+    /// Linear wedge: triangle times line.
     Wedge6,
+    /// Quadratic wedge of the serendipity family.
     Wedge15,
 }
 
 /// Kinds of boundary faces; node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 pub enum FaceKind {
+    /// Linear triangle.
     Tri3,
+    /// Quadratic triangle.
     Tri6,
+    /// Bilinear quadrilateral.
     Quad4,
+    /// Quadratic quadrilateral of the serendipity family.
     Quad8,
+    /// Biquadratic quadrilateral.
     Quad9,
-}
-
-#[allow(missing_docs)]
-impl ElementKind {
-    pub fn node_count(self) -> usize {
-        match self {
-            Self::Hex8 => 8,
-            Self::Hex20 => 20,
-            Self::Hex27 => 27,
-            Self::Tet4 => 4,
-            Self::Tet10 => 10,
-            Self::Wedge6 => 6,
-            Self::Wedge15 => 15,
-        }
-    }
-    pub fn gmsh_type(self) -> i32 {
-        match self {
-            Self::Hex8 => 5,
-            Self::Hex20 => 17,
-            Self::Hex27 => 12,
-            Self::Tet4 => 4,
-            Self::Tet10 => 11,
-            Self::Wedge6 => 6,
-            Self::Wedge15 => 18,
-        }
-    }
-    pub fn from_gmsh_type(code: i32) -> Option<Self> {
-        [
-            Self::Hex8,
-            Self::Hex20,
-            Self::Hex27,
-            Self::Tet4,
-            Self::Tet10,
-            Self::Wedge6,
-            Self::Wedge15,
-        ]
-        .into_iter()
-        .find(|k| k.gmsh_type() == code)
-    }
-}
-
-#[allow(missing_docs)]
-impl FaceKind {
-    pub fn node_count(self) -> usize {
-        match self {
-            Self::Tri3 => 3,
-            Self::Tri6 => 6,
-            Self::Quad4 => 4,
-            Self::Quad8 => 8,
-            Self::Quad9 => 9,
-        }
-    }
-    pub fn gmsh_type(self) -> i32 {
-        match self {
-            Self::Tri3 => 2,
-            Self::Tri6 => 9,
-            Self::Quad4 => 3,
-            Self::Quad8 => 16,
-            Self::Quad9 => 10,
-        }
-    }
-    pub fn from_gmsh_type(code: i32) -> Option<Self> {
-        [
-            Self::Tri3,
-            Self::Tri6,
-            Self::Quad4,
-            Self::Quad8,
-            Self::Quad9,
-        ]
-        .into_iter()
-        .find(|k| k.gmsh_type() == code)
-    }
 }
