@@ -27,21 +27,11 @@ impl GearMesh {
     /// the body, [`MeshError::SameTooth`] when two groups name one flank.
     pub fn from_groups(mesh: Mesh, names: &GroupNames, teeth: u32) -> Result<Self, MeshError> {
         names.check()?;
-        let found = || {
-            mesh.surfaces
-                .iter()
-                .map(|s| s.name.clone())
-                .collect::<Vec<_>>()
-        };
-        let missing = |wanted: &str| MeshError::MissingGroup {
-            wanted: wanted.to_owned(),
-            found: found(),
-        };
+        let found = || mesh.surfaces.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
+        let missing = |wanted: &str| MeshError::MissingGroup { wanted: wanted.to_owned(), found: found() };
         let table = FaceTable::new(&mesh);
 
-        let bore = mesh
-            .surface(&names.bore)
-            .ok_or_else(|| missing(&names.bore))?;
+        let bore = mesh.surface(&names.bore).ok_or_else(|| missing(&names.bore))?;
         let bore = outward(bore, &mesh, &table)?;
         let mut flanks = BTreeMap::new();
         let mut named: BTreeMap<(u32, Side), &str> = BTreeMap::new();
@@ -52,12 +42,7 @@ impl GearMesh {
             let tooth = number.rem_euclid(i64::from(teeth.max(1))) as u32;
             if let Some(first) = named.insert((tooth, side), &group.name) {
                 let (first, second) = (first.to_owned(), group.name.clone());
-                return Err(MeshError::SameTooth {
-                    first,
-                    second,
-                    tooth,
-                    teeth,
-                });
+                return Err(MeshError::SameTooth { first, second, tooth, teeth });
             }
             flanks.insert((tooth, side), outward(group, &mesh, &table)?.faces);
         }
@@ -65,10 +50,7 @@ impl GearMesh {
             return Err(missing(&names.flank_left.replace("{k}", "<k>")));
         }
         let cuts = match (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) {
-            (Some(first), Some(second)) => Some([
-                outward(first, &mesh, &table)?,
-                outward(second, &mesh, &table)?,
-            ]),
+            (Some(first), Some(second)) => Some([outward(first, &mesh, &table)?, outward(second, &mesh, &table)?]),
             (None, None) => None,
             (None, _) => return Err(missing(&names.cut_0)),
             (_, None) => return Err(missing(&names.cut_1)),
@@ -85,14 +67,7 @@ impl GearMesh {
         cuts: Option<[SurfaceGroup; 2]>,
     ) -> Self {
         let bore_nodes = bore.nodes();
-        Self {
-            mesh,
-            teeth,
-            bore,
-            bore_nodes,
-            flanks,
-            cuts,
-        }
+        Self { mesh, teeth, bore, bore_nodes, flanks, cuts }
     }
 
     /// The mesh.
@@ -117,9 +92,7 @@ impl GearMesh {
 
     /// Faces of one flank; `tooth` counts modulo z. `None` when the mesh does not have it.
     pub fn flank(&self, tooth: u32, side: Side) -> Option<&[Face]> {
-        self.flanks
-            .get(&(tooth % self.teeth.max(1), side))
-            .map(Vec::as_slice)
+        self.flanks.get(&(tooth % self.teeth.max(1), side)).map(Vec::as_slice)
     }
 
     /// Teeth of which a flank is known, ascending, 0..z.
@@ -143,11 +116,7 @@ impl GearMesh {
 /// The faces of a group as the elements have them, normals outwards.
 ///
 /// Files give faces in either orientation, and some writers start at another corner.
-fn outward(
-    group: &SurfaceGroup,
-    mesh: &Mesh,
-    table: &FaceTable,
-) -> Result<SurfaceGroup, MeshError> {
+fn outward(group: &SurfaceGroup, mesh: &Mesh, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
     let mut faces = Vec::with_capacity(group.faces.len());
     for face in &group.faces {
         let mut owners = table.owners(face.corner_key());
@@ -163,23 +132,11 @@ fn outward(
             (None, _) => "is no face of a volume element",
             _ => "lies inside the body, between two elements",
         };
-        let tag = |&n: &u32| {
-            mesh.node_tags
-                .get(n as usize)
-                .copied()
-                .unwrap_or(u64::from(n))
-        };
+        let tag = |&n: &u32| mesh.node_tags.get(n as usize).copied().unwrap_or(u64::from(n));
         let nodes = face.corners().iter().map(tag).collect();
-        return Err(MeshError::NotOnBoundary {
-            group: group.name.clone(),
-            nodes,
-            what,
-        });
+        return Err(MeshError::NotOnBoundary { group: group.name.clone(), nodes, what });
     }
-    Ok(SurfaceGroup {
-        name: group.name.clone(),
-        faces,
-    })
+    Ok(SurfaceGroup { name: group.name.clone(), faces })
 }
 
 /// Whether two faces have the same nodes in any order.
