@@ -3,7 +3,11 @@
 //! Lengths in mm. Node order inside an element is Gmsh's own for every kind.
 
 pub mod element;
+pub mod error;
 pub mod model;
+pub mod msh;
 
 pub use element::{ElementKind, FaceKind};
+pub use error::MeshError;
 pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};
+pub use msh::{MshError, MshFormat};
