@@ -1,30 +1,55 @@
-//! Reference elements: node order, faces, shape functions (Gmsh conventions).
+//! Reference elements: node order, faces, shape functions, integration points.
+//!
+//! Node order and reference coordinates are Gmsh's:
+//!
+//! | family | reference element                                   | volume |
+//! |--------|-----------------------------------------------------|--------|
+//! | hex    | [-1, 1]^3                                           | 8      |
+//! | tet    | x, y, z >= 0, x + y + z <= 1                        | 1/6    |
+//! | wedge  | x, y >= 0, x + y <= 1 times z in [-1, 1]            | 1      |
+//! | quad   | [-1, 1]^2                                           | 4      |
+//! | tri    | x, y >= 0, x + y <= 1                               | 1/2    |
+//!
+//! Corners come first, then the middles of the edges in the order of `edges()`, then centres of
+//! faces in the order of `faces()`, then the centre of the element.
 
+mod face_shape;
 mod quadrature;
 mod shape;
+mod topology;
 
-pub use quadrature::{QuadraturePoint, QuadratureRule};
+pub use quadrature::{FaceQuadraturePoint, QuadraturePoint, QuadratureRule};
 
 /// Kinds of volume elements; node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 pub enum ElementKind {
+    /// Trilinear brick.
     Hex8,
+    /// Quadratic brick of the serendipity family.
     Hex20,
+    /// Triquadratic brick.
     Hex27,
+    /// Linear tetrahedron.
     Tet4,
+    /// Quadratic tetrahedron.
     Tet10,
+    /// Linear wedge: triangle times line.
     Wedge6,
+    /// Quadratic wedge of the serendipity family.
     Wedge15,
 }
 
 /// Kinds of boundary faces; node order is Gmsh's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
 pub enum FaceKind {
+    /// Linear triangle.
     Tri3,
+    /// Quadratic triangle.
     Tri6,
+    /// Bilinear quadrilateral.
     Quad4,
+    /// Quadratic quadrilateral of the serendipity family.
     Quad8,
+    /// Biquadratic quadrilateral.
     Quad9,
 }
