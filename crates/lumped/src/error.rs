@@ -22,9 +22,7 @@ impl LumpedError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::OutOfRange { .. } => {
-                Some("use `model = \"reduced\"` for this pair: it has no such limits".into())
-            }
+            Self::OutOfRange { .. } => Some("use `model = \"reduced\"` for this pair: it has no such limits".into()),
         }
     }
 }

@@ -10,9 +10,7 @@ const METHOD: &str = "ISO 6336-1 method B";
 /// Theoretical to measured single stiffness of solid disc gears.
 const C_M: f64 = 0.8;
 /// Coefficients of the series for the flexibility q', (mm um)/N.
-const SERIES: [f64; 9] = [
-    0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182,
-];
+const SERIES: [f64; 9] = [0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182];
 /// Young's modulus of the steel that the series was fitted to, MPa.
 const YOUNG_STEEL: f64 = 2.06e5;
 /// Line load below which single stiffness falls with its fourth root, N/mm.
@@ -89,55 +87,27 @@ pub fn stiffness(pair: &IsoPair) -> Result<IsoStiffness, LumpedError> {
     let virtual_teeth = |z: u32| f64::from(z) / ((1.0 - sin_beta_b * sin_beta_b) * beta.cos());
     let [zn1, zn2] = pair.teeth.map(virtual_teeth);
     let [x1, x2] = pair.profile_shift;
-    let terms = [
-        1.0,
-        1.0 / zn1,
-        1.0 / zn2,
-        x1,
-        x1 / zn1,
-        x2,
-        x2 / zn2,
-        x1 * x1,
-        x2 * x2,
-    ];
+    let terms = [1.0, 1.0 / zn1, 1.0 / zn2, x1, x1 / zn1, x2, x2 / zn2, x1 * x1, x2 * x2];
     let flexibility: f64 = SERIES.iter().zip(terms).map(|(c, t)| c * t).sum();
     if flexibility <= 0.0 {
-        return Err(out_of_range(
-            "x1 + x2",
-            x1 + x2,
-            "profile shifts that leave the tooth some flexibility",
-        ));
+        return Err(out_of_range("x1 + x2", x1 + x2, "profile shifts that leave the tooth some flexibility"));
     }
     let c_theoretical = 1.0 / flexibility;
 
     let rack = pair.dedendum_coefficient.map(|h_f| 1.0 + 0.5 * (1.2 - h_f));
-    let c_b =
-        0.5 * (rack[0] + rack[1]) * (1.0 - 0.02 * (20.0 - pair.normal_pressure_angle.to_degrees()));
+    let c_b = 0.5 * (rack[0] + rack[1]) * (1.0 - 0.02 * (20.0 - pair.normal_pressure_angle.to_degrees()));
     let [e1, e2] = pair.young;
     let material = 2.0 * e1 * e2 / (e1 + e2) / YOUNG_STEEL;
-    let light = if pair.line_load < LIGHT_LOAD {
-        (pair.line_load / LIGHT_LOAD).powf(0.25)
-    } else {
-        1.0
-    };
+    let light = if pair.line_load < LIGHT_LOAD { (pair.line_load / LIGHT_LOAD).powf(0.25) } else { 1.0 };
     let c_single = c_theoretical * C_M * c_b * beta.cos() * material * light;
     let c_mesh = c_single * (0.75 * pair.eps_alpha + 0.25);
-    Ok(IsoStiffness {
-        c_theoretical,
-        c_single,
-        c_mesh,
-        c_mesh_beta: 0.85 * c_mesh,
-    })
+    Ok(IsoStiffness { c_theoretical, c_single, c_mesh, c_mesh_beta: 0.85 * c_mesh })
 }
 
 /// Mean static transmission error, um: `F_bt / (b c_gamma_alpha)`.
 ///
 /// `base_force` F_bt on the transverse line of action, N; `face_width` b, mm.
-pub fn mean_transmission_error_um(
-    stiffness: &IsoStiffness,
-    base_force: f64,
-    face_width: f64,
-) -> f64 {
+pub fn mean_transmission_error_um(stiffness: &IsoStiffness, base_force: f64, face_width: f64) -> f64 {
     base_force / (face_width * stiffness.c_mesh)
 }
 
@@ -147,57 +117,15 @@ fn check(pair: &IsoPair) -> Result<(), LumpedError> {
     let alpha_deg = pair.normal_pressure_angle.to_degrees();
     let inside = |low: f64, value: f64, high: f64| (low..=high).contains(&value);
     let rules = [
-        (
-            "number of teeth",
-            f64::from(pair.teeth[0].min(pair.teeth[1])),
-            5.0,
-            f64::INFINITY,
-            "5 or more",
-        ),
+        ("number of teeth", f64::from(pair.teeth[0].min(pair.teeth[1])), 5.0, f64::INFINITY, "5 or more"),
         ("helix angle in degrees", beta_deg, -45.0, 45.0, "-45 .. 45"),
-        (
-            "normal pressure angle in degrees",
-            alpha_deg,
-            10.0,
-            30.0,
-            "10 .. 30",
-        ),
+        ("normal pressure angle in degrees", alpha_deg, 10.0, 30.0, "10 .. 30"),
         ("sum of the profile shifts", sum, -0.5, 2.0, "-0.5 .. 2"),
-        (
-            "transverse contact ratio",
-            pair.eps_alpha,
-            1e-9,
-            10.0,
-            "positive",
-        ),
-        (
-            "line load in N/mm",
-            pair.line_load,
-            f64::MIN_POSITIVE,
-            f64::INFINITY,
-            "positive",
-        ),
-        (
-            "Young's modulus in MPa",
-            pair.young[0].min(pair.young[1]),
-            f64::MIN_POSITIVE,
-            f64::INFINITY,
-            "positive",
-        ),
-        (
-            "largest dedendum coefficient",
-            max(pair.dedendum_coefficient),
-            0.5,
-            2.5,
-            "0.5 .. 2.5",
-        ),
-        (
-            "smallest dedendum coefficient",
-            -max(pair.dedendum_coefficient.map(|h| -h)),
-            0.5,
-            2.5,
-            "0.5 .. 2.5",
-        ),
+        ("transverse contact ratio", pair.eps_alpha, 1e-9, 10.0, "positive"),
+        ("line load in N/mm", pair.line_load, f64::MIN_POSITIVE, f64::INFINITY, "positive"),
+        ("Young's modulus in MPa", pair.young[0].min(pair.young[1]), f64::MIN_POSITIVE, f64::INFINITY, "positive"),
+        ("largest dedendum coefficient", max(pair.dedendum_coefficient), 0.5, 2.5, "0.5 .. 2.5"),
+        ("smallest dedendum coefficient", -max(pair.dedendum_coefficient.map(|h| -h)), 0.5, 2.5, "0.5 .. 2.5"),
     ];
     for (quantity, value, low, high, allowed) in rules {
         if !inside(low, value, high) {
@@ -212,10 +140,5 @@ fn max([a, b]: [f64; 2]) -> f64 {
 }
 
 fn out_of_range(quantity: &'static str, value: f64, allowed: &'static str) -> LumpedError {
-    LumpedError::OutOfRange {
-        quantity,
-        value,
-        method: METHOD,
-        allowed,
-    }
+    LumpedError::OutOfRange { quantity, value, method: METHOD, allowed }
 }

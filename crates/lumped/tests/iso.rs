@@ -38,24 +38,14 @@ fn the_worked_example_of_the_standard_comes_out() {
         (s.c_mesh_beta, 14.84512, "c_gamma_beta"),
     ];
     for (ours, theirs, name) in published {
-        assert!(
-            (ours - theirs).abs() < 0.6e-5,
-            "{name}: {ours:.6}, published {theirs}"
-        );
+        assert!((ours - theirs).abs() < 0.6e-5, "{name}: {ours:.6}, published {theirs}");
     }
 }
 
 /// Deflection is proportional to load above 100 N/mm, grows with its 3/4th power below, and is continuous there.
 #[test]
 fn light_load_softens_the_mesh_continuously() {
-    let at = |line_load: f64| {
-        stiffness(&IsoPair {
-            line_load,
-            ..example_1()
-        })
-        .unwrap()
-        .c_mesh
-    };
+    let at = |line_load: f64| stiffness(&IsoPair { line_load, ..example_1() }).unwrap().c_mesh;
     assert_eq!(at(200.0), at(1000.0));
     assert!((at(100.0 * (1.0 - 1e-12)) / at(100.0) - 1.0).abs() < 1e-11);
     assert!((at(100.0 / 16.0) / at(100.0) - 0.5).abs() < 1e-12);
@@ -65,15 +55,7 @@ fn light_load_softens_the_mesh_continuously() {
 #[test]
 fn stiffness_is_proportional_to_the_mean_compliance_of_the_materials() {
     let te = |young: [f64; 2]| {
-        mean_transmission_error_um(
-            &stiffness(&IsoPair {
-                young,
-                ..example_1()
-            })
-            .unwrap(),
-            1e4,
-            100.0,
-        )
+        mean_transmission_error_um(&stiffness(&IsoPair { young, ..example_1() }).unwrap(), 1e4, 100.0)
     };
     let steel = te([2.06e5; 2]);
     assert!((te([4.12e5; 2]) / steel - 0.5).abs() < 1e-12);
@@ -84,35 +66,14 @@ fn stiffness_is_proportional_to_the_mean_compliance_of_the_materials() {
 #[test]
 fn mirroring_the_pair_changes_nothing() {
     let pair = example_1();
-    let mirrored = IsoPair {
-        helix_angle: -pair.helix_angle,
-        ..pair
-    };
+    let mirrored = IsoPair { helix_angle: -pair.helix_angle, ..pair };
     assert_eq!(stiffness(&pair), stiffness(&mirrored));
 }
 
 #[test]
 fn inputs_outside_of_the_standard_are_named() {
-    let steep = IsoPair {
-        helix_angle: 1.0,
-        ..example_1()
-    };
-    assert!(matches!(
-        stiffness(&steep),
-        Err(LumpedError::OutOfRange {
-            quantity: "helix angle in degrees",
-            ..
-        })
-    ));
-    let nothing = IsoPair {
-        line_load: f64::NAN,
-        ..example_1()
-    };
-    assert!(matches!(
-        stiffness(&nothing),
-        Err(LumpedError::OutOfRange {
-            quantity: "line load in N/mm",
-            ..
-        })
-    ));
+    let steep = IsoPair { helix_angle: 1.0, ..example_1() };
+    assert!(matches!(stiffness(&steep), Err(LumpedError::OutOfRange { quantity: "helix angle in degrees", .. })));
+    let nothing = IsoPair { line_load: f64::NAN, ..example_1() };
+    assert!(matches!(stiffness(&nothing), Err(LumpedError::OutOfRange { quantity: "line load in N/mm", .. })));
 }

@@ -39,12 +39,8 @@ pub struct CycleStatistics {
 /// ```
 pub fn cycle_statistics(samples: &[f64], cycles: usize) -> Result<CycleStatistics, StudyError> {
     let samples_per_cycle = check(samples, cycles)?;
-    let extent = |part: &[f64]| {
-        part.iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| {
-                (lo.min(v), hi.max(v))
-            })
-    };
+    let extent =
+        |part: &[f64]| part.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)));
     let (min, max) = extent(samples);
     let each = samples.chunks_exact(samples_per_cycle).map(|cycle| {
         let (lo, hi) = extent(cycle);

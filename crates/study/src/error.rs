@@ -29,9 +29,7 @@ impl StudyError {
             Self::NotWholeCycles { .. } => {
                 Some("sample every cycle at the same number of evenly spaced positions".into())
             }
-            Self::NotFinite { .. } => {
-                Some("look at that position of the history: it was not solved".into())
-            }
+            Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
         }
     }
 }
@@ -39,16 +37,10 @@ impl StudyError {
 /// Every cycle has the same number of samples, at least one, and each is finite.
 pub(crate) fn check(samples: &[f64], cycles: usize) -> Result<usize, StudyError> {
     if cycles == 0 || samples.is_empty() || !samples.len().is_multiple_of(cycles) {
-        return Err(StudyError::NotWholeCycles {
-            samples: samples.len(),
-            cycles,
-        });
+        return Err(StudyError::NotWholeCycles { samples: samples.len(), cycles });
     }
     match samples.iter().position(|v| !v.is_finite()) {
-        Some(index) => Err(StudyError::NotFinite {
-            index,
-            value: samples[index],
-        }),
+        Some(index) => Err(StudyError::NotFinite { index, value: samples[index] }),
         None => Ok(samples.len() / cycles),
     }
 }

@@ -38,11 +38,7 @@ pub struct Harmonic {
 /// assert!((h[0].amplitude - 1.0).abs() < 1e-14 && h[1].amplitude < 1e-14);
 /// # Ok::<(), study::StudyError>(())
 /// ```
-pub fn mesh_harmonics(
-    samples: &[f64],
-    cycles: usize,
-    orders: usize,
-) -> Result<Vec<Harmonic>, StudyError> {
+pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<Vec<Harmonic>, StudyError> {
     let per_cycle = check(samples, cycles)?;
     let n = samples.len();
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
