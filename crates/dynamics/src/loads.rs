@@ -126,7 +126,7 @@ fn pair_result(
     };
     let half = 0.5 * pair.face_width();
     let bin = pair.face_width() / PRESSURE_BINS as f64;
-    let modulus = hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young, gears[i].material().poisson)));
+    let modulus = hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
     let max_pressure = (0..PRESSURE_BINS)
         .map(|b| {
             let (from, to) = (-half + b as f64 * bin, -half + (b + 1) as f64 * bin);
