@@ -132,8 +132,7 @@ impl Found {
 }
 
 fn mean_coverage(found: &Flanks) -> f64 {
-    let sum: f64 = found.values().map(|f| f.area / f.nominal_area).sum();
-    sum / found.len().max(1) as f64
+    found.values().fold(0.0, |sum, f| sum + f.area / f.nominal_area) / found.len().max(1) as f64
 }
 
 fn at(mesh: &Mesh, node: u32) -> Vec3 {

@@ -117,7 +117,7 @@ fn damaged_blocks_of_41() {
     let stray = whole[..body].to_owned() + &whole[body..].replace("\n3 1 5 2\n", "\n3 8 5 2\n");
     refused(stray.as_bytes(), &["$Elements", "entity 8 of dimension 3"]);
     let entities = whole.find("$EndEntities").unwrap();
-    refused(whole[..entities - 20].as_bytes(), &["$Entities", "found the end of"]);
+    refused(&whole.as_bytes()[..entities - 20], &["$Entities", "found the end of"]);
 }
 
 /// A surface group that goes on over a body outside the model.

@@ -241,6 +241,7 @@ fn information_about_a_gear() {
     assert!((info.gear.face_width - 20.0).abs() < 1e-9);
     assert!((info.gear.tip_radius - pinion().tip_radius()).abs() < 1e-6);
     assert!(info.gear.angle_deg > 36.0 && info.gear.angle_deg < 60.0, "{}", info.gear.angle_deg);
+    assert_eq!(MeshInfo::new(&repository_mesh("periodic_hex8.msh")).gear.teeth, Some(30));
     let bore = info.surfaces.iter().find(|s| s.name == "bore").unwrap();
     let expected = 30.0 * 36.0_f64.to_radians() * 20.0;
     assert!((bore.area - expected).abs() < 2e-3 * expected, "{} mm^2, not {expected}", bore.area);
