@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use geometry::Side;
+use geometry::{Gear, Side};
 
-use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
+use crate::{DEFAULT_TOLERANCE_MODULES, Face, FaceTable, FlankFit, GroupNames, Mesh, MeshError, SurfaceGroup};
 
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,12 +27,8 @@ impl GearMesh {
     /// the body, [`MeshError::SameTooth`] when two groups name one flank.
     pub fn from_groups(mesh: Mesh, names: &GroupNames, teeth: u32) -> Result<Self, MeshError> {
         names.check()?;
-        let found = || mesh.surfaces.iter().map(|s| s.name.clone()).collect::<Vec<_>>();
-        let missing = |wanted: &str| MeshError::MissingGroup { wanted: wanted.to_owned(), found: found() };
         let table = FaceTable::new(&mesh);
-
-        let bore = mesh.surface(&names.bore).ok_or_else(|| missing(&names.bore))?;
-        let bore = outward(bore, &mesh, &table)?;
+        let bore = Self::find_group(&mesh, &names.bore, &table)?;
         let mut flanks = BTreeMap::new();
         let mut named: BTreeMap<(u32, Side), &str> = BTreeMap::new();
         for group in &mesh.surfaces {
@@ -47,15 +43,42 @@ impl GearMesh {
             flanks.insert((tooth, side), outward(group, &mesh, &table)?.faces);
         }
         if flanks.is_empty() {
-            return Err(missing(&names.flank_left.replace("{k}", "<k>")));
+            return Err(missing(&mesh, &names.flank_left.replace("{k}", "<k>")));
         }
-        let cuts = match (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) {
-            (Some(first), Some(second)) => Some([outward(first, &mesh, &table)?, outward(second, &mesh, &table)?]),
-            (None, None) => None,
-            (None, _) => return Err(missing(&names.cut_0)),
-            (_, None) => return Err(missing(&names.cut_1)),
-        };
+        let cuts = Self::find_cuts(&mesh, names, &table)?;
         Ok(Self::from_parts(mesh, teeth, bore, flanks, cuts))
+    }
+
+    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
+    /// ([`FlankFit`] with the default tolerance, also returned).
+    ///
+    /// # Errors
+    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
+    pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
+        names.check()?;
+        if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
+            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
+        }
+        let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
+        let fit = FlankFit::new(mesh, gear, names, tolerance)?;
+        Ok((fit.gear.clone(), Some(fit)))
+    }
+
+    /// The group of that name, normals outwards.
+    pub(crate) fn find_group(mesh: &Mesh, name: &str, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
+        outward(mesh.surface(name).ok_or_else(|| missing(mesh, name))?, mesh, table)
+    }
+
+    /// Both cuts, or none where the mesh has none.
+    pub(crate) fn find_cuts(
+        mesh: &Mesh,
+        names: &GroupNames,
+        table: &FaceTable,
+    ) -> Result<Option<[SurfaceGroup; 2]>, MeshError> {
+        if mesh.surface(&names.cut_0).is_none() && mesh.surface(&names.cut_1).is_none() {
+            return Ok(None);
+        }
+        Ok(Some([Self::find_group(mesh, &names.cut_0, table)?, Self::find_group(mesh, &names.cut_1, table)?]))
     }
 
     /// From parts whose faces are known to be boundary faces with their normals outwards.
@@ -111,6 +134,11 @@ impl GearMesh {
     pub fn cuts(&self) -> Option<[&SurfaceGroup; 2]> {
         self.cuts.as_ref().map(|[first, second]| [first, second])
     }
+}
+
+/// No group of that name: say which there are.
+fn missing(mesh: &Mesh, wanted: &str) -> MeshError {
+    MeshError::MissingGroup { wanted: wanted.to_owned(), found: mesh.surfaces.iter().map(|s| s.name.clone()).collect() }
 }
 
 /// The faces of a group as the elements have them, normals outwards.

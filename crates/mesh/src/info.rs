@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::quality::{element_volume, positions};
-use crate::{Face, GroupNames, Mesh};
+use crate::{Face, GroupNames, Mesh, SurfaceGroup};
 
 /// Summary of a mesh. Lengths in mm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -56,7 +56,8 @@ pub struct LikelyGear {
     pub face_width: f64,
     /// Number of teeth with a named flank.
     pub named_teeth: usize,
-    /// Number of teeth of the whole gear, from the angle between the flanks of neighbouring teeth.
+    /// Number of teeth of the whole gear, from the angle between flanks of neighbouring teeth
+    /// or between the cuts.
     pub teeth: Option<u32>,
     /// Angle about z that holds all nodes, deg; 360 for a whole gear.
     pub angle_deg: f64,
@@ -159,24 +160,33 @@ pub(crate) fn bore_radius(mesh: &Mesh, names: &GroupNames) -> Option<[f64; 2]> {
 fn likely_gear(mesh: &Mesh, names: &GroupNames, tip_radius: f64, face_width: f64) -> LikelyGear {
     let bore_radius =
         bore_radius(mesh, names).filter(|[low, high]| high - low < 1e-4 * high).map(|r| 0.5 * (r[0] + r[1]));
-    // Direction of each named flank: its nodes' mean.
+    // Directions of the named flanks and of the cuts: those of the means of their nodes.
     let mut directions = BTreeMap::new();
     for group in &mesh.surfaces {
         if let Some((side, tooth)) = names.parse(&group.name) {
-            let sum =
-                group.nodes().iter().map(|&n| mesh.nodes[n as usize]).fold([0.0; 2], |s, x| [s[0] + x[0], s[1] + x[1]]);
-            directions.insert((side, tooth), sum[1].atan2(sum[0]));
+            directions.insert((side, tooth), direction(mesh, group));
         }
     }
-    let pitch = directions.iter().find_map(|(&(side, tooth), angle)| {
-        let next = directions.get(&(side, tooth.checked_add(1)?))?;
-        Some((next - angle).rem_euclid(TAU))
-    });
-    let teeth = pitch.map(|p| TAU / p).filter(|z| (3.0..1e5).contains(z)).map(|z| z.round() as u32);
     let mut named: Vec<i64> = directions.keys().map(|k| k.1).collect();
     named.sort_unstable();
     named.dedup();
+    let between_flanks = directions.iter().find_map(|(&(side, tooth), angle)| {
+        let next = directions.get(&(side, tooth.checked_add(1)?))?;
+        Some((next - angle).rem_euclid(TAU))
+    });
+    let between_cuts = || {
+        let [first, second] = [&names.cut_0, &names.cut_1].map(|n| mesh.surface(n).map(|g| direction(mesh, g)));
+        Some((second? - first?).rem_euclid(TAU) / named.len() as f64)
+    };
+    let pitch = between_flanks.or_else(between_cuts);
+    let teeth = pitch.map(|p| TAU / p).filter(|z| (3.0..1e5).contains(z)).map(|z| z.round() as u32);
     LikelyGear { bore_radius, tip_radius, face_width, named_teeth: named.len(), teeth, angle_deg: angle_held(mesh) }
+}
+
+/// Angle about z of the mean of a group's nodes, rad.
+fn direction(mesh: &Mesh, group: &SurfaceGroup) -> f64 {
+    let sum = group.nodes().iter().map(|&n| mesh.nodes[n as usize]).fold([0.0; 2], |s, x| [s[0] + x[0], s[1] + x[1]]);
+    sum[1].atan2(sum[0])
 }
 
 /// Angle about z that holds all nodes, deg: a full turn less the widest gap, if that is no mere element.
