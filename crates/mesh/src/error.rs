@@ -89,11 +89,7 @@ fn list(names: &[String]) -> String {
         return "no groups of dimension 2".into();
     }
     let shown: Vec<String> = names.iter().take(12).map(|n| format!("`{n}`")).collect();
-    let more = if names.len() > 12 {
-        format!(" and {} more", names.len() - 12)
-    } else {
-        String::new()
-    };
+    let more = if names.len() > 12 { format!(" and {} more", names.len() - 12) } else { String::new() };
     shown.join(", ") + &more
 }
 
@@ -110,9 +106,7 @@ impl MeshError {
                 "name the groups in the mesher, or map its own names in the scene's `groups` table"
             }
             Self::NoToothNumber { .. } => "for example flank_left = \"Left_{k}\"",
-            Self::SameTooth { .. } => {
-                "tooth numbers count modulo the number of teeth: is that number right?"
-            }
+            Self::SameTooth { .. } => "tooth numbers count modulo the number of teeth: is that number right?",
             Self::NotOnBoundary { .. } => {
                 "surface groups must hold boundary faces of the elements: mesh surfaces and volume together"
             }

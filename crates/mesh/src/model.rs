@@ -52,12 +52,7 @@ impl Face {
     /// # Panics
     /// When the number of nodes is not `kind.node_count()`.
     pub fn new(kind: FaceKind, nodes: &[u32]) -> Self {
-        assert_eq!(
-            nodes.len(),
-            kind.node_count(),
-            "{kind:?} with {} nodes",
-            nodes.len()
-        );
+        assert_eq!(nodes.len(), kind.node_count(), "{kind:?} with {} nodes", nodes.len());
         let mut all = [u32::MAX; 9];
         all[..nodes.len()].copy_from_slice(nodes);
         Self { kind, nodes: all }
@@ -70,7 +65,7 @@ impl Face {
 
     /// The corner nodes, counter-clockwise seen from where the normal points.
     pub fn corners(&self) -> &[u32] {
-        &self.nodes[..corner_count(self.kind)]
+        &self.nodes[..self.kind.corner_count()]
     }
 
     /// The corner nodes ascending, the last `u32::MAX` for a triangle: the same for the two
@@ -82,7 +77,7 @@ impl Face {
     /// The same face seen from the other side: the normal is turned.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        let (corners, count) = (corner_count(self.kind), self.kind.node_count());
+        let (corners, count) = (self.kind.corner_count(), self.kind.node_count());
         let mut turned = *self;
         turned.nodes[1..corners].reverse();
         if count >= 2 * corners {
@@ -90,14 +85,6 @@ impl Face {
             turned.nodes[corners..2 * corners].reverse();
         }
         turned
-    }
-}
-
-/// Number of corners of a face.
-fn corner_count(kind: FaceKind) -> usize {
-    match kind {
-        FaceKind::Tri3 | FaceKind::Tri6 => 3,
-        FaceKind::Quad4 | FaceKind::Quad8 | FaceKind::Quad9 => 4,
     }
 }
 
@@ -143,11 +130,7 @@ impl Mesh {
 impl SurfaceGroup {
     /// The nodes of all faces, ascending, each once.
     pub fn nodes(&self) -> Vec<u32> {
-        let mut all: Vec<u32> = self
-            .faces
-            .iter()
-            .flat_map(|f| f.nodes().iter().copied())
-            .collect();
+        let mut all: Vec<u32> = self.faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
         all
