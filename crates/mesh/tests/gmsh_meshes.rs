@@ -1,11 +1,11 @@
 //! The meshes that Gmsh made from an independent script: they agree with this program's own geometry.
 
-mod common;
+mod measure;
 
 use std::path::PathBuf;
 
-use common::{tooth_area, volume_and_least_jacobian};
 use geometry::{Gear, GearData, Side, Vec3};
+use measure::{tooth_area, volume_and_least_jacobian};
 use mesh::Mesh;
 
 fn read(name: &str) -> Mesh {

@@ -1,12 +1,14 @@
 //! Laws of the structured mesher, judged on the finished mesh.
 
-mod common;
+mod measure;
 
 use std::collections::{HashMap, HashSet};
 
-use common::{tooth_area, volume_and_least_jacobian};
 use geometry::{Gear, GearData, Side, Vec3};
-use mesh::{Extent, Mesh, MshFormat, StructuredError, StructuredOptions, generate};
+use measure::{tooth_area, volume_and_least_jacobian};
+use mesh::{
+    Extent, GearMesh, GroupNames, Mesh, MeshReport, MshFormat, Severity, StructuredError, StructuredOptions, generate,
+};
 
 fn default_gear() -> Gear {
     Gear::new(GearData::default()).expect("the default pinion is sound")
@@ -228,6 +230,19 @@ fn generated_mesh_survives_a_msh_file() {
     for format in MshFormat::ALL {
         let bytes = mesh.to_msh(format).expect("writes");
         assert_eq!(Mesh::parse(&bytes, "generated.msh").expect("reads"), mesh);
+    }
+}
+
+/// The mesh checker knows the groups and has nothing worse than a remark to make.
+#[test]
+fn generated_mesh_passes_the_mesh_checks() {
+    for extent in [Extent::Whole, Extent::Periodic, Extent::Sector(3)] {
+        let mesh = generate(&default_gear(), &small(2, extent)).expect("meshes");
+        let report = MeshReport::of_gear(&mesh, &GroupNames::default(), Some(30));
+        assert!(report.worst().is_none_or(|worst| worst < Severity::Warning), "{report:?}");
+        let gear = GearMesh::from_groups(mesh, &GroupNames::default(), 30).expect("groups are found");
+        assert_eq!(gear.is_whole_gear(), extent == Extent::Whole);
+        assert_eq!(gear.cuts().is_some(), extent != Extent::Whole);
     }
 }
 

@@ -1,12 +1,9 @@
-//! Scaled Jacobians of one tooth; all teeth and all layers are turned copies of each other.
+//! Are the elements of one tooth sound? All teeth and all layers are turned copies of each other.
 
 use geometry::Gear;
 
 use super::{StructuredError, StructuredOptions, section::Lattice, section::Section};
-use crate::ElementKind;
-
-/// Least scaled Jacobian let through.
-const LEAST: f64 = 0.1;
+use crate::{BAD_SHAPE, ElementKind, min_det_j, scaled_jacobian};
 
 /// Refuses a section that makes bad elements.
 pub(super) fn check(gear: &Gear, options: &StructuredOptions, section: &Section) -> Result<(), StructuredError> {
@@ -16,9 +13,12 @@ pub(super) fn check(gear: &Gear, options: &StructuredOptions, section: &Section)
         for row in 0..lattice.rows / order {
             for column in 0..lattice.columns / order {
                 let nodes = middle_layer(gear, kind, order, lattice, [column, row], layer);
-                let scaled_jacobian = scaled_jacobian(kind, &nodes);
-                if scaled_jacobian.is_nan() || scaled_jacobian < LEAST {
-                    return Err(StructuredError::Distorted { block, row, column, scaled_jacobian, least: LEAST });
+                let det_j = min_det_j(kind, &nodes);
+                let scaled = scaled_jacobian(kind, &nodes);
+                // curved edges can turn an element inside out whose corners look sound
+                let scaled_jacobian = if det_j > 0.0 { scaled } else { scaled.min(0.0) };
+                if scaled_jacobian.is_nan() || scaled_jacobian < BAD_SHAPE {
+                    return Err(StructuredError::Distorted { block, row, column, scaled_jacobian, least: BAD_SHAPE });
                 }
             }
         }
@@ -50,18 +50,4 @@ fn middle_layer(
 /// Lattice steps from the element's first corner to its node at reference position `xi`.
 pub(super) fn offsets(xi: &[f64; 3], order: usize) -> [usize; 3] {
     xi.map(|c| ((c + 1.0) * 0.5 * order as f64).round() as usize)
-}
-
-/// Least det J over the product of the column lengths of J, at the element's nodes; NaN where J vanishes.
-pub(super) fn scaled_jacobian(kind: ElementKind, nodes: &[[f64; 3]]) -> f64 {
-    let mut slopes = [[0.0; 3]; 27];
-    kind.reference_nodes().iter().fold(f64::INFINITY, |worst, &xi| {
-        kind.shape_gradient(xi, &mut slopes);
-        let mut j = nalgebra::Matrix3::zeros();
-        for (p, d) in nodes.iter().zip(&slopes) {
-            j += nalgebra::Vector3::from(*p) * nalgebra::RowVector3::from(*d);
-        }
-        let scaled = j.determinant() / j.column_iter().map(|c| c.norm()).product::<f64>();
-        if scaled < worst || scaled.is_nan() { scaled } else { worst }
-    })
 }
