@@ -54,7 +54,10 @@ impl Source<'_> {
             };
         }
         // Only the first line: the reader's own excerpts are for its own layout.
-        let message = message.lines().next().unwrap_or("not readable").to_owned();
+        let mut message = message.lines().next().unwrap_or("not readable").to_owned();
+        if message == "duplicate key" {
+            message = format!("`{}` is there twice", self.text.get(span).unwrap_or_default());
+        }
         SceneError::Syntax { place, message }
     }
 
