@@ -32,6 +32,6 @@ pub(crate) fn facts(source: String, mesh: &Mesh) -> MeshFacts {
 }
 
 /// Kinds of elements with their numbers, as `hex8 1200`.
-fn kinds(blocks: &[ElementBlock]) -> Vec<String> {
+pub(crate) fn kinds(blocks: &[ElementBlock]) -> Vec<String> {
     blocks.iter().map(|b| format!("{} {}", format!("{:?}", b.kind).to_lowercase(), b.len())).collect()
 }

@@ -21,7 +21,7 @@ impl Source<'_> {
     pub fn place(&self, span: &Range<usize>) -> Place {
         let end = span.start.min(self.text.len());
         let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place { file: self.file.to_owned(), line }
+        Place { file: self.file.into(), line }
     }
 
     /// A message of the TOML reader in this program's words.
