@@ -11,10 +11,9 @@ exact surface is (mid-side nodes sit on chords, splines are splines), and what w
 """
 
 import argparse
-import shlex
 import sys
 from dataclasses import dataclass, replace
-from math import ceil, degrees, hypot, pi, radians
+from math import pi, radians
 from pathlib import Path
 
 import gmsh
@@ -48,7 +47,7 @@ class Plan:
     face: int = 6
     rim: int = 3
     sector: int = 0
-    size: float = 1.5  # of tetrahedra at the teeth, mm; at the bore four times that
+    size: float = 1.5  # of tetrahedra at the teeth, mm; in the fillets 0.6, at the bore 3 times that
     version: float = 2.2
     binary: bool = True
 
@@ -118,11 +117,12 @@ def section_points(outline, number, sizes=(0.0, 0.0)):
         mirror = lambda polar: [(r, centre + side * a) for r, a in polar]
         tip, form, neck, foot = ("tip", number, side), ("form", number, side), ("neck", number, side), ("foot", number, side)
         fine, coarse = sizes
+        tight = 0.6 * fine  # a fillet of one quadratic triangle around its bend would turn the tetrahedron inside out
         outline.point(tip, gear.tip_radius, centre + side * active[0, 1], fine)
         outline.point(form, active[-1, 0], centre + side * active[-1, 1], fine)
-        outline.point(neck, below[split, 0], centre + side * below[split, 1], fine)
+        outline.point(neck, below[split, 0], centre + side * below[split, 1], tight)
         outline.point(foot, gear.bore_radius, centre + side * below[split, 1], coarse)
-        outline.point(root(side), gear.root_radius, centre + side * gear.pitch / 2, fine)
+        outline.point(root(side), gear.root_radius, centre + side * gear.pitch / 2, tight)
         outline.point(hub(side), gear.bore_radius, centre + side * gear.pitch / 2, coarse)
         curves["flank", side] = outline.spline(tip, form, mirror(active[1:-1:4]))
         curves["throat", side] = outline.spline(form, neck, mirror(below[2 : split - 1 : 2]))
@@ -177,7 +177,7 @@ def free_section(plan):
     outline, geo = Outline(plan), gmsh.model.geo
     loop, hubs = [], []
     for number in plan.teeth():
-        curves, root, hub = section_points(outline, number, (plan.size, 4.0 * plan.size))
+        curves, root, hub = section_points(outline, number, (plan.size, 3.0 * plan.size))
         tip = outline.arc(("tip", number, -1), ("tip", number, 1))
         loop += [-curves[name, -1] for name in ("fillet", "throat", "flank")] + [tip]
         loop += [curves[name, 1] for name in ("flank", "throat", "fillet")]
@@ -206,7 +206,7 @@ class Frame:
     def folded(self, angle):
         """Tooth number and angle from that tooth's centre line; the cut belongs to the next tooth."""
         pitch = self.gear.pitch
-        tooth = np.floor((angle + pitch / 2) / pitch + 1e-6)
+        tooth = np.floor((angle + pitch / 2) / pitch + 1e-4)  # Gmsh puts nodes on curves to about 1e-5
         return tooth.astype(int), angle - tooth * pitch
 
     def flank_deviation(self, points, side):
@@ -250,9 +250,9 @@ def classify(plan):
             name = "side_back"
         elif np.all(np.abs(r - gear.bore_radius) < near):
             name = "bore"
-        elif plan.sector and np.all(np.abs(angle - (first - 0.5) * gear.pitch) < 1e-6):
+        elif plan.sector and np.all(np.abs(angle - (first - 0.5) * gear.pitch) < 1e-4):
             name = "cut_0"
-        elif plan.sector and np.all(np.abs(angle - (last + 0.5) * gear.pitch) < 1e-6):
+        elif plan.sector and np.all(np.abs(angle - (last + 0.5) * gear.pitch) < 1e-4):
             name = "cut_1"
         else:
             tooth, local = frame.folded(np.array([middle]))
@@ -277,14 +277,13 @@ def snap_structured(plan, groups):
     # the pattern: nodes of the back face of tooth 0; its far cut folds onto the next tooth's near one
     pattern = (tooth == 0) & (np.abs(z + gear.width / 2) < 1e-6)
     pr, pa = r[pattern].copy(), local[pattern].copy()
-    on_cut = np.abs(pa + gear.pitch / 2) < 1e-6
+    on_cut = np.abs(pa + gear.pitch / 2) < 1e-4 * gear.pitch
     pa[on_cut] = -gear.pitch / 2
-    wanted = {"bore": lambda: (gear.bore_radius, None)}
     pattern_tags = tags[pattern]
     for name, surfaces in groups.items():
         mine = np.isin(pattern_tags, np.concatenate([surface_nodes(s)[0] for s in surfaces]))
         if name == "bore":
-            pr[mine] = wanted["bore"]()[0]
+            pr[mine] = gear.bore_radius
         elif name.startswith("flank") and name.endswith("_0"):
             top = np.abs(pr - gear.tip_radius) < 1e-6
             pr[mine & top] = gear.tip_radius
@@ -299,8 +298,9 @@ def snap_structured(plan, groups):
         raise AssertionError(f"a node is {distance.max():.3g} mm from the section's pattern")
     layers = plan.face * KINDS[plan.kind][0]
     level = np.round((z / gear.width + 0.5) * layers)
-    if np.abs(level / layers - 0.5 - z / gear.width).max() > 1e-6:
-        raise AssertionError("a node lies between the layers")
+    astray = np.abs(level / layers - 0.5 - z / gear.width).max() * layers
+    if astray > 0.05:
+        raise AssertionError(f"a node lies {astray:.3g} layers from the nearest layer")
     exact = frame.placed(pr[which], pa[which] + tooth * gear.pitch, (level / layers - 0.5) * gear.width)
     for tag, point in zip(tags, exact):
         gmsh.model.mesh.setNode(tag, point, [])
@@ -339,7 +339,7 @@ def generate(plan):
     option("Mesh.Algorithm", 6)
     option("Mesh.Algorithm3D", 1)
     option("Mesh.Optimize", 1)
-    option("Mesh.OptimizeNetgen", 0)
+    option("Mesh.HighOrderThresholdMin", 0.25)
     turn = gear.twist * gear.width
     if plan.free:
         surfaces = free_section(plan)
@@ -351,8 +351,12 @@ def generate(plan):
         )
     gmsh.model.geo.synchronize()
     gmsh.model.mesh.generate(3)
+    if plan.free:
+        gmsh.model.mesh.optimize("Netgen")
     if order == 2:
         gmsh.model.mesh.setOrder(2)
+        if plan.free:
+            gmsh.model.mesh.optimize("HighOrder")
     groups = classify(plan)
     (snap_free if plan.free else snap_structured)(plan, groups)
     for name in sorted(groups):
@@ -378,6 +382,8 @@ def measure(plan, path):
     kinds, elements, _ = gmsh.model.mesh.getElements(3)
     names = [gmsh.model.mesh.getElementProperties(k)[0] for k in kinds]
     quality = np.concatenate([gmsh.model.mesh.getElementQualities(e, "minSJ") for e in elements])
+    if plan.free:  # a straight tetrahedron has one Jacobian, always 1 in scale: judge its shape
+        quality = np.minimum(quality, np.concatenate([gmsh.model.mesh.getElementQualities(e, "minSICN") for e in elements]))
     volume = np.concatenate([gmsh.model.mesh.getElementQualities(e, "volume") for e in elements]).sum()
     worst = 0.0
     for dim, group in gmsh.model.getPhysicalGroups(2):
@@ -402,7 +408,7 @@ def presets():
     pinion = Plan()
     left = lambda plan: replace(plan, gear=replace(plan.gear, helix=-plan.gear.helix))
     coarse = replace(pinion, profile=5, fillet=2, thickness=4, face=6, rim=3)
-    medium = replace(pinion, profile=8, fillet=3, thickness=5, face=9, rim=4)
+    medium = replace(pinion, profile=8, fillet=2, thickness=5, face=8, rim=4)
     quadratic = replace(pinion, kind="hex20", profile=4, fillet=2, thickness=4, face=5, rim=3)
     tiny = replace(pinion, profile=2, thickness=2, face=2, rim=2, sector=3)
     plans = {}
@@ -410,13 +416,13 @@ def presets():
         plans[f"{name}_pinion.msh"], plans[f"{name}_wheel.msh"] = plan, left(plan)
     plans["periodic_hex20.msh"] = replace(quadratic, sector=1, version=4.1)
     plans["periodic_hex8.msh"] = replace(coarse, sector=1, version=4.1)
-    plans["free_tet10_pinion.msh"] = replace(pinion, kind="tet10", size=2.0)
+    plans["free_tet10_pinion.msh"] = replace(pinion, kind="tet10", size=2.3)
     for version in (2.2, 4.1):
         for binary in (False, True):
             flavour = f"v{str(version).replace('.', '')}_{'binary' if binary else 'ascii'}"
             plans[f"sector3_hex8_{flavour}.msh"] = replace(tiny, version=version, binary=binary)
     for kind in ("hex20", "hex27", "wedge6", "wedge15", "tet4", "tet10"):
-        plans[f"sector3_{kind}.msh"] = replace(tiny, kind=kind, size=3.0, version=4.1)
+        plans[f"sector3_{kind}.msh"] = replace(tiny, kind=kind, size=2.5, version=4.1)
     return plans
 
 

@@ -75,6 +75,37 @@ pub enum MeshError {
         /// What it is instead.
         what: &'static str,
     },
+    /// The flanks of the given gear are not in the mesh.
+    #[error(
+        "the flanks of this gear are not in the mesh: {:.0} % of their area lies within {tolerance_mm} mm of the helicoids",
+        100.0 * coverage
+    )]
+    NoFlanks {
+        /// Part of the area of the flanks found, 0..1.
+        coverage: f64,
+        /// Distance allowed, mm.
+        tolerance_mm: f64,
+    },
+    /// The flanks are there, but the teeth are thicker or thinner.
+    #[error("the teeth of the mesh are {thicker_mm:.4} mm thicker than the gear's, measured along the base tangent")]
+    ToothThickness {
+        /// Both flanks together, mm; negative when thinner.
+        thicker_mm: f64,
+    },
+    /// The gear is not in the middle.
+    #[error("mid-face of the mesh is at z = {z_mm:.4} mm, not at 0")]
+    MidFace {
+        /// Mid-face of the mesh, mm.
+        z_mm: f64,
+    },
+    /// No boundary face on the bore cylinder.
+    #[error("no boundary face has the bore radius {wanted_mm:.4} mm; the smallest radius is {found_mm:.4} mm")]
+    NoBore {
+        /// Radius of the gear's bore, mm.
+        wanted_mm: f64,
+        /// Smallest radius of a node, mm.
+        found_mm: f64,
+    },
 }
 
 impl From<MshError> for MeshError {
@@ -89,11 +120,7 @@ fn list(names: &[String]) -> String {
         return "no groups of dimension 2".into();
     }
     let shown: Vec<String> = names.iter().take(12).map(|n| format!("`{n}`")).collect();
-    let more = if names.len() > 12 {
-        format!(" and {} more", names.len() - 12)
-    } else {
-        String::new()
-    };
+    let more = if names.len() > 12 { format!(" and {} more", names.len() - 12) } else { String::new() };
     shown.join(", ") + &more
 }
 
@@ -107,15 +134,19 @@ impl MeshError {
             Self::Inconsistent { .. } => "this is a fault of the program that made the mesh",
             Self::TagTooLarge { .. } => "write format 4.1, or renumber the mesh",
             Self::MissingGroup { .. } => {
-                "name the groups in the mesher, or map its own names in the scene's `groups` table"
+                "name the groups in the mesher (Gmsh: physical surfaces, Mesh.SaveAll = 0), or map its own names in the scene's `groups` table"
             }
             Self::NoToothNumber { .. } => "for example flank_left = \"Left_{k}\"",
-            Self::SameTooth { .. } => {
-                "tooth numbers count modulo the number of teeth: is that number right?"
-            }
+            Self::SameTooth { .. } => "tooth numbers count modulo the number of teeth: is that number right?",
             Self::NotOnBoundary { .. } => {
                 "surface groups must hold boundary faces of the elements: mesh surfaces and volume together"
             }
+            Self::NoFlanks { .. } => {
+                "do number of teeth, module, helix angle and hand fit the mesh? is its axis the z axis, its unit mm?"
+            }
+            Self::ToothThickness { .. } => "profile_shift or thickness_allowance_mm of the scene differ from the mesh",
+            Self::MidFace { .. } => "move the mesh so that its mid-face is at z = 0",
+            Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
         };
         Some(hint.to_owned())
     }

@@ -52,11 +52,7 @@ impl FaceOwner {
 impl FaceTable {
     /// The faces of a mesh. n log n in the number of elements.
     pub fn new(mesh: &Mesh) -> Self {
-        let count: usize = mesh
-            .blocks
-            .iter()
-            .map(|b| b.len() * b.kind.faces().len())
-            .sum();
+        let count: usize = mesh.blocks.iter().map(|b| b.len() * b.kind.faces().len()).sum();
         let mut entries = Vec::with_capacity(count);
         for (block, of_kind) in (0_u16..).zip(&mesh.blocks) {
             for (element, nodes) in (0_u32..).zip(of_kind.elements()) {
@@ -65,15 +61,8 @@ impl FaceTable {
                     for (corner, &l) in corners.iter_mut().zip(&order[..kind.corner_count()]) {
                         *corner = nodes[l];
                     }
-                    let owner = FaceOwner {
-                        element,
-                        block,
-                        local,
-                    };
-                    entries.push(Entry {
-                        corners: corner_key(&corners),
-                        owner,
-                    });
+                    let owner = FaceOwner { element, block, local };
+                    entries.push(Entry { corners: corner_key(&corners), owner });
                 }
             }
         }
@@ -85,30 +74,21 @@ impl FaceTable {
     /// none, one on the boundary, two inside.
     pub fn owners(&self, corner_key: [u32; 4]) -> impl ExactSizeIterator<Item = FaceOwner> + '_ {
         let first = self.entries.partition_point(|e| e.corners < corner_key);
-        let count = self.entries[first..]
-            .iter()
-            .take_while(|e| e.corners == corner_key)
-            .count();
+        let count = self.entries[first..].iter().take_while(|e| e.corners == corner_key).count();
         self.entries[first..first + count].iter().map(|e| e.owner)
     }
 
     /// Faces that bound the body, in the order of elements.
     pub fn boundary(&self) -> Vec<FaceOwner> {
-        let mut owners: Vec<FaceOwner> = self
-            .shared()
-            .filter(|owners| owners.len() == 1)
-            .map(|owners| owners[0].owner)
-            .collect();
+        let mut owners: Vec<FaceOwner> =
+            self.shared().filter(|owners| owners.len() == 1).map(|owners| owners[0].owner).collect();
         owners.sort_unstable_by_key(|o| (o.block, o.element, o.local));
         owners
     }
 
     /// Faces of more than two elements: two bodies in one place, or elements turned inside out.
     pub fn crowded(&self) -> Vec<FaceOwner> {
-        self.shared()
-            .filter(|owners| owners.len() > 2)
-            .map(|owners| owners[0].owner)
-            .collect()
+        self.shared().filter(|owners| owners.len() > 2).map(|owners| owners[0].owner).collect()
     }
 
     /// Runs of entries with the same corners.

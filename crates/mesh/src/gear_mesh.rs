@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use geometry::Side;
+use geometry::{Gear, Side};
 
-use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
+use crate::{DEFAULT_TOLERANCE_MODULES, Face, FaceTable, FlankFit, GroupNames, Mesh, MeshError, SurfaceGroup};
 
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,22 +27,8 @@ impl GearMesh {
     /// the body, [`MeshError::SameTooth`] when two groups name one flank.
     pub fn from_groups(mesh: Mesh, names: &GroupNames, teeth: u32) -> Result<Self, MeshError> {
         names.check()?;
-        let found = || {
-            mesh.surfaces
-                .iter()
-                .map(|s| s.name.clone())
-                .collect::<Vec<_>>()
-        };
-        let missing = |wanted: &str| MeshError::MissingGroup {
-            wanted: wanted.to_owned(),
-            found: found(),
-        };
         let table = FaceTable::new(&mesh);
-
-        let bore = mesh
-            .surface(&names.bore)
-            .ok_or_else(|| missing(&names.bore))?;
-        let bore = outward(bore, &mesh, &table)?;
+        let bore = Self::find_group(&mesh, &names.bore, &table)?;
         let mut flanks = BTreeMap::new();
         let mut named: BTreeMap<(u32, Side), &str> = BTreeMap::new();
         for group in &mesh.surfaces {
@@ -52,28 +38,47 @@ impl GearMesh {
             let tooth = number.rem_euclid(i64::from(teeth.max(1))) as u32;
             if let Some(first) = named.insert((tooth, side), &group.name) {
                 let (first, second) = (first.to_owned(), group.name.clone());
-                return Err(MeshError::SameTooth {
-                    first,
-                    second,
-                    tooth,
-                    teeth,
-                });
+                return Err(MeshError::SameTooth { first, second, tooth, teeth });
             }
             flanks.insert((tooth, side), outward(group, &mesh, &table)?.faces);
         }
         if flanks.is_empty() {
-            return Err(missing(&names.flank_left.replace("{k}", "<k>")));
+            return Err(missing(&mesh, &names.flank_left.replace("{k}", "<k>")));
         }
-        let cuts = match (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) {
-            (Some(first), Some(second)) => Some([
-                outward(first, &mesh, &table)?,
-                outward(second, &mesh, &table)?,
-            ]),
-            (None, None) => None,
-            (None, _) => return Err(missing(&names.cut_0)),
-            (_, None) => return Err(missing(&names.cut_1)),
-        };
+        let cuts = Self::find_cuts(&mesh, names, &table)?;
         Ok(Self::from_parts(mesh, teeth, bore, flanks, cuts))
+    }
+
+    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
+    /// ([`FlankFit`] with the default tolerance, also returned).
+    ///
+    /// # Errors
+    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
+    pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
+        names.check()?;
+        if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
+            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
+        }
+        let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
+        let fit = FlankFit::new(mesh, gear, names, tolerance)?;
+        Ok((fit.gear.clone(), Some(fit)))
+    }
+
+    /// The group of that name, normals outwards.
+    pub(crate) fn find_group(mesh: &Mesh, name: &str, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
+        outward(mesh.surface(name).ok_or_else(|| missing(mesh, name))?, mesh, table)
+    }
+
+    /// Both cuts, or none where the mesh has none.
+    pub(crate) fn find_cuts(
+        mesh: &Mesh,
+        names: &GroupNames,
+        table: &FaceTable,
+    ) -> Result<Option<[SurfaceGroup; 2]>, MeshError> {
+        if mesh.surface(&names.cut_0).is_none() && mesh.surface(&names.cut_1).is_none() {
+            return Ok(None);
+        }
+        Ok(Some([Self::find_group(mesh, &names.cut_0, table)?, Self::find_group(mesh, &names.cut_1, table)?]))
     }
 
     /// From parts whose faces are known to be boundary faces with their normals outwards.
@@ -85,14 +90,7 @@ impl GearMesh {
         cuts: Option<[SurfaceGroup; 2]>,
     ) -> Self {
         let bore_nodes = bore.nodes();
-        Self {
-            mesh,
-            teeth,
-            bore,
-            bore_nodes,
-            flanks,
-            cuts,
-        }
+        Self { mesh, teeth, bore, bore_nodes, flanks, cuts }
     }
 
     /// The mesh.
@@ -117,9 +115,7 @@ impl GearMesh {
 
     /// Faces of one flank; `tooth` counts modulo z. `None` when the mesh does not have it.
     pub fn flank(&self, tooth: u32, side: Side) -> Option<&[Face]> {
-        self.flanks
-            .get(&(tooth % self.teeth.max(1), side))
-            .map(Vec::as_slice)
+        self.flanks.get(&(tooth % self.teeth.max(1), side)).map(Vec::as_slice)
     }
 
     /// Teeth of which a flank is known, ascending, 0..z.
@@ -140,14 +136,15 @@ impl GearMesh {
     }
 }
 
+/// No group of that name: say which there are.
+fn missing(mesh: &Mesh, wanted: &str) -> MeshError {
+    MeshError::MissingGroup { wanted: wanted.to_owned(), found: mesh.surfaces.iter().map(|s| s.name.clone()).collect() }
+}
+
 /// The faces of a group as the elements have them, normals outwards.
 ///
 /// Files give faces in either orientation, and some writers start at another corner.
-fn outward(
-    group: &SurfaceGroup,
-    mesh: &Mesh,
-    table: &FaceTable,
-) -> Result<SurfaceGroup, MeshError> {
+fn outward(group: &SurfaceGroup, mesh: &Mesh, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
     let mut faces = Vec::with_capacity(group.faces.len());
     for face in &group.faces {
         let mut owners = table.owners(face.corner_key());
@@ -163,23 +160,11 @@ fn outward(
             (None, _) => "is no face of a volume element",
             _ => "lies inside the body, between two elements",
         };
-        let tag = |&n: &u32| {
-            mesh.node_tags
-                .get(n as usize)
-                .copied()
-                .unwrap_or(u64::from(n))
-        };
+        let tag = |&n: &u32| mesh.node_tags.get(n as usize).copied().unwrap_or(u64::from(n));
         let nodes = face.corners().iter().map(tag).collect();
-        return Err(MeshError::NotOnBoundary {
-            group: group.name.clone(),
-            nodes,
-            what,
-        });
+        return Err(MeshError::NotOnBoundary { group: group.name.clone(), nodes, what });
     }
-    Ok(SurfaceGroup {
-        name: group.name.clone(),
-        faces,
-    })
+    Ok(SurfaceGroup { name: group.name.clone(), faces })
 }
 
 /// Whether two faces have the same nodes in any order.

@@ -60,13 +60,8 @@ impl GroupNames {
 
     /// Both patterns must have a place for the tooth number.
     pub(crate) fn check(&self) -> Result<(), MeshError> {
-        match [&self.flank_left, &self.flank_right]
-            .into_iter()
-            .find(|p| !p.contains("{k}"))
-        {
-            Some(pattern) => Err(MeshError::NoToothNumber {
-                pattern: pattern.clone(),
-            }),
+        match [&self.flank_left, &self.flank_right].into_iter().find(|p| !p.contains("{k}")) {
+            Some(pattern) => Err(MeshError::NoToothNumber { pattern: pattern.clone() }),
             None => Ok(()),
         }
     }

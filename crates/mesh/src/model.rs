@@ -52,12 +52,7 @@ impl Face {
     /// # Panics
     /// When the number of nodes is not `kind.node_count()`.
     pub fn new(kind: FaceKind, nodes: &[u32]) -> Self {
-        assert_eq!(
-            nodes.len(),
-            kind.node_count(),
-            "{kind:?} with {} nodes",
-            nodes.len()
-        );
+        assert_eq!(nodes.len(), kind.node_count(), "{kind:?} with {} nodes", nodes.len());
         let mut all = [u32::MAX; 9];
         all[..nodes.len()].copy_from_slice(nodes);
         Self { kind, nodes: all }
@@ -135,11 +130,7 @@ impl Mesh {
 impl SurfaceGroup {
     /// The nodes of all faces, ascending, each once.
     pub fn nodes(&self) -> Vec<u32> {
-        let mut all: Vec<u32> = self
-            .faces
-            .iter()
-            .flat_map(|f| f.nodes().iter().copied())
-            .collect();
+        let mut all: Vec<u32> = self.faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -29,10 +29,7 @@ impl Mesh {
     /// line or byte when it cannot be understood.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| MeshError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let bytes = std::fs::read(path).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
         Self::parse(&bytes, path)
     }
 

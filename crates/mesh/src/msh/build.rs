@@ -20,12 +20,7 @@ pub(super) fn build(raw: &Raw, cursor: &mut Cursor) -> Result<Mesh, MshError> {
     let (chosen, volumes) = choose_volumes(raw);
     let mut blocks = elements(raw, &chosen, &numbering, cursor)?;
     if blocks.is_empty() {
-        let elements = raw
-            .blocks
-            .iter()
-            .filter(|b| matches!(b.shape, Shape::Face(_)))
-            .map(|b| b.tags.len())
-            .sum();
+        let elements = raw.blocks.iter().filter(|b| matches!(b.shape, Shape::Face(_))).map(|b| b.tags.len()).sum();
         return Err(cursor.error(MshProblem::NoVolumes { elements }));
     }
 
@@ -34,10 +29,7 @@ pub(super) fn build(raw: &Raw, cursor: &mut Cursor) -> Result<Mesh, MshError> {
     for &node in blocks.iter().flat_map(|b| &b.connectivity) {
         new_number[node as usize] = 0;
     }
-    let mut mesh = Mesh {
-        volumes,
-        ..Mesh::default()
-    };
+    let mut mesh = Mesh { volumes, ..Mesh::default() };
     for (sorted, &original) in numbering.order.iter().enumerate() {
         if new_number[sorted] == 0 {
             new_number[sorted] = mesh.nodes.len() as u32;
@@ -65,11 +57,7 @@ impl Numbering {
         let count = nodes.tags.len() as u64;
         let limit = u64::from(u32::MAX);
         if count >= limit {
-            return Err(cursor.error(MshProblem::TooMany {
-                what: "nodes",
-                declared: count,
-                room: limit - 1,
-            }));
+            return Err(cursor.error(MshProblem::TooMany { what: "nodes", declared: count, room: limit - 1 }));
         }
         let mut order: Vec<u32> = (0..count as u32).collect();
         if !nodes.tags.is_sorted() {
@@ -94,22 +82,13 @@ impl Numbering {
     }
 
     /// Ranks of the nodes of element `i` of a block, appended to `into`.
-    fn ranks(
-        &self,
-        block: &RawBlock,
-        i: usize,
-        into: &mut Vec<u32>,
-        cursor: &Cursor,
-    ) -> Result<(), MshError> {
+    fn ranks(&self, block: &RawBlock, i: usize, into: &mut Vec<u32>, cursor: &Cursor) -> Result<(), MshError> {
         let count = block.shape.node_count();
         for &node in &block.nodes[i * count..(i + 1) * count] {
             match self.rank(node) {
                 Some(rank) => into.push(rank),
                 None => {
-                    let problem = MshProblem::UnknownNode {
-                        element: block.tags[i],
-                        node,
-                    };
+                    let problem = MshProblem::UnknownNode { element: block.tags[i], node };
                     return Err(cursor.error_at(block.places[i], problem));
                 }
             }
@@ -123,42 +102,25 @@ fn groups<'a>(raw: &'a Raw, block: &'a RawBlock) -> &'a [i64] {
     match (&block.owner, &raw.entities) {
         (Owner::Group(0), _) | (Owner::Entity(..), None) => &[],
         (Owner::Group(tag), _) => std::slice::from_ref(tag),
-        (Owner::Entity(dimension, tag), Some(entities)) => {
-            entities.get(&(*dimension, *tag)).map_or(&[], Vec::as_slice)
-        }
+        (Owner::Entity(dimension, tag), Some(entities)) => entities.get(&(*dimension, *tag)).map_or(&[], Vec::as_slice),
     }
 }
 
 /// Name of a physical group; its tag in digits where the file gives none.
 fn name(raw: &Raw, dimension: i64, tag: i64) -> String {
     let tag = tag.saturating_abs();
-    raw.names
-        .get(&(dimension, tag))
-        .cloned()
-        .unwrap_or_else(|| tag.to_string())
+    raw.names.get(&(dimension, tag)).cloned().unwrap_or_else(|| tag.to_string())
 }
 
 /// Which blocks of volume elements belong to the model, and the names of their groups:
 /// those in a physical volume, or all where there is none.
 fn choose_volumes(raw: &Raw) -> (Vec<usize>, Vec<String>) {
     let is_volume = |b: &RawBlock| matches!(b.shape, Shape::Volume(_)) && !b.tags.is_empty();
-    let all: Vec<usize> = (0..raw.blocks.len())
-        .filter(|&i| is_volume(&raw.blocks[i]))
-        .collect();
-    let grouped: Vec<usize> = all
-        .iter()
-        .copied()
-        .filter(|&i| !groups(raw, &raw.blocks[i]).is_empty())
-        .collect();
-    let names: BTreeSet<String> = grouped
-        .iter()
-        .flat_map(|&i| groups(raw, &raw.blocks[i]))
-        .map(|&tag| name(raw, 3, tag))
-        .collect();
-    (
-        if grouped.is_empty() { all } else { grouped },
-        names.into_iter().collect(),
-    )
+    let all: Vec<usize> = (0..raw.blocks.len()).filter(|&i| is_volume(&raw.blocks[i])).collect();
+    let grouped: Vec<usize> = all.iter().copied().filter(|&i| !groups(raw, &raw.blocks[i]).is_empty()).collect();
+    let names: BTreeSet<String> =
+        grouped.iter().flat_map(|&i| groups(raw, &raw.blocks[i])).map(|&tag| name(raw, 3, tag)).collect();
+    (if grouped.is_empty() { all } else { grouped }, names.into_iter().collect())
 }
 
 /// Volume elements by kind in order of their tags, each once: format 2.2 writes an element once
@@ -173,10 +135,7 @@ fn elements(
     for &b in chosen {
         let block = &raw.blocks[b];
         if let Shape::Volume(kind) = block.shape {
-            by_kind
-                .entry(kind)
-                .or_default()
-                .extend(block.tags.iter().enumerate().map(|(i, &tag)| (tag, b, i)));
+            by_kind.entry(kind).or_default().extend(block.tags.iter().enumerate().map(|(i, &tag)| (tag, b, i)));
         }
     }
     let mut blocks = Vec::new();
@@ -194,9 +153,7 @@ fn elements(
         };
         for i in keep {
             block.tags.push(list[i].0);
-            block
-                .connectivity
-                .extend_from_slice(&all[i * kind.node_count()..(i + 1) * kind.node_count()]);
+            block.connectivity.extend_from_slice(&all[i * kind.node_count()..(i + 1) * kind.node_count()]);
         }
         blocks.push(block);
     }
@@ -220,13 +177,7 @@ fn surfaces(
             // Format 2.2 has turned the faces of a negative group already.
             let turned = group < 0 && matches!(block.owner, Owner::Entity(..));
             let list = by_name.entry(name(raw, 2, group)).or_default();
-            list.extend(
-                block
-                    .tags
-                    .iter()
-                    .enumerate()
-                    .map(|(i, &tag)| (kind, tag, b, i, turned)),
-            );
+            list.extend(block.tags.iter().enumerate().map(|(i, &tag)| (kind, tag, b, i, turned)));
         }
     }
     let mut surfaces = Vec::new();
@@ -239,10 +190,7 @@ fn surfaces(
             let block = &raw.blocks[b];
             ranks.clear();
             numbering.ranks(block, i, &mut ranks, cursor)?;
-            if let Some(stray) = ranks
-                .iter()
-                .position(|&r| new_number[r as usize] == u32::MAX)
-            {
+            if let Some(stray) = ranks.iter().position(|&r| new_number[r as usize] == u32::MAX) {
                 let node = block.nodes[i * kind.node_count() + stray];
                 off_body.get_or_insert((tag, node, block.places[i]));
                 continue;
@@ -253,11 +201,7 @@ fn surfaces(
         }
         match off_body {
             Some((face, node, place)) if !faces.is_empty() => {
-                let problem = MshProblem::FaceOffBody {
-                    group: name,
-                    face,
-                    node,
-                };
+                let problem = MshProblem::FaceOffBody { group: name, face, node };
                 return Err(cursor.error_at(place, problem));
             }
             _ => {}

@@ -19,18 +19,8 @@ pub(super) struct Cursor<'a> {
 impl<'a> Cursor<'a> {
     pub fn new(bytes: &'a [u8], path: &'a Path) -> Self {
         // Some editors put a byte-order mark before text.
-        let at = if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
-            3
-        } else {
-            0
-        };
-        Self {
-            bytes,
-            at,
-            binary: false,
-            section: "start of file".into(),
-            path,
-        }
+        let at = if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) { 3 } else { 0 };
+        Self { bytes, at, binary: false, section: "start of file".into(), path }
     }
 
     /// Offset of the next byte.
@@ -51,12 +41,7 @@ impl<'a> Cursor<'a> {
         } else {
             Place::Line(1 + self.bytes[..offset].iter().filter(|&&b| b == b'\n').count())
         };
-        MshError {
-            path: self.path.to_owned(),
-            section: self.section.clone(),
-            place,
-            problem,
-        }
+        MshError { path: self.path.to_owned(), section: self.section.clone(), place, problem }
     }
 
     fn rest(&self) -> &'a [u8] {
@@ -70,45 +55,26 @@ impl<'a> Cursor<'a> {
             [b'\n', ..] | [b'\r', b'\n', ..] => "the end of the line".to_owned(),
             rest if self.binary && !rest[0].is_ascii_graphic() => format!("byte 0x{:02x}", rest[0]),
             rest => {
-                let word = rest
-                    .split(u8::is_ascii_whitespace)
-                    .next()
-                    .unwrap_or_default();
+                let word = rest.split(u8::is_ascii_whitespace).next().unwrap_or_default();
                 format!("`{}`", String::from_utf8_lossy(&word[..word.len().min(40)]))
             }
         };
-        self.error(MshProblem::Syntax {
-            expected: expected.to_owned(),
-            found,
-        })
+        self.error(MshProblem::Syntax { expected: expected.to_owned(), found })
     }
 
     /// Refuses a count of things of at least `least` bytes each that the file cannot hold.
-    pub fn check_room(
-        &self,
-        what: &'static str,
-        declared: u64,
-        least: usize,
-    ) -> Result<usize, MshError> {
+    pub fn check_room(&self, what: &'static str, declared: u64, least: usize) -> Result<usize, MshError> {
         // The last thing of a text file may lack its separator: one byte of grace.
         let room = (self.rest().len() as u64 + 1) / least.max(1) as u64;
         match usize::try_from(declared) {
             Ok(count) if declared <= room => Ok(count),
-            _ => Err(self.error(MshProblem::TooMany {
-                what,
-                declared,
-                room,
-            })),
+            _ => Err(self.error(MshProblem::TooMany { what, declared, room })),
         }
     }
 
     /// Skips blanks and line ends.
     pub fn skip_space(&mut self) {
-        self.at += self
-            .rest()
-            .iter()
-            .take_while(|b| b.is_ascii_whitespace())
-            .count();
+        self.at += self.rest().iter().take_while(|b| b.is_ascii_whitespace()).count();
     }
 
     /// Skips one line end, `\n` or `\r\n`, after blanks: what follows is binary data or a text line.
@@ -159,11 +125,7 @@ impl<'a> Cursor<'a> {
         match std::str::from_utf8(word).ok().and_then(|w| w.parse().ok()) {
             Some(value) => Ok(value),
             None => {
-                self.at = start
-                    + self.bytes[start..]
-                        .iter()
-                        .take_while(|b| **b == b' ')
-                        .count();
+                self.at = start + self.bytes[start..].iter().take_while(|b| **b == b' ').count();
                 Err(self.unexpected(expected))
             }
         }
@@ -184,11 +146,7 @@ impl<'a> Cursor<'a> {
 
     /// A signed integer: text, or 4 bytes.
     pub fn int(&mut self, expected: &str) -> Result<i64, MshError> {
-        if self.binary {
-            Ok(i32::from_le_bytes(self.raw(expected)?).into())
-        } else {
-            self.text(expected)
-        }
+        if self.binary { Ok(i32::from_le_bytes(self.raw(expected)?).into()) } else { self.text(expected) }
     }
 
     /// An integer of 4 bytes that must not be negative: counts and tags of format 2.2.
@@ -206,20 +164,12 @@ impl<'a> Cursor<'a> {
 
     /// An unsigned integer: text, or 8 bytes. Counts and tags of format 4.1.
     pub fn size(&mut self, expected: &str) -> Result<u64, MshError> {
-        if self.binary {
-            Ok(u64::from_le_bytes(self.raw(expected)?))
-        } else {
-            self.text(expected)
-        }
+        if self.binary { Ok(u64::from_le_bytes(self.raw(expected)?)) } else { self.text(expected) }
     }
 
     /// A floating-point number: text, or 8 bytes.
     pub fn real(&mut self, expected: &str) -> Result<f64, MshError> {
-        if self.binary {
-            Ok(f64::from_le_bytes(self.raw(expected)?))
-        } else {
-            self.text(expected)
-        }
+        if self.binary { Ok(f64::from_le_bytes(self.raw(expected)?)) } else { self.text(expected) }
     }
 
     /// A word in double quotes; what is not UTF-8 becomes the replacement character.
@@ -281,11 +231,7 @@ impl<'a> Cursor<'a> {
     pub fn skip_section(&mut self) -> Result<(), MshError> {
         let expected = self.end_mark();
         let start = self.at;
-        match self
-            .rest()
-            .windows(expected.len())
-            .position(|w| w == expected.as_bytes())
-        {
+        match self.rest().windows(expected.len()).position(|w| w == expected.as_bytes()) {
             Some(position) => {
                 self.at += position;
                 self.close_section()

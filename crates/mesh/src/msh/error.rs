@@ -114,9 +114,7 @@ pub enum MshProblem {
         node: u64,
     },
     /// An entity that `$Entities` does not define.
-    #[error(
-        "elements lie on entity {tag} of dimension {dimension}, which $Entities does not define"
-    )]
+    #[error("elements lie on entity {tag} of dimension {dimension}, which $Entities does not define")]
     UnknownEntity {
         /// Dimension of the entity, 0..3.
         dimension: i64,
@@ -142,9 +140,7 @@ pub enum MshProblem {
         elements: usize,
     },
     /// A surface group that lies partly on a body that is not part of the mesh.
-    #[error(
-        "face {face} of group `{group}` uses node {node}, which no volume element of the model uses"
-    )]
+    #[error("face {face} of group `{group}` uses node {node}, which no volume element of the model uses")]
     FaceOffBody {
         /// Name of the group.
         group: String,
@@ -159,32 +155,24 @@ impl MshProblem {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
-            Self::Syntax { .. } => {
-                "the file is damaged or cut short; write it again from the mesher"
-            }
+            Self::Syntax { .. } => "the file is damaged or cut short; write it again from the mesher",
             Self::TooMany { .. } | Self::WrongTotal { .. } => {
                 "the file is cut short or its header is damaged; write it again from the mesher"
             }
             Self::Version { .. } => "in Gmsh set Mesh.MshFileVersion to 4.1 or 2.2 and save again",
             Self::BigEndian => "save the mesh as ASCII on the machine that made it",
-            Self::ElementType {
-                code: 7 | 14 | 19, ..
-            } => "pyramids appear where hexahedra meet tetrahedra: mesh with one of them alone",
-            Self::ElementType { code: 13, .. } => {
-                "in Gmsh set Mesh.SecondOrderIncomplete = 1 to get 15-node wedges"
+            Self::ElementType { code: 7 | 14 | 19, .. } => {
+                "pyramids appear where hexahedra meet tetrahedra: mesh with one of them alone"
             }
+            Self::ElementType { code: 13, .. } => "in Gmsh set Mesh.SecondOrderIncomplete = 1 to get 15-node wedges",
             Self::ElementType { .. } => "use hexahedra, tetrahedra or wedges of order 1 or 2",
             Self::NotFinite { .. } => "the mesher failed there; look at the node in Gmsh",
-            Self::RepeatedNode { .. } => {
-                "two meshes were joined without renumbering; let Gmsh merge them"
-            }
+            Self::RepeatedNode { .. } => "two meshes were joined without renumbering; let Gmsh merge them",
             Self::UnknownNode { .. } => "the file is incomplete; write it again from the mesher",
             Self::UnknownEntity { .. } => "$Entities and $Elements come from different models",
             Self::NoSection { .. } => "is this a Gmsh mesh file, and is it complete?",
             Self::RepeatedSection { .. } => "two files were joined; let Gmsh merge them",
-            Self::NoVolumes { .. } => {
-                "generate the mesh in three dimensions and put the body into a physical volume"
-            }
+            Self::NoVolumes { .. } => "generate the mesh in three dimensions and put the body into a physical volume",
             Self::FaceOffBody { .. } => {
                 "put the body that bears this face into a physical volume, or take the face out of the group"
             }

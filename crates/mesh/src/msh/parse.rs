@@ -21,14 +21,7 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &'a Path) -> Result<(Raw, Cursor<
     let mut raw = Raw::default();
     let mut seen: Vec<String> = Vec::new();
     while let Some(name) = c.open_section()? {
-        let known = [
-            "$PhysicalNames",
-            "$Entities",
-            "$PartitionedEntities",
-            "$Nodes",
-            "$ParametricNodes",
-            "$Elements",
-        ];
+        let known = ["$PhysicalNames", "$Entities", "$PartitionedEntities", "$Nodes", "$ParametricNodes", "$Elements"];
         if !known.contains(&name.as_str()) {
             c.skip_section()?;
             continue;
@@ -49,20 +42,13 @@ pub(super) fn parse<'a>(bytes: &'a [u8], path: &'a Path) -> Result<(Raw, Cursor<
                     Version::V4 => v4::elements(&mut c, &mut raw)?,
                 }
             }
-            _ => v4::entities(
-                &mut c,
-                name == "$PartitionedEntities",
-                raw.entities.get_or_insert_default(),
-            )?,
+            _ => v4::entities(&mut c, name == "$PartitionedEntities", raw.entities.get_or_insert_default())?,
         }
         c.close_section()?;
         seen.push(name);
     }
     c.section = "end of file".into();
-    for (present, name) in [
-        (raw.nodes.is_some(), "$Nodes"),
-        (raw.has_elements, "$Elements"),
-    ] {
+    for (present, name) in [(raw.nodes.is_some(), "$Nodes"), (raw.has_elements, "$Elements")] {
         if !present {
             return Err(c.error(MshProblem::NoSection { name }));
         }
@@ -78,9 +64,7 @@ fn header(c: &mut Cursor) -> Result<Version, MshError> {
             return Err(c.error(MshProblem::Version { found: "1".into() }));
         }
         _ => {
-            return Err(c.error(MshProblem::NoSection {
-                name: "$MeshFormat",
-            }));
+            return Err(c.error(MshProblem::NoSection { name: "$MeshFormat" }));
         }
     }
     c.skip_space();
@@ -100,10 +84,7 @@ fn header(c: &mut Cursor) -> Result<Version, MshError> {
     let size: i64 = c.text("8, the size of a real")?;
     if !(0..=1).contains(&mode) || size != 8 {
         let expected = "`0 8` (text) or `1 8` (binary) after the version".into();
-        return Err(c.error(MshProblem::Syntax {
-            expected,
-            found: format!("`{mode} {size}`"),
-        }));
+        return Err(c.error(MshProblem::Syntax { expected, found: format!("`{mode} {size}`") }));
     }
     c.line_end()?;
     if mode == 1 {

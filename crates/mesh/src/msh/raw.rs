@@ -117,13 +117,7 @@ impl RawNodes {
         }
     }
 
-    pub fn push(
-        &mut self,
-        tag: u64,
-        position: [f64; 3],
-        place: usize,
-        cursor: &Cursor,
-    ) -> Result<(), MshError> {
+    pub fn push(&mut self, tag: u64, position: [f64; 3], place: usize, cursor: &Cursor) -> Result<(), MshError> {
         if let Some(&value) = position.iter().find(|x| !x.is_finite()) {
             return Err(cursor.error_at(place, MshProblem::NotFinite { node: tag, value }));
         }

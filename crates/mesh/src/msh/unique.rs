@@ -6,14 +6,7 @@ pub(super) fn first_of_equals(connectivity: &[u32], size: usize) -> Vec<usize> {
     let nodes = |i: usize| &connectivity[i * size..(i + 1) * size];
     // A sum of scrambled node numbers does not depend on their order.
     let mut keyed: Vec<(u64, usize)> = (0..connectivity.len() / size)
-        .map(|i| {
-            (
-                nodes(i)
-                    .iter()
-                    .fold(0_u64, |sum, &n| sum.wrapping_add(scramble(n))),
-                i,
-            )
-        })
+        .map(|i| (nodes(i).iter().fold(0_u64, |sum, &n| sum.wrapping_add(scramble(n))), i))
         .collect();
     keyed.sort_unstable();
     let mut keep = Vec::with_capacity(keyed.len());

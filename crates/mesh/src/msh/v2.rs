@@ -16,20 +16,12 @@ pub(super) fn nodes(c: &mut Cursor, parametric: bool) -> Result<RawNodes, MshErr
         c.record_start();
         let place = c.offset();
         let tag = c.natural("a node tag")?;
-        let position = [
-            c.real("coordinate x")?,
-            c.real("coordinate y")?,
-            c.real("coordinate z")?,
-        ];
+        let position = [c.real("coordinate x")?, c.real("coordinate y")?, c.real("coordinate z")?];
         nodes.push(tag, position, place, c)?;
         if parametric {
             let dimension = c.int("the dimension of an entity")?;
             c.int("the tag of an entity")?;
-            for _ in 0..(if (1..=2).contains(&dimension) {
-                dimension
-            } else {
-                0
-            }) {
+            for _ in 0..(if (1..=2).contains(&dimension) { dimension } else { 0 }) {
                 c.real("a parameter of a node")?;
             }
         }
@@ -50,10 +42,7 @@ fn count(c: &mut Cursor, expected: &str) -> Result<u64, MshError> {
 pub(super) fn elements(c: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
     let declared = count(c, "the number of elements")?;
     let total = c.check_room("elements", declared, if c.binary { 8 } else { 6 })?;
-    let mut sorter = Sorter {
-        blocks: &mut raw.blocks,
-        index: BTreeMap::new(),
-    };
+    let mut sorter = Sorter { blocks: &mut raw.blocks, index: BTreeMap::new() };
     let mut done = 0;
     while done < total {
         if c.binary {
@@ -75,13 +64,7 @@ fn run(c: &mut Cursor, sorter: &mut Sorter, left: u64) -> Result<usize, MshError
     let tags = c.natural("the number of tags")?;
     if run == 0 || run > left {
         let expected = format!("a run of 1 to {left} elements");
-        return Err(c.error_at(
-            start,
-            MshProblem::Syntax {
-                expected,
-                found: run.to_string(),
-            },
-        ));
+        return Err(c.error_at(start, MshProblem::Syntax { expected, found: run.to_string() }));
     }
     let tags = c.check_room("tags of an element", tags, 4)?;
     let run = c.check_room("elements", run, 4 * (1 + tags + shape.node_count()))?;
@@ -140,8 +123,7 @@ struct Sorter<'a> {
 impl Sorter<'_> {
     fn block(&mut self, shape: Shape, group: i64) -> &mut RawBlock {
         let at = *self.index.entry((shape, group)).or_insert_with(|| {
-            self.blocks
-                .push(RawBlock::with_capacity(shape, Owner::Group(group), 0));
+            self.blocks.push(RawBlock::with_capacity(shape, Owner::Group(group), 0));
             self.blocks.len() - 1
         });
         &mut self.blocks[at]

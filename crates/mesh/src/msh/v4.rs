@@ -10,11 +10,7 @@ use super::raw::{Owner, Raw, RawBlock, RawNodes, Shape};
 type Entities = BTreeMap<(i64, i64), Vec<i64>>;
 
 /// `$Entities`, or `$PartitionedEntities`, where the groups of a partitioned mesh stand.
-pub(super) fn entities(
-    c: &mut Cursor,
-    partitioned: bool,
-    all: &mut Entities,
-) -> Result<(), MshError> {
+pub(super) fn entities(c: &mut Cursor, partitioned: bool, all: &mut Entities) -> Result<(), MshError> {
     if partitioned {
         c.record_start();
         c.size("the number of partitions")?;
@@ -32,10 +28,7 @@ pub(super) fn entities(
     }
     c.record_start();
     let mut counts = [0; 4];
-    for (count, what) in counts
-        .iter_mut()
-        .zip(["points", "curves", "surfaces", "volumes"])
-    {
+    for (count, what) in counts.iter_mut().zip(["points", "curves", "surfaces", "volumes"]) {
         *count = c.size(&format!("the number of {what}"))?;
     }
     c.record_end()?;
@@ -122,11 +115,7 @@ pub(super) fn nodes(c: &mut Cursor) -> Result<RawNodes, MshError> {
         for i in 0..count {
             c.record_start();
             let place = c.offset();
-            let position = [
-                c.real("coordinate x")?,
-                c.real("coordinate y")?,
-                c.real("coordinate z")?,
-            ];
+            let position = [c.real("coordinate x")?, c.real("coordinate y")?, c.real("coordinate z")?];
             for _ in 0..parameters {
                 c.real("a parameter of a node")?;
             }
@@ -141,14 +130,7 @@ pub(super) fn nodes(c: &mut Cursor) -> Result<RawNodes, MshError> {
     }
     let found = nodes.tags.len() as u64;
     if found != total {
-        return Err(c.error_at(
-            start,
-            MshProblem::WrongTotal {
-                what: "nodes",
-                declared: total,
-                found,
-            },
-        ));
+        return Err(c.error_at(start, MshProblem::WrongTotal { what: "nodes", declared: total, found }));
     }
     Ok(nodes)
 }
@@ -182,25 +164,14 @@ pub(super) fn elements(c: &mut Cursor, raw: &mut Raw) -> Result<(), MshError> {
             c.record_end()?;
         }
         found += declared;
-        if matches!(&raw.entities, Some(all) if count > 0 && !all.contains_key(&(dimension, entity)))
-        {
-            let problem = MshProblem::UnknownEntity {
-                dimension,
-                tag: entity,
-            };
+        if matches!(&raw.entities, Some(all) if count > 0 && !all.contains_key(&(dimension, entity))) {
+            let problem = MshProblem::UnknownEntity { dimension, tag: entity };
             return Err(c.error_at(place, problem));
         }
         raw.blocks.push(block);
     }
     if found != total {
-        return Err(c.error_at(
-            start,
-            MshProblem::WrongTotal {
-                what: "elements",
-                declared: total,
-                found,
-            },
-        ));
+        return Err(c.error_at(start, MshProblem::WrongTotal { what: "elements", declared: total, found }));
     }
     Ok(())
 }

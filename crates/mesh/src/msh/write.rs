@@ -40,10 +40,7 @@ impl Mesh {
     pub fn write(&self, path: impl AsRef<Path>, format: MshFormat) -> Result<(), MeshError> {
         let path = path.as_ref();
         let bytes = self.to_msh(format)?;
-        std::fs::write(path, bytes).map_err(|source| MeshError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        std::fs::write(path, bytes).map_err(|source| MeshError::Write { path: path.to_owned(), source })
     }
 
     /// The content of a mesh file, see [`Mesh::write`].
@@ -52,10 +49,7 @@ impl Mesh {
     /// As [`Mesh::write`], but for the file.
     pub fn to_msh(&self, format: MshFormat) -> Result<Vec<u8>, MeshError> {
         self.check_lists()?;
-        let mut out = Out {
-            bytes: Vec::new(),
-            binary: format.is_binary(),
-        };
+        let mut out = Out { bytes: Vec::new(), binary: format.is_binary() };
         match format {
             MshFormat::Ascii41 | MshFormat::Binary41 => self.write_41(&mut out),
             MshFormat::Ascii22 | MshFormat::Binary22 => self.write_22(&mut out)?,
@@ -67,11 +61,7 @@ impl Mesh {
     fn check_lists(&self) -> Result<(), MeshError> {
         let wrong = |what: String| Err(MeshError::Inconsistent { what });
         if self.nodes.len() != self.node_tags.len() {
-            return wrong(format!(
-                "{} nodes, {} node tags",
-                self.nodes.len(),
-                self.node_tags.len()
-            ));
+            return wrong(format!("{} nodes, {} node tags", self.nodes.len(), self.node_tags.len()));
         }
         for block in &self.blocks {
             if block.connectivity.len() != block.tags.len() * block.kind.node_count() {
@@ -84,30 +74,16 @@ impl Mesh {
             }
         }
         let of_elements = self.blocks.iter().flat_map(|b| &b.connectivity);
-        let of_faces = self
-            .surfaces
-            .iter()
-            .flat_map(|s| &s.faces)
-            .flat_map(|f| f.nodes());
-        match of_elements
-            .chain(of_faces)
-            .find(|&&n| n as usize >= self.nodes.len())
-        {
-            Some(n) => wrong(format!(
-                "node number {n} where there are {} nodes",
-                self.nodes.len()
-            )),
+        let of_faces = self.surfaces.iter().flat_map(|s| &s.faces).flat_map(|f| f.nodes());
+        match of_elements.chain(of_faces).find(|&&n| n as usize >= self.nodes.len()) {
+            Some(n) => wrong(format!("node number {n} where there are {} nodes", self.nodes.len())),
             None => Ok(()),
         }
     }
 
     /// First tag for faces, past those of the elements.
     fn first_face_tag(&self) -> u64 {
-        self.blocks
-            .iter()
-            .flat_map(|b| &b.tags)
-            .max()
-            .map_or(1, |m| m.saturating_add(1))
+        self.blocks.iter().flat_map(|b| &b.tags).max().map_or(1, |m| m.saturating_add(1))
     }
 
     fn tag(&self, node: u32) -> u64 {
@@ -165,19 +141,10 @@ impl Mesh {
         let faces: usize = self.surfaces.iter().map(|s| s.faces.len()).sum();
         let first = self.first_face_tag();
         let (least, largest) = extremes(self.blocks.iter().flat_map(|b| &b.tags));
-        let largest = if faces == 0 {
-            largest
-        } else {
-            first.saturating_add(faces as u64 - 1)
-        };
+        let largest = if faces == 0 { largest } else { first.saturating_add(faces as u64 - 1) };
         out.line("$Elements");
         let blocks = face_blocks.len() + self.blocks.len();
-        out.sizes(&[
-            blocks as u64,
-            (faces + self.element_count()) as u64,
-            least,
-            largest,
-        ]);
+        out.sizes(&[blocks as u64, (faces + self.element_count()) as u64, least, largest]);
         out.new_line();
         let mut tag = first;
         for (s, kind) in face_blocks {
@@ -213,10 +180,7 @@ impl Mesh {
         for (i, surface) in self.surfaces.iter().enumerate() {
             let tag = i as i32 + 1;
             out.ints(&[tag]);
-            self.write_box(
-                out,
-                surface.faces.iter().flat_map(|f| f.nodes().iter().copied()),
-            );
+            self.write_box(out, surface.faces.iter().flat_map(|f| f.nodes().iter().copied()));
             out.sizes(&[1]);
             out.ints(&[tag]);
             out.sizes(&[0]);
@@ -237,16 +201,8 @@ impl Mesh {
         for (i, node) in nodes.enumerate() {
             let position = self.nodes[node as usize];
             for k in 0..3 {
-                low[k] = if i == 0 {
-                    position[k]
-                } else {
-                    position[k].min(low[k])
-                };
-                high[k] = if i == 0 {
-                    position[k]
-                } else {
-                    position[k].max(high[k])
-                };
+                low[k] = if i == 0 { position[k] } else { position[k].min(low[k]) };
+                high[k] = if i == 0 { position[k] } else { position[k].max(high[k]) };
             }
         }
         low.iter().chain(&high).for_each(|&x| out.real(x));
@@ -257,9 +213,7 @@ impl Mesh {
         let faces: u64 = self.surfaces.iter().map(|s| s.faces.len() as u64).sum();
         let elements = self.element_count() as u64;
         let first = self.first_face_tag();
-        let last = first
-            .saturating_add(faces)
-            .saturating_add((copies - 1).saturating_mul(elements));
+        let last = first.saturating_add(faces).saturating_add((copies - 1).saturating_mul(elements));
         for largest in [last, extremes(&self.node_tags).1] {
             if i32::try_from(largest).is_err() {
                 return Err(MeshError::TagTooLarge { tag: largest });
@@ -337,10 +291,7 @@ impl Out {
     }
 
     fn header(&mut self, version: &str) {
-        self.line(&format!(
-            "$MeshFormat\n{version} {} 8",
-            i32::from(self.binary)
-        ));
+        self.line(&format!("$MeshFormat\n{version} {} 8", i32::from(self.binary)));
         if self.binary {
             self.ints(&[1]);
             self.bytes.push(b'\n');
@@ -372,21 +323,13 @@ impl Out {
 
     fn ints(&mut self, values: &[i32]) {
         for &value in values {
-            if self.binary {
-                self.bytes.extend_from_slice(&value.to_le_bytes())
-            } else {
-                self.text(value)
-            }
+            if self.binary { self.bytes.extend_from_slice(&value.to_le_bytes()) } else { self.text(value) }
         }
     }
 
     fn sizes(&mut self, values: &[u64]) {
         for &value in values {
-            if self.binary {
-                self.bytes.extend_from_slice(&value.to_le_bytes())
-            } else {
-                self.text(value)
-            }
+            if self.binary { self.bytes.extend_from_slice(&value.to_le_bytes()) } else { self.text(value) }
         }
     }
 
