@@ -309,6 +309,7 @@ def snap_structured(plan, groups):
 def snap_free(plan, groups):
     """Puts the nodes of flanks on the helicoid and those of the bore on its cylinder."""
     gear, frame = plan.gear, Frame(plan.gear)
+    form = gear.half_profile()[0][-1, 0]
     for name, surfaces in groups.items():
         for surface in surfaces:
             tags, points = surface_nodes(surface)
@@ -316,8 +317,8 @@ def snap_free(plan, groups):
             if name == "bore":
                 r = np.full_like(r, gear.bore_radius)
             elif name.startswith("flank"):
-                top = np.abs(r - gear.tip_radius) < 1e-2
-                r[top] = gear.tip_radius
+                for edge in (gear.tip_radius, form):
+                    r[np.abs(r - edge) < 1e-2] = edge
                 tooth, local = frame.folded(angle)
                 angle = tooth * gear.pitch + np.sign(local) * gear.flank_angle(r)
             else:

@@ -13,6 +13,7 @@ mod info;
 pub mod model;
 pub mod msh;
 mod quality;
+pub mod structured;
 
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind};
@@ -25,3 +26,4 @@ pub use info::{GroupInfo, LikelyGear, MeshInfo};
 pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};
 pub use msh::{MshError, MshFormat};
 pub use quality::{element_volume, min_det_j, scaled_jacobian};
+pub use structured::{Extent, StructuredError, StructuredOptions, generate};

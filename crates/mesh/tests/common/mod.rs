@@ -1,37 +1,46 @@
-//! What several tests need.
-#![allow(dead_code)]
+//! Measures of a mesh, independent of the code under test.
 
-use std::path::PathBuf;
+use geometry::{Gear, Vec3};
+use mesh::Mesh;
+use mesh::element::QuadratureRule;
 
-use mesh::{ElementBlock, ElementKind, Face, Mesh, SurfaceGroup};
-
-/// A file beside the tests.
-pub fn data(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
-}
-
-/// The flavours that `data/make.py` writes.
-pub const FLAVOURS: [&str; 4] = ["a41", "b41", "a22", "b22"];
-
-/// A mesh of one reference element of that kind, its first face named `bore`, its last `flank_left_0`.
-pub fn one_element(kind: ElementKind) -> Mesh {
-    let count = kind.node_count() as u32;
-    let all: Vec<u32> = (0..count).collect();
-    let group = |name: &str, local: usize| {
-        let (face, order) = kind.faces()[local];
-        let nodes: Vec<u32> = order.iter().map(|&l| all[l]).collect();
-        SurfaceGroup { name: name.into(), faces: vec![Face::new(face, &nodes)] }
-    };
-    Mesh {
-        nodes: kind.reference_nodes().iter().map(|x| x.map(|v| v * std::f64::consts::PI / 3.0)).collect(),
-        node_tags: (1..=u64::from(count)).map(|t| 3 * t).collect(),
-        surfaces: vec![group("bore", 0), group("flank_left_0", kind.faces().len() - 1)],
-        volumes: vec!["gear".into()],
-        blocks: vec![ElementBlock { kind, connectivity: all, tags: vec![7] }],
+/// Volume by quadrature and the least Jacobian determinant at quadrature points and nodes, mm^3.
+pub fn volume_and_least_jacobian(mesh: &Mesh) -> (f64, f64) {
+    let (mut volume, mut least) = (0.0, f64::INFINITY);
+    let mut slopes = [[0.0; 3]; 27];
+    for block in &mesh.blocks {
+        for element in block.elements() {
+            let mut det = |xi| {
+                block.kind.shape_gradient(xi, &mut slopes);
+                let mut j = nalgebra::Matrix3::zeros();
+                for (&node, d) in element.iter().zip(&slopes) {
+                    j += Vec3::from(mesh.nodes[node as usize]) * nalgebra::RowVector3::from(*d);
+                }
+                let det = j.determinant();
+                least = least.min(det);
+                det
+            };
+            for point in block.kind.quadrature(QuadratureRule::Mass) {
+                volume += point.weight * det(point.xi);
+            }
+            for &xi in block.kind.reference_nodes() {
+                det(xi);
+            }
+        }
     }
+    (volume, least)
 }
 
-/// Volume of the hexahedra, tetrahedra or wedges by quadrature, mm^3.
-pub fn volume(mesh: &Mesh) -> f64 {
-    mesh::MeshInfo::new(mesh).volume
+/// Area of one tooth's section by Green's theorem on a fine polygon, minus the bore, mm^2.
+pub fn tooth_area(gear: &Gear) -> f64 {
+    let (profile, n) = (gear.profile(), 20_000);
+    let (tip, form) = (profile.roll_tip(), profile.roll_form());
+    let mut half: Vec<(f64, f64)> = vec![(profile.radius(tip), 0.0)];
+    let part = |i: usize| i as f64 / n as f64;
+    half.extend((0..=n).map(|i| tip + part(i) * (form - tip)).map(|u| (profile.radius(u), profile.half_angle(u))));
+    half.extend((0..=n).map(|i| profile.fillet(1.0 - part(i))));
+    half.push((gear.root_radius(), 0.5 * gear.pitch_angle()));
+    // sectors of a polar curve: exact on arcs, second order elsewhere
+    let sector: f64 = half.windows(2).map(|w| 0.25 * (w[0].0.powi(2) + w[1].0.powi(2)) * (w[1].1 - w[0].1)).sum();
+    2.0 * sector - 0.125 * gear.data().bore_diameter.powi(2) * gear.pitch_angle()
 }
