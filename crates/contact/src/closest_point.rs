@@ -82,7 +82,7 @@ pub fn closest_points(scene: &Scene, poses: &[Pose; 2], reach: f64) -> Vec<Conta
         let points = &scene.points[first];
         let per_face = points.len() / scene.first[first].face_count();
         for point in face * per_face..(face + 1) * per_face {
-            if let Some(row) = contact_row(scene, poses, (first, second), point)
+            if let Some(row) = contact_row(scene, poses, (first, second), point, &points[point])
                 && row.gap <= reach
             {
                 rows.push(row);
@@ -92,15 +92,15 @@ pub fn closest_points(scene: &Scene, poses: &[Pose; 2], reach: f64) -> Vec<Conta
     rows
 }
 
-/// Gap row of one point of one pair of patches; `None` when it has no foot on the faces of body 2.
+/// Gap row of a point `p` (numbered `point`) of one pair of patches; `None` when it has no foot on the faces of body 2.
 pub fn contact_row(
     scene: &Scene,
     poses: &[Pose; 2],
     (first, second): (usize, usize),
     point: usize,
+    p: &ContactPoint,
 ) -> Option<ContactRow> {
     let (patch, other) = (&scene.first[first], &scene.second[second]);
-    let p = &scene.points[first][point];
     let position = poses[0].transform_point(&p.position.into()).coords;
     let seen = poses[1].inverse_transform_point(&position.into()).coords;
     let foot = other.surface().locate(&seen)?;
@@ -135,15 +135,4 @@ pub fn contact_row(
             support(other.interpolation(at), -normal_2),
         ],
     })
-}
-
-/// Least gap [mm] of the smooth flanks of a pair of patches over the given surface coordinates of body 1;
-/// infinite when none of them faces body 2.
-pub fn gap_below(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], at: [f64; 2]) -> f64 {
-    let position = poses[0].transform_point(&first.surface().point(at).into());
-    let seen = poses[1].inverse_transform_point(&position).coords;
-    match second.surface().locate(&seen) {
-        Some(foot) if second.face_at(foot.at).is_some() => foot.distance,
-        _ => f64::INFINITY,
-    }
 }

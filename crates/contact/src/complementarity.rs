@@ -27,6 +27,16 @@ pub trait LinearContact {
     /// # Errors
     /// [`ContactError`] when the equations have no unique answer.
     fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError>;
+
+    /// Compliance of a typical row under its own force, mm/N.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the elastic model fails.
+    fn self_compliance(&mut self) -> Result<f64, ContactError>;
+
+    /// Displacements of both bodies' boundary nodes, three a node, mm, under the given row forces: those of the last
+    /// answer of [`LinearContact::solve`].
+    fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2];
 }
 
 /// Data of the complementarity problem, one entry a row.
@@ -97,7 +107,6 @@ pub fn solve(
     levers: &[f64],
     moment: f64,
     law: Law,
-    self_compliance: f64,
     start: &[f64],
 ) -> Result<Solution, ContactError> {
     let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
@@ -108,7 +117,7 @@ pub fn solve(
     }
     let compliance = match law {
         Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
-        Law::Exact => vec![PROXIMAL_COMPLIANCE * self_compliance; rows.len()],
+        Law::Exact => vec![PROXIMAL_COMPLIANCE * bodies.self_compliance()?; rows.len()],
     };
     let mut problem = Problem { gaps, levers: levers.to_vec(), compliance, moment };
     let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();

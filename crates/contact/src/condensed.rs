@@ -27,13 +27,6 @@ impl<'a> Condensed<'a> {
         Self { rows, compliance, columns: vec![[None, None]; rows.len()] }
     }
 
-    /// Mean compliance of a row under its own force, over a few rows, mm/N.
-    pub fn self_compliance(&mut self) -> f64 {
-        let step = (self.rows.len() / 16).max(1);
-        let sampled: Vec<usize> = (0..self.rows.len()).step_by(step).collect();
-        sampled.iter().map(|&i| self.entry(i, i)).sum::<f64>() / sampled.len() as f64
-    }
-
     /// C_ij, mm/N.
     fn entry(&mut self, i: usize, j: usize) -> f64 {
         (0..2)
@@ -56,31 +49,10 @@ impl<'a> Condensed<'a> {
             self.columns[row][body] = Some(column);
         }
     }
-
-    /// Boundary displacements of both bodies under the given row forces, mm.
-    pub fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2] {
-        [0, 1].map(|b| {
-            let mut load = vec![0.0; self.compliance[b].nrows()];
-            for (row, &f) in self.rows.iter().zip(forces) {
-                if f != 0.0 {
-                    load_columns(&row.supports[b], |dof, w| load[dof] += f * w);
-                }
-            }
-            let mut u = vec![0.0; load.len()];
-            for (dof, &f) in load.iter().enumerate() {
-                if f != 0.0 {
-                    for (u, c) in u.iter_mut().zip(self.compliance[b].col(dof).iter()) {
-                        *u += f * c;
-                    }
-                }
-            }
-            u
-        })
-    }
 }
 
 /// Opening of a row by boundary displacements `u` (3 a node), mm.
-pub(crate) fn opening(support: &Support, u: &[f64]) -> f64 {
+pub fn opening(support: &Support, u: &[f64]) -> f64 {
     let d = support.direction;
     (0..support.count)
         .map(|k| {
@@ -137,5 +109,31 @@ impl LinearContact for Condensed<'_> {
         let openings =
             self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
         Ok(Equality { forces, rotation, openings, stiffness })
+    }
+
+    fn self_compliance(&mut self) -> Result<f64, ContactError> {
+        let step = (self.rows.len() / 16).max(1);
+        let sampled: Vec<usize> = (0..self.rows.len()).step_by(step).collect();
+        Ok(sampled.iter().map(|&i| self.entry(i, i)).sum::<f64>() / sampled.len() as f64)
+    }
+
+    fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2] {
+        [0, 1].map(|b| {
+            let mut load = vec![0.0; self.compliance[b].nrows()];
+            for (row, &f) in self.rows.iter().zip(forces) {
+                if f != 0.0 {
+                    load_columns(&row.supports[b], |dof, w| load[dof] += f * w);
+                }
+            }
+            let mut u = vec![0.0; load.len()];
+            for (dof, &f) in load.iter().enumerate() {
+                if f != 0.0 {
+                    for (u, c) in u.iter_mut().zip(self.compliance[b].col(dof).iter()) {
+                        *u += f * c;
+                    }
+                }
+            }
+            u
+        })
     }
 }

@@ -22,9 +22,9 @@ mod points;
 mod surface;
 
 pub use candidates::{Candidates, FacePair};
-pub use closest_point::{ContactRow, GapSource, Scene, Support, closest_points, gap_below};
-pub use complementarity::{Equality, Law, LinearContact, Solution};
-pub use condensed::Condensed;
+pub use closest_point::{ContactRow, GapSource, Scene, Support, closest_points, contact_row};
+pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
+pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use line_length::{LineSample, contact_length};
 pub use patch::{FacePoint, FlankPatch};
