@@ -94,8 +94,7 @@ fn forces_balance_for_either_driver_and_sense() {
         // The pinion turns by `sense`, the wheel against it; load on the driven gear is against its own motion.
         let sense = if rotation == "ccw" { 1.0 } else { -1.0 };
         let push = if driven == "wheel" { -sense } else { sense };
-        let rows = c["time_s"].len();
-        for row in 0..rows {
+        for (row, _) in c["time_s"].iter().enumerate() {
             let v = |name: &str| c[name][row];
             let torque = v(&format!("{driven}_moment_z_nmm"));
             assert!((torque - push * 150e3).abs() < 1e-9 * 150e3, "{driver} {rotation}: {torque}");
