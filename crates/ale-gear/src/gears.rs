@@ -1,7 +1,6 @@
 //! From the words of a scene to exact geometry and meshes.
 
 use geometry::{Gear, GearData, GearPair, GeometryError};
-use mesh::{GearMesh, Mesh, MeshError};
 
 use crate::error::CommandError;
 use crate::facts::GeometryFacts;

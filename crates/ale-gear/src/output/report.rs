@@ -37,6 +37,8 @@ pub fn write_report(
         version => env!("CARGO_PKG_VERSION"),
         scene => scene.to_toml(),
         scene_file => scene.file.display().to_string(),
+        torque_nm => scene.operation.torque_nm.to_string(),
+        vtu => scene.output.vtu,
         headline => Serde(headline),
         facts => Serde(facts),
         cost => Serde(cost),

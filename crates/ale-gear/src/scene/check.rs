@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mesh::GroupNames;
+use mesh::{GroupNames, StructuredOptions};
 
 use super::raw::{
     RawAnalysis, RawContact, RawGear, RawGroups, RawMaterial, RawMesher, RawOperation, RawOutput, RawPair, RawScene,
@@ -179,14 +179,15 @@ fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<Pat
 }
 
 fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32) -> Checked<MesherScene> {
+    let d = StructuredOptions::default();
     Ok(MesherScene {
-        order: s.whole("order", &raw.order, 1, 1, 2)?,
-        elements_profile: s.whole("elements_profile", &raw.elements_profile, 8, 1, 500)?,
-        elements_fillet: s.whole("elements_fillet", &raw.elements_fillet, 3, 1, 500)?,
-        elements_thickness: s.whole("elements_thickness", &raw.elements_thickness, 6, 2, 500)?,
-        elements_face: s.whole("elements_face", &raw.elements_face, 12, 1, 2000)?,
-        elements_rim: s.whole("elements_rim", &raw.elements_rim, 4, 1, 500)?,
-        sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth)?,
+        order: s.whole("order", &raw.order, d.order, 1, 2)?,
+        elements_profile: s.whole("elements_profile", &raw.elements_profile, d.elements_profile, 1, 500)?,
+        elements_fillet: s.whole("elements_fillet", &raw.elements_fillet, d.elements_fillet, 2, 500)?,
+        elements_thickness: s.whole("elements_thickness", &raw.elements_thickness, d.elements_thickness, 1, 500)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, d.elements_face, 1, 2000)?,
+        elements_rim: s.whole("elements_rim", &raw.elements_rim, d.elements_rim, 1, 500)?,
+        sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })
 }
 

@@ -1,13 +1,13 @@
 //! What can be wrong with a scene, and where.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A line of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// The file as the user named it.
-    pub file: PathBuf,
+    /// The file as the user named it; boxed, as every check hands a place about.
+    pub file: Box<Path>,
     /// Counted from 1.
     pub line: usize,
 }

@@ -21,7 +21,7 @@ impl Source<'_> {
     pub fn place(&self, span: &Range<usize>) -> Place {
         let end = span.start.min(self.text.len());
         let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place { file: self.file.to_owned(), line }
+        Place { file: self.file.into(), line }
     }
 
     /// A message of the TOML reader in this program's words.
@@ -54,7 +54,10 @@ impl Source<'_> {
             };
         }
         // Only the first line: the reader's own excerpts are for its own layout.
-        let message = message.lines().next().unwrap_or("not readable").to_owned();
+        let mut message = message.lines().next().unwrap_or("not readable").to_owned();
+        if message == "duplicate key" {
+            message = format!("`{}` is there twice", self.text.get(span).unwrap_or_default());
+        }
         SceneError::Syntax { place, message }
     }
 
