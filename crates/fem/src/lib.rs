@@ -1,1 +1,37 @@
 //! What are K and M?
+//!
+//! From a mesh to its matrices and their factors:
+//!
+//! 1. [`Material`], [`ElementOptions`], [`DofMap`]: what is meant;
+//! 2. [`assemble`]: sparse stiffness [N/mm] and consistent mass [t];
+//! 3. [`BoundaryLastFactor`]: one sparse Cholesky factor that holds the condensed stiffness, the compliance
+//!    and the constraint modes of chosen boundary coordinates;
+//! 4. [`IndefiniteFactor`]: the same for a system with constraints;
+//! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: what follows from displacements and mesh.
+//!
+//! Units: mm, N, MPa, t, s. Results are the same to the last bit for any number of threads.
+
+mod assembly;
+mod dofs;
+mod element_matrices;
+mod error;
+mod factor;
+mod indefinite;
+mod mass_properties;
+mod material;
+mod ordering;
+mod stress;
+mod symmetric;
+
+pub use assembly::{System, assemble, assemble_mass, assemble_stiffness};
+pub use dofs::DofMap;
+pub use element_matrices::{
+    ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness,
+};
+pub use error::FemError;
+pub use factor::BoundaryLastFactor;
+pub use indefinite::IndefiniteFactor;
+pub use mass_properties::{MassProperties, mass_properties};
+pub use material::Material;
+pub use stress::{StressOperator, max_principal, nodal_stress, von_mises};
+pub use symmetric::SymmetricMatrix;

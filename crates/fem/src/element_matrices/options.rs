@@ -1,0 +1,34 @@
+//! Which variant of an element is meant.
+
+/// Enhancement of hex8 against locking in bending.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
+pub enum IncompatibleModes {
+    /// Three quadratic modes an axis with the Jacobian of the centre and the ratio det J0 / det J, so that
+    /// distorted elements pass the patch test. Source: Taylor, Beresford and Wilson, IJNME 10, 1976.
+    #[default]
+    Taylor,
+    /// The same without the ratio, as some other programs have it: fails the patch test slightly on
+    /// distorted elements. For comparison with them.
+    WithoutJacobianRatio,
+    /// Plain hex8: locks in bending. For comparison.
+    Off,
+}
+
+/// Points of integration for the stiffness of hex20.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
+pub enum Integration {
+    /// 3 x 3 x 3 points: no zero modes but the rigid ones.
+    #[default]
+    Full,
+    /// 2 x 2 x 2 points: a little softer, with six zero modes that do not pass from element to element.
+    Reduced,
+}
+
+/// Variants of the elements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
+pub struct ElementOptions {
+    /// For hex8.
+    pub incompatible_modes: IncompatibleModes,
+    /// For hex20.
+    pub integration: Integration,
+}

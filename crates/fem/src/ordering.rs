@@ -1,0 +1,105 @@
+//! In which order to eliminate: nested dissection of the interior, chosen degrees of freedom last.
+//!
+//! METIS dissects the graph of nodes (degrees of freedom that share all their neighbours count as one
+//! node); a postorder of the elimination tree then brings columns of equal structure together, which gives
+//! fewer and larger supernodes at the same fill.
+
+mod graph;
+mod metis;
+
+use faer::{
+    Side,
+    perm::PermRef,
+    sparse::linalg::{
+        SupernodalThreshold,
+        cholesky::{
+            CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+            factorize_symbolic_cholesky, supernodal::SymbolicSupernodalCholesky,
+        },
+    },
+};
+
+use crate::{FemError, SymmetricMatrix};
+use graph::Graph;
+
+/// An elimination order and its inverse.
+#[derive(Debug, Clone)]
+pub(crate) struct Ordering {
+    /// `forward[new] = old`.
+    pub forward: Vec<usize>,
+    /// `inverse[old] = new`.
+    pub inverse: Vec<usize>,
+    /// Number of interior degrees of freedom; the others come last, in the order given.
+    pub interior: usize,
+}
+
+impl Ordering {
+    /// Nested dissection of everything but `last`, then `last` as given.
+    pub(crate) fn new(matrix: &SymmetricMatrix, last: &[usize]) -> Result<Self, FemError> {
+        let n = matrix.n();
+        let mut is_last = vec![false; n];
+        for &dof in last {
+            match is_last.get_mut(dof) {
+                Some(seen) if !*seen => *seen = true,
+                _ => return Err(FemError::BadDof { dof, count: n }),
+            }
+        }
+        let graph = Graph::new(matrix, &is_last)?;
+        let order = graph.postorder(&metis::nested_dissection(&graph)?);
+        let mut forward: Vec<usize> = order
+            .iter()
+            .flat_map(|&group| graph.members(group))
+            .copied()
+            .collect();
+        forward.extend_from_slice(last);
+        let mut inverse = vec![0; n];
+        for (new, &old) in forward.iter().enumerate() {
+            inverse[old] = new;
+        }
+        Ok(Self {
+            forward,
+            inverse,
+            interior: n - last.len(),
+        })
+    }
+
+    /// Symbolic supernodal factor of the matrix in this order.
+    pub(crate) fn symbolic(
+        &self,
+        matrix: &SymmetricMatrix,
+    ) -> Result<SymbolicCholesky<usize>, FemError> {
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let order = PermRef::new_checked(&self.forward, &self.inverse, matrix.n());
+        let order = SymmetricOrdering::Custom(order);
+        factorize_symbolic_cholesky(matrix.lower().symbolic(), Side::Lower, order, params).map_err(
+            |_| FemError::OutOfMemory {
+                bytes: matrix.stored() * size_of::<usize>(),
+            },
+        )
+    }
+}
+
+/// The supernodal structure, which the symbolic factor has been forced to have.
+pub(crate) fn supernodal(
+    symbolic: &SymbolicCholesky<usize>,
+) -> Option<&SymbolicSupernodalCholesky<usize>> {
+    match symbolic.raw() {
+        SymbolicCholeskyRaw::Supernodal(structure) => Some(structure),
+        SymbolicCholeskyRaw::Simplicial(_) => None,
+    }
+}
+
+/// Zeroed memory for a factor, or a typed error where the system refuses it.
+pub(crate) fn try_zeroed(count: usize) -> Result<Vec<f64>, FemError> {
+    let mut values = Vec::new();
+    values
+        .try_reserve_exact(count)
+        .map_err(|_| FemError::OutOfMemory {
+            bytes: count.saturating_mul(size_of::<f64>()),
+        })?;
+    values.resize(count, 0.0);
+    Ok(values)
+}

@@ -1,0 +1,224 @@
+//! Stress at nodes from displacements.
+//!
+//! In each element the stress is evaluated at the points where it is most accurate (hex: 2^3 Gauss points,
+//! tet10: 4, tet4: 1, wedge: 3 x 2), carried to the nodes by the linear field through these points, and
+//! averaged over the elements of a node. For hex8 the incompatible modes' strains are included.
+//! Source of the points: Barlow, IJNME 10, 1976.
+//!
+//! Components: xx, yy, zz, xy, yz, zx, MPa.
+
+mod element;
+
+use faer::{Mat, MatRef};
+use mesh::Mesh;
+use rayon::prelude::*;
+
+use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
+use element::ElementStress;
+
+/// Stress at every node [MPa] from the displacement of every node [mm].
+///
+/// Nodes of no element get zero. The same bits for any number of threads.
+///
+/// # Errors
+/// [`FemError::Shape`] when there is not one displacement a node; [`FemError::Inverted`],
+/// [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`].
+pub fn nodal_stress(
+    mesh: &Mesh,
+    material: &Material,
+    options: &ElementOptions,
+    displacement: &[[f64; 3]],
+) -> Result<Vec<[f64; 6]>, FemError> {
+    check_blocks(mesh)?;
+    if displacement.len() != mesh.nodes.len() {
+        return Err(FemError::Shape {
+            what: "displacements",
+            expected: mesh.nodes.len(),
+            found: displacement.len(),
+        });
+    }
+    let mut sum = vec![([0.0; 6], 0u32); mesh.nodes.len()];
+    for block in &mesh.blocks {
+        let kernel = ElementStress::new(block.kind, material, options);
+        let nodes = block.kind.node_count();
+        let stresses: Vec<Result<Vec<[f64; 6]>, FemError>> = block
+            .connectivity
+            .par_chunks(nodes)
+            .zip(&block.tags)
+            .map(|(element, &tag)| {
+                let at = |list: &[[f64; 3]]| -> Vec<[f64; 3]> {
+                    element.iter().map(|&node| list[node as usize]).collect()
+                };
+                let prepared = kernel.prepare(&at(&mesh.nodes), tag)?;
+                Ok(kernel.at_nodes(&prepared, &at(displacement)))
+            })
+            .collect();
+        for (element, stress) in block.elements().zip(stresses) {
+            for (&node, stress) in element.iter().zip(stress?) {
+                let (total, count) = &mut sum[node as usize];
+                (0..6).for_each(|k| total[k] += stress[k]);
+                *count += 1;
+            }
+        }
+    }
+    Ok(sum
+        .into_iter()
+        .map(|(total, count)| total.map(|s| s / f64::from(count.max(1))))
+        .collect())
+}
+
+/// Von Mises equivalent stress, MPa.
+pub fn von_mises(stress: &[f64; 6]) -> f64 {
+    let [x, y, z, xy, yz, zx] = *stress;
+    let normal = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
+    (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+}
+
+/// Largest principal stress, MPa (positive in tension).
+pub fn max_principal(stress: &[f64; 6]) -> f64 {
+    let [x, y, z, xy, yz, zx] = *stress;
+    nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z)
+        .symmetric_eigenvalues()
+        .max()
+}
+
+/// Stress at chosen nodes as a linear map of the free displacements: the stress modes' left factor.
+///
+/// ```text
+/// sigma = S u,   row 6 i + k: component k at the i-th node asked for   [MPa/mm]
+/// ```
+/// Stress modes of a reduced body are S applied to its expanded boundary displacements.
+#[derive(Debug, Clone)]
+pub struct StressOperator {
+    /// For each node asked for: (free node, 6 x 3 block, row-major).
+    rows: Vec<Vec<(usize, [f64; 18])>>,
+    free_count: usize,
+}
+
+impl StressOperator {
+    /// Prepares the map for `nodes`; displacements of fixed nodes are zero.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node does not exist;
+    /// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`].
+    pub fn new(
+        mesh: &Mesh,
+        material: &Material,
+        options: &ElementOptions,
+        dofs: &DofMap,
+        nodes: &[u32],
+    ) -> Result<Self, FemError> {
+        check_blocks(mesh)?;
+        let count = mesh.nodes.len();
+        let wrong = nodes.iter().map(|&n| n as usize).find(|&n| n >= count);
+        if let Some(found) = wrong.or((dofs.node_count() != count).then_some(dofs.node_count())) {
+            return Err(FemError::Shape {
+                what: "nodes",
+                expected: count,
+                found,
+            });
+        }
+        let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
+        for (place, &node) in nodes.iter().enumerate() {
+            places[node as usize].push(place);
+        }
+        let mut rows = vec![(Vec::new(), 0u32); nodes.len()];
+        for block in &mesh.blocks {
+            let kernel = ElementStress::new(block.kind, material, options);
+            for (element, &tag) in block.elements().zip(&block.tags) {
+                if element.iter().all(|&node| places[node as usize].is_empty()) {
+                    continue;
+                }
+                let x: Vec<[f64; 3]> = element.iter().map(|&n| mesh.nodes[n as usize]).collect();
+                let prepared = kernel.prepare(&x, tag)?;
+                let mut u = vec![[0.0; 3]; element.len()];
+                // column by column: the stress of a unit move
+                let mut blocks = vec![vec![[0.0; 18]; element.len()]; element.len()];
+                for j in 0..element.len() {
+                    for axis in 0..3 {
+                        u[j][axis] = 1.0;
+                        for (i, stress) in kernel.at_nodes(&prepared, &u).iter().enumerate() {
+                            (0..6).for_each(|k| blocks[i][j][3 * k + axis] = stress[k]);
+                        }
+                        u[j][axis] = 0.0;
+                    }
+                }
+                for (&node, blocks) in element.iter().zip(&blocks) {
+                    for &place in &places[node as usize] {
+                        let (row, touching) = &mut rows[place];
+                        *touching += 1;
+                        for (&other, block) in element.iter().zip(blocks) {
+                            if let Some(position) = dofs.position(other) {
+                                row.push((position, *block));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        let rows = rows
+            .into_iter()
+            .map(|(row, touching)| merge(row, touching))
+            .collect();
+        Ok(Self {
+            rows,
+            free_count: dofs.free_count(),
+        })
+    }
+
+    /// Number of nodes asked for.
+    pub fn node_count(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Stress for one or many columns of free displacements (n x k, mm): 6 x nodes rows, k columns, MPa.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when `displacement` does not have one row a free degree of freedom.
+    pub fn apply(&self, displacement: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
+        if displacement.nrows() != self.free_count {
+            return Err(FemError::Shape {
+                what: "rows",
+                expected: self.free_count,
+                found: displacement.nrows(),
+            });
+        }
+        let mut result = Mat::zeros(6 * self.rows.len(), displacement.ncols());
+        result
+            .as_mut()
+            .par_col_chunks_mut(1)
+            .zip(displacement.par_col_chunks(1))
+            .for_each(|(mut stress, u)| {
+                for (i, row) in self.rows.iter().enumerate() {
+                    for (position, block) in row {
+                        for k in 0..6 {
+                            for axis in 0..3 {
+                                stress[(6 * i + k, 0)] +=
+                                    block[3 * k + axis] * u[(3 * position + axis, 0)];
+                            }
+                        }
+                    }
+                }
+            });
+        Ok(result)
+    }
+}
+
+/// Sums the blocks of one node by free node and divides by the number of elements.
+fn merge(mut row: Vec<(usize, [f64; 18])>, touching: u32) -> Vec<(usize, [f64; 18])> {
+    row.sort_by_key(|&(position, _)| position); // stable: sums keep their order
+    let mut merged: Vec<(usize, [f64; 18])> = Vec::new();
+    for (position, block) in row {
+        match merged.last_mut() {
+            Some((last, sum)) if *last == position => {
+                sum.iter_mut().zip(block).for_each(|(s, b)| *s += b);
+            }
+            _ => merged.push((position, block)),
+        }
+    }
+    let share = 1.0 / f64::from(touching.max(1));
+    merged
+        .iter_mut()
+        .for_each(|(_, block)| block.iter_mut().for_each(|b| *b *= share));
+    merged
+}
