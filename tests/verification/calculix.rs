@@ -69,7 +69,13 @@ fn compare(name: &str, history: &StaticHistory, reference: &Reference) {
         );
         for (q, wanted) in p.pairs.iter().zip(wanted) {
             let off = (q.normal_force - wanted) / total;
-            assert!(off.abs() < 0.01, "{name}, s = {}: pair {} carries {} N, CalculiX {wanted} N", p.mesh_phase, q.pair, q.normal_force);
+            assert!(
+                off.abs() < 0.01,
+                "{name}, s = {}: pair {} carries {} N, CalculiX {wanted} N",
+                p.mesh_phase,
+                q.pair,
+                q.normal_force
+            );
         }
     }
     assert!((mean / wanted_mean - 1.0).abs() < 0.005, "{name}: mean STE {mean} um, CalculiX {wanted_mean} um");

@@ -5,7 +5,9 @@
 #[non_exhaustive]
 pub enum AleError {
     /// The outgoing tooth still carries load.
-    #[error("pair {pair} still carries {force_n:.3} N and cannot leave the window (pinion tooth {pinion_tooth}, wheel tooth {wheel_tooth})")]
+    #[error(
+        "pair {pair} still carries {force_n:.3} N and cannot leave the window (pinion tooth {pinion_tooth}, wheel tooth {wheel_tooth})"
+    )]
     LoadedTooth {
         /// Running number of the pair.
         pair: i64,

@@ -115,12 +115,8 @@ pub fn contact_row(
         let arm = position - pose.translation.vector;
         arm.x * normal.y - arm.y * normal.x
     };
-    let support = |i: Interpolation, direction: Vec3| Support {
-        nodes: i.nodes,
-        weights: i.weights,
-        count: i.count,
-        direction,
-    };
+    let support =
+        |i: Interpolation, direction: Vec3| Support { nodes: i.nodes, weights: i.weights, count: i.count, direction };
     Some(ContactRow {
         patches: (first, second),
         point,

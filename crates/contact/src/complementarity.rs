@@ -217,13 +217,7 @@ fn pivot(
     Err(ContactError::NotConverged { iterations: limit, infeasible, points: n })
 }
 
-fn finish(
-    rows: &[ContactRow],
-    problem: &Problem,
-    answer: Equality,
-    active: Vec<usize>,
-    iterations: usize,
-) -> Solution {
+fn finish(rows: &[ContactRow], problem: &Problem, answer: Equality, active: Vec<usize>, iterations: usize) -> Solution {
     let mut forces = vec![0.0; rows.len()];
     for (&i, &f) in active.iter().zip(&answer.forces) {
         forces[i] = f.max(0.0);

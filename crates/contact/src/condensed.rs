@@ -91,9 +91,7 @@ impl LinearContact for Condensed<'_> {
             }
             s[(b, b)] += problem.compliance[j];
         }
-        let rhs = Mat::from_fn(n, 2, |a, k| {
-            if k == 0 { -problem.gaps[active[a]] } else { problem.levers[active[a]] }
-        });
+        let rhs = Mat::from_fn(n, 2, |a, k| if k == 0 { -problem.gaps[active[a]] } else { problem.levers[active[a]] });
         let factor = s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?;
         let x = factor.solve(&rhs);
         let (mut carried, mut stiffness) = (0.0, 0.0);
@@ -106,8 +104,7 @@ impl LinearContact for Condensed<'_> {
         let mut all = vec![0.0; self.rows.len()];
         active.iter().zip(&forces).for_each(|(&i, &f)| all[i] = f);
         let [u1, u2] = self.displacements(&all);
-        let openings =
-            self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
+        let openings = self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
         Ok(Equality { forces, rotation, openings, stiffness })
     }
 

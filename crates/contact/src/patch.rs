@@ -310,6 +310,8 @@ impl Bins {
     }
 
     fn around(&self, at: [f64; 2]) -> Option<&[u32]> {
-        at.iter().all(|v| v.is_finite()).then(|| &*self.faces[self.index(0, at[0]) * self.count[1] + self.index(1, at[1])])
+        at.iter()
+            .all(|v| v.is_finite())
+            .then(|| &*self.faces[self.index(0, at[0]) * self.count[1] + self.index(1, at[1])])
     }
 }

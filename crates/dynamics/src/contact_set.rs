@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use ale::ToothWindow;
-use contact::{Candidates, Condensed, ContactError, ContactPoint, ContactRow, FlankPatch, LinearContact, Scene, contact_points};
+use contact::{
+    Candidates, Condensed, ContactError, ContactPoint, ContactRow, FlankPatch, LinearContact, Scene, contact_points,
+};
 use geometry::{Gear, GearPair, Side};
 use reduction::Window;
 

@@ -103,7 +103,9 @@ pub(crate) type Memory = BTreeMap<(usize, usize, usize), f64>;
 impl Equilibrium {
     pub(crate) fn memory(&self) -> Memory {
         let active = self.solution.active.iter();
-        active.map(|&i| ((self.rows[i].patches.0, self.rows[i].patches.1, self.rows[i].point), self.solution.forces[i])).collect()
+        active
+            .map(|&i| ((self.rows[i].patches.0, self.rows[i].patches.1, self.rows[i].point), self.solution.forces[i]))
+            .collect()
     }
 
     /// Opening of the gaps at the rows' normal approach, largest, mm.
@@ -182,9 +184,7 @@ pub(crate) fn equilibrium(
         }
         drop(bodies);
         let active = solution.active.iter();
-        memory = active
-            .map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i]))
-            .collect();
+        memory = active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect();
         reach = facets + (0.25 * error.abs()).max(2.0 * step_mm);
     }
     Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })

@@ -31,7 +31,9 @@ pub enum StaticError {
         source: contact::ContactError,
     },
     /// The pose did not settle.
-    #[error("at mesh phase {phase:.6} of cycle {cycle}: no equilibrium after {iterations} steps, the last one {step_mm:.3e} mm")]
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: no equilibrium after {iterations} steps, the last one {step_mm:.3e} mm"
+    )]
     NoEquilibrium {
         /// Mesh cycle.
         cycle: i64,
@@ -82,9 +84,10 @@ impl StaticError {
             Self::Reduction { source, .. } => source.hint(),
             Self::Surface { source, .. } | Self::Contact { source, .. } => source.hint(),
             Self::NoEquilibrium { .. } => Some("lower the torque, or try other points_per_face_edge".into()),
-            Self::Starved { window, .. } => {
-                Some(format!("set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque", window + 1))
-            }
+            Self::Starved { window, .. } => Some(format!(
+                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
+                window + 1
+            )),
             Self::Window(e) => e.hint(),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
         }

@@ -110,23 +110,21 @@ fn pair_result(
     let running = window.first() + k as i64;
     let [pinion_tooth, wheel_tooth] = window.teeth_of(running);
     let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
-    let loaded: Vec<(&ContactRow, f64)> = e
-        .rows
-        .iter()
-        .zip(e.solution.forces.iter().copied())
-        .filter(|(row, f)| *f > 0.0 && mine(row))
-        .collect();
+    let loaded: Vec<(&ContactRow, f64)> =
+        e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
     let samples = line_samples(pair, set, options, e, k);
     let along = 1.0 / pair.base_helix_angle().cos();
     let tolerance = TOUCHING * e.approach(pair);
     let touches = options.torque > 0.0;
     let length = |from: f64, to: f64| {
-        let part: Vec<LineSample> = samples.iter().copied().filter(|s| s.z >= from - 1e-12 && s.z <= to + 1e-12).collect();
+        let part: Vec<LineSample> =
+            samples.iter().copied().filter(|s| s.z >= from - 1e-12 && s.z <= to + 1e-12).collect();
         if touches { contact_length(&part, tolerance, along) } else { 0.0 }
     };
     let half = 0.5 * pair.face_width();
     let bin = pair.face_width() / PRESSURE_BINS as f64;
-    let modulus = hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
+    let modulus =
+        hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
     let max_pressure = (0..PRESSURE_BINS)
         .map(|b| {
             let (from, to) = (-half + b as f64 * bin, -half + (b + 1) as f64 * bin);
@@ -138,7 +136,11 @@ fn pair_result(
             }
             // A bin that the line leaves carries its load on part of its length.
             let covered = length(from, to).max(0.25 * bin * along);
-            if load > 0.0 { hertz::line_pressure(load / covered, relative_radius(pair, path / load), modulus) } else { 0.0 }
+            if load > 0.0 {
+                hertz::line_pressure(load / covered, relative_radius(pair, path / load), modulus)
+            } else {
+                0.0
+            }
         })
         .fold(0.0, f64::max);
     PairResult {
@@ -160,7 +162,13 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
 }
 
 /// Least deformed gap of window pair `k` along the face, where the undeformed line of contact, or the end of the path, runs.
-fn line_samples(pair: &GearPair, set: &ContactSet, options: &StaticOptions, e: &Equilibrium, k: usize) -> Vec<LineSample> {
+fn line_samples(
+    pair: &GearPair,
+    set: &ContactSet,
+    options: &StaticOptions,
+    e: &Equilibrium,
+    k: usize,
+) -> Vec<LineSample> {
     let side = options.side();
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();
@@ -185,7 +193,11 @@ fn line_samples(pair: &GearPair, set: &ContactSet, options: &StaticOptions, e: &
                 let position = patch.surface().point(coordinates);
                 let point = ContactPoint { at, coordinates, position, area: 0.0 };
                 let row = contact_row(&scene, &e.poses, (first, second), usize::MAX, &point)?;
-                Some(row.gap + opening(&row.supports[0], &e.displacements[0]) + opening(&row.supports[1], &e.displacements[1]))
+                Some(
+                    row.gap
+                        + opening(&row.supports[0], &e.displacements[0])
+                        + opening(&row.supports[1], &e.displacements[1]),
+                )
             });
             LineSample { z, gap: gap.unwrap_or(f64::INFINITY) }
         })

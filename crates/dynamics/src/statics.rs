@@ -4,7 +4,7 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, Station, StaticError, StaticHistory, StaticOptions, StaticPosition,
+    ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
     equilibrium::equilibrium, loads,
 };
 
@@ -104,17 +104,8 @@ impl StaticModel {
             return Ok(self.unloaded(station));
         }
         let guess = self.last.take();
-        let e = equilibrium(
-            &self.pair,
-            &self.gears,
-            &self.set,
-            &self.window,
-            &self.options,
-            station,
-            guess.as_ref(),
-        )?;
-        let result =
-            loads::position(&self.pair, &self.gears, &self.set, &self.window, &self.options, &e, self.changes);
+        let e = equilibrium(&self.pair, &self.gears, &self.set, &self.window, &self.options, station, guess.as_ref())?;
+        let result = loads::position(&self.pair, &self.gears, &self.set, &self.window, &self.options, &e, self.changes);
         let starved = self.starved(&e);
         self.last = Some(e);
         starved.map_or(Ok(result), Err)
@@ -250,8 +241,7 @@ impl StaticModel {
     ) -> Result<StaticHistory, StaticError> {
         let mut history = StaticHistory::default();
         for i in 0..positions * cycles {
-            let station =
-                Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 };
+            let station = Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 };
             let position = self.advance(station, |_| ())?;
             seen(i, &position);
             history.positions.push(position);

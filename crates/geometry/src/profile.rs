@@ -121,11 +121,13 @@ impl TransverseProfile {
                 let u = ((r / self.base_radius).powi(2) - 1.0).max(0.0).sqrt();
                 (r, space - (self.half_pitch - self.half_angle(u)))
             };
-            let samples = 2000;
-            let at = |i: usize| self.fillet_end * i as f64 / f64::from(samples as u32);
+            // Only what the rack cuts above the base circle counts; a slight undercut ends close to it.
+            let above = bisect(0.0, self.fillet_end, |t| self.base_radius - excess(t).0);
+            let samples = 4000;
+            let at = |i: usize| above + (self.fillet_end - above) * i as f64 / f64::from(samples as u32);
             let crossing = (1..=samples).find(|&i| {
                 let ((r0, e0), (r1, e1)) = (excess(at(i - 1)), excess(at(i)));
-                r0 > self.base_radius && r1 > r0 && e0 > 0.0 && e1 <= 0.0
+                r1 > r0 && e0 > 0.0 && e1 <= 0.0
             });
             let crossing = crossing.ok_or(GeometryError::OutOfRange {
                 name: "dedendum with this few teeth",

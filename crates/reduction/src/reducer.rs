@@ -257,9 +257,11 @@ fn boundary_nodes(gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<
     let mut nodes = Vec::new();
     for &tooth in teeth {
         for &side in sides {
-            let faces = gear
-                .flank(tooth, side)
-                .ok_or_else(|| ReductionError::MissingFlank { tooth, side, available: gear.teeth() })?;
+            let faces = gear.flank(tooth, side).ok_or_else(|| ReductionError::MissingFlank {
+                tooth,
+                side,
+                available: gear.teeth(),
+            })?;
             for &node in faces.iter().flat_map(|f| f.nodes()) {
                 if gear.bore_nodes().binary_search(&node).is_ok() {
                     let node = gear.mesh().node_tags[node as usize];
