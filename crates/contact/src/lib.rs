@@ -1,1 +1,37 @@
 //! Who touches whom, how hard, over what length?
+//!
+//! Three steps, in the order of the files:
+//!
+//! 1. [`Candidates`]: which flank faces may touch (bounding volumes, surface against surface);
+//! 2. [`closest_points`]: gap and normal of each candidate point against the other flank's smooth surface;
+//! 3. [`complementarity`]: forces so that g >= 0, p >= 0, p g = 0 at every point, together with the rotation that
+//!    balances the torque.
+//!
+//! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
+//! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
+
+mod candidates;
+mod closest_point;
+pub mod complementarity;
+mod condensed;
+mod error;
+pub mod hertz;
+mod line_length;
+mod patch;
+mod points;
+mod surface;
+
+pub use candidates::{Candidates, FacePair};
+pub use closest_point::{ContactRow, GapSource, Scene, Support, closest_points, contact_row};
+pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
+pub use condensed::{Condensed, opening};
+pub use error::ContactError;
+pub use line_length::{LineSample, contact_length};
+pub use patch::{FacePoint, FlankPatch};
+pub use points::{ContactPoint, contact_points};
+pub use surface::{Cylinder, Foot, Surface};
+
+/// Points and vectors, mm.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// Pose of a body: its own frame to the common one.
+pub type Pose = nalgebra::Isometry3<f64>;

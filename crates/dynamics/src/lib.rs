@@ -1,5 +1,22 @@
 //! How do the bodies move?
+//!
+//! Quasi-static analysis: the driver stands at a given angle, the driven gear turns until the contact forces balance its
+//! torque. Station by station over mesh cycles, with tooth changes in between.
 
+mod contact_set;
+mod elastic;
+mod equilibrium;
+mod error;
+mod full;
+mod loads;
+mod options;
 pub mod result;
+mod statics;
 
+pub use contact_set::ContactSet;
+pub use elastic::{ElasticGear, FullGear};
+pub use equilibrium::{Equilibrium, Station};
+pub use error::StaticError;
+pub use options::{Driver, StaticOptions};
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, Wrench};
+pub use statics::{Change, StaticModel};

@@ -31,17 +31,9 @@ pub struct System {
 /// # Errors
 /// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`], and
 /// [`FemError::Shape`] when `dofs` is for another number of nodes.
-pub fn assemble(
-    mesh: &Mesh,
-    material: &Material,
-    dofs: &DofMap,
-    options: &ElementOptions,
-) -> Result<System, FemError> {
+pub fn assemble(mesh: &Mesh, material: &Material, dofs: &DofMap, options: &ElementOptions) -> Result<System, FemError> {
     let pattern = Pattern::new(mesh, dofs)?;
-    Ok(System {
-        stiffness: stiffness_on(&pattern, mesh, material, options)?,
-        mass: mass_on(&pattern, mesh, material)?,
-    })
+    Ok(System { stiffness: stiffness_on(&pattern, mesh, material, options)?, mass: mass_on(&pattern, mesh, material)? })
 }
 
 /// Stiffness K [N/mm] alone; see [`assemble`].
@@ -61,11 +53,7 @@ pub fn assemble_stiffness(
 ///
 /// # Errors
 /// As [`assemble`].
-pub fn assemble_mass(
-    mesh: &Mesh,
-    material: &Material,
-    dofs: &DofMap,
-) -> Result<SymmetricMatrix, FemError> {
+pub fn assemble_mass(mesh: &Mesh, material: &Material, dofs: &DofMap) -> Result<SymmetricMatrix, FemError> {
     mass_on(&Pattern::new(mesh, dofs)?, mesh, material)
 }
 
@@ -82,8 +70,7 @@ fn stiffness_on(
     let mut values = vec![0.0; base(nodes)];
     for block in &mesh.blocks {
         let kernel = StiffnessKernel::new(block.kind, material, options);
-        let fill =
-            |x: &[[f64; 3]], tag: u64, out: &mut [[f64; 9]]| kernel.fill(x, tag, out).map(drop);
+        let fill = |x: &[[f64; 3]], tag: u64, out: &mut [[f64; 9]]| kernel.fill(x, tag, out).map(drop);
         let add = |values: &mut [f64], column: &Column, k: &[f64; 9]| {
             let mut start = base(column.node) - column.slice_start;
             for b in 0..3 {
@@ -91,11 +78,7 @@ fn stiffness_on(
                     if column.place == 0 && a < b {
                         continue;
                     }
-                    let entry = if column.transposed {
-                        k[3 * b + a]
-                    } else {
-                        k[3 * a + b]
-                    };
+                    let entry = if column.transposed { k[3 * b + a] } else { k[3 * a + b] };
                     values[start + 3 * column.place + a - b] += entry;
                 }
                 start += 3 * column.length - b;
@@ -107,28 +90,16 @@ fn stiffness_on(
     let (mut starts, mut rows) = (vec![0; 3 * nodes + 1], Vec::with_capacity(values.len()));
     for j in 0..nodes {
         for b in 0..3 {
-            let column = pattern
-                .column(j)
-                .iter()
-                .flat_map(|&i| (0..3).map(move |a| 3 * i as usize + a));
+            let column = pattern.column(j).iter().flat_map(|&i| (0..3).map(move |a| 3 * i as usize + a));
             rows.extend(column.skip(b));
             starts[3 * j + b + 1] = rows.len();
         }
     }
-    Ok(SymmetricMatrix::from_sorted_columns(
-        3 * nodes,
-        starts,
-        rows,
-        values,
-    ))
+    Ok(SymmetricMatrix::from_sorted_columns(3 * nodes, starts, rows, values))
 }
 
 /// Every node pair fills the diagonal of a 3 x 3 block with one number.
-fn mass_on(
-    pattern: &Pattern,
-    mesh: &Mesh,
-    material: &Material,
-) -> Result<SymmetricMatrix, FemError> {
+fn mass_on(pattern: &Pattern, mesh: &Mesh, material: &Material) -> Result<SymmetricMatrix, FemError> {
     let base = |j: usize| pattern.starts[j];
     let nodes = pattern.node_count();
     let mut pairs = vec![0.0; base(nodes)];
@@ -142,10 +113,7 @@ fn mass_on(
         pattern.gather(mesh, block, &mut pairs, base, buffer, &fill, &add)?;
     }
     let mut starts = vec![0; 3 * nodes + 1];
-    let (mut rows, mut values) = (
-        Vec::with_capacity(3 * pairs.len()),
-        Vec::with_capacity(3 * pairs.len()),
-    );
+    let (mut rows, mut values) = (Vec::with_capacity(3 * pairs.len()), Vec::with_capacity(3 * pairs.len()));
     for j in 0..nodes {
         for a in 0..3 {
             rows.extend(pattern.column(j).iter().map(|&i| 3 * i as usize + a));
@@ -153,12 +121,7 @@ fn mass_on(
             starts[3 * j + a + 1] = rows.len();
         }
     }
-    Ok(SymmetricMatrix::from_sorted_columns(
-        3 * nodes,
-        starts,
-        rows,
-        values,
-    ))
+    Ok(SymmetricMatrix::from_sorted_columns(3 * nodes, starts, rows, values))
 }
 
 /// Where an element's node pair goes.
@@ -197,11 +160,7 @@ impl Pattern {
         let ranges = self.ranges(RANGES);
         let batch = (BATCH_BYTES / (buffer * size_of::<T>())).max(1);
         let mut matrices = vec![T::default(); buffer * batch.min(block.len())];
-        for (connectivity, tags) in block
-            .connectivity
-            .chunks(nodes * batch)
-            .zip(block.tags.chunks(batch))
-        {
+        for (connectivity, tags) in block.connectivity.chunks(nodes * batch).zip(block.tags.chunks(batch)) {
             let results: Vec<Result<(), FemError>> = matrices
                 .par_chunks_mut(buffer)
                 .zip(connectivity.par_chunks(nodes))
@@ -222,18 +181,14 @@ impl Pattern {
                 slices.push(slice);
                 rest = tail;
             }
-            slices
-                .into_par_iter()
-                .zip(&ranges)
-                .for_each(|(slice, range)| {
-                    let slice_start = base(range.start);
-                    for (element, matrix) in connectivity.chunks(nodes).zip(matrices.chunks(buffer))
-                    {
-                        self.for_each_pair(element, range, slice_start, |pair, column| {
-                            add(slice, column, &matrix[pair]);
-                        });
-                    }
-                });
+            slices.into_par_iter().zip(&ranges).for_each(|(slice, range)| {
+                let slice_start = base(range.start);
+                for (element, matrix) in connectivity.chunks(nodes).zip(matrices.chunks(buffer)) {
+                    self.for_each_pair(element, range, slice_start, |pair, column| {
+                        add(slice, column, &matrix[pair]);
+                    });
+                }
+            });
         }
         Ok(())
     }
@@ -263,13 +218,7 @@ impl Pattern {
                 let Ok(place) = neighbours.binary_search(&(row as u32)) else {
                     continue;
                 };
-                let mut column = Column {
-                    node,
-                    place,
-                    length: neighbours.len(),
-                    transposed: pi < pj,
-                    slice_start,
-                };
+                let mut column = Column { node, place, length: neighbours.len(), transposed: pi < pj, slice_start };
                 visit(block_index(i, j), &column);
                 // a collapsed element has one node twice: block and mirror image meet on the diagonal
                 if i != j && pi == pj {

@@ -39,10 +39,7 @@ impl DofMap {
                 free_nodes.push(node as u32);
             }
         }
-        Self {
-            position,
-            free_nodes,
-        }
+        Self { position, free_nodes }
     }
 
     /// Number of nodes, fixed ones included.
@@ -62,19 +59,12 @@ impl DofMap {
 
     /// Place of a node among the free ones; `None` when it is fixed or unknown.
     pub fn position(&self, node: u32) -> Option<usize> {
-        self.position
-            .get(node as usize)
-            .filter(|&&p| p != FIXED)
-            .map(|&p| p as usize)
+        self.position.get(node as usize).filter(|&&p| p != FIXED).map(|&p| p as usize)
     }
 
     /// Matrix row of a node's motion along `axis` (0, 1, 2); `None` when fixed or unknown.
     pub fn dof(&self, node: u32, axis: usize) -> Option<usize> {
-        if axis < 3 {
-            self.position(node).map(|p| 3 * p + axis)
-        } else {
-            None
-        }
+        if axis < 3 { self.position(node).map(|p| 3 * p + axis) } else { None }
     }
 
     /// Node and axis of a matrix row.
@@ -88,11 +78,7 @@ impl DofMap {
     /// [`FemError::Shape`] when `free` does not have `free_count()` entries.
     pub fn to_nodes(&self, free: &[f64]) -> Result<Vec<[f64; 3]>, FemError> {
         if free.len() != self.free_count() {
-            return Err(FemError::Shape {
-                what: "free displacements",
-                expected: self.free_count(),
-                found: free.len(),
-            });
+            return Err(FemError::Shape { what: "free displacements", expected: self.free_count(), found: free.len() });
         }
         let mut all = vec![[0.0; 3]; self.node_count()];
         for (&node, u) in self.free_nodes.iter().zip(free.chunks_exact(3)) {

@@ -125,9 +125,7 @@ impl FemError {
                 "steel has 0.3; nearly incompressible materials need mixed elements, which are not here"
             }
             Self::DensityNotPositive { .. } => "steel has 7.85e-9 t/mm^3 (7850 kg/m^3)",
-            Self::Inverted { .. } => {
-                "check the node order of that element, or mesh the region more evenly"
-            }
+            Self::Inverted { .. } => "check the node order of that element, or mesh the region more evenly",
             Self::NodeOutOfRange { .. } | Self::RaggedBlock { .. } => {
                 "read the mesh again: its connectivity is damaged"
             }

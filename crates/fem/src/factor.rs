@@ -58,9 +58,8 @@ impl BoundaryLastFactor {
         let mut values = try_zeroed(symbolic.len_val())?;
         // sequential inside: two gears are factored side by side instead, and the bits stay the same
         let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory {
-            bytes: scratch.unaligned_bytes_required(),
-        })?;
+        let mut memory = MemBuffer::try_new(scratch)
+            .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
         let result = symbolic.factorize_numeric_llt(
             &mut values,
             stiffness.lower(),
@@ -71,18 +70,19 @@ impl BoundaryLastFactor {
             Spec::default(),
         );
         if let Err(LltError::NonPositivePivot { index }) = result {
+<<<<<<< HEAD
             let dof = ordering.forward.get(index).copied().unwrap_or(index);
             return Err(FemError::NotPositiveDefinite {
                 dof,
                 pivot_ratio: 0.0,
             });
+=======
+            // the index counts from 0 or 1, depending on the kernel that met it
+            let dof = ordering.forward.get(index.min(stiffness.n() - 1)).copied().unwrap_or(0);
+            return Err(FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 });
+>>>>>>> main
         }
-        let factor = Self {
-            ordering,
-            symbolic,
-            values,
-            boundary: boundary.to_vec(),
-        };
+        let factor = Self { ordering, symbolic, values, boundary: boundary.to_vec() };
         factor.check_pivots(stiffness)?;
         Ok(factor)
     }
@@ -93,10 +93,7 @@ impl BoundaryLastFactor {
         let mut worst = (f64::INFINITY, 0);
         for node in self.supernodes() {
             for column in 0..node.columns {
-                let (pivot, dof) = (
-                    node.values[(column, column)],
-                    self.ordering.forward[node.start + column],
-                );
+                let (pivot, dof) = (node.values[(column, column)], self.ordering.forward[node.start + column]);
                 let ratio = pivot * pivot / diagonal[dof];
                 if ratio.is_nan() || ratio < worst.0 {
                     worst = (ratio, dof);
@@ -123,16 +120,12 @@ impl BoundaryLastFactor {
 
     /// Entries of L below and on the diagonal, explicit zeros inside supernodes included.
     pub fn nonzeros(&self) -> usize {
-        self.supernodes()
-            .map(|s| s.columns * (s.columns + 1) / 2 + s.columns * s.pattern.len())
-            .sum()
+        self.supernodes().map(|s| s.columns * (s.columns + 1) / 2 + s.columns * s.pattern.len()).sum()
     }
 
     /// Floating-point operations of the factorisation, estimated from the structure of L.
     pub fn flops(&self) -> f64 {
-        let heights = self
-            .supernodes()
-            .flat_map(|s| (0..s.columns).map(move |c| s.values.nrows() - c));
+        let heights = self.supernodes().flat_map(|s| (0..s.columns).map(move |c| s.values.nrows() - c));
         heights.map(|h| (h as f64) * (h as f64)).sum()
     }
 
@@ -160,18 +153,14 @@ impl BoundaryLastFactor {
         let interior = self.ordering.interior;
         check_rows(self.boundary.len(), boundary.nrows())?;
         let mut result = Mat::zeros(self.n(), boundary.ncols());
-        result
-            .as_mut()
-            .par_col_chunks_mut(COLUMN_BLOCK)
-            .zip(boundary.par_col_chunks(COLUMN_BLOCK))
-            .for_each(|(mut result, boundary)| {
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK)).for_each(
+            |(mut result, boundary)| {
                 let mut x = Mat::zeros(self.n(), boundary.ncols());
-                x.as_mut()
-                    .subrows_mut(interior, boundary.nrows())
-                    .copy_from(boundary);
+                x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
                 self.backward(x.as_mut(), interior);
                 self.unpermute(x.as_ref(), result.as_mut());
-            });
+            },
+        );
         Ok(result)
     }
 
@@ -189,15 +178,13 @@ impl BoundaryLastFactor {
         let interior = self.ordering.interior;
         check_rows(self.n(), force.nrows())?;
         let mut result = Mat::zeros(self.boundary.len(), force.ncols());
-        result
-            .as_mut()
-            .par_col_chunks_mut(COLUMN_BLOCK)
-            .zip(force.par_col_chunks(COLUMN_BLOCK))
-            .for_each(|(mut result, force)| {
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(force.par_col_chunks(COLUMN_BLOCK)).for_each(
+            |(mut result, force)| {
                 let mut x = self.permute(force);
                 self.forward(x.as_mut(), interior);
                 result.copy_from(x.as_ref().subrows(interior, self.boundary.len()));
-            });
+            },
+        );
         Ok(result)
     }
 
@@ -243,12 +230,7 @@ impl BoundaryLastFactor {
             (0..structure.n_supernodes()).map(move |k| {
                 let node = factor.supernode(k);
                 let values = node.val();
-                Supernode {
-                    start: node.start(),
-                    columns: values.ncols(),
-                    pattern: node.pattern(),
-                    values,
-                }
+                Supernode { start: node.start(), columns: values.ncols(), pattern: node.pattern(), values }
             })
         })
     }
@@ -267,15 +249,7 @@ struct Supernode<'a> {
 }
 
 fn check_rows(expected: usize, found: usize) -> Result<(), FemError> {
-    if expected == found {
-        Ok(())
-    } else {
-        Err(FemError::Shape {
-            what: "rows",
-            expected,
-            found,
-        })
-    }
+    if expected == found { Ok(()) } else { Err(FemError::Shape { what: "rows", expected, found }) }
 }
 
 impl std::fmt::Debug for BoundaryLastFactor {

@@ -52,11 +52,9 @@ impl IndefiniteFactor {
         let mut values = try_zeroed(symbolic.len_val())?;
         let mut subdiagonal = vec![0.0; n];
         let (mut pivots, mut pivots_inverse) = (vec![0; n], vec![0; n]);
-        let scratch =
-            symbolic.factorize_numeric_intranode_lblt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory {
-            bytes: scratch.unaligned_bytes_required(),
-        })?;
+        let scratch = symbolic.factorize_numeric_intranode_lblt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::try_new(scratch)
+            .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
         symbolic.factorize_numeric_intranode_lblt(
             &mut values,
             &mut subdiagonal,
@@ -68,13 +66,7 @@ impl IndefiniteFactor {
             MemStack::new(&mut memory),
             Spec::default(),
         );
-        let factor = Self {
-            symbolic,
-            values,
-            subdiagonal,
-            pivots,
-            pivots_inverse,
-        };
+        let factor = Self { symbolic, values, subdiagonal, pivots, pivots_inverse };
         factor.check_pivots(&ordering)?;
         Ok(factor)
     }
@@ -95,18 +87,12 @@ impl IndefiniteFactor {
     /// [`FemError::Shape`] when `rhs` does not have n rows.
     pub fn solve(&self, rhs: MatMut<'_, f64>) -> Result<(), FemError> {
         if rhs.nrows() != self.n() {
-            return Err(FemError::Shape {
-                what: "rows",
-                expected: self.n(),
-                found: rhs.nrows(),
-            });
+            return Err(FemError::Shape { what: "rows", expected: self.n(), found: rhs.nrows() });
         }
         let order = PermRef::new_checked(&self.pivots, &self.pivots_inverse, self.n());
         let factor = IntranodeLbltRef::new(&self.symbolic, &self.values, &self.subdiagonal, order);
         rhs.par_col_chunks_mut(COLUMN_BLOCK).for_each(|block| {
-            let scratch = self
-                .symbolic
-                .solve_in_place_scratch::<f64>(block.ncols(), Par::Seq);
+            let scratch = self.symbolic.solve_in_place_scratch::<f64>(block.ncols(), Par::Seq);
             let mut memory = MemBuffer::new(scratch);
             factor.solve_in_place_with_conj(Conj::No, block, Par::Seq, MemStack::new(&mut memory));
         });
@@ -132,9 +118,7 @@ impl IndefiniteFactor {
                     (diagonal(c) * diagonal(c + 1) - coupling * coupling, 2)
                 };
                 if determinant == 0.0 || !determinant.is_finite() {
-                    return Err(FemError::Singular {
-                        dof: ordering.forward[self.pivots[c]],
-                    });
+                    return Err(FemError::Singular { dof: ordering.forward[self.pivots[c]] });
                 }
                 c += size;
             }
@@ -145,9 +129,6 @@ impl IndefiniteFactor {
 
 impl std::fmt::Debug for IndefiniteFactor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("IndefiniteFactor")
-            .field("n", &self.n())
-            .field("nonzeros", &self.nonzeros())
-            .finish()
+        f.debug_struct("IndefiniteFactor").field("n", &self.n()).field("nonzeros", &self.nonzeros()).finish()
     }
 }

@@ -26,19 +26,13 @@ impl MassProperties {
     /// Inertia tensor about another `point` [mm], t mm^2 (Huygens and Steiner).
     pub fn inertia_about_tmm2(&self, point: [f64; 3]) -> [[f64; 3]; 3] {
         let d = [0, 1, 2].map(|a| self.centre_mm[a] - point[a]);
-        std::array::from_fn(|a| {
-            std::array::from_fn(|b| self.inertia_tmm2[a][b] + self.mass_t * spread(d, a, b))
-        })
+        std::array::from_fn(|a| std::array::from_fn(|b| self.inertia_tmm2[a][b] + self.mass_t * spread(d, a, b)))
     }
 }
 
 /// Entry (a, b) of (d . d) I - d d'.
 fn spread(d: [f64; 3], a: usize, b: usize) -> f64 {
-    let square = if a == b {
-        d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-    } else {
-        0.0
-    };
+    let square = if a == b { d[0] * d[0] + d[1] * d[1] + d[2] * d[2] } else { 0.0 };
     square - d[a] * d[b]
 }
 
@@ -77,11 +71,7 @@ pub fn mass_properties(mesh: &Mesh, material: &Material) -> Result<MassPropertie
             total.add(&part?);
         }
     }
-    let Moments {
-        volume,
-        first,
-        second,
-    } = total;
+    let Moments { volume, first, second } = total;
     let offset = first.map(|m| if volume > 0.0 { m / volume } else { 0.0 });
     let rho = material.density_t_per_mm3();
     let central = |a: usize, b: usize| second[a][b] - volume * offset[a] * offset[b];
@@ -115,14 +105,7 @@ impl Moments {
         for point in &table.points {
             let (_, det) = checked_jacobian(kind, tag, coordinates, &point.dn)?;
             let volume = point.weight * det;
-            let x = [0, 1, 2].map(|a| {
-                point
-                    .n
-                    .iter()
-                    .zip(coordinates)
-                    .map(|(n, x)| n * x[a])
-                    .sum::<f64>()
-            });
+            let x = [0, 1, 2].map(|a| point.n.iter().zip(coordinates).map(|(n, x)| n * x[a]).sum::<f64>());
             self.volume += volume;
             for a in 0..3 {
                 self.first[a] += volume * x[a];

@@ -12,11 +12,7 @@ pub struct Material {
 
 impl Material {
     /// Case-hardened steel as most gears have: 206 GPa, 0.3, 7850 kg/m^3.
-    pub const STEEL: Self = Self {
-        young: 2.06e5,
-        poisson: 0.3,
-        density: 7.85e-9,
-    };
+    pub const STEEL: Self = Self { young: 2.06e5, poisson: 0.3, density: 7.85e-9 };
 
     /// A material from Young's modulus [MPa], Poisson's ratio [1] and density [t/mm^3].
     ///
@@ -42,11 +38,7 @@ impl Material {
         if !(density_t_per_mm3 > 0.0 && density_t_per_mm3.is_finite()) {
             return Err(FemError::DensityNotPositive { density_t_per_mm3 });
         }
-        Ok(Self {
-            young: young_mpa,
-            poisson,
-            density: density_t_per_mm3,
-        })
+        Ok(Self { young: young_mpa, poisson, density: density_t_per_mm3 })
     }
 
     /// Young's modulus E, MPa.
@@ -66,15 +58,8 @@ impl Material {
 
     /// Lame's constants, MPa: lambda = E nu / ((1+nu)(1-2nu)), mu = E / (2(1+nu)).
     pub fn lame_mpa(&self) -> (f64, f64) {
-        let Self {
-            young: e,
-            poisson: nu,
-            ..
-        } = *self;
-        (
-            e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-            e / (2.0 * (1.0 + nu)),
-        )
+        let Self { young: e, poisson: nu, .. } = *self;
+        (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
     }
 
     /// Elasticity matrix D, MPa: sigma = D epsilon.
@@ -95,13 +80,7 @@ impl Material {
     pub fn stress_mpa(&self, strain: [f64; 6]) -> [f64; 6] {
         let (lambda, mu) = self.lame_mpa();
         let pressure = lambda * (strain[0] + strain[1] + strain[2]);
-        std::array::from_fn(|k| {
-            if k < 3 {
-                pressure + 2.0 * mu * strain[k]
-            } else {
-                mu * strain[k]
-            }
-        })
+        std::array::from_fn(|k| if k < 3 { pressure + 2.0 * mu * strain[k] } else { mu * strain[k] })
     }
 }
 
@@ -120,20 +99,14 @@ mod tests {
         let (e, nu) = (Material::STEEL.young_mpa(), Material::STEEL.poisson());
         let stress = Material::STEEL.stress_mpa([1.0 / e, -nu / e, -nu / e, 0.0, 0.0, 0.0]);
         for (k, value) in stress.into_iter().enumerate() {
-            assert!(
-                (value - f64::from(u8::from(k == 0))).abs() < 1e-14,
-                "{stress:?}"
-            );
+            assert!((value - f64::from(u8::from(k == 0))).abs() < 1e-14, "{stress:?}");
         }
     }
 
     #[test]
     fn stress_is_the_elasticity_matrix_times_strain() {
         let strain = [1.0, -2.0, 0.5, 3.0, -1.0, 0.25];
-        let (d, stress) = (
-            Material::STEEL.elasticity_mpa(),
-            Material::STEEL.stress_mpa(strain),
-        );
+        let (d, stress) = (Material::STEEL.elasticity_mpa(), Material::STEEL.stress_mpa(strain));
         for (row, value) in d.iter().zip(stress) {
             let product: f64 = row.iter().zip(strain).map(|(a, b)| a * b).sum();
             assert!((product - value).abs() <= 1e-15 * 1e6);

@@ -46,46 +46,30 @@ impl Ordering {
         }
         let graph = Graph::new(matrix, &is_last)?;
         let order = graph.postorder(&metis::nested_dissection(&graph)?);
-        let mut forward: Vec<usize> = order
-            .iter()
-            .flat_map(|&group| graph.members(group))
-            .copied()
-            .collect();
+        let mut forward: Vec<usize> = order.iter().flat_map(|&group| graph.members(group)).copied().collect();
         forward.extend_from_slice(last);
         let mut inverse = vec![0; n];
         for (new, &old) in forward.iter().enumerate() {
             inverse[old] = new;
         }
-        Ok(Self {
-            forward,
-            inverse,
-            interior: n - last.len(),
-        })
+        Ok(Self { forward, inverse, interior: n - last.len() })
     }
 
     /// Symbolic supernodal factor of the matrix in this order.
-    pub(crate) fn symbolic(
-        &self,
-        matrix: &SymmetricMatrix,
-    ) -> Result<SymbolicCholesky<usize>, FemError> {
+    pub(crate) fn symbolic(&self, matrix: &SymmetricMatrix) -> Result<SymbolicCholesky<usize>, FemError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
         let order = PermRef::new_checked(&self.forward, &self.inverse, matrix.n());
         let order = SymmetricOrdering::Custom(order);
-        factorize_symbolic_cholesky(matrix.lower().symbolic(), Side::Lower, order, params).map_err(
-            |_| FemError::OutOfMemory {
-                bytes: matrix.stored() * size_of::<usize>(),
-            },
-        )
+        factorize_symbolic_cholesky(matrix.lower().symbolic(), Side::Lower, order, params)
+            .map_err(|_| FemError::OutOfMemory { bytes: matrix.stored() * size_of::<usize>() })
     }
 }
 
 /// The supernodal structure, which the symbolic factor has been forced to have.
-pub(crate) fn supernodal(
-    symbolic: &SymbolicCholesky<usize>,
-) -> Option<&SymbolicSupernodalCholesky<usize>> {
+pub(crate) fn supernodal(symbolic: &SymbolicCholesky<usize>) -> Option<&SymbolicSupernodalCholesky<usize>> {
     match symbolic.raw() {
         SymbolicCholeskyRaw::Supernodal(structure) => Some(structure),
         SymbolicCholeskyRaw::Simplicial(_) => None,
@@ -97,9 +81,7 @@ pub(crate) fn try_zeroed(count: usize) -> Result<Vec<f64>, FemError> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(count)
-        .map_err(|_| FemError::OutOfMemory {
-            bytes: count.saturating_mul(size_of::<f64>()),
-        })?;
+        .map_err(|_| FemError::OutOfMemory { bytes: count.saturating_mul(size_of::<f64>()) })?;
     values.resize(count, 0.0);
     Ok(values)
 }

@@ -31,11 +31,7 @@ pub fn nodal_stress(
 ) -> Result<Vec<[f64; 6]>, FemError> {
     check_blocks(mesh)?;
     if displacement.len() != mesh.nodes.len() {
-        return Err(FemError::Shape {
-            what: "displacements",
-            expected: mesh.nodes.len(),
-            found: displacement.len(),
-        });
+        return Err(FemError::Shape { what: "displacements", expected: mesh.nodes.len(), found: displacement.len() });
     }
     let mut sum = vec![([0.0; 6], 0u32); mesh.nodes.len()];
     for block in &mesh.blocks {
@@ -46,9 +42,8 @@ pub fn nodal_stress(
             .par_chunks(nodes)
             .zip(&block.tags)
             .map(|(element, &tag)| {
-                let at = |list: &[[f64; 3]]| -> Vec<[f64; 3]> {
-                    element.iter().map(|&node| list[node as usize]).collect()
-                };
+                let at =
+                    |list: &[[f64; 3]]| -> Vec<[f64; 3]> { element.iter().map(|&node| list[node as usize]).collect() };
                 let prepared = kernel.prepare(&at(&mesh.nodes), tag)?;
                 Ok(kernel.at_nodes(&prepared, &at(displacement)))
             })
@@ -61,10 +56,7 @@ pub fn nodal_stress(
             }
         }
     }
-    Ok(sum
-        .into_iter()
-        .map(|(total, count)| total.map(|s| s / f64::from(count.max(1))))
-        .collect())
+    Ok(sum.into_iter().map(|(total, count)| total.map(|s| s / f64::from(count.max(1)))).collect())
 }
 
 /// Von Mises equivalent stress, MPa.
@@ -77,9 +69,7 @@ pub fn von_mises(stress: &[f64; 6]) -> f64 {
 /// Largest principal stress, MPa (positive in tension).
 pub fn max_principal(stress: &[f64; 6]) -> f64 {
     let [x, y, z, xy, yz, zx] = *stress;
-    nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z)
-        .symmetric_eigenvalues()
-        .max()
+    nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z).symmetric_eigenvalues().max()
 }
 
 /// Stress at chosen nodes as a linear map of the free displacements: the stress modes' left factor.
@@ -112,11 +102,7 @@ impl StressOperator {
         let count = mesh.nodes.len();
         let wrong = nodes.iter().map(|&n| n as usize).find(|&n| n >= count);
         if let Some(found) = wrong.or((dofs.node_count() != count).then_some(dofs.node_count())) {
-            return Err(FemError::Shape {
-                what: "nodes",
-                expected: count,
-                found,
-            });
+            return Err(FemError::Shape { what: "nodes", expected: count, found });
         }
         let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
         for (place, &node) in nodes.iter().enumerate() {
@@ -156,14 +142,8 @@ impl StressOperator {
                 }
             }
         }
-        let rows = rows
-            .into_iter()
-            .map(|(row, touching)| merge(row, touching))
-            .collect();
-        Ok(Self {
-            rows,
-            free_count: dofs.free_count(),
-        })
+        let rows = rows.into_iter().map(|(row, touching)| merge(row, touching)).collect();
+        Ok(Self { rows, free_count: dofs.free_count() })
     }
 
     /// Number of nodes asked for.
@@ -177,29 +157,20 @@ impl StressOperator {
     /// [`FemError::Shape`] when `displacement` does not have one row a free degree of freedom.
     pub fn apply(&self, displacement: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         if displacement.nrows() != self.free_count {
-            return Err(FemError::Shape {
-                what: "rows",
-                expected: self.free_count,
-                found: displacement.nrows(),
-            });
+            return Err(FemError::Shape { what: "rows", expected: self.free_count, found: displacement.nrows() });
         }
         let mut result = Mat::zeros(6 * self.rows.len(), displacement.ncols());
-        result
-            .as_mut()
-            .par_col_chunks_mut(1)
-            .zip(displacement.par_col_chunks(1))
-            .for_each(|(mut stress, u)| {
-                for (i, row) in self.rows.iter().enumerate() {
-                    for (position, block) in row {
-                        for k in 0..6 {
-                            for axis in 0..3 {
-                                stress[(6 * i + k, 0)] +=
-                                    block[3 * k + axis] * u[(3 * position + axis, 0)];
-                            }
+        result.as_mut().par_col_chunks_mut(1).zip(displacement.par_col_chunks(1)).for_each(|(mut stress, u)| {
+            for (i, row) in self.rows.iter().enumerate() {
+                for (position, block) in row {
+                    for k in 0..6 {
+                        for axis in 0..3 {
+                            stress[(6 * i + k, 0)] += block[3 * k + axis] * u[(3 * position + axis, 0)];
                         }
                     }
                 }
-            });
+            }
+        });
         Ok(result)
     }
 }
@@ -217,8 +188,6 @@ fn merge(mut row: Vec<(usize, [f64; 18])>, touching: u32) -> Vec<(usize, [f64; 1
         }
     }
     let share = 1.0 / f64::from(touching.max(1));
-    merged
-        .iter_mut()
-        .for_each(|(_, block)| block.iter_mut().for_each(|b| *b *= share));
+    merged.iter_mut().for_each(|(_, block)| block.iter_mut().for_each(|b| *b *= share));
     merged
 }

@@ -20,16 +20,9 @@ const COLUMN_BLOCK: usize = 8;
 
 impl SymmetricMatrix {
     /// Wraps arrays that are known to be a sorted lower triangle.
-    pub(crate) fn from_sorted_columns(
-        n: usize,
-        column_starts: Vec<usize>,
-        rows: Vec<usize>,
-        values: Vec<f64>,
-    ) -> Self {
+    pub(crate) fn from_sorted_columns(n: usize, column_starts: Vec<usize>, rows: Vec<usize>, values: Vec<f64>) -> Self {
         let symbolic = SymbolicSparseColMat::new_checked(n, n, column_starts, None, rows);
-        Self {
-            lower: SparseColMat::new(symbolic, values),
-        }
+        Self { lower: SparseColMat::new(symbolic, values) }
     }
 
     /// A matrix of order `n` from entries (row, column, value) of its lower triangle.
@@ -96,9 +89,8 @@ impl SymmetricMatrix {
     /// Every stored entry of the lower triangle as (row, column, value), column by column.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let (starts, rows, values) = self.arrays();
-        (0..self.n()).flat_map(move |column| {
-            (starts[column]..starts[column + 1]).map(move |k| (rows[k], column, values[k]))
-        })
+        (0..self.n())
+            .flat_map(move |column| (starts[column]..starts[column + 1]).map(move |k| (rows[k], column, values[k])))
     }
 
     /// The diagonal.
@@ -118,11 +110,7 @@ impl SymmetricMatrix {
     /// [`FemError::Shape`] when `x` does not have `n()` rows.
     pub fn multiply(&self, x: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         if x.nrows() != self.n() {
-            return Err(FemError::Shape {
-                what: "rows",
-                expected: self.n(),
-                found: x.nrows(),
-            });
+            return Err(FemError::Shape { what: "rows", expected: self.n(), found: x.nrows() });
         }
         let mut product = Mat::zeros(x.nrows(), x.ncols());
         product
@@ -146,10 +134,7 @@ impl SymmetricMatrix {
     fn add_product(&self, mut y: MatMut<'_, f64>, x: MatRef<'_, f64>) {
         let (starts, rows, values) = self.arrays();
         for c in 0..x.ncols() {
-            let (Some(x), Some(y)) = (
-                x.col(c).try_as_col_major(),
-                y.rb_mut().col_mut(c).try_as_col_major_mut(),
-            ) else {
+            let (Some(x), Some(y)) = (x.col(c).try_as_col_major(), y.rb_mut().col_mut(c).try_as_col_major_mut()) else {
                 add_strided(self, y.rb_mut(), x, c);
                 continue;
             };

@@ -4,18 +4,15 @@ mod common;
 
 use common::{box_mesh, largest, on_threads, shaken};
 use fem::{
-    DofMap, ElementOptions, FemError, Material, SymmetricMatrix, assemble, assemble_mass,
-    assemble_stiffness, mass_properties,
+    DofMap, ElementOptions, FemError, Material, SymmetricMatrix, assemble, assemble_mass, assemble_stiffness,
+    mass_properties,
 };
 use mesh::{ElementBlock, ElementKind};
 
 const STEEL: Material = Material::STEEL;
 
 fn bits(matrix: &SymmetricMatrix) -> Vec<(usize, usize, u64)> {
-    matrix
-        .entries()
-        .map(|(r, c, v)| (r, c, v.to_bits()))
-        .collect()
+    matrix.entries().map(|(r, c, v)| (r, c, v.to_bits())).collect()
 }
 
 #[test]
@@ -26,16 +23,8 @@ fn one_thread_or_two_the_same_bits() {
         let run = || assemble(&mesh, &STEEL, &dofs, &ElementOptions::default()).unwrap();
         let (one, two, many) = (on_threads(1, run), on_threads(2, run), on_threads(5, run));
         for other in [two, many] {
-            assert!(
-                bits(&one.stiffness) == bits(&other.stiffness),
-                "{}: K differs",
-                kind.name()
-            );
-            assert!(
-                bits(&one.mass) == bits(&other.mass),
-                "{}: M differs",
-                kind.name()
-            );
+            assert!(bits(&one.stiffness) == bits(&other.stiffness), "{}: K differs", kind.name());
+            assert!(bits(&one.mass) == bits(&other.mass), "{}: M differs", kind.name());
         }
         let properties = || mass_properties(&mesh, &STEEL).unwrap();
         assert_eq!(on_threads(1, properties), on_threads(2, properties));
@@ -64,11 +53,7 @@ fn a_rigid_move_costs_no_force() {
                 })
                 .collect();
             let force = largest(k.multiply_vector(&u).unwrap());
-            assert!(
-                force < 1e-12 * stiffest,
-                "{} mode {mode}: {force:e} N",
-                kind.name()
-            );
+            assert!(force < 1e-12 * stiffest, "{} mode {mode}: {force:e} N", kind.name());
         }
     }
 }
@@ -78,10 +63,7 @@ fn a_rigid_move_costs_no_force() {
 fn fixing_nodes_drops_their_rows_and_columns() {
     let mesh = box_mesh(ElementKind::Tet10, [2, 2, 1], shaken(0.1));
     let fixed = [1, 4, 9, 4];
-    let (all, some) = (
-        DofMap::new(mesh.nodes.len(), &[]),
-        DofMap::new(mesh.nodes.len(), &fixed),
-    );
+    let (all, some) = (DofMap::new(mesh.nodes.len(), &[]), DofMap::new(mesh.nodes.len(), &fixed));
     let whole = assemble(&mesh, &STEEL, &all, &ElementOptions::default()).unwrap();
     let part = assemble(&mesh, &STEEL, &some, &ElementOptions::default()).unwrap();
     for (whole, part) in [(whole.stiffness, part.stiffness), (whole.mass, part.mass)] {
@@ -103,25 +85,15 @@ fn fixing_nodes_drops_their_rows_and_columns() {
 fn mass_centre_and_inertia_of_a_box() {
     let (size, cells) = ([2.0, 3.0, 4.0], [2, 3, 2]);
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, cells, |c| {
-            [0, 1, 2].map(|a| 100.0 + c[a] * size[a] / cells[a] as f64)
-        });
+        let mesh = box_mesh(kind, cells, |c| [0, 1, 2].map(|a| 100.0 + c[a] * size[a] / cells[a] as f64));
         let found = mass_properties(&mesh, &STEEL).unwrap();
         let mass = STEEL.density_t_per_mm3() * 24.0;
-        assert!(
-            (found.mass_t - mass).abs() < 1e-12 * mass,
-            "{}",
-            kind.name()
-        );
+        assert!((found.mass_t - mass).abs() < 1e-12 * mass, "{}", kind.name());
         for a in 0..3 {
             assert!((found.centre_mm[a] - 100.0 - size[a] / 2.0).abs() < 1e-11);
             let (b, c) = ((a + 1) % 3, (a + 2) % 3);
             let inertia = mass / 12.0 * (size[b].powi(2) + size[c].powi(2));
-            assert!(
-                (found.inertia_tmm2[a][a] - inertia).abs() < 1e-11 * inertia,
-                "{}",
-                kind.name()
-            );
+            assert!((found.inertia_tmm2[a][a] - inertia).abs() < 1e-11 * inertia, "{}", kind.name());
             assert!(found.inertia_tmm2[a][b].abs() < 1e-11 * inertia);
         }
         let dofs = DofMap::new(mesh.nodes.len(), &[]);
@@ -131,11 +103,7 @@ fn mass_centre_and_inertia_of_a_box() {
         let momentum = m.multiply_vector(&spin).unwrap();
         let energy: f64 = spin.iter().zip(&momentum).map(|(v, p)| v * p).sum();
         let about_origin = found.inertia_about_tmm2([0.0; 3])[2][2];
-        assert!(
-            (energy - about_origin).abs() < 1e-11 * about_origin,
-            "{}: {energy:e}",
-            kind.name()
-        );
+        assert!((energy - about_origin).abs() < 1e-11 * about_origin, "{}: {energy:e}", kind.name());
     }
 }
 
@@ -148,11 +116,7 @@ fn kinds_can_be_mixed() {
     block.tags.pop();
     let pick = |list: [usize; 6]| list.map(|i| second[i]);
     let connectivity = [pick([0, 1, 2, 4, 5, 6]), pick([0, 2, 3, 4, 6, 7])].concat();
-    mesh.blocks.push(ElementBlock {
-        kind: ElementKind::Wedge6,
-        connectivity,
-        tags: vec![2, 3],
-    });
+    mesh.blocks.push(ElementBlock { kind: ElementKind::Wedge6, connectivity, tags: vec![2, 3] });
     let found = mass_properties(&mesh, &STEEL).unwrap();
     assert!((found.volume_mm3 - 2.0).abs() < 1e-14);
     let dofs = DofMap::new(mesh.nodes.len(), &[]);
@@ -171,30 +135,14 @@ fn damaged_meshes_are_refused() {
     };
     let mut mesh = good.clone();
     mesh.blocks[0].connectivity[3] = 8;
-    assert_eq!(
-        run(&mesh, &dofs),
-        Err(FemError::NodeOutOfRange {
-            tag: 1,
-            node: 8,
-            node_count: 8
-        })
-    );
+    assert_eq!(run(&mesh, &dofs), Err(FemError::NodeOutOfRange { tag: 1, node: 8, node_count: 8 }));
     let mut mesh = good.clone();
     mesh.blocks[0].connectivity.pop();
-    assert!(matches!(
-        run(&mesh, &dofs),
-        Err(FemError::RaggedBlock { .. })
-    ));
+    assert!(matches!(run(&mesh, &dofs), Err(FemError::RaggedBlock { .. })));
     let mut mesh = good.clone();
     mesh.nodes[2][1] = f64::NAN;
-    assert!(matches!(
-        run(&mesh, &dofs),
-        Err(FemError::Inverted { tag: 1, .. })
-    ));
-    assert!(matches!(
-        run(&good, &DofMap::new(7, &[])),
-        Err(FemError::Shape { .. })
-    ));
+    assert!(matches!(run(&mesh, &dofs), Err(FemError::Inverted { tag: 1, .. })));
+    assert!(matches!(run(&good, &DofMap::new(7, &[])), Err(FemError::Shape { .. })));
 }
 
 /// Nothing in, nothing out, and no panic on the way.

@@ -5,8 +5,8 @@ mod common;
 use common::{box_mesh, nodes_where, on_threads, shaken};
 use faer::{Mat, MatRef, linalg::solvers::Solve};
 use fem::{
-    BoundaryLastFactor, DofMap, ElementOptions, FemError, IndefiniteFactor, Material,
-    SymmetricMatrix, assemble_stiffness,
+    BoundaryLastFactor, DofMap, ElementOptions, FemError, IndefiniteFactor, Material, SymmetricMatrix,
+    assemble_stiffness,
 };
 use mesh::{ElementKind, Mesh};
 
@@ -21,10 +21,7 @@ fn clamped(kind: ElementKind, cells: [usize; 3]) -> (Mesh, DofMap, SymmetricMatr
 
 fn top_rows(mesh: &Mesh, dofs: &DofMap, height: f64) -> Vec<usize> {
     let nodes = nodes_where(mesh, |x| x[2] > height);
-    let rows = nodes
-        .iter()
-        .rev()
-        .flat_map(|&n| [2, 0, 1].map(|a| dofs.dof(n, a)));
+    let rows = nodes.iter().rev().flat_map(|&n| [2, 0, 1].map(|a| dofs.dof(n, a)));
     rows.flatten().collect()
 }
 
@@ -35,20 +32,15 @@ fn difference(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> f64 {
 }
 
 fn wavy(rows: usize, columns: usize) -> Mat<f64> {
-    Mat::from_fn(rows, columns, |i, j| {
-        (1.0 + 0.37 * i as f64 + 1.3 * j as f64 * (i as f64).sqrt()).sin()
-    })
+    Mat::from_fn(rows, columns, |i, j| (1.0 + 0.37 * i as f64 + 1.3 * j as f64 * (i as f64).sqrt()).sin())
 }
 
 /// (K^, Phi) by dense algebra.
 fn dense_condensation(k: &SymmetricMatrix, boundary: &[usize]) -> (Mat<f64>, Mat<f64>, Vec<usize>) {
     let dense = k.to_dense();
     let interior: Vec<usize> = (0..k.n()).filter(|i| !boundary.contains(i)).collect();
-    let part =
-        |r: &[usize], c: &[usize]| Mat::from_fn(r.len(), c.len(), |i, j| dense[(r[i], c[j])]);
-    let phi = -part(&interior, &interior)
-        .partial_piv_lu()
-        .solve(part(&interior, boundary));
+    let part = |r: &[usize], c: &[usize]| Mat::from_fn(r.len(), c.len(), |i, j| dense[(r[i], c[j])]);
+    let phi = -part(&interior, &interior).partial_piv_lu().solve(part(&interior, boundary));
     let condensed = part(boundary, boundary) + part(boundary, &interior) * &phi;
     (condensed, phi, interior)
 }
@@ -63,9 +55,7 @@ fn condensed_stiffness_compliance_and_modes_agree_with_dense_algebra() {
         let factor = BoundaryLastFactor::new(&k, &boundary).unwrap();
         assert_eq!(factor.boundary(), boundary);
         assert!(difference(factor.condensed_stiffness().as_ref(), condensed.as_ref()) < 1e-10);
-        let inverse = condensed
-            .partial_piv_lu()
-            .solve(Mat::<f64>::identity(boundary.len(), boundary.len()));
+        let inverse = condensed.partial_piv_lu().solve(Mat::<f64>::identity(boundary.len(), boundary.len()));
         assert!(difference(factor.compliance().as_ref(), inverse.as_ref()) < 1e-10);
 
         let unit = Mat::<f64>::identity(boundary.len(), boundary.len());
@@ -73,9 +63,7 @@ fn condensed_stiffness_compliance_and_modes_agree_with_dense_algebra() {
         for (j, &row) in boundary.iter().enumerate() {
             assert_eq!(modes[(row, j)], 1.0);
         }
-        let found = Mat::from_fn(interior.len(), boundary.len(), |i, j| {
-            modes[(interior[i], j)]
-        });
+        let found = Mat::from_fn(interior.len(), boundary.len(), |i, j| modes[(interior[i], j)]);
         assert!(difference(found.as_ref(), phi.as_ref()) < 1e-10);
     }
 }
@@ -91,18 +79,12 @@ fn expanded_displacements_leave_the_interior_without_load() {
     let scale = force.norm_max();
     for j in 0..given.ncols() {
         for i in (0..k.n()).filter(|i| !boundary.contains(i)) {
-            assert!(
-                force[(i, j)].abs() < 1e-10 * scale,
-                "{:e} N of {scale:e} N",
-                force[(i, j)]
-            );
+            assert!(force[(i, j)].abs() < 1e-10 * scale, "{:e} N of {scale:e} N", force[(i, j)]);
         }
     }
     // and the boundary feels the condensed stiffness
     let wanted = factor.condensed_stiffness() * &given;
-    let found = Mat::from_fn(boundary.len(), given.ncols(), |i, j| {
-        force[(boundary[i], j)]
-    });
+    let found = Mat::from_fn(boundary.len(), given.ncols(), |i, j| force[(boundary[i], j)]);
     assert!(difference(found.as_ref(), wanted.as_ref()) < 1e-10);
 }
 
@@ -181,8 +163,7 @@ fn a_body_that_can_move_is_refused() {
     let mesh = box_mesh(ElementKind::Hex8, [4, 4, 4], shaken(0.1));
     let run = |fixed: &[u32], boundary: &[usize]| {
         let dofs = DofMap::new(mesh.nodes.len(), fixed);
-        let k =
-            assemble_stiffness(&mesh, &Material::STEEL, &dofs, &ElementOptions::default()).unwrap();
+        let k = assemble_stiffness(&mesh, &Material::STEEL, &dofs, &ElementOptions::default()).unwrap();
         BoundaryLastFactor::new(&k, boundary).map(|_| ())
     };
     // free, and free to turn about one point or one axis
@@ -196,14 +177,8 @@ fn a_body_that_can_move_is_refused() {
     }
     let clamped = nodes_where(&mesh, |x| x[0] < 0.3);
     assert_eq!(run(&clamped, &[]), Ok(()));
-    assert!(matches!(
-        run(&clamped, &[3, 3]),
-        Err(FemError::BadDof { dof: 3, .. })
-    ));
-    assert!(matches!(
-        run(&clamped, &[9999]),
-        Err(FemError::BadDof { dof: 9999, .. })
-    ));
+    assert!(matches!(run(&clamped, &[3, 3]), Err(FemError::BadDof { dof: 3, .. })));
+    assert!(matches!(run(&clamped, &[9999]), Err(FemError::BadDof { dof: 9999, .. })));
 }
 
 /// The message names the degree of freedom that breaks down, in the matrix's own numbering.
@@ -233,18 +208,9 @@ fn wrong_sizes_are_refused() {
     let (_, _, k) = clamped(ElementKind::Hex8, [2, 2, 2]);
     let factor = BoundaryLastFactor::new(&k, &[0, 1]).unwrap();
     let wrong = Mat::<f64>::zeros(k.n() + 1, 1);
-    assert!(matches!(
-        factor.expand(wrong.as_ref()),
-        Err(FemError::Shape { expected: 2, .. })
-    ));
-    assert!(matches!(
-        factor.condense(wrong.as_ref()),
-        Err(FemError::Shape { .. })
-    ));
-    assert!(matches!(
-        factor.solve(wrong.clone().as_mut()),
-        Err(FemError::Shape { .. })
-    ));
+    assert!(matches!(factor.expand(wrong.as_ref()), Err(FemError::Shape { expected: 2, .. })));
+    assert!(matches!(factor.condense(wrong.as_ref()), Err(FemError::Shape { .. })));
+    assert!(matches!(factor.solve(wrong.clone().as_mut()), Err(FemError::Shape { .. })));
 }
 
 /// Stiffness with constraints that tie the motions of node pairs, one free coordinate and a slack.
@@ -259,10 +225,7 @@ fn saddle_point(k: &SymmetricMatrix, ties: usize) -> (SymmetricMatrix, Vec<usize
     }
     triplets.push((n + ties, n + ties, 0.0));
     let size = n + ties + 1;
-    (
-        SymmetricMatrix::from_triplets(size, &triplets).unwrap(),
-        (n..size).collect(),
-    )
+    (SymmetricMatrix::from_triplets(size, &triplets).unwrap(), (n..size).collect())
 }
 
 #[test]
@@ -283,18 +246,8 @@ fn a_saddle_point_is_solved_as_dense_algebra_does() {
 fn a_constraint_given_twice_is_refused() {
     let a = SymmetricMatrix::from_triplets(
         4,
-        &[
-            (0, 0, 2.0),
-            (1, 1, 2.0),
-            (2, 0, 1.0),
-            (2, 1, 1.0),
-            (3, 0, 1.0),
-            (3, 1, 1.0),
-        ],
+        &[(0, 0, 2.0), (1, 1, 2.0), (2, 0, 1.0), (2, 1, 1.0), (3, 0, 1.0), (3, 1, 1.0)],
     )
     .unwrap();
-    assert!(matches!(
-        IndefiniteFactor::new(&a, &[2, 3]),
-        Err(FemError::Singular { .. })
-    ));
+    assert!(matches!(IndefiniteFactor::new(&a, &[2, 3]), Err(FemError::Singular { .. })));
 }

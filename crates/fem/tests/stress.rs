@@ -5,8 +5,8 @@ mod common;
 use common::{box_mesh, largest, nodes_where, on_threads, shaken};
 use faer::Mat;
 use fem::{
-    BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, assemble_stiffness,
-    max_principal, nodal_stress, von_mises,
+    BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, assemble_stiffness, max_principal,
+    nodal_stress, von_mises,
 };
 use mesh::ElementKind;
 
@@ -16,11 +16,7 @@ const STEEL: Material = Material::STEEL;
 fn bending(x: [f64; 3]) -> [f64; 3] {
     let (nu, curvature) = (STEEL.poisson(), 1e-3);
     let [x, y, z] = x;
-    [
-        curvature * x * y,
-        -0.5 * curvature * (x * x + nu * (y * y - z * z)),
-        -nu * curvature * y * z,
-    ]
+    [curvature * x * y, -0.5 * curvature * (x * x + nu * (y * y - z * z)), -nu * curvature * y * z]
 }
 
 /// Quadratic elements carry a linear stress field exactly to their nodes.
@@ -28,19 +24,13 @@ fn bending(x: [f64; 3]) -> [f64; 3] {
 fn quadratic_elements_recover_linear_stress() {
     for kind in ElementKind::ALL.into_iter().filter(|k| k.order() == 2) {
         // parallelepipeds: their quadratic fields are those of true coordinates
-        let mesh = box_mesh(kind, [3, 2, 2], |c| {
-            [c[0] + 0.2 * c[1], c[1] - 0.1 * c[2], c[2] + 0.15 * c[0]]
-        });
+        let mesh = box_mesh(kind, [3, 2, 2], |c| [c[0] + 0.2 * c[1], c[1] - 0.1 * c[2], c[2] + 0.15 * c[0]]);
         let u: Vec<[f64; 3]> = mesh.nodes.iter().map(|&x| bending(x)).collect();
         let stress = nodal_stress(&mesh, &STEEL, &ElementOptions::default(), &u).unwrap();
         for (x, s) in mesh.nodes.iter().zip(&stress) {
             let wanted = STEEL.young_mpa() * 1e-3 * x[1];
             let error = largest([s[0] - wanted, s[1], s[2], s[3], s[4], s[5]]);
-            assert!(
-                error < 1e-10 * STEEL.young_mpa() * 1e-3,
-                "{} at {x:?}: {s:?}",
-                kind.name()
-            );
+            assert!(error < 1e-10 * STEEL.young_mpa() * 1e-3, "{} at {x:?}: {s:?}", kind.name());
         }
     }
 }
@@ -49,9 +39,7 @@ fn quadratic_elements_recover_linear_stress() {
 #[test]
 fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
     let cells = [8, 2, 1];
-    let mesh = box_mesh(ElementKind::Hex8, cells, |c| {
-        [c[0], 0.5 * c[1] - 0.5, c[2] - 0.5]
-    });
+    let mesh = box_mesh(ElementKind::Hex8, cells, |c| [c[0], 0.5 * c[1] - 0.5, c[2] - 0.5]);
     // symmetric about x = 4: hold the middle plane as bending does, move the ends
     let ends = nodes_where(&mesh, |x| x[0] < 1e-9 || x[0] > 8.0 - 1e-9);
     let n = mesh.nodes.len();
@@ -59,25 +47,12 @@ fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
     let options = ElementOptions::default();
     let full = assemble_stiffness(&mesh, &STEEL, &all, &options).unwrap();
     let free = assemble_stiffness(&mesh, &STEEL, &dofs, &options).unwrap();
-    let exact: Vec<[f64; 3]> = mesh
-        .nodes
-        .iter()
-        .map(|x| bending([x[0] - 4.0, x[1], x[2]]))
-        .collect();
+    let exact: Vec<[f64; 3]> = mesh.nodes.iter().map(|x| bending([x[0] - 4.0, x[1], x[2]])).collect();
     let u = common::solve_prescribed(&full, &free, &dofs, &exact).unwrap();
     let stress = nodal_stress(&mesh, &STEEL, &options, &u).unwrap();
-    for (x, s) in mesh
-        .nodes
-        .iter()
-        .zip(&stress)
-        .filter(|(x, _)| (x[0] - 4.0).abs() < 1.5 && x[1].abs() > 0.1)
-    {
+    for (x, s) in mesh.nodes.iter().zip(&stress).filter(|(x, _)| (x[0] - 4.0).abs() < 1.5 && x[1].abs() > 0.1) {
         let wanted = STEEL.young_mpa() * 1e-3 * x[1];
-        assert!(
-            (s[0] / wanted - 1.0).abs() < 0.02,
-            "at {x:?}: {} for {wanted}",
-            s[0]
-        );
+        assert!((s[0] / wanted - 1.0).abs() < 0.02, "at {x:?}: {} for {wanted}", s[0]);
     }
 }
 
@@ -88,9 +63,7 @@ fn the_operator_gives_the_nodal_stress() {
         let fixed = nodes_where(&mesh, |x| x[0] < 0.3);
         let dofs = DofMap::new(mesh.nodes.len(), &fixed);
         let options = ElementOptions::default();
-        let free: Vec<f64> = (0..dofs.free_count())
-            .map(|i| (0.7 * i as f64).sin())
-            .collect();
+        let free: Vec<f64> = (0..dofs.free_count()).map(|i| (0.7 * i as f64).sin()).collect();
         let u = dofs.to_nodes(&free).unwrap();
         let run = || nodal_stress(&mesh, &STEEL, &options, &u).unwrap();
         let wanted = on_threads(1, run);
@@ -103,11 +76,7 @@ fn the_operator_gives_the_nodal_stress() {
         for (i, &node) in nodes.iter().enumerate() {
             for k in 0..6 {
                 let w = wanted[node as usize][k];
-                assert!(
-                    (found[(6 * i + k, 0)] - w).abs() < 1e-12 * scale,
-                    "{}",
-                    kind.name()
-                );
+                assert!((found[(6 * i + k, 0)] - w).abs() < 1e-12 * scale, "{}", kind.name());
                 assert!((found[(6 * i + k, 1)] - 2.0 * w).abs() < 1e-12 * scale);
             }
         }
@@ -137,17 +106,10 @@ fn a_pulled_bar_is_under_its_load() {
         let p = mesh.nodes[node as usize];
         x[(dofs.dof(node, 0).unwrap(), 0)] = 100.0 * edge(p[1]) * edge(p[2]); // 100 MPa
     }
-    BoundaryLastFactor::new(&k, &[])
-        .unwrap()
-        .solve(x.as_mut())
-        .unwrap();
+    BoundaryLastFactor::new(&k, &[]).unwrap().solve(x.as_mut()).unwrap();
     let u = dofs.to_nodes(x.col_as_slice(0)).unwrap();
     let stress = nodal_stress(&mesh, &STEEL, &options, &u).unwrap();
     for &node in &nodes_where(&mesh, |x| x[0] > 3.5) {
-        assert!(
-            (stress[node as usize][0] - 100.0).abs() < 0.5,
-            "{:?}",
-            stress[node as usize]
-        );
+        assert!((stress[node as usize][0] - 100.0).abs() < 0.5, "{:?}", stress[node as usize]);
     }
 }

@@ -1,1 +1,33 @@
 //! What shape is a gear pair, exactly?
+//!
+//! External involute gears after ISO 21771: spur and helical, either hand, profile shift, working centre
+//! distance, thinning and backlash, rack-generated root fillet; flanks as exact surfaces; contact lines in the
+//! plane of action. Lengths in mm, angles in rad.
+//!
+//! * A gear's own frame has its axis on +z, mid-face at z = 0 and the centre line of tooth 0 at mid-face on +x.
+//! * Teeth are numbered counter-clockwise seen from +z; the *left* flank is the counter-clockwise side of a tooth.
+//! * Helix angle > 0: right hand.
+
+mod contact_lines;
+mod data;
+mod error;
+mod flank;
+mod gear;
+mod pair;
+mod profile;
+
+pub use contact_lines::ContactLine;
+pub use data::GearData;
+pub use error::GeometryError;
+pub use flank::{Flank, FlankPoint, Side};
+pub use gear::Gear;
+pub use pair::GearPair;
+pub use profile::TransverseProfile;
+
+/// Points and vectors, mm.
+pub type Vec3 = nalgebra::Vector3<f64>;
+
+/// Involute function inv(alpha) = tan(alpha) - alpha.
+pub fn involute(alpha: f64) -> f64 {
+    alpha.tan() - alpha
+}

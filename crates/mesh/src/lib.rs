@@ -2,8 +2,28 @@
 //!
 //! Lengths in mm. Node order inside an element is Gmsh's own for every kind.
 
+mod check;
 pub mod element;
+pub mod error;
+mod faces;
+mod flank_fit;
+mod gear_mesh;
+mod group_names;
+mod info;
 pub mod model;
+pub mod msh;
+mod quality;
+pub mod structured;
 
+pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind};
+pub use error::MeshError;
+pub use faces::{FaceOwner, FaceTable};
+pub use flank_fit::{DEFAULT_TOLERANCE_MODULES, FlankDeviation, FlankFit};
+pub use gear_mesh::GearMesh;
+pub use group_names::GroupNames;
+pub use info::{GroupInfo, LikelyGear, MeshInfo};
 pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};
+pub use msh::{MshError, MshFormat};
+pub use quality::{element_volume, min_det_j, scaled_jacobian};
+pub use structured::{Extent, StructuredError, StructuredOptions, generate};

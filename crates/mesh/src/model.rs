@@ -52,12 +52,7 @@ impl Face {
     /// # Panics
     /// When the number of nodes is not `kind.node_count()`.
     pub fn new(kind: FaceKind, nodes: &[u32]) -> Self {
-        assert_eq!(
-            nodes.len(),
-            kind.node_count(),
-            "{kind:?} with {} nodes",
-            nodes.len()
-        );
+        assert_eq!(nodes.len(), kind.node_count(), "{kind:?} with {} nodes", nodes.len());
         let mut all = [u32::MAX; 9];
         all[..nodes.len()].copy_from_slice(nodes);
         Self { kind, nodes: all }
@@ -67,6 +62,40 @@ impl Face {
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.kind.node_count()]
     }
+
+    /// The corner nodes, counter-clockwise seen from where the normal points.
+    pub fn corners(&self) -> &[u32] {
+        &self.nodes[..self.kind.corner_count()]
+    }
+
+    /// The corner nodes ascending, the last `u32::MAX` for a triangle: the same for the two
+    /// elements that share a face, whatever their order and orientation.
+    pub fn corner_key(&self) -> [u32; 4] {
+        corner_key(self.corners())
+    }
+
+    /// The same face seen from the other side: the normal is turned.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let (corners, count) = (self.kind.corner_count(), self.kind.node_count());
+        let mut turned = *self;
+        turned.nodes[1..corners].reverse();
+        if count >= 2 * corners {
+            // Edge i joins corners i and i + 1; backwards the last edge comes first.
+            turned.nodes[corners..2 * corners].reverse();
+        }
+        turned
+    }
+}
+
+/// At most four corner nodes, ascending and filled up with `u32::MAX`.
+pub(crate) fn corner_key(corners: &[u32]) -> [u32; 4] {
+    let mut key = [u32::MAX; 4];
+    for (slot, &node) in key.iter_mut().zip(corners) {
+        *slot = node;
+    }
+    key.sort_unstable();
+    key
 }
 
 impl ElementBlock {
@@ -101,11 +130,7 @@ impl Mesh {
 impl SurfaceGroup {
     /// The nodes of all faces, ascending, each once.
     pub fn nodes(&self) -> Vec<u32> {
-        let mut all: Vec<u32> = self
-            .faces
-            .iter()
-            .flat_map(|f| f.nodes().iter().copied())
-            .collect();
+        let mut all: Vec<u32> = self.faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
         all.sort_unstable();
         all.dedup();
         all

@@ -59,11 +59,7 @@ impl Pattern {
             }
             neighbours.extend_from_slice(&all);
         }
-        Ok(Self {
-            starts,
-            neighbours,
-            dofs: dofs.clone(),
-        })
+        Ok(Self { starts, neighbours, dofs: dofs.clone() })
     }
 
     pub(super) fn node_count(&self) -> usize {
@@ -81,17 +77,11 @@ impl Pattern {
 
     /// Splits the free nodes into `count` ranges with about equally many neighbours.
     pub(super) fn ranges(&self, count: usize) -> Vec<Range<usize>> {
-        let mut ends: Vec<usize> = (1..count)
-            .map(|k| {
-                self.starts
-                    .partition_point(|&s| s < self.neighbours.len() * k / count)
-            })
-            .collect();
+        let mut ends: Vec<usize> =
+            (1..count).map(|k| self.starts.partition_point(|&s| s < self.neighbours.len() * k / count)).collect();
         ends.push(self.node_count());
         let mut start = 0;
-        ends.into_iter()
-            .map(|end| std::mem::replace(&mut start, end)..end)
-            .collect()
+        ends.into_iter().map(|end| std::mem::replace(&mut start, end)..end).collect()
     }
 }
 
@@ -153,15 +143,8 @@ pub(crate) fn check_blocks(mesh: &Mesh) -> Result<(), FemError> {
             });
         }
         for (element, &tag) in block.elements().zip(&block.tags) {
-            if let Some(&node) = element
-                .iter()
-                .find(|&&node| node as usize >= mesh.nodes.len())
-            {
-                return Err(FemError::NodeOutOfRange {
-                    tag,
-                    node,
-                    node_count: mesh.nodes.len(),
-                });
+            if let Some(&node) = element.iter().find(|&&node| node as usize >= mesh.nodes.len()) {
+                return Err(FemError::NodeOutOfRange { tag, node, node_count: mesh.nodes.len() });
             }
         }
     }

@@ -27,22 +27,12 @@ impl Table {
 
     pub(crate) fn at(kind: ElementKind, points: &[QuadraturePoint]) -> Self {
         let points = points.iter().map(|q| {
-            let (mut n, mut dn) = (
-                vec![0.0; kind.node_count()],
-                vec![[0.0; 3]; kind.node_count()],
-            );
+            let (mut n, mut dn) = (vec![0.0; kind.node_count()], vec![[0.0; 3]; kind.node_count()]);
             kind.shape(q.xi, &mut n);
             kind.shape_gradient(q.xi, &mut dn);
-            TablePoint {
-                xi: q.xi,
-                weight: q.weight,
-                n,
-                dn,
-            }
+            TablePoint { xi: q.xi, weight: q.weight, n, dn }
         });
-        Self {
-            points: points.collect(),
-        }
+        Self { points: points.collect() }
     }
 }
 
@@ -71,11 +61,7 @@ pub(crate) fn checked_jacobian(
     let det = (0..3).map(|k| j[0][k] * cofactor(0, k)).sum::<f64>();
     // NaN coordinates must fail too
     if !(det > 0.0 && det.is_finite()) {
-        return Err(FemError::Inverted {
-            kind: kind.name(),
-            tag,
-            det_j_mm3: det,
-        });
+        return Err(FemError::Inverted { kind: kind.name(), tag, det_j_mm3: det });
     }
     let mut inverse = [[0.0; 3]; 3];
     for (k, row) in inverse.iter_mut().enumerate() {

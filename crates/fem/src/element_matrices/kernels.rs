@@ -4,8 +4,7 @@ use faer::Mat;
 use mesh::{ElementKind, element::QuadratureRule};
 
 use super::{
-    BUBBLES, ElementOptions, IncompatibleModes, Integration, Table, bubble_gradients,
-    checked_jacobian, gradients,
+    BUBBLES, ElementOptions, IncompatibleModes, Integration, Table, bubble_gradients, checked_jacobian, gradients,
     incompatible::{Condensed, condense},
 };
 use crate::{FemError, Material};
@@ -41,23 +40,12 @@ impl StiffnessKernel {
         let mut centre_dn = vec![[0.0; 3]; kind.node_count()];
         kind.shape_gradient(kind.centre(), &mut centre_dn);
         let (lambda, mu) = material.lame_mpa();
-        Self {
-            kind,
-            modes,
-            table: Table::new(kind, rule),
-            centre_dn,
-            lambda,
-            mu,
-        }
+        Self { kind, modes, table: Table::new(kind, rule), centre_dn, lambda, mu }
     }
 
     /// Block rows that [`StiffnessKernel::fill`] works on: the nodes, and the bubbles where there are any.
     fn rows(&self) -> usize {
-        let bubbles = if self.modes == IncompatibleModes::Off {
-            0
-        } else {
-            BUBBLES
-        };
+        let bubbles = if self.modes == IncompatibleModes::Off { 0 } else { BUBBLES };
         self.kind.node_count() + bubbles
     }
 
@@ -80,22 +68,13 @@ impl StiffnessKernel {
         let blocks = &mut blocks[..block_index(rows, 0)];
         blocks.fill([0.0; 9]);
         let mut g = [[0.0; 3]; MAX_ROWS];
-        let centre = if rows > nodes {
-            Some(checked_jacobian(
-                self.kind,
-                tag,
-                coordinates,
-                &self.centre_dn,
-            )?)
-        } else {
-            None
-        };
+        let centre =
+            if rows > nodes { Some(checked_jacobian(self.kind, tag, coordinates, &self.centre_dn)?) } else { None };
         for point in &self.table.points {
             let (inverse, det) = checked_jacobian(self.kind, tag, coordinates, &point.dn)?;
             gradients(&inverse, &point.dn, &mut g);
             if let Some((inverse_centre, det_centre)) = &centre {
-                let bubbles =
-                    bubble_gradients(self.modes, point.xi, inverse_centre, *det_centre, det);
+                let bubbles = bubble_gradients(self.modes, point.xi, inverse_centre, *det_centre, det);
                 g[nodes..rows].copy_from_slice(&bubbles);
             }
             let volume = point.weight * det;
@@ -106,11 +85,7 @@ impl StiffnessKernel {
         }
         match condense(blocks) {
             Some(condensed) => Ok(Some(condensed)),
-            None => Err(FemError::Inverted {
-                kind: self.kind.name(),
-                tag,
-                det_j_mm3: 0.0,
-            }),
+            None => Err(FemError::Inverted { kind: self.kind.name(), tag, det_j_mm3: 0.0 }),
         }
     }
 
@@ -143,20 +118,11 @@ pub(crate) struct MassKernel {
 impl MassKernel {
     pub(crate) fn new(kind: ElementKind, material: &Material) -> Self {
         let table = Table::new(kind, QuadratureRule::Mass);
-        Self {
-            kind,
-            table,
-            density: material.density_t_per_mm3(),
-        }
+        Self { kind, table, density: material.density_t_per_mm3() }
     }
 
     /// Writes the lower triangle, row by row.
-    pub(crate) fn fill(
-        &self,
-        coordinates: &[[f64; 3]],
-        tag: u64,
-        entries: &mut [f64],
-    ) -> Result<(), FemError> {
+    pub(crate) fn fill(&self, coordinates: &[[f64; 3]], tag: u64, entries: &mut [f64]) -> Result<(), FemError> {
         entries.fill(0.0);
         for point in &self.table.points {
             let (_, det) = checked_jacobian(self.kind, tag, coordinates, &point.dn)?;
@@ -215,9 +181,7 @@ pub fn element_mass(
     let nodes = checked_count(kind, coordinates_mm)?;
     let mut entries = vec![0.0; block_index(nodes, 0)];
     MassKernel::new(kind, material).fill(coordinates_mm, tag, &mut entries)?;
-    Ok(Mat::from_fn(nodes, nodes, |i, j| {
-        entries[block_index(i.max(j), i.min(j))]
-    }))
+    Ok(Mat::from_fn(nodes, nodes, |i, j| entries[block_index(i.max(j), i.min(j))]))
 }
 
 fn checked_count(kind: ElementKind, coordinates: &[[f64; 3]]) -> Result<usize, FemError> {
@@ -225,10 +189,6 @@ fn checked_count(kind: ElementKind, coordinates: &[[f64; 3]]) -> Result<usize, F
     if coordinates.len() == expected {
         Ok(expected)
     } else {
-        Err(FemError::Shape {
-            what: "nodes of an element",
-            expected,
-            found: coordinates.len(),
-        })
+        Err(FemError::Shape { what: "nodes of an element", expected, found: coordinates.len() })
     }
 }

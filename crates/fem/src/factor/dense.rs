@@ -40,14 +40,10 @@ pub(super) fn inverse_of_product(l: MatRef<'_, f64>) -> Mat<f64> {
 /// A symmetric matrix from its lower triangle, computed by blocks: `fill(start, width, rows from start on)`.
 fn by_lower_blocks(n: usize, fill: impl Fn(usize, usize, MatMut<'_, f64>) + Sync) -> Mat<f64> {
     let mut result = Mat::zeros(n, n);
-    result
-        .as_mut()
-        .par_col_chunks_mut(BLOCK)
-        .enumerate()
-        .for_each(|(k, block)| {
-            let (start, width) = (k * BLOCK, block.ncols());
-            fill(start, width, block.subrows_mut(start, n - start));
-        });
+    result.as_mut().par_col_chunks_mut(BLOCK).enumerate().for_each(|(k, block)| {
+        let (start, width) = (k * BLOCK, block.ncols());
+        fill(start, width, block.subrows_mut(start, n - start));
+    });
     for j in 0..n {
         for i in j + 1..n {
             result[(j, i)] = result[(i, j)];

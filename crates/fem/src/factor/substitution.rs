@@ -20,11 +20,7 @@ impl Supernode<'_> {
     /// Row of L behind entry `k` of the block below the first `columns` rows.
     fn row_below(&self, columns: usize, k: usize) -> usize {
         let inside = self.columns - columns;
-        if k < inside {
-            self.start + columns + k
-        } else {
-            self.pattern[k - inside]
-        }
+        if k < inside { self.start + columns + k } else { self.pattern[k - inside] }
     }
 }
 
@@ -40,14 +36,7 @@ impl BoundaryLastFactor {
             let mut x_top = x.rb_mut().subrows_mut(node.start, columns);
             solve_lower_triangular_in_place(top, x_top.rb_mut(), Par::Seq);
             let mut update = Mat::<f64>::zeros(below.nrows(), width);
-            matmul(
-                update.as_mut(),
-                Accum::Replace,
-                below,
-                x_top.rb(),
-                1.0,
-                Par::Seq,
-            );
+            matmul(update.as_mut(), Accum::Replace, below, x_top.rb(), 1.0, Par::Seq);
             for c in 0..width {
                 for k in 0..below.nrows() {
                     x[(node.row_below(columns, k), c)] -= update[(k, c)];
@@ -71,23 +60,14 @@ impl BoundaryLastFactor {
                 }
             }
             let mut x_top = x.rb_mut().subrows_mut(node.start, columns);
-            matmul(
-                x_top.rb_mut(),
-                Accum::Add,
-                below.transpose(),
-                x_below.as_ref(),
-                -1.0,
-                Par::Seq,
-            );
+            matmul(x_top.rb_mut(), Accum::Add, below.transpose(), x_below.as_ref(), -1.0, Par::Seq);
             solve_upper_triangular_in_place(top.transpose(), x_top, Par::Seq);
         }
     }
 
     /// From the matrix's numbering into the order of elimination.
     pub(super) fn permute(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        Mat::from_fn(x.nrows(), x.ncols(), |new, c| {
-            x[(self.ordering.forward[new], c)]
-        })
+        Mat::from_fn(x.nrows(), x.ncols(), |new, c| x[(self.ordering.forward[new], c)])
     }
 
     /// Back from the order of elimination.

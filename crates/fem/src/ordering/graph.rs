@@ -49,9 +49,7 @@ impl Graph {
         }
         let entries = 2 * edges.len();
         if i32::try_from(entries).is_err() || i32::try_from(n).is_err() {
-            return Err(FemError::TooLarge {
-                entries: entries.max(n),
-            });
+            return Err(FemError::TooLarge { entries: entries.max(n) });
         }
         let mut starts = vec![0i32; groups + 1];
         for &(a, b) in &edges {
@@ -69,17 +67,8 @@ impl Graph {
                 next[from as usize] += 1;
             }
         }
-        let weights = member_starts
-            .windows(2)
-            .map(|w| (w[1] - w[0]) as i32)
-            .collect();
-        Ok(Self {
-            starts,
-            neighbours,
-            weights,
-            members,
-            member_starts,
-        })
+        let weights = member_starts.windows(2).map(|w| (w[1] - w[0]) as i32).collect();
+        Ok(Self { starts, neighbours, weights, members, member_starts })
     }
 
     pub(super) fn group_count(&self) -> usize {
@@ -164,9 +153,7 @@ fn same_neighbours(matrix: &SymmetricMatrix, left_out: &[bool]) -> Vec<bool> {
                 return false;
             }
             // rows at and below j must agree, and so must the columns left of j-1; column j-1 has row j
-            let above = column(j - 1)
-                .iter()
-                .filter(|&&row| row >= j && !left_out[row]);
+            let above = column(j - 1).iter().filter(|&&row| row >= j && !left_out[row]);
             let own = column(j).iter().filter(|&&row| row >= j && !left_out[row]);
             let coupled = column(j - 1).binary_search(&j).is_ok();
             coupled && alone[j] == alone[j - 1] + 1 && together[j] == alone[j - 1] && above.eq(own)
@@ -205,14 +192,9 @@ mod tests {
     #[test]
     fn postorder_is_a_permutation_with_children_before_parents() {
         // a path 0-1-2-3-4-5-6 in dissection order: 0 2 | 1, 4 6 | 5, then 3
-        let triplets: Vec<_> = (0..7)
-            .flat_map(|i| [(i, i, 2.0), (i, i.max(1) - 1, -1.0)])
-            .collect();
+        let triplets: Vec<_> = (0..7).flat_map(|i| [(i, i, 2.0), (i, i.max(1) - 1, -1.0)]).collect();
         let matrix = SymmetricMatrix::from_triplets(7, &triplets).unwrap();
         let graph = Graph::new(&matrix, &[false; 7]).unwrap();
-        assert_eq!(
-            graph.postorder(&[0, 4, 2, 6, 5, 1, 3]),
-            [4, 6, 5, 0, 2, 1, 3]
-        );
+        assert_eq!(graph.postorder(&[0, 4, 2, 6, 5, 1, 3]), [4, 6, 5, 0, 2, 1, 3]);
     }
 }

@@ -23,16 +23,10 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
     let (mut starts, mut neighbours) = (graph.starts.clone(), graph.neighbours.clone());
     let mut weights = graph.weights.clone();
     let uniform = weights.iter().all(|&w| w == weights[0]);
-    let weights = if uniform {
-        ptr::null_mut()
-    } else {
-        weights.as_mut_ptr()
-    };
+    let weights = if uniform { ptr::null_mut() } else { weights.as_mut_ptr() };
     let (mut order, mut inverse) = (vec![0i32; nodes], vec![0i32; nodes]);
     let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
-    let guard = ONE_AT_A_TIME
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     // SAFETY: `starts` has `count + 1` entries, ascending from 0 to the length of `neighbours`, whose entries
     // are below `count`; `order` and `inverse` have `count`; `options` has the length METIS declares;
     // all outlive the call.

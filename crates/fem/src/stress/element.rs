@@ -7,9 +7,7 @@ use mesh::{
 
 use crate::{
     ElementOptions, FemError, IncompatibleModes, Material,
-    element_matrices::{
-        BUBBLES, Condensed, StiffnessKernel, Table, bubble_gradients, checked_jacobian, gradients,
-    },
+    element_matrices::{BUBBLES, Condensed, StiffnessKernel, Table, bubble_gradients, checked_jacobian, gradients},
 };
 
 /// Stress evaluation for elements of one kind.
@@ -36,21 +34,13 @@ impl ElementStress {
         let to_nodes = kind
             .reference_nodes()
             .iter()
-            .map(|&xi| {
-                points
-                    .iter()
-                    .map(|q| extrapolation(kind, q.xi, points, xi))
-                    .collect()
-            })
+            .map(|&xi| points.iter().map(|q| extrapolation(kind, q.xi, points, xi)).collect())
             .collect();
         let modes = match kind {
             Hex8 => options.incompatible_modes,
             _ => IncompatibleModes::Off,
         };
-        let centre = QuadraturePoint {
-            xi: kind.centre(),
-            weight: 1.0,
-        };
+        let centre = QuadraturePoint { xi: kind.centre(), weight: 1.0 };
         Self {
             kind,
             modes,
@@ -64,21 +54,14 @@ impl ElementStress {
 
     /// Everything that depends on the element's shape alone.
     pub(super) fn prepare(&self, coordinates: &[[f64; 3]], tag: u64) -> Result<Prepared, FemError> {
-        let (inverse_centre, det_centre) =
-            checked_jacobian(self.kind, tag, coordinates, &self.centre.points[0].dn)?;
+        let (inverse_centre, det_centre) = checked_jacobian(self.kind, tag, coordinates, &self.centre.points[0].dn)?;
         let (mut all, mut bubbles) = (Vec::new(), Vec::new());
         for point in &self.table.points {
             let (inverse, det) = checked_jacobian(self.kind, tag, coordinates, &point.dn)?;
             let mut g = vec![[0.0; 3]; coordinates.len()];
             gradients(&inverse, &point.dn, &mut g);
             all.push(g);
-            bubbles.push(bubble_gradients(
-                self.modes,
-                point.xi,
-                &inverse_centre,
-                det_centre,
-                det,
-            ));
+            bubbles.push(bubble_gradients(self.modes, point.xi, &inverse_centre, det_centre, det));
         }
         let condensed = if self.modes == IncompatibleModes::Off {
             None
@@ -86,10 +69,7 @@ impl ElementStress {
             let mut blocks = vec![[0.0; 9]; self.stiffness.buffer_len()];
             self.stiffness.fill(coordinates, tag, &mut blocks)?
         };
-        Ok(Prepared {
-            gradients: all,
-            bubbles: condensed.map(|c| (bubbles, c)),
-        })
+        Ok(Prepared { gradients: all, bubbles: condensed.map(|c| (bubbles, c)) })
     }
 
     /// Stress [MPa] at each node from the nodes' displacements [mm].

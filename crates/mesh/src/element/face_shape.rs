@@ -40,18 +40,12 @@ impl FaceKind {
         if i >= 3 {
             let (a, b) = (i - 3, (i - 2) % 3);
             let (da, db) = (TRIANGULAR_SLOPES[a], TRIANGULAR_SLOPES[b]);
-            return (
-                4.0 * l[a] * l[b],
-                [0, 1].map(|k| 4.0 * (l[a] * db[k] + l[b] * da[k])),
-            );
+            return (4.0 * l[a] * l[b], [0, 1].map(|k| 4.0 * (l[a] * db[k] + l[b] * da[k])));
         }
         if self == Tri3 {
             return (l[i], TRIANGULAR_SLOPES[i]);
         }
-        (
-            l[i] * (2.0 * l[i] - 1.0),
-            TRIANGULAR_SLOPES[i].map(|d| (4.0 * l[i] - 1.0) * d),
-        )
+        (l[i] * (2.0 * l[i] - 1.0), TRIANGULAR_SLOPES[i].map(|d| (4.0 * l[i] - 1.0) * d))
     }
 
     /// Quadrilateral, as the brick of the same family (see the volume elements).
@@ -68,10 +62,7 @@ impl FaceKind {
         let (value, slope) = (fx * fy, [dx * fy, fx * dy]);
         if self == Quad8 && node.iter().all(|&c| c != 0.0) {
             let reach = xi[0] * node[0] + xi[1] * node[1] - 1.0;
-            return (
-                value * reach,
-                [0, 1].map(|k| slope[k] * reach + value * node[k]),
-            );
+            return (value * reach, [0, 1].map(|k| slope[k] * reach + value * node[k]));
         }
         (value, slope)
     }
@@ -89,11 +80,7 @@ mod tests {
                 kind.shape(node, &mut n);
                 for (j, &value) in n[..kind.node_count()].iter().enumerate() {
                     let wanted = f64::from(u8::from(i == j));
-                    assert!(
-                        (value - wanted).abs() < 1e-15,
-                        "{}: N_{j} at node {i} is {value}",
-                        kind.name()
-                    );
+                    assert!((value - wanted).abs() < 1e-15, "{}: N_{j} at node {i} is {value}", kind.name());
                 }
             }
         }
@@ -116,11 +103,7 @@ mod tests {
                     assert!((up[..count].iter().sum::<f64>() - 1.0).abs() < 1e-14);
                     for i in 0..count {
                         let difference = (up[i] - down[i]) / (2.0 * h);
-                        assert!(
-                            (difference - dn[i][k]).abs() < 1e-9,
-                            "{} dN_{i}/d{k}",
-                            kind.name()
-                        );
+                        assert!((difference - dn[i][k]).abs() < 1e-9, "{} dN_{i}/d{k}", kind.name());
                     }
                 }
             }

@@ -84,10 +84,7 @@ impl FaceKind {
 static GAUSS_2: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| cube(&line(2)));
 static GAUSS_3: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| cube(&line(3)));
 static GAUSS_4: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| cube(&line(4)));
-static TET_1: [QuadraturePoint; 1] = [QuadraturePoint {
-    xi: [0.25; 3],
-    weight: 1.0 / 6.0,
-}];
+static TET_1: [QuadraturePoint; 1] = [QuadraturePoint { xi: [0.25; 3], weight: 1.0 / 6.0 }];
 static TET_4: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| {
     let mut points = Vec::new();
     corner_orbit(&mut points, (5.0 - 5f64.sqrt()) / 20.0, 0.25);
@@ -95,20 +92,9 @@ static TET_4: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| {
 });
 static TET_15: LazyLock<Vec<QuadraturePoint>> = LazyLock::new(|| {
     let root = 15f64.sqrt();
-    let mut points = vec![QuadraturePoint {
-        xi: [0.25; 3],
-        weight: 16.0 / 135.0 / 6.0,
-    }];
-    corner_orbit(
-        &mut points,
-        (7.0 - root) / 34.0,
-        (2665.0 + 14.0 * root) / 37800.0,
-    );
-    corner_orbit(
-        &mut points,
-        (7.0 + root) / 34.0,
-        (2665.0 - 14.0 * root) / 37800.0,
-    );
+    let mut points = vec![QuadraturePoint { xi: [0.25; 3], weight: 16.0 / 135.0 / 6.0 }];
+    corner_orbit(&mut points, (7.0 - root) / 34.0, (2665.0 + 14.0 * root) / 37800.0);
+    corner_orbit(&mut points, (7.0 + root) / 34.0, (2665.0 - 14.0 * root) / 37800.0);
     edge_orbit(&mut points, (5.0 - root) / 20.0, 10.0 / 189.0);
     points
 });
@@ -123,10 +109,7 @@ static TRI_3: LazyLock<Vec<FaceQuadraturePoint>> = LazyLock::new(|| {
 });
 static TRI_7: LazyLock<Vec<FaceQuadraturePoint>> = LazyLock::new(|| {
     let root = 15f64.sqrt();
-    let mut points = vec![FaceQuadraturePoint {
-        xi: [1.0 / 3.0; 2],
-        weight: 9.0 / 80.0,
-    }];
+    let mut points = vec![FaceQuadraturePoint { xi: [1.0 / 3.0; 2], weight: 9.0 / 80.0 }];
     triangle_orbit(&mut points, (6.0 + root) / 21.0, (155.0 + root) / 1200.0);
     triangle_orbit(&mut points, (6.0 - root) / 21.0, (155.0 - root) / 1200.0);
     points
@@ -149,12 +132,7 @@ fn line(count: usize) -> Vec<(f64, f64)> {
             let spread = 2.0 / 7.0 * 1.2f64.sqrt();
             let (inner, outer) = ((3.0 / 7.0 - spread).sqrt(), (3.0 / 7.0 + spread).sqrt());
             let (heavy, light) = ((18.0 + 30f64.sqrt()) / 36.0, (18.0 - 30f64.sqrt()) / 36.0);
-            vec![
-                (-outer, light),
-                (-inner, heavy),
-                (inner, heavy),
-                (outer, light),
-            ]
+            vec![(-outer, light), (-inner, heavy), (inner, heavy), (outer, light)]
         }
     }
 }
@@ -164,10 +142,7 @@ fn cube(line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     for &(z, wz) in line {
         for &(y, wy) in line {
             for &(x, wx) in line {
-                points.push(QuadraturePoint {
-                    xi: [x, y, z],
-                    weight: wx * wy * wz,
-                });
+                points.push(QuadraturePoint { xi: [x, y, z], weight: wx * wy * wz });
             }
         }
     }
@@ -178,10 +153,7 @@ fn square(line: &[(f64, f64)]) -> Vec<FaceQuadraturePoint> {
     let mut points = Vec::with_capacity(line.len().pow(2));
     for &(y, wy) in line {
         for &(x, wx) in line {
-            points.push(FaceQuadraturePoint {
-                xi: [x, y],
-                weight: wx * wy,
-            });
+            points.push(FaceQuadraturePoint { xi: [x, y], weight: wx * wy });
         }
     }
     points
@@ -191,10 +163,7 @@ fn prism(triangle: &[FaceQuadraturePoint], line: &[(f64, f64)]) -> Vec<Quadratur
     let mut points = Vec::with_capacity(triangle.len() * line.len());
     for &(z, wz) in line {
         for t in triangle {
-            points.push(QuadraturePoint {
-                xi: [t.xi[0], t.xi[1], z],
-                weight: t.weight * wz,
-            });
+            points.push(QuadraturePoint { xi: [t.xi[0], t.xi[1], z], weight: t.weight * wz });
         }
     }
     points
@@ -204,10 +173,7 @@ fn prism(triangle: &[FaceQuadraturePoint], line: &[(f64, f64)]) -> Vec<Quadratur
 fn triangle_orbit(points: &mut Vec<FaceQuadraturePoint>, a: f64, share: f64) {
     let far = 1.0 - 2.0 * a;
     for xi in [[a, a], [far, a], [a, far]] {
-        points.push(FaceQuadraturePoint {
-            xi,
-            weight: 0.5 * share,
-        });
+        points.push(FaceQuadraturePoint { xi, weight: 0.5 * share });
     }
 }
 
@@ -215,28 +181,15 @@ fn triangle_orbit(points: &mut Vec<FaceQuadraturePoint>, a: f64, share: f64) {
 fn corner_orbit(points: &mut Vec<QuadraturePoint>, a: f64, share: f64) {
     let far = 1.0 - 3.0 * a;
     for xi in [[a, a, a], [far, a, a], [a, far, a], [a, a, far]] {
-        points.push(QuadraturePoint {
-            xi,
-            weight: share / 6.0,
-        });
+        points.push(QuadraturePoint { xi, weight: share / 6.0 });
     }
 }
 
 /// Six points with barycentric coordinates (a, a, b, b), b = 1/2 - a, in turn.
 fn edge_orbit(points: &mut Vec<QuadraturePoint>, a: f64, share: f64) {
     let b = 0.5 - a;
-    for xi in [
-        [a, a, b],
-        [a, b, a],
-        [b, a, a],
-        [b, b, a],
-        [b, a, b],
-        [a, b, b],
-    ] {
-        points.push(QuadraturePoint {
-            xi,
-            weight: share / 6.0,
-        });
+    for xi in [[a, a, b], [a, b, a], [b, a, a], [b, b, a], [b, a, b], [a, b, b]] {
+        points.push(QuadraturePoint { xi, weight: share / 6.0 });
     }
 }
 
@@ -250,11 +203,7 @@ mod tests {
 
     /// Integral of x^a over [-1, 1].
     fn power(a: i32) -> f64 {
-        if a % 2 == 0 {
-            2.0 / f64::from(a + 1)
-        } else {
-            0.0
-        }
+        if a % 2 == 0 { 2.0 / f64::from(a + 1) } else { 0.0 }
     }
 
     /// Exact integral of x^a y^b z^c over the reference element.
@@ -288,11 +237,7 @@ mod tests {
                             .map(|q| q.weight * q.xi[0].powi(a) * q.xi[1].powi(b) * q.xi[2].powi(c))
                             .sum();
                         let exact = monomial(kind, [a, b, c]);
-                        assert!(
-                            (sum - exact).abs() < 1e-14,
-                            "{} x^{a} y^{b} z^{c}: {sum} for {exact}",
-                            kind.name()
-                        );
+                        assert!((sum - exact).abs() < 1e-14, "{} x^{a} y^{b} z^{c}: {sum} for {exact}", kind.name());
                     }
                 }
             }
@@ -302,25 +247,13 @@ mod tests {
     #[test]
     fn weights_sum_to_the_volume_and_points_are_balanced() {
         for kind in ElementKind::ALL {
-            for rule in [
-                QuadratureRule::Stiffness,
-                QuadratureRule::Reduced,
-                QuadratureRule::Mass,
-            ] {
+            for rule in [QuadratureRule::Stiffness, QuadratureRule::Reduced, QuadratureRule::Mass] {
                 let points = kind.quadrature(rule);
                 let sum: f64 = points.iter().map(|q| q.weight).sum();
-                assert!(
-                    (sum - monomial(kind, [0; 3])).abs() < 1e-14,
-                    "{} {rule:?}",
-                    kind.name()
-                );
+                assert!((sum - monomial(kind, [0; 3])).abs() < 1e-14, "{} {rule:?}", kind.name());
                 for (k, centre) in kind.centre().into_iter().enumerate() {
                     let mean: f64 = points.iter().map(|q| q.weight * q.xi[k]).sum::<f64>() / sum;
-                    assert!(
-                        (mean - centre).abs() < 1e-14,
-                        "{} {rule:?}: lopsided",
-                        kind.name()
-                    );
+                    assert!((mean - centre).abs() < 1e-14, "{} {rule:?}: lopsided", kind.name());
                 }
                 assert!(points.iter().all(|q| q.weight > 0.0));
             }
@@ -337,21 +270,10 @@ mod tests {
                     if triangle && a + b > degree {
                         continue;
                     }
-                    let sum: f64 = kind
-                        .quadrature()
-                        .iter()
-                        .map(|q| q.weight * q.xi[0].powi(a) * q.xi[1].powi(b))
-                        .sum();
-                    let exact = if triangle {
-                        factorial(a) * factorial(b) / factorial(a + b + 2)
-                    } else {
-                        power(a) * power(b)
-                    };
-                    assert!(
-                        (sum - exact).abs() < 1e-14,
-                        "{} x^{a} y^{b}: {sum}",
-                        kind.name()
-                    );
+                    let sum: f64 = kind.quadrature().iter().map(|q| q.weight * q.xi[0].powi(a) * q.xi[1].powi(b)).sum();
+                    let exact =
+                        if triangle { factorial(a) * factorial(b) / factorial(a + b + 2) } else { power(a) * power(b) };
+                    assert!((sum - exact).abs() < 1e-14, "{} x^{a} y^{b}: {sum}", kind.name());
                 }
             }
         }

@@ -1,0 +1,145 @@
+//! `ale-gear mesh`: look at, check or make meshes.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Subcommand, ValueEnum};
+use mesh::{GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
+
+use crate::error::CommandError;
+use crate::scene::Scene;
+use crate::{gears, meshes};
+
+/// Subcommands of `ale-gear mesh`.
+#[derive(Debug, Subcommand)]
+pub(super) enum MeshCommand {
+    /// What a mesh file holds: elements, nodes, extent, groups
+    Info {
+        /// Gmsh file, format 2.2 or 4.1, text or binary
+        file: PathBuf,
+    },
+    /// What is wrong with a mesh file; exit status 2 if it cannot be used
+    Check {
+        /// Gmsh file, format 2.2 or 4.1, text or binary
+        file: PathBuf,
+        /// Number of teeth of the whole gear, for the periodic faces of a sector
+        #[arg(long, value_name = "Z")]
+        teeth: Option<u32>,
+    },
+    /// Write the mesh that the built-in mesher makes of a scene's gear
+    Generate {
+        /// Scene file
+        scene: PathBuf,
+        /// Which gear
+        #[arg(long)]
+        gear: WhichGear,
+        /// Gmsh file to write
+        #[arg(long, short)]
+        output: PathBuf,
+        /// Format version, 4.1 or 2.2
+        #[arg(long, default_value = "4.1")]
+        format: String,
+        /// Text instead of binary
+        #[arg(long)]
+        ascii: bool,
+    },
+}
+
+/// A gear of the pair.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum WhichGear {
+    Pinion,
+    Wheel,
+}
+
+impl MeshCommand {
+    /// Does what was asked; the text is for stdout.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        match self {
+            Self::Info { file } => Ok(info(&file, &MeshInfo::new(&read(&file)?))),
+            Self::Check { file, teeth } => check(&file, teeth),
+            Self::Generate { scene, gear, output, format, ascii } => generate(&scene, gear, &output, &format, ascii),
+        }
+    }
+}
+
+fn read(file: &Path) -> Result<Mesh, CommandError> {
+    Mesh::read(file).map_err(|e| {
+        let hint = match e {
+            MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
+            _ => e.hint(),
+        };
+        CommandError::input(&e, hint)
+    })
+}
+
+/// A short table of what is in a mesh.
+fn info(file: &Path, mesh: &MeshInfo) -> String {
+    let mut t = format!("{}\n", file.display());
+    let mut line = |label: &str, value: String| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(t, "  {label:<16} {value}");
+    };
+    line("nodes", format!("{} ({} DOF)", mesh.nodes, 3 * mesh.nodes));
+    for (kind, count) in &mesh.elements {
+        line("elements", format!("{count} {kind}"));
+    }
+    line("volume", format!("{:.3} mm^3", mesh.volume));
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        line(name, format!("{:.4} .. {:.4} mm", mesh.low[axis], mesh.high[axis]));
+    }
+    line("radius", format!("{:.4} .. {:.4} mm", mesh.radius_range[0], mesh.radius_range[1]));
+    line("angle", format!("{:.2} deg", mesh.gear.angle_deg));
+    let unknown = || "not known".to_owned();
+    line("bore radius", mesh.gear.bore_radius.map_or_else(unknown, |r| format!("{r:.4} mm")));
+    line("teeth", mesh.gear.teeth.map_or_else(unknown, |z| z.to_string()));
+    line("teeth with flanks", mesh.gear.named_teeth.to_string());
+    line("volumes", mesh.volumes.join(", "));
+    line("surfaces", format!("{} groups", mesh.surfaces.len()));
+    for g in &mesh.surfaces {
+        let _ = writeln!(t, "    {:<20} {:>7} faces {:>7} nodes {:>12.3} mm^2", g.name, g.faces, g.nodes, g.area);
+    }
+    t
+}
+
+fn check(file: &Path, teeth: Option<u32>) -> Result<String, CommandError> {
+    let report = MeshReport::of_gear(&read(file)?, &GroupNames::default(), teeth);
+    let mut t = String::new();
+    for finding in &report.findings {
+        let severity = match finding.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(t, "{severity}: {}", finding.text);
+        for (what, tags) in [("elements", &finding.elements), ("nodes", &finding.nodes)] {
+            if !tags.is_empty() {
+                let shown: Vec<String> = tags.iter().map(u64::to_string).collect();
+                let _ = writeln!(t, "  {what} {}", shown.join(" "));
+            }
+        }
+    }
+    let errors = report.findings.iter().filter(|f| f.severity == Severity::Error).count();
+    if errors > 0 {
+        let list = t.trim_end().replace('\n', "\n  ");
+        return Err(CommandError::input(
+            format_args!("{}: cannot be used\n  {list}", file.display()),
+            Some("element and node numbers are the tags that Gmsh shows".into()),
+        ));
+    }
+    let verdict = if report.findings.is_empty() { "nothing wrong found" } else { "can be used" };
+    Ok(format!("{}: {verdict}\n{t}", file.display()))
+}
+
+fn generate(scene: &Path, which: WhichGear, output: &Path, format: &str, ascii: bool) -> Result<String, CommandError> {
+    let format = meshes::format(format, ascii)?;
+    let scene = Scene::read(scene)?;
+    let pair = gears::pair(&scene)?;
+    let mesh = match which {
+        WhichGear::Pinion => meshes::generated(&scene, "pinion", &scene.pinion, &pair.pinion)?,
+        WhichGear::Wheel => meshes::generated(&scene, "wheel", &scene.wheel, &pair.wheel)?,
+    };
+    mesh.write(output, format).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    Ok(format!("{}: {} nodes, {} elements\n", output.display(), mesh.nodes.len(), mesh.element_count()))
+}

@@ -1,0 +1,43 @@
+//! The subcommands: typed words, then a checked plan, then work.
+
+mod default_scene;
+mod mesh;
+mod run;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::CommandError;
+
+/// Reduced finite-element contact of helical gears
+///
+/// Without a subcommand it runs the default scene of this repository into out/default.
+/// Exit status: 0 solved, 1 no result, 2 wrong input.
+#[derive(Debug, Parser)]
+#[command(name = "ale-gear", version)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene and write its result folder
+    Run(run::RunArgs),
+    /// Look at, check or make meshes
+    #[command(subcommand)]
+    Mesh(mesh::MeshCommand),
+}
+
+impl Cli {
+    /// Does what was asked; the text is for stdout.
+    ///
+    /// # Errors
+    /// The one message for stderr, with the exit status.
+    pub fn execute(self) -> Result<String, CommandError> {
+        match self.command {
+            None => run::RunArgs::for_default_scene()?.execute(),
+            Some(Command::Run(args)) => args.execute(),
+            Some(Command::Mesh(command)) => command.execute(),
+        }
+    }
+}

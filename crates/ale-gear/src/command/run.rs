@@ -1,0 +1,109 @@
+//! `ale-gear run`: a scene in, a result folder out.
+
+use std::path::PathBuf;
+
+use crate::error::CommandError;
+use crate::facts::{Cost, Solved};
+use crate::output::{ResultDirectory, closing_table, headline, write_history, write_report, write_summary};
+use crate::phases::Phases;
+use crate::run;
+use crate::scene::{Model, Scene};
+
+/// Words of `ale-gear run`.
+#[derive(Debug, clap::Args)]
+pub(super) struct RunArgs {
+    /// Scene file
+    scene: PathBuf,
+    /// Folder for the results; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads [default: all cores]
+    #[arg(long, short = 'j', value_name = "N")]
+    threads: Option<usize>,
+    /// Torque on the driven gear, instead of the scene's
+    #[arg(long, value_name = "NM", help_heading = "Overrides", allow_negative_numbers = true)]
+    torque_nm: Option<f64>,
+    /// Write ParaView files, whatever the scene says
+    #[arg(long, help_heading = "Overrides")]
+    vtu: bool,
+}
+
+impl RunArgs {
+    /// The default scene into `out/default`.
+    pub(super) fn for_default_scene() -> Result<Self, CommandError> {
+        let out = PathBuf::from("out/default");
+        Ok(Self { scene: super::default_scene::find()?, out, threads: None, torque_nm: None, vtu: false })
+    }
+
+    /// Every complaint about the words is made here, before any work starts or any file is written.
+    fn plan(&self) -> Result<Scene, CommandError> {
+        let mut scene = Scene::read(&self.scene)?;
+        if let Some(torque) = self.torque_nm {
+            if !(0.0..=1e9).contains(&torque) {
+                return Err(CommandError::input(
+                    format_args!("`--torque-nm` is {torque}, allowed is 0 .. 1000000000"),
+                    Some("the sense of the torque follows from `driver` and `rotation`".into()),
+                ));
+            }
+            scene.operation.torque_nm = torque;
+        }
+        scene.output.vtu |= self.vtu;
+        if scene.output.vtu && scene.analysis.model == Model::Iso {
+            return Err(CommandError::input(
+                format_args!(
+                    "{}: the model \"iso\" has no mesh, so there is nothing for ParaView",
+                    self.scene.display()
+                ),
+                Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
+            ));
+        }
+        for (whose, gear) in [("pinion", &scene.pinion), ("wheel", &scene.wheel)] {
+            let periodic = gear.mesher.is_some_and(|m| m.sector_teeth == 1);
+            if periodic && scene.analysis.model != Model::Iso {
+                return Err(CommandError::input(
+                    format_args!(
+                        "{}: [{whose}.mesher] sector_teeth = 1 is a periodic sector, which this version can mesh but not run",
+                        self.scene.display()
+                    ),
+                    Some("use `sector_teeth = 0` for the whole gear".into()),
+                ));
+            }
+        }
+        if self.threads == Some(0) {
+            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
+        }
+        Ok(scene)
+    }
+
+    /// Runs the scene; the text is the closing table.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let mut phases = Phases::with_bars();
+        let scene = self.plan()?;
+        if let Some(threads) = self.threads {
+            // Fails only when a pool is there already, which nobody has made before this line.
+            let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        }
+        let results = ResultDirectory::create(&self.out)?;
+        let Solved { history, facts } = run::solve(&scene, &mut phases, &results)?;
+        let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
+
+        phases.run("write", || results.write("history.csv", write_history(&scene, &history).as_bytes()))?;
+        let cost = Cost {
+            threads: rayon::current_num_threads(),
+            wall_s: phases.total_wall_s(),
+            peak_memory_mb: phases.peak_memory_mb(),
+            phases: phases.rows().to_vec(),
+        };
+        let report = write_report(&scene, &history, &facts, &cost, &headline)?;
+        results.write("report.html", report.as_bytes())?;
+        // Last of all, so that a summary means that everything is there.
+        let files = results.files()?;
+        let summary = write_summary(&scene, &history, &facts, &cost, &headline, &files);
+        results.write("summary.json", summary.as_bytes())?;
+        results.finish()?;
+
+        let mut text = closing_table(&scene, &facts, &cost, &headline, &history.warnings);
+        text.push_str(&format!("\nresults: {}\n", self.out.display()));
+        Ok(text)
+    }
+}

@@ -1,0 +1,88 @@
+//! What the writers need to know of a run beside its scene and its history.
+
+use dynamics::result::StaticHistory;
+use serde::Serialize;
+
+use crate::phases::Phase;
+
+/// A solved scene.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// Position by position.
+    pub history: StaticHistory,
+    /// What it took.
+    pub facts: Facts,
+}
+
+/// What a run was made of and what it cost.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Facts {
+    /// Geometry of the pair.
+    pub geometry: GeometryFacts,
+    /// Meshes of pinion and wheel; empty for a model without meshes.
+    pub meshes: Vec<MeshFacts>,
+    /// Degrees of freedom of pinion and wheel before reduction.
+    pub dof_before: [usize; 2],
+    /// Degrees of freedom of pinion and wheel that the analysis carries.
+    pub dof_after: [usize; 2],
+    /// Teeth in the window at the end.
+    pub window_teeth: Option<u32>,
+    /// Contact points of the window.
+    pub contact_points: Option<usize>,
+    /// What only one model knows, by key with unit.
+    #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
+    pub model: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Where a mesh comes from and how large it is.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct MeshFacts {
+    /// File as the scene names it, or `built-in mesher`.
+    pub source: String,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of volume elements.
+    pub elements: usize,
+    /// Kinds of elements with their numbers, as `hex8 1200`.
+    pub kinds: Vec<String>,
+}
+
+/// Derived geometry of the pair.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct GeometryFacts {
+    /// Working centre distance, mm.
+    pub centre_distance_mm: f64,
+    /// Transverse pressure angle, degrees.
+    pub transverse_pressure_angle_deg: f64,
+    /// Working transverse pressure angle, degrees.
+    pub working_pressure_angle_deg: f64,
+    /// Base helix angle, degrees.
+    pub base_helix_angle_deg: f64,
+    /// Base radii, mm.
+    pub base_radius_mm: [f64; 2],
+    /// Transverse base pitch, mm.
+    pub base_pitch_mm: f64,
+    /// Transverse contact ratio.
+    pub eps_alpha: f64,
+    /// Overlap ratio.
+    pub eps_beta: f64,
+    /// Total contact ratio.
+    pub eps_gamma: f64,
+    /// Mean of the analytic total contact-line length, mm.
+    pub mean_line_length_mm: f64,
+    /// Backlash on the transverse line of action, mm.
+    pub backlash_mm: f64,
+}
+
+/// What the whole run cost.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Cost {
+    /// Threads of the computation.
+    pub threads: usize,
+    /// Wall time from reading the scene to the last file but this one, s.
+    pub wall_s: f64,
+    /// Largest resident set, MB; `null` where the system does not tell.
+    pub peak_memory_mb: Option<f64>,
+    /// Phase by phase.
+    pub phases: Vec<Phase>,
+}

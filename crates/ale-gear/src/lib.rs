@@ -1,0 +1,22 @@
+//! The command line, the scene file, the output files and the report.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`scene`] | reads and checks what the user wrote |
+//! | [`run`] | turns a checked scene into a call of the solvers |
+//! | [`phases`] | time and peak memory of each phase, progress bars |
+//! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
+//! | [`command`] | the subcommands |
+
+pub mod command;
+pub mod error;
+pub mod facts;
+pub mod memory;
+pub mod output;
+pub mod phases;
+pub mod run;
+pub mod scene;
+
+mod gears;
+mod iso_model;
+pub mod meshes;

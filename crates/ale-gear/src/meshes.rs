@@ -1,0 +1,162 @@
+//! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
+
+use geometry::{Gear, Side, Vec3};
+use mesh::{
+    DEFAULT_TOLERANCE_MODULES, ElementBlock, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity,
+    StructuredOptions, generate,
+};
+
+use crate::error::CommandError;
+use crate::facts::MeshFacts;
+use crate::scene::{GearScene, MesherScene, Scene};
+
+/// The mesh of one gear of a scene.
+#[derive(Debug, Clone)]
+pub struct SceneMesh {
+    /// The mesh with bore and flanks.
+    pub gear: GearMesh,
+    /// What the summary says of it.
+    pub facts: MeshFacts,
+    /// What the user should know of it.
+    pub warnings: Vec<String>,
+}
+
+/// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
+///
+/// # Errors
+/// Exit status 2 when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh of
+/// another gear; when the built-in mesher cannot make the one asked for.
+pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, CommandError> {
+    match &gear.mesh {
+        Some(path) => {
+            let file = scene.resolve(path);
+            let complain = |e: &MeshError| {
+                let said = e.to_string();
+                // Errors of reading name the file themselves, errors about what was read do not.
+                let file = file.display().to_string();
+                let message = if said.starts_with(&file) { said } else { format!("{file}: {said}") };
+                CommandError::input(message, e.hint())
+            };
+            let mesh = Mesh::read(&file).map_err(|e| complain(&e))?;
+            let facts = facts(path.display().to_string(), &mesh);
+            let mut warnings = sound(&file.display().to_string(), &mesh, gear)?;
+            let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(|e| complain(&e))?;
+            if let Some(fit) = fit {
+                warnings.push(format!(
+                    "{}: no flank is named; {} flanks found by fit, nodes within {:.2} um{}",
+                    file.display(),
+                    fit.flanks.len(),
+                    1e3 * fit.largest_deviation(),
+                    if fit.phase == 0.0 {
+                        String::new()
+                    } else {
+                        format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
+                    }
+                ));
+            }
+            on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
+            Ok(SceneMesh { gear: found, facts, warnings })
+        }
+        None => {
+            let mesh = generated(scene, whose, gear, exact)?;
+            let facts = facts("built-in mesher".to_owned(), &mesh);
+            let (found, _) = GearMesh::find(mesh, exact, &mesh::GroupNames::default())
+                .map_err(|e| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint()))?;
+            Ok(SceneMesh { gear: found, facts, warnings: Vec::new() })
+        }
+    }
+}
+
+/// The mesh that the built-in mesher makes of one gear.
+///
+/// # Errors
+/// Exit status 2 when the gear cannot be meshed with these numbers of elements.
+pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, CommandError> {
+    let options = gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m));
+    generate(exact, &options)
+        .map_err(|e| CommandError::input(format_args!("{}: [{whose}.mesher]: {e}", scene.file.display()), e.hint()))
+}
+
+fn options(m: &MesherScene) -> StructuredOptions {
+    StructuredOptions {
+        order: m.order,
+        elements_profile: m.elements_profile,
+        elements_fillet: m.elements_fillet,
+        elements_thickness: m.elements_thickness,
+        elements_face: m.elements_face,
+        elements_rim: m.elements_rim,
+        extent: match m.sector_teeth {
+            0 => Extent::Whole,
+            1 => Extent::Periodic,
+            k => Extent::Sector(k),
+        },
+    }
+}
+
+/// Refuses a mesh with errors; hands on its warnings.
+fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, CommandError> {
+    let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
+    if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
+        let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
+        return Err(CommandError::input(format_args!("{file}: {}", error.text), Some(hint)));
+    }
+    let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
+    Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
+}
+
+/// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
+/// and the gaps of the one would be put on the compliance of the other.
+fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+    let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
+    for tooth in found.teeth() {
+        for side in [Side::Left, Side::Right] {
+            let flank = exact.flank_of(side, i64::from(tooth));
+            let nodes = found.flank(tooth, side).unwrap_or_default().iter().flat_map(|face| face.nodes());
+            for &node in nodes {
+                let index = node as usize;
+                let point = Vec3::from(found.mesh().nodes[index]);
+                let off = flank.locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs());
+                if off > allowed {
+                    return Err(CommandError::input(
+                        format_args!(
+                            "{file}: node {} of the {} flank of tooth {tooth} lies {off:.3} mm off the {whose}'s flank, \
+                             allowed is {allowed:.3} mm",
+                            found.mesh().node_tags[index],
+                            side.name()
+                        ),
+                        Some(
+                            "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), \
+                             axis on z, tooth 0 on +x?"
+                                .into(),
+                        ),
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Size of a mesh.
+fn facts(source: String, mesh: &Mesh) -> MeshFacts {
+    MeshFacts { source, nodes: mesh.nodes.len(), elements: mesh.element_count(), kinds: kinds(&mesh.blocks) }
+}
+
+/// Kinds of elements with their numbers, as `hex8 1200`.
+fn kinds(blocks: &[ElementBlock]) -> Vec<String> {
+    blocks.iter().map(|b| format!("{} {}", b.kind.name(), b.len())).collect()
+}
+
+/// Format of a mesh file by the words of the command line.
+///
+/// # Errors
+/// Exit status 2 for another version than 4.1 and 2.2.
+pub fn format(version: &str, ascii: bool) -> Result<MshFormat, CommandError> {
+    match (version, ascii) {
+        ("4.1", true) => Ok(MshFormat::Ascii41),
+        ("4.1", false) => Ok(MshFormat::Binary41),
+        ("2.2", true) => Ok(MshFormat::Ascii22),
+        ("2.2", false) => Ok(MshFormat::Binary22),
+        _ => Err(CommandError::input(format_args!("`--format` is {version}, allowed is 4.1 or 2.2"), None)),
+    }
+}

@@ -1,0 +1,80 @@
+//! Charts of a history as SVG text, to be put into the report as they are.
+
+use plotters::prelude::*;
+
+/// One curve.
+pub(super) struct Curve {
+    pub label: String,
+    pub points: Vec<(f64, f64)>,
+}
+
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(31, 95, 168),
+    RGBColor(200, 80, 30),
+    RGBColor(40, 130, 70),
+    RGBColor(130, 70, 150),
+    RGBColor(120, 120, 40),
+    RGBColor(90, 90, 90),
+];
+
+/// Curves over one pair of axes. The value axis begins at zero when `from_zero` is set; without points, or with
+/// nothing finite, the chart is left out and `None` comes back.
+pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+    let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
+    let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
+    points().next()?;
+    let span = |pick: fn(&(f64, f64)) -> f64, zero: bool| {
+        let start = if zero { (0.0, 0.0) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+        let (low, high) = points().map(pick).fold(start, |(lo, hi), v| (lo.min(v), hi.max(v)));
+        // A constant still needs an axis of some length.
+        let margin = if high > low { 0.06 * (high - low) } else { 0.05 * high.abs().max(1e-9) };
+        (low - if zero && low == 0.0 { 0.0 } else { margin }, high + margin)
+    };
+    let (x_low, x_high) = span(|p| p.0, false);
+    let (y_low, y_high) = span(|p| p.1, from_zero);
+
+    let mut svg = String::new();
+    draw(&mut svg, title, x, y, curves, [x_low, x_high, y_low, y_high]).ok()?;
+    Some(svg)
+}
+
+fn draw(
+    svg: &mut String,
+    title: &str,
+    x: &str,
+    y: &str,
+    curves: &[Curve],
+    [x_low, x_high, y_low, y_high]: [f64; 4],
+) -> Result<(), Box<dyn std::error::Error>> {
+    let fail = |e: &dyn std::fmt::Display| e.to_string();
+    let root = SVGBackend::with_string(svg, (820, 360)).into_drawing_area();
+    root.fill(&WHITE).map_err(|e| fail(&e))?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(title, ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(72)
+        .build_cartesian_2d(x_low..x_high, y_low..y_high)
+        .map_err(|e| fail(&e))?;
+    chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
+    for (k, curve) in curves.iter().enumerate() {
+        let colour = COLOURS[k % COLOURS.len()];
+        let finite = curve.points.iter().copied().filter(|(a, b)| a.is_finite() && b.is_finite());
+        chart
+            .draw_series(LineSeries::new(finite, colour.stroke_width(2)))
+            .map_err(|e| fail(&e))?
+            .label(curve.label.as_str())
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
+    }
+    if curves.len() > 1 {
+        chart
+            .configure_series_labels()
+            .background_style(WHITE.mix(0.85))
+            .border_style(RGBColor(160, 160, 160))
+            .draw()
+            .map_err(|e| fail(&e))?;
+    }
+    drop(chart);
+    root.present().map_err(|e| fail(&e))?;
+    Ok(())
+}

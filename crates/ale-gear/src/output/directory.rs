@@ -1,0 +1,158 @@
+//! A result folder that is there as a whole or not at all.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::CommandError;
+
+/// Files are written into a temporary folder beside the wanted one; [`ResultDirectory::finish`] renames it.
+/// Dropped before that, it takes its files with it.
+#[derive(Debug)]
+pub struct ResultDirectory {
+    wanted: PathBuf,
+    partial: PathBuf,
+    finished: bool,
+}
+
+impl ResultDirectory {
+    /// Makes the temporary folder.
+    ///
+    /// # Errors
+    /// Exit status 2 when `wanted` is a file, or a folder that holds anything but an earlier result: nothing
+    /// that this program did not write is ever replaced.
+    pub fn create(wanted: &Path) -> Result<Self, CommandError> {
+        let complaint = |what: String, hint: &str| {
+            CommandError::input(format_args!("--out {}: {what}", wanted.display()), Some(hint.into()))
+        };
+        let Some(name) = wanted.file_name() else {
+            return Err(complaint("is no name of a folder".into(), "give the name of a new folder"));
+        };
+        if wanted.exists() {
+            if !wanted.is_dir() {
+                return Err(complaint("is a file".into(), "give the name of a new folder"));
+            }
+            if let Some(stranger) =
+                first_stranger(wanted).map_err(|e| complaint(e.to_string(), "give another folder"))?
+            {
+                return Err(complaint(
+                    format!("holds `{stranger}`, which is no result file"),
+                    "results replace the whole folder: give a new one, or move that file away",
+                ));
+            }
+        }
+        let parent = match wanted.parent() {
+            Some(p) if !p.as_os_str().is_empty() => p.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        let partial = parent.join(format!(".{}.partial-{}", name.to_string_lossy(), std::process::id()));
+        fs::create_dir_all(&partial)
+            .map_err(|e| complaint(format!("cannot be made: {e}"), "give a folder that you may write to"))?;
+        Ok(Self { wanted: wanted.to_owned(), partial, finished: false })
+    }
+
+    /// Path of a file while the result is being written.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.partial.join(name)
+    }
+
+    /// Writes one file.
+    ///
+    /// # Errors
+    /// Exit status 1 when the system refuses.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), CommandError> {
+        fs::write(self.path(name), content).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
+    }
+
+    /// Names of the files written so far, ascending.
+    ///
+    /// # Errors
+    /// Exit status 1 when the system refuses.
+    pub fn files(&self) -> Result<Vec<String>, CommandError> {
+        names(&self.partial).map_err(|e| CommandError::write(&self.wanted, &e))
+    }
+
+    /// Puts the result where it was wanted, in place of an earlier one.
+    ///
+    /// # Errors
+    /// Exit status 1 when the system refuses; an earlier result is then still there.
+    pub fn finish(mut self) -> Result<(), CommandError> {
+        let failed = |e: std::io::Error| CommandError::write(&self.wanted, &e);
+        let old = self.partial.with_extension("replaced");
+        let replaces = self.wanted.exists();
+        if replaces {
+            fs::rename(&self.wanted, &old).map_err(failed)?;
+        }
+        if let Err(e) = fs::rename(&self.partial, &self.wanted) {
+            if replaces {
+                // Back to where it was; the first error is the one to tell.
+                let _ = fs::rename(&old, &self.wanted);
+            }
+            return Err(failed(e));
+        }
+        self.finished = true;
+        if replaces {
+            fs::remove_dir_all(&old).map_err(|e| CommandError::write(&old, &e))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for ResultDirectory {
+    fn drop(&mut self) {
+        if !self.finished {
+            // Nothing more can be done about it here, and the folder's name says what it is.
+            let _ = fs::remove_dir_all(&self.partial);
+        }
+    }
+}
+
+/// Names of the entries of a folder, ascending.
+fn names(folder: &Path) -> std::io::Result<Vec<String>> {
+    let mut names: Vec<String> = fs::read_dir(folder)?
+        .map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()))
+        .collect::<Result<_, _>>()?;
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The first entry of the folder that no run of this program writes.
+fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
+    let ours = |name: &String| {
+        matches!(name.as_str(), "summary.json" | "history.csv" | "report.html")
+            || name.ends_with(".vtu")
+            || name.ends_with(".pvd")
+    };
+    Ok(names(folder)?.into_iter().find(|name| !ours(name)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_result_is_whole_or_not_there() {
+        let scratch = tempfile::tempdir().unwrap();
+        let wanted = scratch.path().join("out");
+        let half = ResultDirectory::create(&wanted).unwrap();
+        half.write("history.csv", b"half").unwrap();
+        drop(half);
+        assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 0);
+
+        for content in [b"first", b"later"] {
+            let whole = ResultDirectory::create(&wanted).unwrap();
+            whole.write("summary.json", content).unwrap();
+            whole.finish().unwrap();
+            assert_eq!(fs::read(wanted.join("summary.json")).unwrap(), content);
+        }
+        assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_with_other_files_is_left_alone() {
+        let scratch = tempfile::tempdir().unwrap();
+        fs::write(scratch.path().join("thesis.tex"), "years of work").unwrap();
+        let error = ResultDirectory::create(scratch.path()).unwrap_err();
+        assert_eq!(error.status, 2);
+        assert!(error.message.ends_with("holds `thesis.tex`, which is no result file"), "{}", error.message);
+    }
+}

@@ -1,0 +1,94 @@
+//! `history.csv`: one row a position.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use dynamics::result::StaticHistory;
+
+use super::pairs;
+use crate::scene::Scene;
+
+const LEADING: &[&str] = &[
+    "time_s",
+    "pinion_angle_deg",
+    "mesh_phase",
+    "ste_um",
+    "mesh_stiffness_n_per_um",
+    "mesh_stiffness_tangent_n_per_um",
+    "contact_line_length_mm",
+    "geometric_line_length_mm",
+    "pairs_in_contact",
+];
+const WRENCH: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
+const TRAILING: &[&str] = &[
+    "max_pressure_mpa",
+    "strain_energy_nmm",
+    "tooth_changes",
+    "torque_residual",
+    "complementarity_residual",
+    "action_reaction_residual",
+    "window_edge_load",
+    "iterations",
+];
+
+/// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits.
+///
+/// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
+pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
+    let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
+    let columns = pairs::columns(history, pitch);
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in ["pinion", "wheel"] {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    names.extend(columns.iter().map(|k| format!("normal_force_pair_{k}_n")));
+    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+
+    let mut csv = names.join(",");
+    csv.push('\n');
+    let start = history.positions.first().map_or(0.0, |p| p.pinion_angle);
+    for p in &history.positions {
+        let mut row = vec![
+            (p.pinion_angle - start) / scene.pinion_speed(),
+            p.pinion_angle.to_degrees(),
+            p.mesh_phase,
+            p.transmission_error * 1e3,
+            p.secant_stiffness * 1e-3,
+            p.tangent_stiffness * 1e-3,
+            p.contact_line_length,
+            p.geometric_line_length,
+            p.pairs.iter().filter(|pair| pair.normal_force > 0.0).count() as f64,
+        ];
+        for wrench in &p.wrench {
+            row.extend(wrench.force);
+            row.extend(wrench.moment);
+        }
+        row.extend(columns.iter().map(|&k| pairs::force(p, k, pitch)));
+        let c = &p.certificate;
+        row.extend([
+            p.max_pressure,
+            p.strain_energy,
+            p.tooth_changes as f64,
+            c.torque_residual,
+            c.complementarity_residual,
+            c.action_reaction_residual,
+            c.window_edge_load,
+            c.iterations as f64,
+        ]);
+        for (k, value) in row.into_iter().enumerate() {
+            if k > 0 {
+                csv.push(',');
+            }
+            push_number(&mut csv, value);
+        }
+        csv.push('\n');
+    }
+    csv
+}
+
+/// The shortest text that reads back to the same number.
+fn push_number(text: &mut String, value: f64) {
+    let plain = value == 0.0 || !value.is_finite() || (1e-4..1e12).contains(&value.abs());
+    // Writing to a String cannot fail.
+    let _ = if plain { write!(text, "{value}") } else { write!(text, "{value:e}") };
+}

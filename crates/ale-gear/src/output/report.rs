@@ -1,0 +1,89 @@
+//! `report.html`: one page that needs nothing beside itself.
+
+use std::f64::consts::PI;
+
+use dynamics::result::{StaticHistory, StaticPosition};
+use minijinja::{Environment, context, value::Serde};
+
+use super::charts::{Curve, line_chart};
+use super::{Headline, pairs, table::model_name};
+use crate::error::CommandError;
+use crate::facts::{Cost, Facts};
+use crate::scene::Scene;
+
+const TEMPLATE: &str = include_str!("report.html");
+
+/// The report as HTML, charts inlined as SVG.
+///
+/// # Errors
+/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+pub fn write_report(
+    scene: &Scene,
+    history: &StaticHistory,
+    facts: &Facts,
+    cost: &Cost,
+    headline: &Headline,
+) -> Result<String, CommandError> {
+    let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.add_function("number", number);
+    environment.add_function("science", science);
+    environment.add_template("report.html", TEMPLATE).map_err(failed)?;
+    let page = environment.get_template("report.html").map_err(failed)?;
+    page.render(context! {
+        name => &scene.name,
+        model => model_name(scene),
+        version => env!("CARGO_PKG_VERSION"),
+        scene => scene.to_toml(),
+        scene_file => scene.file.display().to_string(),
+        torque_nm => scene.operation.torque_nm.to_string(),
+        vtu => scene.output.vtu,
+        headline => Serde(headline),
+        facts => Serde(facts),
+        cost => Serde(cost),
+        charts => charts(scene, history),
+        warnings => &history.warnings,
+    })
+    .map_err(failed)
+}
+
+/// A number with so many decimals, `-` when there is none.
+fn number(value: Option<f64>, decimals: usize) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.decimals$}"))
+}
+
+/// A small number as power of ten.
+fn science(value: f64) -> String {
+    format!("{value:.1e}")
+}
+
+fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
+    let curve = |label: &str, f: &dyn Fn(&StaticPosition) -> f64| Curve {
+        label: label.to_owned(),
+        points: history.positions.iter().map(|p| (p.pinion_angle.to_degrees(), f(p))).collect(),
+    };
+    let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
+    let sharing: Vec<Curve> = pairs::columns(history, pitch)
+        .into_iter()
+        .map(|k| curve(&format!("pair {k}"), &|p| pairs::force(p, k, pitch)))
+        .collect();
+    let forces: Vec<Curve> =
+        ["x", "y", "z"].iter().enumerate().map(|(k, axis)| curve(axis, &|p| p.wrench[1].force[k])).collect();
+    let length =
+        [curve("under load", &|p| p.contact_line_length), curve("unloaded, analytic", &|p| p.geometric_line_length)];
+    let stiffness =
+        [curve("secant", &|p| p.secant_stiffness * 1e-3), curve("tangent", &|p| p.tangent_stiffness * 1e-3)];
+    let angle = "pinion angle [deg]";
+    let ste = [curve("STE", &|p| p.transmission_error * 1e3)];
+    [
+        line_chart("Static transmission error", angle, "STE [um]", &ste, false),
+        line_chart("Load sharing", angle, "normal force [N]", &sharing, true),
+        line_chart("Total contact-line length", angle, "length [mm]", &length, false),
+        line_chart("Mesh stiffness", angle, "stiffness [N/um]", &stiffness, false),
+        line_chart("Mesh force on the wheel", angle, "force [N]", &forces, true),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}

@@ -1,0 +1,50 @@
+//! `summary.json`: everything about a run but its rows.
+
+use dynamics::result::StaticHistory;
+use serde::Serialize;
+
+use super::Headline;
+use crate::facts::{Cost, Facts};
+use crate::scene::Scene;
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    program: &'static str,
+    version: &'static str,
+    name: &'a str,
+    inputs: &'a Scene,
+    #[serde(flatten)]
+    facts: &'a Facts,
+    cost: &'a Cost,
+    headline: &'a Headline,
+    warnings: &'a [String],
+    files: &'a [String],
+}
+
+/// The summary as JSON; numbers without a value (NaN) are `null`.
+///
+/// `files` are the other files of the result; the summary is written last, so where it is, they are.
+pub fn write_summary(
+    scene: &Scene,
+    history: &StaticHistory,
+    facts: &Facts,
+    cost: &Cost,
+    headline: &Headline,
+    files: &[String],
+) -> String {
+    let summary = Summary {
+        program: "ale-gear",
+        version: env!("CARGO_PKG_VERSION"),
+        name: &scene.name,
+        inputs: scene,
+        facts,
+        cost,
+        headline,
+        warnings: &history.warnings,
+        files,
+    };
+    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
+    let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+    text.push('\n');
+    text
+}

@@ -1,0 +1,132 @@
+//! Wall time and peak memory of each phase, and bars for those who wait.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+
+use crate::memory;
+
+/// What one phase cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Phase {
+    /// What was done: `read`, `reduce`, `solve`, ...
+    pub name: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Largest resident set during the phase, MB; `null` where the system cannot tell a phase's own.
+    pub peak_memory_mb: Option<f64>,
+}
+
+/// Records phases one after the other.
+///
+/// ```
+/// # use ale_gear::phases::Phases;
+/// let mut phases = Phases::quiet();
+/// let sum = phases.run("sum", || (1..=4).sum::<u32>());
+/// assert_eq!((sum, phases.rows()[0].name.as_str()), (10, "sum"));
+/// ```
+#[derive(Debug)]
+pub struct Phases {
+    rows: Vec<Phase>,
+    start: Instant,
+    highest: Option<f64>,
+    bars: bool,
+}
+
+/// The bar of a running phase; may be shared between threads.
+#[derive(Debug, Clone)]
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// One more unit of work is done.
+    pub fn tick(&self) {
+        self.0.inc(1);
+    }
+
+    /// A word beside the bar.
+    pub fn say(&self, message: impl Into<String>) {
+        self.0.set_message(message.into());
+    }
+}
+
+impl Phases {
+    /// With bars on stderr if it is a terminal.
+    pub fn with_bars() -> Self {
+        Self { bars: true, ..Self::quiet() }
+    }
+
+    /// Without bars.
+    pub fn quiet() -> Self {
+        Self { rows: Vec::new(), start: Instant::now(), highest: None, bars: false }
+    }
+
+    /// Runs a phase whose amount of work is not known beforehand.
+    pub fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
+        let bar = ProgressBar::new_spinner();
+        bar.set_style(style("{spinner} {prefix:<10} {elapsed}"));
+        self.measure(name, bar, |_| work())
+    }
+
+    /// Runs a phase of `steps` units of work; `work` calls [`Progress::tick`] after each.
+    pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&Progress) -> T) -> T {
+        let bar = ProgressBar::new(steps);
+        bar.set_style(style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed} {msg}").progress_chars("=> "));
+        self.measure(name, bar, work)
+    }
+
+    fn measure<T>(&mut self, name: &str, bar: ProgressBar, work: impl FnOnce(&Progress) -> T) -> T {
+        // indicatif draws nothing when stderr is no terminal.
+        bar.set_draw_target(if self.bars { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() });
+        bar.set_prefix(name.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(120));
+        let own_peak = memory::reset_peak();
+        let start = Instant::now();
+        let result = work(&Progress(bar.clone()));
+        let wall_s = start.elapsed().as_secs_f64();
+        let peak = memory::peak_mb();
+        bar.finish_and_clear();
+        self.highest = match (self.highest, peak) {
+            (Some(a), Some(b)) => Some(f64::max(a, b)),
+            (a, b) => a.or(b),
+        };
+        self.rows.push(Phase { name: name.to_owned(), wall_s, peak_memory_mb: peak.filter(|_| own_peak) });
+        result
+    }
+
+    /// The phases so far.
+    pub fn rows(&self) -> &[Phase] {
+        &self.rows
+    }
+
+    /// Wall time since the recorder was made, s.
+    pub fn total_wall_s(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    /// Largest resident set in any phase, MB.
+    pub fn peak_memory_mb(&self) -> Option<f64> {
+        self.highest
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A phase that touches 64 MB shows them, and the next one does not.
+    #[test]
+    fn a_phase_has_its_own_peak() {
+        let mut phases = Phases::quiet();
+        phases.run("large", || std::hint::black_box(vec![1_u8; 64_000_000]).len());
+        phases.run("small", || ());
+        let [large, small] = phases.rows() else { panic!("two phases") };
+        if let (Some(large), Some(small)) = (large.peak_memory_mb, small.peak_memory_mb) {
+            assert!(large > small + 30.0, "{large} MB, then {small} MB");
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! From words to a scene: ranges, defaults, what goes together, what this version cannot do.
+
+use std::path::PathBuf;
+
+use mesh::{GroupNames, StructuredOptions};
+
+use super::raw::{
+    RawAnalysis, RawContact, RawGear, RawGroups, RawMaterial, RawMesher, RawOperation, RawOutput, RawPair, RawScene,
+    Word,
+};
+use super::source::Source;
+use super::{
+    Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
+    Operation, OutputScene, PairScene, Rotation, Scene, SceneError,
+};
+
+type Checked<T> = Result<T, SceneError>;
+
+const STEEL: Material = Material { young_mpa: 2.06e5, poisson: 0.3, density_kg_m3: 7850.0 };
+/// Default bore over reference diameter.
+const BORE_RATIO: f64 = 0.55;
+
+/// Every complaint is made here, before any work starts or any file is written.
+pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
+    all_given(source, &raw)?;
+    let shared = material(source, &raw.material, STEEL)?;
+    let pair = pair(source, &raw.pair)?;
+    let pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
+    let wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
+    let scene = Scene {
+        name: raw.name.clone().unwrap_or_else(|| default_name(source)),
+        file: source.file.to_owned(),
+        operation: operation(source, &raw.operation)?,
+        contact: contact(source, &raw.contact)?,
+        analysis: analysis(source, &raw.analysis)?,
+        output: output(source, &raw.output)?,
+        pinion,
+        wheel,
+        pair,
+    };
+    together(source, &raw, &scene)?;
+    Ok(scene)
+}
+
+fn default_name(source: &Source<'_>) -> String {
+    source.file.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
+}
+
+fn all_given(source: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let needed = [
+        ("`[pinion] teeth`", raw.pinion.teeth.is_none()),
+        ("`[pinion] helix_angle_deg`", raw.pinion.helix_angle_deg.is_none()),
+        ("`[wheel] teeth`", raw.wheel.teeth.is_none()),
+        ("`[pair] normal_module_mm`", raw.pair.normal_module_mm.is_none()),
+        ("`[pair] face_width_mm`", raw.pair.face_width_mm.is_none()),
+        ("`[operation] torque_nm`", raw.operation.torque_nm.is_none()),
+    ];
+    let keys: Vec<String> = needed.into_iter().filter(|(_, gone)| *gone).map(|(key, _)| key.to_owned()).collect();
+    if keys.is_empty() { Ok(()) } else { Err(SceneError::Missing { file: source.file.to_owned(), keys }) }
+}
+
+fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
+    Ok(Material {
+        young_mpa: s.number("young_mpa", &raw.young_mpa, default.young_mpa, 1.0, 1e7)?,
+        poisson: s.number("poisson", &raw.poisson, default.poisson, -0.9, 0.499)?,
+        density_kg_m3: s.number("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3, 1.0, 1e5)?,
+    })
+}
+
+fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
+    let number = |key, value, default, low, high| s.number(key, value, default, low, high);
+    Ok(PairScene {
+        normal_module_mm: number("normal_module_mm", &raw.normal_module_mm, 0.0, 0.01, 200.0)?,
+        normal_pressure_angle_deg: number(
+            "normal_pressure_angle_deg",
+            &raw.normal_pressure_angle_deg,
+            20.0,
+            5.0,
+            40.0,
+        )?,
+        face_width_mm: number("face_width_mm", &raw.face_width_mm, 0.0, 0.01, 1e4)?,
+        centre_distance_mm: match raw.centre_distance_mm {
+            None => None,
+            Some(_) => Some(number("centre_distance_mm", &raw.centre_distance_mm, 0.0, 0.01, 1e5)?),
+        },
+        addendum_coefficient: number("addendum_coefficient", &raw.addendum_coefficient, 1.0, 0.1, 2.0)?,
+        dedendum_coefficient: number("dedendum_coefficient", &raw.dedendum_coefficient, 1.25, 0.1, 2.5)?,
+        root_radius_coefficient: number("root_radius_coefficient", &raw.root_radius_coefficient, 0.38, 0.0, 1.0)?,
+    })
+}
+
+/// Whether a gear states its helix angle or follows the mating one.
+enum Hand {
+    Own,
+    Against(f64),
+}
+
+fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Material) -> Checked<GearScene> {
+    let teeth = s.whole("teeth", &raw.teeth, 0, 5, 2000)?;
+    let helix_angle_deg = match hand {
+        Hand::Own => s.number("helix_angle_deg", &raw.helix_angle_deg, 0.0, -60.0, 60.0)?,
+        Hand::Against(other) => against(s, raw, other)?,
+    };
+    let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let bore_limit = reference.max(1e-3);
+    let (mesh, mesher) = mesh_source(s, raw, teeth)?;
+    Ok(GearScene {
+        teeth,
+        helix_angle_deg,
+        bore_diameter_mm: s.number(
+            "bore_diameter_mm",
+            &raw.bore_diameter_mm,
+            BORE_RATIO * reference,
+            1e-3,
+            bore_limit,
+        )?,
+        profile_shift: s.number("profile_shift", &raw.profile_shift, 0.0, -1.5, 2.0)?,
+        tip_diameter_mm: match raw.tip_diameter_mm {
+            None => None,
+            Some(_) => {
+                Some(s.number("tip_diameter_mm", &raw.tip_diameter_mm, 0.0, reference * 0.5, reference * 2.0)?)
+            }
+        },
+        thickness_allowance_mm: s.number(
+            "thickness_allowance_mm",
+            &raw.thickness_allowance_mm,
+            0.0,
+            0.0,
+            0.5 * pair.normal_module_mm,
+        )?,
+        mesh,
+        mesher,
+        groups: groups(s, &raw.groups)?,
+        material: material(s, &raw.material, shared)?,
+    })
+}
+
+/// The wheel of an external pair has the other hand; stated, it must agree.
+fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64) -> Checked<f64> {
+    // `0.0 - x` and not `-x`: a spur wheel has helix angle 0, not -0.
+    let follows = 0.0 - pinion_deg;
+    match &raw.helix_angle_deg {
+        Some(own) if (own.get_ref() - follows).abs() > 1e-9 => Err(SceneError::Conflict {
+            place: s.place(&own.span()),
+            what: format!(
+                "the wheel's `helix_angle_deg` is {}, but the pinion's is {pinion_deg}: they do not mesh",
+                own.get_ref()
+            ),
+            advice: "leave it out: the wheel's helix angle follows from the pinion's".into(),
+        }),
+        _ => Ok(follows),
+    }
+}
+
+fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
+    match (&raw.mesh, &raw.mesher) {
+        (Some(_), Some(mesher)) => Err(SceneError::Conflict {
+            place: s.place(&mesher.span()),
+            what: "a gear has both a `mesh` and a `mesher` table".into(),
+            advice: "keep `mesh` to read a file, or the `mesher` table to have one made".into(),
+        }),
+        (Some(mesh), None) => {
+            let path = PathBuf::from(mesh.get_ref());
+            let found = s.file.parent().map_or_else(|| path.clone(), |folder| folder.join(&path));
+            if !found.is_file() {
+                return Err(SceneError::Conflict {
+                    place: s.place(&mesh.span()),
+                    what: format!("`mesh` is \"{}\", but there is no file {}", mesh.get_ref(), found.display()),
+                    advice: "paths are relative to the scene file".into(),
+                });
+            }
+            Ok((Some(path), None))
+        }
+        (None, mesher) => {
+            let none = RawMesher::default();
+            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth)?)))
+        }
+    }
+}
+
+fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32) -> Checked<MesherScene> {
+    let d = StructuredOptions::default();
+    Ok(MesherScene {
+        order: s.whole("order", &raw.order, d.order, 1, 2)?,
+        elements_profile: s.whole("elements_profile", &raw.elements_profile, d.elements_profile, 1, 500)?,
+        elements_fillet: s.whole("elements_fillet", &raw.elements_fillet, d.elements_fillet, 2, 500)?,
+        elements_thickness: s.whole("elements_thickness", &raw.elements_thickness, d.elements_thickness, 1, 500)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, d.elements_face, 1, 2000)?,
+        elements_rim: s.whole("elements_rim", &raw.elements_rim, d.elements_rim, 1, 500)?,
+        sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
+    })
+}
+
+/// The mesh's own names; those of flanks need a place for the tooth number.
+fn groups(s: &Source<'_>, raw: &RawGroups) -> Checked<GroupNames> {
+    let ours = GroupNames::default();
+    let name = |word: &Word, default: String| word.as_ref().map_or(default, |w| w.get_ref().clone());
+    for (key, word) in [("flank_left", &raw.flank_left), ("flank_right", &raw.flank_right)] {
+        if let Some(word) = word.as_ref().filter(|w| !w.get_ref().contains("{k}")) {
+            return Err(SceneError::Conflict {
+                place: s.place(&word.span()),
+                what: format!("`{key}` is \"{}\", which has no place for the tooth number", word.get_ref()),
+                advice: format!("write {{k}} where the number stands, as in {key} = \"Left_{{k}}\""),
+            });
+        }
+    }
+    Ok(GroupNames {
+        bore: name(&raw.bore, ours.bore),
+        flank_left: name(&raw.flank_left, ours.flank_left),
+        flank_right: name(&raw.flank_right, ours.flank_right),
+        cut_0: name(&raw.cut_0, ours.cut_0),
+        cut_1: name(&raw.cut_1, ours.cut_1),
+    })
+}
+
+fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
+    Ok(Operation {
+        driver: s.choice("driver", &raw.driver, &[("pinion", Driver::Pinion), ("wheel", Driver::Wheel)])?,
+        rotation: s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?,
+        torque_nm: s.number("torque_nm", &raw.torque_nm, 0.0, 0.0, 1e9)?,
+        speed_rpm: s.number("speed_rpm", &raw.speed_rpm, 1000.0, 1e-6, 1e7)?,
+    })
+}
+
+fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
+    if let Some(friction) = &raw.friction
+        && *friction.get_ref() != 0.0
+    {
+        return Err(SceneError::NotYet {
+            place: s.place(&friction.span()),
+            key: "friction".into(),
+            what: format!("Coulomb friction of {}", friction.get_ref()),
+            instead: "leave it out: contact is frictionless".into(),
+        });
+    }
+    let method = match &raw.method {
+        Some(word) if word.get_ref() == "slice" => {
+            return Err(not_yet(s, "method", word, "contact by axial slices", "use `method = \"nodal\"`"));
+        }
+        word => s.choice("method", word, &[("nodal", Method::Nodal)])?,
+    };
+    Ok(ContactScene {
+        method,
+        penalty_mpa_per_mm: match raw.penalty_mpa_per_mm {
+            None => None,
+            Some(_) => Some(s.number("penalty_mpa_per_mm", &raw.penalty_mpa_per_mm, 0.0, 1.0, 1e15)?),
+        },
+        gap: s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?,
+        points_per_face_edge: s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?,
+        flanks: s.choice("flanks", &raw.flanks, &[("driving", Flanks::Driving), ("both", Flanks::Both)])?,
+    })
+}
+
+fn not_yet(s: &Source<'_>, key: &str, word: &toml::Spanned<String>, what: &str, instead: &str) -> SceneError {
+    SceneError::NotYet {
+        place: s.place(&word.span()),
+        key: format!("{key} = \"{}\"", word.get_ref()),
+        what: what.into(),
+        instead: instead.into(),
+    }
+}
+
+fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
+    if let Some(word) = raw.kind.as_ref().filter(|w| w.get_ref() == "dynamic") {
+        return Err(not_yet(s, "kind", word, "an analysis in time", "use `kind = \"static\"`"));
+    }
+    let later = ["lumped8", "lumped12", "shaft18", "impact", "reduced+modes"];
+    if let Some(word) = raw.model.as_ref().filter(|w| later.contains(&w.get_ref().as_str())) {
+        let instead = "use `model = \"reduced\"`, \"full\" or \"iso\"";
+        return Err(not_yet(s, "model", word, "a dynamic model of the pair", instead));
+    }
+    Ok(Analysis {
+        kind: s.choice("kind", &raw.kind, &[("static", Kind::Static)])?,
+        model: s.choice(
+            "model",
+            &raw.model,
+            &[("reduced", Model::Reduced), ("full", Model::Full), ("iso", Model::Iso)],
+        )?,
+        positions_per_cycle: s.whole("positions_per_cycle", &raw.positions_per_cycle, 32, 1, 100_000)?,
+        cycles: s.whole("cycles", &raw.cycles, 1, 1, 1_000_000)?,
+        window_teeth: match raw.window_teeth {
+            None => None,
+            Some(_) => Some(s.whole("window_teeth", &raw.window_teeth, 0, 1, 25)?),
+        },
+    })
+}
+
+fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
+    const FIELDS: [(&str, FieldName); 3] =
+        [("displacement", FieldName::Displacement), ("pressure", FieldName::Pressure), ("stress", FieldName::Stress)];
+    let mut fields = Vec::new();
+    match &raw.fields {
+        None => fields.extend(FIELDS.map(|(_, field)| field)),
+        Some(words) => {
+            for word in words {
+                let field = s.one_of("fields", word, &FIELDS)?;
+                if !fields.contains(&field) {
+                    fields.push(field);
+                }
+            }
+        }
+    }
+    Ok(OutputScene {
+        vtu: raw.vtu.unwrap_or(false),
+        fields,
+        vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
+    })
+}
+
+/// What can only be judged with the whole scene in view.
+fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if let (Some(window), Some(word)) = (scene.analysis.window_teeth, &raw.analysis.window_teeth) {
+        let teeth = scene.pinion.teeth.min(scene.wheel.teeth);
+        if window > teeth {
+            return Err(SceneError::Conflict {
+                place: s.place(&word.span()),
+                what: format!("`window_teeth` is {window}, but the smaller gear has {teeth} teeth"),
+                advice: "leave it out: the window follows from the contact ratio".into(),
+            });
+        }
+    }
+    if let (Some(penalty), Model::Iso) = (&raw.contact.penalty_mpa_per_mm, scene.analysis.model) {
+        return Err(SceneError::Conflict {
+            place: s.place(&penalty.span()),
+            what: "`penalty_mpa_per_mm` means nothing to the model \"iso\", which has no contact points".into(),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! What can be wrong with a scene, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A line of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file as the user named it; boxed, as every check hands a place about.
+    pub file: Box<Path>,
+    /// Counted from 1.
+    pub line: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file.display(), self.line)
+    }
+}
+
+/// A complaint about a scene file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", file.display())]
+    Read {
+        /// The scene.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// It is no TOML.
+    #[error("{place}: {message}")]
+    Syntax {
+        /// Where reading stopped.
+        place: Place,
+        /// What was expected.
+        message: String,
+    },
+    /// A key that no table of this name has.
+    #[error("{place}: unknown key `{key}`")]
+    UnknownKey {
+        /// Where it stands.
+        place: Place,
+        /// As written.
+        key: String,
+        /// What may have been meant.
+        advice: String,
+    },
+    /// A value of another type.
+    #[error("{place}: `{key}` must be {expected}, found {found}")]
+    WrongType {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// The type wanted.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A value that makes no sense.
+    #[error("{place}: `{key}` is {value}, allowed is {allowed}")]
+    OutOfRange {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// As written.
+        value: String,
+        /// Range or list.
+        allowed: String,
+        /// What may have been meant.
+        advice: Option<String>,
+    },
+    /// Keys without a default that are not there.
+    #[error("{}: missing {}", file.display(), keys.join(", "))]
+    Missing {
+        /// The scene.
+        file: PathBuf,
+        /// Each as `` `[table] key` ``.
+        keys: Vec<String>,
+    },
+    /// Something this version cannot do; never ignored.
+    #[error("{place}: `{key}` asks for {what}, which this version cannot do")]
+    NotYet {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// What it asks for.
+        what: String,
+        /// What to do instead.
+        instead: String,
+    },
+    /// Two keys that do not go together, or a value against the rest of the scene.
+    #[error("{place}: {what}")]
+    Conflict {
+        /// Where the second of them stands.
+        place: Place,
+        /// The contradiction.
+        what: String,
+        /// The way out.
+        advice: String,
+    },
+}
+
+impl SceneError {
+    /// What the user can do next; the command prints it as `hint: ...`.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
+            Self::Syntax { .. } => Some("a scene is a TOML file: `[table]` lines and `key = value` lines".into()),
+            Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } => Some(advice.clone()),
+            Self::WrongType { expected, .. } if expected.contains("number") => {
+                Some("write numbers without quotes and without a unit: the unit is in the key".into())
+            }
+            Self::WrongType { .. } => None,
+            Self::OutOfRange { advice, .. } => advice.clone(),
+            Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
+            Self::NotYet { instead, .. } => Some(instead.clone()),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Which keys there are, and which of them a misspelt one is nearest to.
+
+/// Every table with its keys, in the order of the documentation.
+pub(super) const TABLES: &[(&str, &[&str])] = &[
+    ("", &["name", "pinion", "wheel", "pair", "material", "operation", "contact", "analysis", "output"]),
+    (
+        "pinion",
+        &[
+            "teeth",
+            "helix_angle_deg",
+            "bore_diameter_mm",
+            "profile_shift",
+            "tip_diameter_mm",
+            "thickness_allowance_mm",
+            "mesh",
+            "mesher",
+            "groups",
+            "material",
+        ],
+    ),
+    (
+        "pinion.mesher",
+        &[
+            "order",
+            "elements_profile",
+            "elements_fillet",
+            "elements_thickness",
+            "elements_face",
+            "elements_rim",
+            "sector_teeth",
+        ],
+    ),
+    ("pinion.groups", &["bore", "flank_left", "flank_right", "cut_0", "cut_1"]),
+    (
+        "pair",
+        &[
+            "normal_module_mm",
+            "normal_pressure_angle_deg",
+            "face_width_mm",
+            "centre_distance_mm",
+            "addendum_coefficient",
+            "dedendum_coefficient",
+            "root_radius_coefficient",
+        ],
+    ),
+    ("material", &["young_mpa", "poisson", "density_kg_m3"]),
+    ("operation", &["driver", "rotation", "torque_nm", "speed_rpm"]),
+    ("contact", &["method", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
+    ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
+    ("output", &["vtu", "fields", "vtu_every"]),
+];
+
+/// The nearest of `known` if it is near enough to be meant.
+pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    known
+        .iter()
+        .map(|&k| (strsim::normalized_damerau_levenshtein(word, k), k))
+        .filter(|&(likeness, _)| likeness >= 0.6)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, k)| k)
+}
+
+/// One sentence for someone who wrote `word` where only `here` may stand.
+pub(super) fn advice(word: &str, here: &[&str]) -> String {
+    let meant_here = nearest(word, here);
+    let elsewhere = TABLES.iter().skip(1).find(|(_, keys)| keys.contains(&word));
+    match (elsewhere, meant_here) {
+        (Some((table, _)), _) => format!("`{word}` belongs to [{table}]"),
+        (None, Some(key)) => format!("did you mean `{key}`?"),
+        // A key without its unit (`torque`) is shorter than the real one, so the likeness alone misses it.
+        (None, None) => match here.iter().find(|key| key.starts_with(word)) {
+            Some(key) => format!("did you mean `{key}`?"),
+            None => format!("known here: {}", here.join(", ")),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_finds_neighbours_tables_and_units() {
+        let pair = TABLES[4].1;
+        assert_eq!(advice("face_widht_mm", pair), "did you mean `face_width_mm`?");
+        assert_eq!(advice("teeth", pair), "`teeth` belongs to [pinion]");
+        assert_eq!(advice("torque", TABLES[6].1), "did you mean `torque_nm`?");
+        assert!(advice("colour", &["poisson"]).starts_with("known here"));
+    }
+}

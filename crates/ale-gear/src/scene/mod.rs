@@ -1,0 +1,358 @@
+//! The scene: what a user wrote, read and checked before any work starts.
+//!
+//! Two steps, so that every complaint can name file, line, key, value and allowed range:
+//! typed words as they stand in the file (`raw`), then the checked [`Scene`] with every default filled in.
+//! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
+
+mod check;
+mod error;
+mod keys;
+mod raw;
+mod source;
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use geometry::Side;
+use mesh::GroupNames;
+use serde::Serialize;
+
+pub use error::{Place, SceneError};
+
+/// A checked scene. Serialised it is the scene file again, with every default written out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Scene {
+    /// Name of the case, for titles.
+    pub name: String,
+    /// Where the scene stands; paths in it are relative to its folder.
+    #[serde(skip)]
+    pub file: PathBuf,
+    /// Gear 1.
+    pub pinion: GearScene,
+    /// Gear 2.
+    pub wheel: GearScene,
+    /// What both share.
+    pub pair: PairScene,
+    /// Load and motion.
+    pub operation: Operation,
+    /// How flanks press on each other.
+    pub contact: ContactScene,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// Which files are written beside the three that always are.
+    pub output: OutputScene,
+}
+
+/// One gear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GearScene {
+    /// Number of teeth.
+    pub teeth: u32,
+    /// Helix angle at the reference cylinder, right hand positive, degrees.
+    pub helix_angle_deg: f64,
+    /// Diameter of the rigid bore, mm.
+    pub bore_diameter_mm: f64,
+    /// Profile shift coefficient.
+    pub profile_shift: f64,
+    /// Tip diameter, mm; `None`: from addendum and profile shift.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_diameter_mm: Option<f64>,
+    /// Thinning of the tooth in the normal section, mm.
+    pub thickness_allowance_mm: f64,
+    /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<PathBuf>,
+    /// The built-in mesher; set exactly when `mesh` is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesher: Option<MesherScene>,
+    /// The mesh's own names for the parts of the gear.
+    pub groups: GroupNames,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// Options of the structured mesher.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct MesherScene {
+    /// 1: hex8, 2: hex20.
+    pub order: u32,
+    /// Elements along the active flank.
+    pub elements_profile: u32,
+    /// Elements along the root fillet.
+    pub elements_fillet: u32,
+    /// Elements across the tooth.
+    pub elements_thickness: u32,
+    /// Elements along the face width.
+    pub elements_face: u32,
+    /// Elements from the root circle to the bore.
+    pub elements_rim: u32,
+    /// 0: whole gear; 1: periodic sector; k: open sector of k teeth, cut faces free.
+    pub sector_teeth: u32,
+}
+
+/// Linear elastic and isotropic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Material {
+    /// Young's modulus, MPa.
+    pub young_mpa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density, kg/m^3.
+    pub density_kg_m3: f64,
+}
+
+/// What both gears share.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PairScene {
+    /// Normal module, mm.
+    pub normal_module_mm: f64,
+    /// Normal pressure angle, degrees.
+    pub normal_pressure_angle_deg: f64,
+    /// Face width of both gears, mm.
+    pub face_width_mm: f64,
+    /// Working centre distance, mm; `None`: the nominal one that follows from the profile shifts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_distance_mm: Option<f64>,
+    /// Addendum of the basic rack over the normal module.
+    pub addendum_coefficient: f64,
+    /// Dedendum of the basic rack over the normal module.
+    pub dedendum_coefficient: f64,
+    /// Tip radius of the basic rack over the normal module.
+    pub root_radius_coefficient: f64,
+}
+
+/// Load and motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Operation {
+    /// The gear that drives.
+    pub driver: Driver,
+    /// Sense of rotation of the pinion, seen from +z.
+    pub rotation: Rotation,
+    /// Torque on the driven gear, N m.
+    pub torque_nm: f64,
+    /// Speed of the driver, 1/min.
+    pub speed_rpm: f64,
+}
+
+/// The gear that drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Driver {
+    /// Gear 1.
+    Pinion,
+    /// Gear 2.
+    Wheel,
+}
+
+/// Sense of rotation seen from +z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rotation {
+    /// Counter-clockwise.
+    Ccw,
+    /// Clockwise.
+    Cw,
+}
+
+/// How flanks press on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ContactScene {
+    /// Where the contact unknowns sit.
+    pub method: Method,
+    /// Pressure a mm of penetration, MPa/mm; `None`: exact complementarity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penalty_mpa_per_mm: Option<f64>,
+    /// Which surface gives the gaps.
+    pub gap: Gap,
+    /// Contact points along each edge of a flank face.
+    pub points_per_face_edge: u32,
+    /// Which flanks may touch.
+    pub flanks: Flanks,
+}
+
+/// Where the contact unknowns sit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Quadrature points of the flank mesh.
+    Nodal,
+}
+
+/// Which surface gives the gaps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Gap {
+    /// The exact involute helicoid.
+    Smooth,
+    /// The faces of the mesh: for showing what facets do to the transmission error, not for engineering.
+    Facet,
+}
+
+/// Which flanks may touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Flanks {
+    /// Those that the torque presses together.
+    Driving,
+    /// Both sides.
+    Both,
+}
+
+/// What is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Analysis {
+    /// Quasi-static or in time.
+    pub kind: Kind,
+    /// Which rung of the ladder of models.
+    pub model: Model,
+    /// Positions in one mesh cycle, the end point left out.
+    pub positions_per_cycle: u32,
+    /// Mesh cycles.
+    pub cycles: u32,
+    /// Teeth in the window; `None`: floor(eps_gamma) + 1, at least 3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window_teeth: Option<u32>,
+}
+
+/// Quasi-static or in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Equilibrium at every position.
+    Static,
+}
+
+/// A model of the pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Model {
+    /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
+    Iso,
+    /// Flanks of the tooth window.
+    Reduced,
+    /// Every degree of freedom of both meshes.
+    Full,
+}
+
+/// Which files are written beside `summary.json`, `history.csv` and `report.html`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OutputScene {
+    /// ParaView files.
+    pub vtu: bool,
+    /// Fields in them.
+    pub fields: Vec<FieldName>,
+    /// One ParaView file every so many positions.
+    pub vtu_every: u32,
+}
+
+/// A field of the ParaView files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FieldName {
+    /// Displacement of every node, mm.
+    Displacement,
+    /// Contact pressure at flank nodes, MPa.
+    Pressure,
+    /// Stress tensor and von Mises stress, MPa.
+    Stress,
+}
+
+impl Scene {
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text =
+            std::fs::read_to_string(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of a scene; `file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        let source = source::Source { file, text };
+        check::scene(&source, raw::read(&source)?)
+    }
+
+    /// The scene file that says the same with every default written out.
+    pub fn to_toml(&self) -> String {
+        // A struct of numbers, strings and tables: there is nothing that TOML could refuse.
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// The path that a path written in the scene stands for.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        match self.file.parent() {
+            Some(folder) => folder.join(path),
+            None => path.to_owned(),
+        }
+    }
+
+    /// Pinion and wheel.
+    pub fn gears(&self) -> [&GearScene; 2] {
+        [&self.pinion, &self.wheel]
+    }
+
+    /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
+    pub fn side(&self) -> Side {
+        match (self.operation.driver, self.operation.rotation) {
+            (Driver::Pinion, Rotation::Ccw) | (Driver::Wheel, Rotation::Cw) => Side::Left,
+            (Driver::Pinion, Rotation::Cw) | (Driver::Wheel, Rotation::Ccw) => Side::Right,
+        }
+    }
+
+    /// Gear ratio z2/z1.
+    pub fn ratio(&self) -> f64 {
+        f64::from(self.wheel.teeth) / f64::from(self.pinion.teeth)
+    }
+
+    /// Angular speed of the pinion, rad/s, positive in the sense of rotation.
+    pub fn pinion_speed(&self) -> f64 {
+        let driver = self.operation.speed_rpm * PI / 30.0;
+        match self.operation.driver {
+            Driver::Pinion => driver,
+            Driver::Wheel => driver * self.ratio(),
+        }
+    }
+}
+
+impl Rotation {
+    /// +1 counter-clockwise, -1 clockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Ccw => 1.0,
+            Self::Cw => -1.0,
+        }
+    }
+}
+
+impl Operation {
+    /// Torque on the driven gear, N mm.
+    pub fn torque(&self) -> f64 {
+        self.torque_nm * 1e3
+    }
+}
+
+impl Material {
+    /// Density, t/mm^3.
+    pub fn density(&self) -> f64 {
+        self.density_kg_m3 * 1e-12
+    }
+}
+
+impl GearScene {
+    /// Helix angle, rad.
+    pub fn helix_angle(&self) -> f64 {
+        self.helix_angle_deg.to_radians()
+    }
+}
+
+impl PairScene {
+    /// Normal pressure angle, rad.
+    pub fn normal_pressure_angle(&self) -> f64 {
+        self.normal_pressure_angle_deg.to_radians()
+    }
+}

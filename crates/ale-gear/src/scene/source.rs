@@ -1,0 +1,130 @@
+//! The text behind the words: lines, keys, and complaints that name them.
+
+use std::fmt::Display;
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::error::{Place, SceneError};
+use super::keys;
+use super::raw::{Number, Whole, Word};
+
+/// A scene's text and the name that messages give it.
+pub(super) struct Source<'a> {
+    pub file: &'a Path,
+    pub text: &'a str,
+}
+
+impl Source<'_> {
+    /// File and line of a byte range.
+    pub fn place(&self, span: &Range<usize>) -> Place {
+        let end = span.start.min(self.text.len());
+        let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
+        Place { file: self.file.into(), line }
+    }
+
+    /// A message of the TOML reader in this program's words.
+    pub fn explain(&self, message: &str, span: Option<Range<usize>>) -> SceneError {
+        let span = span.unwrap_or(0..0);
+        let place = self.place(&span);
+        if let Some(rest) = message.strip_prefix("unknown field ") {
+            let mut words = rest.split('`').skip(1).step_by(2);
+            let key = words.next().unwrap_or_default().to_owned();
+            let here: Vec<&str> = words.collect();
+            let advice = keys::advice(&key, &here);
+            return SceneError::UnknownKey { place, key, advice };
+        }
+        let typed = message.strip_prefix("invalid type: ").or(message.strip_prefix("invalid value: "));
+        if let Some((found, expected)) = typed.and_then(|rest| rest.rsplit_once(", expected ")) {
+            let expected = match expected {
+                "f64" => "a number".into(),
+                "i64" => "a whole number".into(),
+                "a boolean" => "true or false".into(),
+                e if e.contains("string") => "a text in quotes".into(),
+                e if e.starts_with("struct") || e.contains("map") => "a table".into(),
+                e if e.contains("sequence") => "a list".into(),
+                e => e.to_owned(),
+            };
+            return SceneError::WrongType {
+                place,
+                key: self.key_before(span.start),
+                expected,
+                found: found.replace("floating point", "number").replace('`', ""),
+            };
+        }
+        // Only the first line: the reader's own excerpts are for its own layout.
+        let mut message = message.lines().next().unwrap_or("not readable").to_owned();
+        if message == "duplicate key" {
+            message = format!("`{}` is there twice", self.text.get(span).unwrap_or_default());
+        }
+        SceneError::Syntax { place, message }
+    }
+
+    /// The key whose value begins at `at`; for a list or a table the one it belongs to.
+    fn key_before(&self, at: usize) -> String {
+        let before = self.text.get(..at).unwrap_or(self.text);
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let Some((left, _)) = line.rsplit_once('=') else {
+            // The value is a table of its own: `[pinion]` where a number was wanted.
+            let whole = self.text.get(at..).unwrap_or_default().lines().next().unwrap_or_default();
+            let name = format!("{line}{whole}");
+            return name.trim().trim_matches(['[', ']']).to_owned();
+        };
+        let is_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
+        left.trim_end().rsplit(|c| !is_key(c)).next().unwrap_or_default().to_owned()
+    }
+
+    /// The number of `key`, or `default`, within `low..=high`.
+    pub fn number(&self, key: &str, value: &Number, default: f64, low: f64, high: f64) -> Result<f64, SceneError> {
+        let Some(value) = value else { return Ok(default) };
+        let number = *value.get_ref();
+        if (low..=high).contains(&number) {
+            return Ok(number);
+        }
+        Err(self.out_of_range(key, value, format!("{low} .. {high}")))
+    }
+
+    /// The whole number of `key`, or `default`, within `low..=high`.
+    pub fn whole(&self, key: &str, value: &Whole, default: u32, low: u32, high: u32) -> Result<u32, SceneError> {
+        let Some(value) = value else { return Ok(default) };
+        match u32::try_from(*value.get_ref()) {
+            Ok(number) if (low..=high).contains(&number) => Ok(number),
+            _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"))),
+        }
+    }
+
+    /// The meaning of the word of `key`; the first of `choices` is the default.
+    pub fn choice<T: Copy>(&self, key: &str, value: &Word, choices: &[(&str, T)]) -> Result<T, SceneError> {
+        match value {
+            None => Ok(choices[0].1),
+            Some(word) => self.one_of(key, word, choices),
+        }
+    }
+
+    /// The meaning of a word.
+    pub fn one_of<T: Copy>(&self, key: &str, word: &Spanned<String>, choices: &[(&str, T)]) -> Result<T, SceneError> {
+        let written = word.get_ref().as_str();
+        if let Some(&(_, meaning)) = choices.iter().find(|(name, _)| *name == written) {
+            return Ok(meaning);
+        }
+        let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+        Err(SceneError::OutOfRange {
+            place: self.place(&word.span()),
+            key: key.to_owned(),
+            value: format!("\"{written}\""),
+            allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or "),
+            advice: keys::nearest(written, &names).map(|n| format!("did you mean \"{n}\"?")),
+        })
+    }
+
+    fn out_of_range<T: Display>(&self, key: &str, value: &Spanned<T>, allowed: String) -> SceneError {
+        SceneError::OutOfRange {
+            place: self.place(&value.span()),
+            key: key.to_owned(),
+            value: value.get_ref().to_string(),
+            allowed,
+            advice: None,
+        }
+    }
+}

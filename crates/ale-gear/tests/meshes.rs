@@ -1,0 +1,72 @@
+//! `ale-gear mesh` and meshes in scenes, as a user meets them.
+
+mod util;
+
+use util::{ISO_SCENE, Scratch};
+
+/// A small sector: one quadratic layer is enough to see every part.
+fn scene(order: u32, sector: u32) -> String {
+    let mesher = format!(
+        "[pinion.mesher]\norder = {order}\nelements_profile = 2\nelements_fillet = 2\nelements_thickness = 2\n\
+         elements_face = 2\nelements_rim = 1\nsector_teeth = {sector}\n[pair]"
+    );
+    ISO_SCENE.replace("[pair]", &mesher)
+}
+
+/// What is generated is sound and tells its parts, in every flavour of the file format.
+#[test]
+fn a_generated_mesh_checks_and_tells_its_parts() {
+    for (format, words) in [("4.1", true), ("4.1", false), ("2.2", true), ("2.2", false)] {
+        let scratch = Scratch::new().file("a.toml", scene(2, 3));
+        let base = ["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh", "--format", format];
+        let run = if words {
+            let [a, b, c, d, e, f, g, h, i] = base;
+            scratch.ale_gear([a, b, c, d, e, f, g, h, i, "--ascii"])
+        } else {
+            scratch.ale_gear(base)
+        };
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        let info = scratch.ale_gear(["mesh", "info", "p.msh"]);
+        assert_eq!(info.code, Some(0), "{}", info.stderr);
+        for part in ["hex20", "flank_left_0", "flank_right_1", "bore", "cut_0", "teeth            30"] {
+            assert!(info.stdout.contains(part), "{part} is not in\n{}", info.stdout);
+        }
+        let check = scratch.ale_gear(["mesh", "check", "p.msh", "--teeth", "30"]);
+        assert_eq!((check.code, check.stderr.as_str()), (Some(0), ""), "{}", check.stdout);
+    }
+}
+
+#[test]
+fn a_format_that_is_not_written_is_named() {
+    let scratch = Scratch::new().file("a.toml", scene(1, 1));
+    let run = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "wheel", "-o", "w.msh", "--format", "4.0"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(2), "ale-gear: `--format` is 4.0, allowed is 4.1 or 2.2\n"));
+    assert_eq!(scratch.names(), ["a.toml"]);
+}
+
+/// Files that are no mesh: one message that names the file, exit status 2, no panic.
+#[test]
+fn what_is_no_mesh_is_refused() {
+    let scratch = Scratch::new().file("empty.msh", "").file("noise.msh", [0xff_u8; 300]).file("toml.msh", ISO_SCENE);
+    for name in ["empty.msh", "noise.msh", "toml.msh", "none.msh"] {
+        for word in ["info", "check"] {
+            let run = scratch.ale_gear(["mesh", word, name]);
+            assert_eq!(run.code, Some(2), "{name}");
+            assert!(run.stderr.starts_with(&format!("ale-gear: {name}:")), "{}", run.stderr);
+            assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+        }
+    }
+}
+
+/// The mesh of another gear is found out before it is solved: here the pinion's mesh as the wheel's.
+#[test]
+fn the_mesh_of_another_gear_is_refused() {
+    let scratch = Scratch::new().file("a.toml", scene(1, 3));
+    assert_eq!(scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh"]).code, Some(0));
+    let wrong = ISO_SCENE.replace("[wheel]", "mesh = \"p.msh\"\n[wheel]\nmesh = \"p.msh\"").replace("iso", "reduced");
+    let scratch = scratch.file("b.toml", wrong);
+    let run = scratch.ale_gear(["run", "b.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("off the wheel's flank"), "{}", run.stderr);
+    assert_eq!(scratch.names(), ["a.toml", "b.toml", "p.msh"]);
+}

@@ -1,0 +1,186 @@
+//! Typical mistakes, as a user meets them: the whole text, exit status 2, nothing written.
+
+mod util;
+
+use util::{ISO_SCENE, Scratch};
+
+fn says(scene: &str, text: &str) {
+    let scratch = Scratch::new().file("a.toml", scene);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.stderr, text, "for\n{scene}");
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+    assert_eq!(scratch.names(), ["a.toml"], "something was left behind");
+}
+
+/// The complete scene with one line replaced.
+fn with(old: &str, new: &str) -> String {
+    assert!(ISO_SCENE.contains(old));
+    ISO_SCENE.replacen(old, new, 1)
+}
+
+#[test]
+fn a_misspelt_key_names_line_and_neighbour() {
+    says(
+        "[pair]\nface_widht_mm = 25.0\n",
+        "ale-gear: a.toml:2: unknown key `face_widht_mm`\nhint: did you mean `face_width_mm`?\n",
+    );
+    says(
+        &with("torque_nm = ", "torque = "),
+        "ale-gear: a.toml:14: unknown key `torque`\nhint: did you mean `torque_nm`?\n",
+    );
+}
+
+#[test]
+fn a_key_in_the_wrong_table_is_sent_to_its_own() {
+    says(
+        &with("[pair]\n", "[pair]\ntorque_nm = 3.0\n"),
+        "ale-gear: a.toml:11: unknown key `torque_nm`\nhint: `torque_nm` belongs to [operation]\n",
+    );
+}
+
+#[test]
+fn a_wrong_type_names_both() {
+    says(
+        &with("teeth = 30", "teeth = \"30\""),
+        "ale-gear: a.toml:2: `teeth` must be a whole number, found string \"30\"\n\
+         hint: write numbers without quotes and without a unit: the unit is in the key\n",
+    );
+    says("pinion = 3\n", "ale-gear: a.toml:1: `pinion` must be a table, found integer 3\n");
+}
+
+#[test]
+fn a_value_out_of_range_names_the_range() {
+    says(&with("teeth = 30", "teeth = -3"), "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\n");
+    says(
+        &with("face_width_mm = 20.0", "face_width_mm = nan"),
+        "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\n",
+    );
+    says(
+        &with("model = \"iso\"", "model = \"reducd\""),
+        "ale-gear: a.toml:16: `model` is \"reducd\", allowed is \"reduced\" or \"full\" or \"iso\"\n\
+         hint: did you mean \"reduced\"?\n",
+    );
+}
+
+#[test]
+fn everything_that_is_missing_is_named_at_once() {
+    says(
+        "[pinion]\nteeth = 30\n[wheel]\nteeth = 30\n[pair]\nnormal_module_mm = 3.0\n",
+        "ale-gear: a.toml: missing `[pinion] helix_angle_deg`, `[pair] face_width_mm`, `[operation] torque_nm`\n\
+         hint: teeth, module, helix angle, face width and torque have no default\n",
+    );
+}
+
+#[test]
+fn what_this_version_cannot_do_is_refused_and_not_ignored() {
+    for (table, message) in [
+        (
+            "[contact]\nfriction = 0.05\n",
+            "`friction` asks for Coulomb friction of 0.05, which this version cannot do\n\
+             hint: leave it out: contact is frictionless\n",
+        ),
+        (
+            "[contact]\nmethod = \"slice\"\n",
+            "`method = \"slice\"` asks for contact by axial slices, which this version cannot do\n\
+             hint: use `method = \"nodal\"`\n",
+        ),
+    ] {
+        says(&format!("{ISO_SCENE}{table}"), &format!("ale-gear: a.toml:18: {message}"));
+    }
+    says(
+        &with("model = \"iso\"", "model = \"lumped12\""),
+        "ale-gear: a.toml:16: `model = \"lumped12\"` asks for a dynamic model of the pair, which this version cannot do\n\
+         hint: use `model = \"reduced\"`, \"full\" or \"iso\"\n",
+    );
+    says(
+        &with("[analysis]", "[analysis]\nkind = \"dynamic\""),
+        "ale-gear: a.toml:16: `kind = \"dynamic\"` asks for an analysis in time, which this version cannot do\n\
+         hint: use `kind = \"static\"`\n",
+    );
+}
+
+#[test]
+fn gears_that_cannot_run_together_are_refused() {
+    says(
+        &with("[wheel]", "[wheel]\nhelix_angle_deg = 20"),
+        "ale-gear: a.toml:7: the wheel's `helix_angle_deg` is 20, but the pinion's is 20: they do not mesh\n\
+         hint: leave it out: the wheel's helix angle follows from the pinion's\n",
+    );
+    let scratch = Scratch::new().file("a.toml", with("[pair]", "[pair]\ncentre_distance_mm = 80"));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.stderr.starts_with("ale-gear: a.toml: [pair]: centre distance 80 mm is too small"), "{}", run.stderr);
+    assert_eq!((run.code, scratch.names().len()), (Some(2), 1));
+}
+
+#[test]
+fn a_mesh_that_is_not_there_is_missed_before_any_work() {
+    says(
+        &with("[wheel]", "[wheel]\nmesh = \"no.msh\""),
+        "ale-gear: a.toml:7: `mesh` is \"no.msh\", but there is no file no.msh\n\
+         hint: paths are relative to the scene file\n",
+    );
+    says(
+        &with("[pair]", "[wheel.groups]\nflank_left = \"Left\"\n[pair]"),
+        "ale-gear: a.toml:11: `flank_left` is \"Left\", which has no place for the tooth number\n\
+         hint: write {k} where the number stands, as in flank_left = \"Left_{k}\"\n",
+    );
+}
+
+#[test]
+fn broken_toml_names_the_line() {
+    says(
+        "[pair]\nface_width_mm = 1\nface_width_mm = 2\n",
+        "ale-gear: a.toml:3: `face_width_mm` is there twice\n\
+         hint: a scene is a TOML file: `[table]` lines and `key = value` lines\n",
+    );
+}
+
+#[test]
+fn words_of_the_command_are_checked_too() {
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE);
+    for (run, text) in [
+        (
+            scratch.ale_gear(["run", "a.toml", "--out", "o", "--torque-nm", "-5"]),
+            "ale-gear: `--torque-nm` is -5, allowed is 0 .. 1000000000\n\
+             hint: the sense of the torque follows from `driver` and `rotation`\n",
+        ),
+        (
+            scratch.ale_gear(["run", "a.toml", "--out", "a.toml"]),
+            "ale-gear: --out a.toml: is a file\nhint: give the name of a new folder\n",
+        ),
+        (
+            scratch.ale_gear(["run", "a.toml", "--out", "."]),
+            "ale-gear: --out .: is no name of a folder\nhint: give the name of a new folder\n",
+        ),
+        (
+            scratch.ale_gear(["run", "a.toml", "--out", "o", "--vtu"]),
+            "ale-gear: a.toml: the model \"iso\" has no mesh, so there is nothing for ParaView\n\
+             hint: leave `vtu` out, or use `model = \"reduced\"`\n",
+        ),
+    ] {
+        assert_eq!((run.stderr.as_str(), run.code), (text, Some(2)));
+    }
+    assert_eq!(scratch.ale_gear(["fly"]).code, Some(2));
+    assert_eq!(scratch.names(), ["a.toml"]);
+}
+
+/// Any cut-off or damaged scene ends in a message and never in a panic.
+#[test]
+fn no_damage_to_a_scene_makes_the_reader_panic() {
+    let bytes = ISO_SCENE.as_bytes();
+    for at in 0..bytes.len() {
+        for insert in [&b""[..], b"\"", b"[", b"=", b"-", b"\xc3\xa9", b"\0"] {
+            let mut damaged = bytes[..at].to_vec();
+            damaged.extend(insert);
+            let cut = damaged.clone();
+            damaged.extend(&bytes[at..]);
+            for text in [cut, damaged] {
+                // A scene that still says something whole is as good as a complaint; a panic fails the test.
+                let text = String::from_utf8_lossy(&text).into_owned();
+                if let Err(error) = ale_gear::scene::Scene::parse(&text, "a.toml".as_ref()) {
+                    assert!(error.to_string().starts_with("a.toml"), "{error}");
+                }
+            }
+        }
+    }
+}

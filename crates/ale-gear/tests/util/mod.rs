@@ -1,0 +1,74 @@
+//! A fresh folder and the built program in it.
+
+#![allow(dead_code)] // each test file uses its own part
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A folder of its own, gone with the value.
+pub struct Scratch(tempfile::TempDir);
+
+/// How a run ended.
+pub struct Run {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Scratch {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    pub fn file(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        std::fs::write(self.path().join(name), content).unwrap();
+        self
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path().join(name)).unwrap()
+    }
+
+    /// Names in the folder, ascending.
+    pub fn names(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.path()).unwrap();
+        let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    pub fn ale_gear<const N: usize>(&self, words: [&str; N]) -> Run {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_ale-gear")).current_dir(self.path()).args(words).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    }
+}
+
+/// Top of the repository.
+pub fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()
+}
+
+/// A complete scene of the default pair with the model `iso`.
+pub const ISO_SCENE: &str = r#"[pinion]
+teeth = 30
+helix_angle_deg = 20.0
+bore_diameter_mm = 60.0
+thickness_allowance_mm = 0.05
+[wheel]
+teeth = 30
+bore_diameter_mm = 60.0
+thickness_allowance_mm = 0.05
+[pair]
+normal_module_mm = 3.0
+face_width_mm = 20.0
+[operation]
+torque_nm = 150.0
+[analysis]
+model = "iso"
+"#;

@@ -1,0 +1,66 @@
+//! Stage 1, surface against surface: which faces of two flanks may touch.
+
+use parry3d_f64::{
+    bounding_volume::{Aabb, BoundingVolume},
+    math::{Pose as ParryPose, Vector},
+    partitioning::{Bvh, BvhBuildStrategy, BvhNode},
+};
+
+use crate::{FlankPatch, Pose, Vec3};
+
+/// A face of a patch of body 1 and one of body 2 that may touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FacePair {
+    /// Patch and face of body 1.
+    pub first: (usize, usize),
+    /// Patch and face of body 2.
+    pub second: (usize, usize),
+}
+
+/// Bounding-volume trees over the flank faces of one body, in its own frame; built once, moved by pose.
+#[derive(Debug)]
+pub struct Candidates {
+    boxes: Vec<Aabb>,
+    owners: Vec<(usize, usize)>,
+    tree: Bvh,
+}
+
+impl Candidates {
+    /// A tree over all faces of the patches.
+    pub fn new<'a>(patches: impl IntoIterator<Item = &'a FlankPatch>) -> Self {
+        let (mut boxes, mut owners) = (Vec::new(), Vec::new());
+        for (p, patch) in patches.into_iter().enumerate() {
+            for face in 0..patch.face_count() {
+                let [low, high] = patch.face_box(face);
+                boxes.push(Aabb::new(Vector::new(low.x, low.y, low.z), Vector::new(high.x, high.y, high.z)));
+                owners.push((p, face));
+            }
+        }
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        Self { boxes, owners, tree }
+    }
+
+    /// Pairs of faces whose boxes come within `reach` [mm] of each other, ascending; poses map own frames to the common
+    /// one. Conservative: a pair that is left out is farther apart than `reach`.
+    pub fn pairs(&self, pose: &Pose, other: &Self, other_pose: &Pose, reach: f64) -> Vec<FacePair> {
+        let relative = to_parry(&(pose.inverse() * other_pose));
+        let near = |a: &Aabb, b: &Aabb| a.loosened(reach).intersects(&b.transform_by(&relative));
+        let hit = |a: &BvhNode, b: &BvhNode| near(&a.aabb(), &b.aabb());
+        let mut found: Vec<FacePair> = self
+            .tree
+            .leaf_pairs(&other.tree, hit)
+            .map(|(i, j)| (i as usize, j as usize))
+            // Root nodes of one-leaf trees come unchecked.
+            .filter(|&(i, j)| near(&self.boxes[i], &other.boxes[j]))
+            .map(|(i, j)| FacePair { first: self.owners[i], second: other.owners[j] })
+            .collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+fn to_parry(pose: &Pose) -> ParryPose {
+    let t: Vec3 = pose.translation.vector;
+    let r: Vec3 = pose.rotation.scaled_axis();
+    ParryPose::new(Vector::new(t.x, t.y, t.z), Vector::new(r.x, r.y, r.z))
+}

@@ -1,0 +1,255 @@
+//! g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment.
+//!
+//! ```text
+//! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
+//! F_i >= 0,  g_i >= 0,  F_i g_i = 0
+//! ```
+//! g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the penalty law, 0
+//! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
+//! for the rotation and the gaps is unique.
+
+use crate::{ContactError, ContactRow};
+
+/// How a point resists penetration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// No penetration.
+    Exact,
+    /// Pressure = stiffness times penetration; stiffness in MPa/mm.
+    Penalty(f64),
+}
+
+/// Elastic bodies with a linear answer to contact forces.
+pub trait LinearContact {
+    /// Forces and rotation with `g_i = 0` on the active rows alone (sign of the forces unchecked), and the
+    /// elastic openings o_i at all rows.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the equations have no unique answer.
+    fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError>;
+
+    /// Compliance of a typical row under its own force, mm/N.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the elastic model fails.
+    fn self_compliance(&mut self) -> Result<f64, ContactError>;
+
+    /// Displacements of both bodies' boundary nodes, three a node, mm, under the given row forces: those of the last
+    /// answer of [`LinearContact::solve`].
+    fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2];
+}
+
+/// Data of the complementarity problem, one entry a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// g0, mm.
+    pub gaps: Vec<f64>,
+    /// l, mm.
+    pub levers: Vec<f64>,
+    /// d, mm/N.
+    pub compliance: Vec<f64>,
+    /// M, N mm.
+    pub moment: f64,
+}
+
+/// Answer of the equality problem on an active set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equality {
+    /// Forces of the active rows, N.
+    pub forces: Vec<f64>,
+    /// dtheta, rad.
+    pub rotation: f64,
+    /// Elastic openings o_i of all rows, mm.
+    pub openings: Vec<f64>,
+    /// -dM/dtheta on this active set, N mm/rad: the tangent torsional stiffness of the mesh.
+    pub stiffness: f64,
+}
+
+/// Solved contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Force of every row, N, >= 0.
+    pub forces: Vec<f64>,
+    /// Rows that carry force, ascending.
+    pub active: Vec<usize>,
+    /// dtheta, rad.
+    pub rotation: f64,
+    /// Elastic opening of every row, mm.
+    pub openings: Vec<f64>,
+    /// -dM/dtheta, N mm/rad.
+    pub stiffness: f64,
+    /// Active-set iterations.
+    pub iterations: usize,
+    /// Largest violation of the conditions: gap in mm over the largest approach, negative force over the largest force.
+    pub residual: f64,
+}
+
+/// Row compliance of exact contact while iterating, relative to a point's own compliance. The proximal iteration takes
+/// its effect out again; larger: more proximal steps, smaller: worse conditioned where points outnumber nodes.
+const PROXIMAL_COMPLIANCE: f64 = 1e-7;
+/// Proximal steps before giving up.
+const PROXIMAL_STEPS: usize = 60;
+/// Violation that counts as solved, relative to approach and force.
+const TOLERANCE: f64 = 1e-11;
+
+/// Solves the contact of `rows` under `moment` [N mm] about the body whose levers are `levers`.
+///
+/// Block principal pivoting (all violated points change at once), single least-index pivots after Murty when that
+/// stops making progress, so it ends. Exact contact with more points than nodes has no unique forces; the
+/// proximal-point method then picks the forces next to `start` and converges to zero penetration all the same.
+/// `start`: forces of an earlier solution at these rows, or zeros.
+///
+/// # Errors
+/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+pub fn solve(
+    bodies: &mut dyn LinearContact,
+    rows: &[ContactRow],
+    levers: &[f64],
+    moment: f64,
+    law: Law,
+    start: &[f64],
+) -> Result<Solution, ContactError> {
+    let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
+    let driving = moment.signum();
+    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+        return Err(ContactError::NoLever { lever_mm });
+    }
+    let compliance = match law {
+        Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
+        Law::Exact => vec![PROXIMAL_COMPLIANCE * bodies.self_compliance()?; rows.len()],
+    };
+    let mut problem = Problem { gaps, levers: levers.to_vec(), compliance, moment };
+    let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
+    if active.is_empty() {
+        active = first_guess(rows, levers, driving);
+    }
+    let Law::Exact = law else {
+        let (answer, active, iterations) = pivot(bodies, &problem, active)?;
+        return Ok(finish(rows, &problem, answer, active, iterations));
+    };
+    let mut before = start.to_vec();
+    let mut total = 0;
+    for _ in 0..PROXIMAL_STEPS {
+        for (i, row) in rows.iter().enumerate() {
+            problem.gaps[i] = row.gap - problem.compliance[i] * before[i];
+        }
+        let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
+        total += iterations;
+        let mut solution = finish(rows, &problem, answer, settled.clone(), total);
+        solution.residual = exact_residual(rows, levers, &solution);
+        if solution.residual < TOLERANCE {
+            return Ok(solution);
+        }
+        before.clone_from(&solution.forces);
+        active = settled;
+    }
+    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+}
+
+/// Points that touch first when the body turns: those within a hundredth of the way of the nearest.
+fn first_guess(rows: &[ContactRow], levers: &[f64], driving: f64) -> Vec<usize> {
+    let way = |i: usize| if levers[i] * driving > 0.0 { rows[i].gap / levers[i].abs() } else { f64::INFINITY };
+    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| way(i).is_finite()).collect();
+    order.sort_by(|&a, &b| way(a).total_cmp(&way(b)));
+    order.truncate((rows.len() / 20).max(1));
+    order.sort_unstable();
+    order
+}
+
+/// The active set on which no inactive row is penetrated and no active row pulls.
+fn pivot(
+    bodies: &mut dyn LinearContact,
+    problem: &Problem,
+    mut active: Vec<usize>,
+) -> Result<(Equality, Vec<usize>, usize), ContactError> {
+    let n = problem.gaps.len();
+    let (mut fewest, mut patience) = (usize::MAX, 10);
+    let limit = 200 + 4 * n;
+    let mut infeasible = 0;
+    for iteration in 1..=limit {
+        let answer = bodies.solve(&active, problem)?;
+        let mut force = vec![0.0; n];
+        for (&i, &f) in active.iter().zip(&answer.forces) {
+            force[i] = f;
+        }
+        let largest = answer.forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+        let approach = answer.openings.iter().fold(0.0f64, |m, o| m.max(o.abs()));
+        let is_active = {
+            let mut flags = vec![false; n];
+            active.iter().for_each(|&i| flags[i] = true);
+            flags
+        };
+        let wrong: Vec<usize> = (0..n)
+            .filter(|&i| {
+                if is_active[i] {
+                    force[i] < -1e-14 * largest
+                } else {
+                    let gap = problem.gaps[i] + problem.levers[i] * answer.rotation + answer.openings[i];
+                    gap < -1e-13 * approach
+                }
+            })
+            .collect();
+        infeasible = wrong.len();
+        if wrong.is_empty() {
+            return Ok((answer, active, iteration));
+        }
+        let flip: &[usize] = if infeasible < fewest {
+            (fewest, patience) = (infeasible, 10);
+            &wrong
+        } else if patience > 0 {
+            patience -= 1;
+            &wrong
+        } else {
+            &wrong[wrong.len() - 1..]
+        };
+        let mut next = is_active;
+        flip.iter().for_each(|&i| next[i] = !next[i]);
+        let kept: Vec<usize> = (0..n).filter(|&i| next[i]).collect();
+        // A load must rest on something: keep the row that carries most.
+        active = if kept.is_empty() {
+            let best = active.iter().zip(&answer.forces).max_by(|a, b| a.1.total_cmp(b.1)).map(|(&i, _)| i);
+            best.into_iter().collect()
+        } else {
+            kept
+        };
+    }
+    Err(ContactError::NotConverged { iterations: limit, infeasible, points: n })
+}
+
+fn finish(rows: &[ContactRow], problem: &Problem, answer: Equality, active: Vec<usize>, iterations: usize) -> Solution {
+    let mut forces = vec![0.0; rows.len()];
+    for (&i, &f) in active.iter().zip(&answer.forces) {
+        forces[i] = f.max(0.0);
+    }
+    let approach = problem
+        .levers
+        .iter()
+        .fold(0.0f64, |m, l| m.max((l * answer.rotation).abs()))
+        .max(answer.openings.iter().fold(0.0, |m: f64, o| m.max(o.abs())));
+    let residual = (0..rows.len())
+        .map(|i| {
+            let gap = problem.gaps[i]
+                + problem.levers[i] * answer.rotation
+                + answer.openings[i]
+                + problem.compliance[i] * forces[i];
+            if forces[i] > 0.0 { gap.abs() / approach } else { (-gap).max(0.0) / approach }
+        })
+        .fold(0.0, f64::max);
+    let Equality { rotation, openings, stiffness, .. } = answer;
+    Solution { forces, active, rotation, openings, stiffness, iterations, residual }
+}
+
+/// Violation of exact contact by a proximal iterate, without the proximal compliance.
+fn exact_residual(rows: &[ContactRow], levers: &[f64], s: &Solution) -> f64 {
+    let approach = levers
+        .iter()
+        .fold(0.0f64, |m, l| m.max((l * s.rotation).abs()))
+        .max(s.openings.iter().fold(0.0, |m: f64, o| m.max(o.abs())));
+    (0..rows.len())
+        .map(|i| {
+            let gap = rows[i].gap + levers[i] * s.rotation + s.openings[i];
+            if s.forces[i] > 0.0 { gap.abs() / approach } else { (-gap).max(0.0) / approach }
+        })
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,136 @@
+//! Two elastic bodies known by the compliance of their boundary nodes.
+
+use faer::{Mat, MatRef, Side, linalg::solvers::Solve};
+
+use crate::{
+    ContactError, ContactRow, Support,
+    complementarity::{Equality, LinearContact, Problem},
+};
+
+/// Compliance of both bodies seen from the contact rows.
+///
+/// ```text
+/// o_i = sum_j C_ij F_j,   C = sum over both bodies of A C_b A'
+/// ```
+/// C_b [mm/N] is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A the rows' supports. Columns
+/// C_b A'_j are made when a row first becomes active and kept.
+#[derive(Debug)]
+pub struct Condensed<'a> {
+    rows: &'a [ContactRow],
+    compliance: [MatRef<'a, f64>; 2],
+    columns: Vec<[Option<Vec<f64>>; 2]>,
+}
+
+impl<'a> Condensed<'a> {
+    /// The bodies' boundary compliances, and the rows they touch at.
+    pub fn new(rows: &'a [ContactRow], compliance: [MatRef<'a, f64>; 2]) -> Self {
+        Self { rows, compliance, columns: vec![[None, None]; rows.len()] }
+    }
+
+    /// C_ij, mm/N.
+    fn entry(&mut self, i: usize, j: usize) -> f64 {
+        (0..2)
+            .map(|b| {
+                self.prepare(j, b);
+                self.columns[j][b].as_deref().map_or(0.0, |c| opening(&self.rows[i].supports[b], c))
+            })
+            .sum()
+    }
+
+    fn prepare(&mut self, row: usize, body: usize) {
+        if self.columns[row][body].is_none() {
+            let mut column = vec![0.0; self.compliance[body].nrows()];
+            load_columns(&self.rows[row].supports[body], |dof, f| {
+                let source = self.compliance[body].col(dof);
+                for (c, s) in column.iter_mut().zip(source.iter()) {
+                    *c += f * s;
+                }
+            });
+            self.columns[row][body] = Some(column);
+        }
+    }
+}
+
+/// Opening of a row by boundary displacements `u` (3 a node), mm.
+pub fn opening(support: &Support, u: &[f64]) -> f64 {
+    let d = support.direction;
+    (0..support.count)
+        .map(|k| {
+            let at = 3 * support.nodes[k] as usize;
+            support.weights[k] * (d.x * u[at] + d.y * u[at + 1] + d.z * u[at + 2])
+        })
+        .sum()
+}
+
+/// Calls `add(boundary dof, force)` for a unit force at the row.
+pub(crate) fn load_columns(support: &Support, mut add: impl FnMut(usize, f64)) {
+    for k in 0..support.count {
+        let at = 3 * support.nodes[k] as usize;
+        for axis in 0..3 {
+            let f = support.weights[k] * support.direction[axis];
+            if f != 0.0 {
+                add(at + axis, f);
+            }
+        }
+    }
+}
+
+impl LinearContact for Condensed<'_> {
+    fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError> {
+        let n = active.len();
+        for &j in active {
+            self.prepare(j, 0);
+            self.prepare(j, 1);
+        }
+        let mut s = Mat::<f64>::zeros(n, n);
+        for (b, &j) in active.iter().enumerate() {
+            let [Some(first), Some(second)] = &self.columns[j] else { unreachable!("prepared above") };
+            for (a, &i) in active.iter().enumerate().skip(b) {
+                let supports = &self.rows[i].supports;
+                s[(a, b)] = opening(&supports[0], first) + opening(&supports[1], second);
+            }
+            s[(b, b)] += problem.compliance[j];
+        }
+        let rhs = Mat::from_fn(n, 2, |a, k| if k == 0 { -problem.gaps[active[a]] } else { problem.levers[active[a]] });
+        let factor = s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?;
+        let x = factor.solve(&rhs);
+        let (mut carried, mut stiffness) = (0.0, 0.0);
+        for (a, &i) in active.iter().enumerate() {
+            carried += problem.levers[i] * x[(a, 0)];
+            stiffness += problem.levers[i] * x[(a, 1)];
+        }
+        let rotation = (carried - problem.moment) / stiffness;
+        let forces: Vec<f64> = (0..n).map(|a| x[(a, 0)] - rotation * x[(a, 1)]).collect();
+        let mut all = vec![0.0; self.rows.len()];
+        active.iter().zip(&forces).for_each(|(&i, &f)| all[i] = f);
+        let [u1, u2] = self.displacements(&all);
+        let openings = self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
+        Ok(Equality { forces, rotation, openings, stiffness })
+    }
+
+    fn self_compliance(&mut self) -> Result<f64, ContactError> {
+        let step = (self.rows.len() / 16).max(1);
+        let sampled: Vec<usize> = (0..self.rows.len()).step_by(step).collect();
+        Ok(sampled.iter().map(|&i| self.entry(i, i)).sum::<f64>() / sampled.len() as f64)
+    }
+
+    fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2] {
+        [0, 1].map(|b| {
+            let mut load = vec![0.0; self.compliance[b].nrows()];
+            for (row, &f) in self.rows.iter().zip(forces) {
+                if f != 0.0 {
+                    load_columns(&row.supports[b], |dof, w| load[dof] += f * w);
+                }
+            }
+            let mut u = vec![0.0; load.len()];
+            for (dof, &f) in load.iter().enumerate() {
+                if f != 0.0 {
+                    for (u, c) in u.iter_mut().zip(self.compliance[b].col(dof).iter()) {
+                        *u += f * c;
+                    }
+                }
+            }
+            u
+        })
+    }
+}

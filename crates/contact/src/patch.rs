@@ -1,0 +1,317 @@
+//! One flank as contact sees it: smooth surface for gaps, finite-element faces for forces.
+
+use mesh::{Face, FaceKind};
+
+use crate::{ContactError, Surface, Vec3};
+
+/// Faces of one flank, and where their nodes sit on its smooth surface.
+#[derive(Debug)]
+pub struct FlankPatch {
+    /// Tooth (or any other number) the flank belongs to.
+    pub tooth: i64,
+    surface: Box<dyn Surface>,
+    faces: Vec<PatchFace>,
+    nodes: Vec<PatchNode>,
+    bins: Bins,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct PatchFace {
+    kind: FaceKind,
+    /// Into `nodes`.
+    nodes: [u32; 9],
+}
+
+#[derive(Debug, Clone, Copy)]
+struct PatchNode {
+    position: Vec3,
+    at: [f64; 2],
+    /// Number of the node among its gear's boundary nodes.
+    boundary: u32,
+}
+
+/// A point on a finite-element face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FacePoint {
+    /// Face of the patch.
+    pub face: usize,
+    /// Reference coordinates in the face.
+    pub xi: [f64; 2],
+}
+
+/// Interpolation at a face point: boundary nodes and shape functions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Interpolation {
+    pub nodes: [u32; 9],
+    pub weights: [f64; 9],
+    pub count: usize,
+}
+
+/// Uniform grid over surface coordinates: which faces may cover a spot.
+#[derive(Debug)]
+struct Bins {
+    low: [f64; 2],
+    size: [f64; 2],
+    count: [usize; 2],
+    faces: Vec<Vec<u32>>,
+}
+
+impl FlankPatch {
+    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` [mm] is how far
+    /// a node may lie from the smooth surface.
+    ///
+    /// # Errors
+    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank.
+    pub fn new(
+        tooth: i64,
+        surface: Box<dyn Surface>,
+        mesh_nodes: &[[f64; 3]],
+        faces: &[Face],
+        boundary: impl Fn(u32) -> u32,
+        tolerance: f64,
+    ) -> Result<Self, ContactError> {
+        let mut numbers: Vec<u32> = faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let off = |node: u32, distance: f64| ContactError::OffSurface {
+            patch: format!("tooth {tooth}'s flank"),
+            node,
+            distance_mm: distance,
+            tolerance_mm: tolerance,
+        };
+        let mut nodes = Vec::with_capacity(numbers.len());
+        for &node in &numbers {
+            let position = Vec3::from(mesh_nodes[node as usize]);
+            let foot = surface.locate(&position).ok_or_else(|| off(node, f64::INFINITY))?;
+            if foot.distance.abs() > tolerance || foot.distance.is_nan() {
+                return Err(off(node, foot.distance));
+            }
+            nodes.push(PatchNode { position, at: foot.at, boundary: boundary(node) });
+        }
+        let faces: Vec<PatchFace> = faces
+            .iter()
+            .map(|f| {
+                let mut local = [0; 9];
+                for (slot, node) in local.iter_mut().zip(f.nodes()) {
+                    *slot = numbers.partition_point(|n| n < node) as u32;
+                }
+                PatchFace { kind: f.kind, nodes: local }
+            })
+            .collect();
+        let bins = Bins::new(&faces, &nodes);
+        Ok(Self { tooth, surface, faces, nodes, bins })
+    }
+
+    /// The smooth surface.
+    pub fn surface(&self) -> &dyn Surface {
+        &*self.surface
+    }
+
+    /// Number of faces.
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Kind of a face.
+    pub fn face_kind(&self, face: usize) -> FaceKind {
+        self.faces[face].kind
+    }
+
+    fn corners(&self, face: usize) -> impl Iterator<Item = &PatchNode> {
+        let f = &self.faces[face];
+        f.nodes[..f.kind.node_count()].iter().map(|&n| &self.nodes[n as usize])
+    }
+
+    /// Shape functions and boundary nodes at a face point.
+    pub(crate) fn interpolation(&self, at: FacePoint) -> Interpolation {
+        let f = &self.faces[at.face];
+        let count = f.kind.node_count();
+        let mut weights = [0.0; 9];
+        f.kind.shape(at.xi, &mut weights[..count]);
+        let mut nodes = [0; 9];
+        for (slot, &n) in nodes.iter_mut().zip(&f.nodes[..count]) {
+            *slot = self.nodes[n as usize].boundary;
+        }
+        Interpolation { nodes, weights, count }
+    }
+
+    /// Surface coordinates at a face point, interpolated from the nodes'.
+    pub fn coordinates(&self, at: FacePoint) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        self.interpolate(at, |node, w| {
+            sum[0] += w * node.at[0];
+            sum[1] += w * node.at[1];
+        });
+        sum
+    }
+
+    /// Point on the finite-element face itself (a facet of the gear), mm.
+    pub fn facet_point(&self, at: FacePoint) -> Vec3 {
+        let mut sum = Vec3::zeros();
+        self.interpolate(at, |node, w| sum += w * node.position);
+        sum
+    }
+
+    /// Area of the face per unit of reference area at a face point, mm^2.
+    pub fn area_ratio(&self, at: FacePoint) -> f64 {
+        let f = &self.faces[at.face];
+        let count = f.kind.node_count();
+        let mut slopes = [[0.0; 2]; 9];
+        f.kind.shape_gradient(at.xi, &mut slopes[..count]);
+        let (mut a, mut b) = (Vec3::zeros(), Vec3::zeros());
+        for (&n, [da, db]) in f.nodes[..count].iter().zip(slopes) {
+            let p = self.nodes[n as usize].position;
+            a += da * p;
+            b += db * p;
+        }
+        a.cross(&b).norm()
+    }
+
+    fn interpolate(&self, at: FacePoint, mut add: impl FnMut(&PatchNode, f64)) {
+        let f = &self.faces[at.face];
+        let count = f.kind.node_count();
+        let mut weights = [0.0; 9];
+        f.kind.shape(at.xi, &mut weights[..count]);
+        for (&n, w) in f.nodes[..count].iter().zip(weights) {
+            add(&self.nodes[n as usize], w);
+        }
+    }
+
+    /// Box [low, high] that holds the face's part of the smooth surface, mm, own frame.
+    ///
+    /// Sampled at the nodes and a 4 x 4 grid of surface coordinates; a surface that bulges between the samples does so
+    /// by less than a twentieth of the face's diagonal as long as a face spans less than about 0.8 rad of normal.
+    pub fn face_box(&self, face: usize) -> [Vec3; 2] {
+        let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        let mut take = |p: Vec3| {
+            low = low.inf(&p);
+            high = high.sup(&p);
+        };
+        self.corners(face).for_each(|n| take(n.position));
+        let [from, to] = self.face_range(face);
+        for i in 0..4 {
+            for j in 0..4 {
+                let at = [
+                    from[0] + (to[0] - from[0]) * f64::from(i) / 3.0,
+                    from[1] + (to[1] - from[1]) * f64::from(j) / 3.0,
+                ];
+                take(self.surface.point(at));
+            }
+        }
+        let margin = 0.05 * (high - low).norm();
+        [low.add_scalar(-margin), high.add_scalar(margin)]
+    }
+
+    /// Range of surface coordinates of a face, grown a little for curved edges.
+    fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
+        range(self.corners(face).map(|n| n.at))
+    }
+
+    /// Range of surface coordinates of the whole patch.
+    pub fn range(&self) -> [[f64; 2]; 2] {
+        let mut r = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for n in &self.nodes {
+            for k in 0..2 {
+                r[0][k] = r[0][k].min(n.at[k]);
+                r[1][k] = r[1][k].max(n.at[k]);
+            }
+        }
+        r
+    }
+
+    /// The face point with the given surface coordinates; `None` outside the patch.
+    ///
+    /// Newton on the isoparametric map of surface coordinates, in the faces that cover the spot.
+    pub fn face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
+        self.bins.around(at)?.iter().find_map(|&face| {
+            let xi = self.invert(face as usize, at)?;
+            inside(self.faces[face as usize].kind, xi).then_some(FacePoint { face: face as usize, xi })
+        })
+    }
+
+    fn invert(&self, face: usize, at: [f64; 2]) -> Option<[f64; 2]> {
+        let f = &self.faces[face];
+        let count = f.kind.node_count();
+        let mut xi = f.kind.centre();
+        let (mut n, mut dn) = ([0.0; 9], [[0.0; 2]; 9]);
+        for _ in 0..20 {
+            f.kind.shape(xi, &mut n[..count]);
+            f.kind.shape_gradient(xi, &mut dn[..count]);
+            let (mut r, mut j) = ([-at[0], -at[1]], [[0.0; 2]; 2]);
+            for (i, &node) in f.nodes[..count].iter().enumerate() {
+                let q = self.nodes[node as usize].at;
+                for a in 0..2 {
+                    r[a] += n[i] * q[a];
+                    for b in 0..2 {
+                        j[a][b] += dn[i][b] * q[a];
+                    }
+                }
+            }
+            let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+            let step = [(j[1][1] * r[0] - j[0][1] * r[1]) / det, (j[0][0] * r[1] - j[1][0] * r[0]) / det];
+            if !(step[0].abs() < 10.0 && step[1].abs() < 10.0) {
+                return None;
+            }
+            xi = [xi[0] - step[0], xi[1] - step[1]];
+            if step[0].abs() + step[1].abs() < 1e-13 {
+                return Some(xi);
+            }
+        }
+        None
+    }
+}
+
+/// Whether reference coordinates lie in the face, edges included.
+fn inside(kind: FaceKind, [x, y]: [f64; 2]) -> bool {
+    // Round-off of the inverse map at a shared edge: a point must not fall between two faces.
+    const EDGE: f64 = 1e-9;
+    match kind {
+        FaceKind::Tri3 | FaceKind::Tri6 => x >= -EDGE && y >= -EDGE && x + y <= 1.0 + EDGE,
+        FaceKind::Quad4 | FaceKind::Quad8 | FaceKind::Quad9 => x.abs() <= 1.0 + EDGE && y.abs() <= 1.0 + EDGE,
+    }
+}
+
+fn range(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+    let mut r = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for p in points {
+        for k in 0..2 {
+            r[0][k] = r[0][k].min(p[k]);
+            r[1][k] = r[1][k].max(p[k]);
+        }
+    }
+    r
+}
+
+impl Bins {
+    fn new(faces: &[PatchFace], nodes: &[PatchNode]) -> Self {
+        let [low, high] = range(nodes.iter().map(|n| n.at));
+        let edge = ((faces.len() as f64).sqrt().ceil() as usize).max(1);
+        let count = [edge, edge];
+        let size = [0, 1].map(|k| ((high[k] - low[k]) / edge as f64).max(f64::MIN_POSITIVE));
+        let mut bins = Self { low, size, count, faces: vec![Vec::new(); edge * edge] };
+        for (i, f) in faces.iter().enumerate() {
+            let r = range(f.nodes[..f.kind.node_count()].iter().map(|&n| nodes[n as usize].at));
+            // Quadratic edges may bulge beyond their nodes by an eighth of the face.
+            let grow = [0, 1].map(|k| 0.15 * (r[1][k] - r[0][k]));
+            let from = [0, 1].map(|k| bins.index(k, r[0][k] - grow[k]));
+            let to = [0, 1].map(|k| bins.index(k, r[1][k] + grow[k]));
+            for a in from[0]..=to[0] {
+                for b in from[1]..=to[1] {
+                    bins.faces[a * edge + b].push(i as u32);
+                }
+            }
+        }
+        bins
+    }
+
+    fn index(&self, axis: usize, value: f64) -> usize {
+        let i = ((value - self.low[axis]) / self.size[axis]).floor();
+        i.clamp(0.0, (self.count[axis] - 1) as f64) as usize
+    }
+
+    fn around(&self, at: [f64; 2]) -> Option<&[u32]> {
+        at.iter()
+            .all(|v| v.is_finite())
+            .then(|| &*self.faces[self.index(0, at[0]) * self.count[1] + self.index(1, at[1])])
+    }
+}

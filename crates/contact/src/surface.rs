@@ -1,0 +1,64 @@
+//! Smooth surfaces that contact is measured against.
+
+use crate::Vec3;
+
+/// Foot point on a smooth surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Surface coordinates of the foot.
+    pub at: [f64; 2],
+    /// Signed distance of the point, mm; positive outside the material.
+    pub distance: f64,
+}
+
+/// A smooth surface in its body's own frame.
+pub trait Surface: Send + Sync + std::fmt::Debug {
+    /// Point at surface coordinates, mm.
+    fn point(&self, at: [f64; 2]) -> Vec3;
+    /// Unit normal out of the material.
+    fn normal(&self, at: [f64; 2]) -> Vec3;
+    /// Foot point of `p`; `None` where there is none.
+    fn locate(&self, p: &Vec3) -> Option<Foot>;
+}
+
+/// Surface coordinates of an involute flank are (roll angle, z).
+impl Surface for geometry::Flank {
+    fn point(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::Flank::point(self, u, z)
+    }
+
+    fn normal(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::Flank::normal(self, u, z)
+    }
+
+    fn locate(&self, p: &Vec3) -> Option<Foot> {
+        geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+}
+
+/// A solid circular cylinder about an axis parallel to z; surface coordinates are (angle from +x, z).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    /// Centre in the xy plane, mm.
+    pub centre: [f64; 2],
+    /// Radius, mm.
+    pub radius: f64,
+}
+
+impl Surface for Cylinder {
+    fn point(&self, [angle, z]: [f64; 2]) -> Vec3 {
+        let (sin, cos) = angle.sin_cos();
+        Vec3::new(self.centre[0] + self.radius * cos, self.centre[1] + self.radius * sin, z)
+    }
+
+    fn normal(&self, [angle, _]: [f64; 2]) -> Vec3 {
+        let (sin, cos) = angle.sin_cos();
+        Vec3::new(cos, sin, 0.0)
+    }
+
+    fn locate(&self, p: &Vec3) -> Option<Foot> {
+        let (x, y) = (p.x - self.centre[0], p.y - self.centre[1]);
+        let r = x.hypot(y);
+        (r > 0.0).then(|| Foot { at: [y.atan2(x), p.z], distance: r - self.radius })
+    }
+}

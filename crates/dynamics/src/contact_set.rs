@@ -1,0 +1,196 @@
+//! Flanks, contact points and matrices of one window of both gears.
+
+use std::sync::Arc;
+
+use ale::ToothWindow;
+use contact::{
+    Candidates, Condensed, ContactError, ContactPoint, ContactRow, FlankPatch, LinearContact, Scene, contact_points,
+};
+use geometry::{Gear, GearPair, Side};
+use reduction::Window;
+
+use crate::{ElasticGear, StaticError, StaticOptions, full::FullContact};
+
+/// Everything the contact of one window needs, in the frames of the window's matrices.
+#[derive(Debug)]
+pub struct ContactSet {
+    patches: [Vec<FlankPatch>; 2],
+    points: Vec<Vec<ContactPoint>>,
+    trees: [Candidates; 2],
+    /// Side of each patch.
+    sides: [Vec<Side>; 2],
+    /// First tooth of each gear's window in the frame of its matrices.
+    first: [u32; 2],
+    /// Reduced windows; `None` for full gears.
+    windows: Option<[Window; 2]>,
+}
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+impl ContactSet {
+    /// Sets up the flanks of a window.
+    ///
+    /// # Errors
+    /// [`StaticError`] when a flank is missing or does not lie on its smooth surface.
+    pub fn new(
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        options: &StaticOptions,
+    ) -> Result<Self, StaticError> {
+        let first_teeth = window.first_teeth();
+        let geometry = [&pair.pinion, &pair.wheel];
+        let mut parts = Vec::with_capacity(2);
+        for i in 0..2 {
+            parts.push(flanks(&gears[i], geometry[i], first_teeth[i], window.count(), options, NAMES[i])?);
+        }
+        let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
+            <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
+        let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
+        let trees = [Candidates::new(&p1), Candidates::new(&p2)];
+        let windows = w1.zip(w2).map(|(a, b)| [a, b]);
+        Ok(Self { patches: [p1, p2], points, trees, sides: [s1, s2], first: [f1, f2], windows })
+    }
+
+    /// Whether this set serves another window too: same matrices, same teeth in their frames.
+    pub(crate) fn move_to(&mut self, gears: &[ElasticGear; 2], window: &ToothWindow) -> Result<bool, StaticError> {
+        let Some(mine) = &mut self.windows else { return Ok(false) };
+        let first = window.first_teeth();
+        let mut next = Vec::with_capacity(2);
+        for i in 0..2 {
+            let ElasticGear::Reduced(gear) = &gears[i] else { return Ok(false) };
+            let w = gear.window(first[i]).map_err(|source| StaticError::Reduction { gear: NAMES[i], source })?;
+            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() {
+                return Ok(false);
+            }
+            next.push(w);
+        }
+        mine.iter_mut().zip(next).for_each(|(m, n)| *m = n);
+        Ok(true)
+    }
+
+    /// The reduced windows of both gears.
+    pub fn windows(&self) -> Option<&[Window; 2]> {
+        self.windows.as_ref()
+    }
+
+    /// First tooth of each gear's window in its matrices' frame.
+    pub fn first_teeth(&self) -> [u32; 2] {
+        self.first
+    }
+
+    /// Flank patches of both gears.
+    pub fn patches(&self) -> &[Vec<FlankPatch>; 2] {
+        &self.patches
+    }
+
+    /// Contact points of each patch of the pinion.
+    pub fn points(&self) -> &[Vec<ContactPoint>] {
+        &self.points
+    }
+
+    /// Side of a patch of the pinion.
+    pub fn side(&self, patch: usize) -> Side {
+        self.sides[0][patch]
+    }
+
+    /// Patch of the pinion's (0) or wheel's (1) flank of a window pair, counted from 0 in order of running numbers.
+    pub fn patch_of(&self, gear: usize, pair: usize, side: Side) -> Option<usize> {
+        let count = self.patches[gear].len() / self.kept_sides();
+        // The wheel's teeth run against the pair numbers.
+        let tooth = if gear == 0 { pair } else { count.checked_sub(pair + 1)? };
+        (0..self.kept_sides()).map(|s| tooth * self.kept_sides() + s).find(|&p| self.sides[gear].get(p) == Some(&side))
+    }
+
+    /// Window pair of a patch of the pinion, counted from 0.
+    pub fn pair_of(&self, patch: usize) -> usize {
+        patch / self.kept_sides()
+    }
+
+    fn kept_sides(&self) -> usize {
+        let first = self.patches[0].first().map(|p| p.tooth);
+        self.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
+    }
+
+    pub(crate) fn scene(&self, options: &StaticOptions) -> Scene<'_> {
+        Scene {
+            first: &self.patches[0],
+            points: &self.points,
+            second: &self.patches[1],
+            first_tree: &self.trees[0],
+            second_tree: &self.trees[1],
+            source: options.gap,
+        }
+    }
+
+    /// The elastic model behind the rows.
+    pub(crate) fn bodies<'a>(
+        &'a self,
+        gears: &'a [ElasticGear; 2],
+        rows: &'a [ContactRow],
+    ) -> Result<Box<dyn LinearContact + 'a>, ContactError> {
+        match (&self.windows, gears) {
+            (Some([a, b]), _) => {
+                Ok(Box::new(Condensed::new(rows, [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()])))
+            }
+            (None, [ElasticGear::Full(a), ElasticGear::Full(b)]) => Ok(Box::new(FullContact::new(rows, [a, b]))),
+            _ => Err(ContactError::Elastic("one gear is reduced, the other is not".into())),
+        }
+    }
+}
+
+type Flanks = (Vec<FlankPatch>, Vec<Side>, u32, Option<Window>);
+
+/// Flank patches of one gear's window, tooth by tooth counter-clockwise, in the frame of its matrices.
+fn flanks(
+    elastic: &ElasticGear,
+    geometry: &Gear,
+    first: u32,
+    count: usize,
+    options: &StaticOptions,
+    name: &'static str,
+) -> Result<Flanks, StaticError> {
+    let gear = elastic.gear();
+    let z = gear.tooth_count();
+    let window = match elastic {
+        ElasticGear::Reduced(r) => {
+            Some(r.window(first).map_err(|source| StaticError::Reduction { gear: name, source })?)
+        }
+        ElasticGear::Full(_) => None,
+    };
+    let teeth: Vec<u32> = match &window {
+        Some(w) => w.reduced.teeth.clone(),
+        None => (0..count as u32).map(|i| (first + i) % z).collect(),
+    };
+    let number = |node: u32| -> u32 {
+        let position = match (&window, elastic) {
+            (Some(w), _) => w.reduced.position(node),
+            (None, ElasticGear::Full(f)) => f.dofs.position(node),
+            (None, ElasticGear::Reduced(_)) => None,
+        };
+        position.map_or(u32::MAX, |p| p as u32)
+    };
+    let (mut patches, mut sides) = (Vec::new(), Vec::new());
+    for &tooth in &teeth {
+        for side in options.sides() {
+            let faces = gear.flank(tooth, side).ok_or_else(|| StaticError::Reduction {
+                gear: name,
+                source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
+            })?;
+            let surface = Box::new(geometry.flank_of(side, i64::from(tooth)));
+            let patch = FlankPatch::new(
+                i64::from(tooth),
+                surface,
+                &gear.mesh().nodes,
+                faces,
+                number,
+                options.surface_tolerance,
+            )
+            .map_err(|source| StaticError::Surface { gear: name, source })?;
+            patches.push(patch);
+            sides.push(side);
+        }
+    }
+    let first = teeth.first().copied().unwrap_or(0);
+    Ok((patches, sides, first, window))
+}

@@ -1,0 +1,191 @@
+//! Torque equilibrium at one station.
+
+use std::collections::BTreeMap;
+
+use ale::ToothWindow;
+use contact::{ContactError, ContactRow, Pose, Solution, Vec3, closest_points, complementarity};
+use geometry::GearPair;
+use nalgebra::{Translation3, UnitQuaternion};
+
+use crate::{ContactSet, ElasticGear, StaticError, StaticOptions};
+
+/// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
+///
+/// At phase s the pair in the middle of the cycle stands, at mid-face, (s - 1/2) base pitches past the middle of the path of
+/// contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Station {
+    /// Mesh cycles since the start, in the sense of rotation.
+    pub cycle: i64,
+    /// Phase of the cycle, 0 .. 1.
+    pub phase: f64,
+}
+
+/// Solved contact at one station.
+#[derive(Debug, Clone)]
+pub struct Equilibrium {
+    /// Where.
+    pub station: Station,
+    /// Poses of the matrices' frames of both gears.
+    pub poses: [Pose; 2],
+    /// Rotation of the driven gear from the unloaded position, rad, about +z.
+    pub rotation: f64,
+    /// Transmission error, mm; positive when the driven gear lags.
+    pub transmission_error: f64,
+    /// Candidate points.
+    pub rows: Vec<ContactRow>,
+    /// Forces and gaps at the rows.
+    pub solution: Solution,
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames.
+    pub displacements: [Vec<f64>; 2],
+    /// Active-set iterations over all pose steps.
+    pub iterations: usize,
+}
+
+/// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
+const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
+/// Pose steps before giving up.
+const POSE_STEPS: usize = 40;
+/// Last step of the pose relative to the approach.
+const POSE_TOLERANCE: f64 = 1e-11;
+
+impl Station {
+    /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle.
+    pub(crate) fn pinion_angle(&self, pair: &GearPair, options: &StaticOptions) -> f64 {
+        let middle = pair.middle_angle(options.side());
+        middle + options.sense.sign() as f64 * (self.phase - 0.5) * pair.pinion.pitch_angle()
+    }
+
+    /// Running number of the pair in the middle of this cycle.
+    pub(crate) fn middle_pair(&self, options: &StaticOptions) -> i64 {
+        -options.sense.sign() * self.cycle
+    }
+
+    /// Running number, in fractions, of the place midway between the pairs.
+    pub(crate) fn centre(&self, options: &StaticOptions) -> f64 {
+        let sign = options.sense.sign() as f64;
+        self.middle_pair(options) as f64 - sign * (self.phase - 0.5)
+    }
+}
+
+/// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
+pub(crate) fn poses(
+    pair: &GearPair,
+    options: &StaticOptions,
+    set: &ContactSet,
+    window: &ToothWindow,
+    station: Station,
+    rotation: f64,
+) -> [Pose; 2] {
+    let theta1 = station.pinion_angle(pair, options);
+    let mut angles = [theta1, pair.wheel_angle(options.side(), theta1)];
+    angles[options.driven()] += rotation;
+    // Teeth counted from the middle pair of the cycle stand at these angles; the matrices count from their first tooth.
+    let first_pair = window.first() - station.middle_pair(options);
+    let last_pair = first_pair + window.count() as i64 - 1;
+    let [f1, f2] = set.first_teeth();
+    let turn = [
+        (first_pair - i64::from(f1)).rem_euclid(i64::from(pair.pinion.teeth())) as f64 * pair.pinion.pitch_angle(),
+        (-last_pair - i64::from(f2)).rem_euclid(i64::from(pair.wheel.teeth())) as f64 * pair.wheel.pitch_angle(),
+    ];
+    let centre = [0.0, pair.centre_distance()];
+    [0, 1].map(|i| {
+        Pose::from_parts(
+            Translation3::new(centre[i], 0.0, 0.0),
+            UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angles[i] + turn[i]),
+        )
+    })
+}
+
+/// Forces by (pair of patches counted by running number, point): what a next solve starts from.
+pub(crate) type Memory = BTreeMap<(usize, usize, usize), f64>;
+
+impl Equilibrium {
+    pub(crate) fn memory(&self) -> Memory {
+        let active = self.solution.active.iter();
+        active
+            .map(|&i| ((self.rows[i].patches.0, self.rows[i].patches.1, self.rows[i].point), self.solution.forces[i]))
+            .collect()
+    }
+
+    /// Opening of the gaps at the rows' normal approach, largest, mm.
+    pub fn approach(&self, pair: &GearPair) -> f64 {
+        self.transmission_error.abs() * pair.base_helix_angle().cos()
+    }
+}
+
+/// Turns the driven gear until contact balances its torque.
+///
+/// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
+/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact.
+pub(crate) fn equilibrium(
+    pair: &GearPair,
+    gears: &[ElasticGear; 2],
+    set: &ContactSet,
+    window: &ToothWindow,
+    options: &StaticOptions,
+    station: Station,
+    guess: Option<&Equilibrium>,
+) -> Result<Equilibrium, StaticError> {
+    let fail = |source: ContactError| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
+    let side = options.side();
+    let driven = options.driven();
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+    let moment = -side.sign() * options.torque;
+    let scene = set.scene(options);
+    let force = options.torque / base_radius;
+    let mut rotation = guess.map_or(0.0, |g| g.rotation);
+    let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
+    // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
+    let facets = if options.gap == contact::GapSource::Facet { options.surface_tolerance } else { 0.0 };
+    let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
+    let mut memory = guess.map(Equilibrium::memory).unwrap_or_default();
+    let mut iterations = 0;
+    let mut step_mm = f64::INFINITY;
+    for _ in 0..POSE_STEPS {
+        let poses = poses(pair, options, set, window, station, rotation);
+        let rows = closest_points(&scene, &poses, reach);
+        if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
+            if reach > pair.pinion.data().normal_module {
+                return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
+            }
+            reach = 4.0 * reach.max(1e-9);
+            continue;
+        }
+        let levers: Vec<f64> = rows.iter().map(|r| r.levers[driven]).collect();
+        let start: Vec<f64> =
+            rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
+        let mut bodies = set.bodies(gears, &rows).map_err(fail)?;
+        let solution =
+            complementarity::solve(&mut *bodies, &rows, &levers, moment, options.law, &start).map_err(fail)?;
+        iterations += solution.iterations;
+        // A row that the step can close must have been among the rows.
+        let farthest = levers.iter().fold(0.0f64, |m, l| m.max((l * solution.rotation).abs()));
+        if 1.05 * farthest > reach {
+            reach = 1.5 * farthest;
+            continue;
+        }
+        rotation += solution.rotation;
+        step_mm = (solution.rotation * base_radius).abs();
+        let error = side.sign() * base_radius * rotation;
+        if step_mm <= POSE_TOLERANCE * error.abs().max(1e-9 * guessed) {
+            let displacements = bodies.displacements(&solution.forces);
+            drop(bodies);
+            return Ok(Equilibrium {
+                station,
+                poses,
+                rotation,
+                transmission_error: error,
+                rows,
+                solution,
+                displacements,
+                iterations,
+            });
+        }
+        drop(bodies);
+        let active = solution.active.iter();
+        memory = active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect();
+        reach = facets + (0.25 * error.abs()).max(2.0 * step_mm);
+    }
+    Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })
+}

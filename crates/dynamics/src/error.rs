@@ -1,0 +1,95 @@
+//! What can go wrong in an analysis.
+
+/// A quasi-static analysis could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StaticError {
+    /// Reduction of a gear.
+    #[error("{gear}: {source}")]
+    Reduction {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: reduction::ReductionError,
+    },
+    /// Mesh and geometry do not fit, or the contact cannot be set up.
+    #[error("{gear}: {source}")]
+    Surface {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: contact::ContactError,
+    },
+    /// Contact at a station.
+    #[error("at mesh phase {phase:.6} of cycle {cycle}: {source}")]
+    Contact {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// What happened.
+        source: contact::ContactError,
+    },
+    /// The pose did not settle.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: no equilibrium after {iterations} steps, the last one {step_mm:.3e} mm"
+    )]
+    NoEquilibrium {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Steps.
+        iterations: usize,
+        /// Last step on the base circle, mm.
+        step_mm: f64,
+    },
+    /// A pair outside the window would touch.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
+    )]
+    Starved {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Running number of the pair.
+        pair: i64,
+        /// Teeth of the window.
+        window: usize,
+        /// Overlap of the undeformed flanks at the loaded pose, um.
+        overlap_um: f64,
+        /// Torque, N m.
+        torque_nm: f64,
+    },
+    /// Tooth window.
+    #[error(transparent)]
+    Window(#[from] ale::AleError),
+    /// A value out of its range.
+    #[error("{name} = {value} is out of range: {expected}")]
+    OutOfRange {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The permitted range.
+        expected: &'static str,
+    },
+}
+
+impl StaticError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Reduction { source, .. } => source.hint(),
+            Self::Surface { source, .. } | Self::Contact { source, .. } => source.hint(),
+            Self::NoEquilibrium { .. } => Some("lower the torque, or try other points_per_face_edge".into()),
+            Self::Starved { window, .. } => Some(format!(
+                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
+                window + 1
+            )),
+            Self::Window(e) => e.hint(),
+            Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
+        }
+    }
+}

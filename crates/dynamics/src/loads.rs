@@ -1,0 +1,251 @@
+//! From a solved contact to the quantities of a station.
+
+use ale::ToothWindow;
+use contact::{ContactPoint, ContactRow, LineSample, Vec3, contact_length, contact_row, hertz, opening};
+use geometry::{GearPair, Side};
+
+use crate::{Certificate, ContactSet, ElasticGear, Equilibrium, PairResult, StaticOptions, StaticPosition, Wrench};
+
+/// Axial stations at which the least gap of a pair is looked at.
+const LINE_SAMPLES: usize = 193;
+/// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
+/// interpolated deflection leaves gaps of that order open.
+const TOUCHING: f64 = 0.02;
+/// Axial bins for the line load behind the Hertzian pressure.
+const PRESSURE_BINS: usize = 12;
+
+/// Forces and moments on both gears, about their own centres, common axes.
+pub(crate) fn wrenches(pair: &GearPair, rows: &[ContactRow], forces: &[f64]) -> [Wrench; 2] {
+    let centres = [Vec3::zeros(), Vec3::new(pair.centre_distance(), 0.0, 0.0)];
+    [0, 1].map(|i| {
+        let sign = if i == 0 { 1.0 } else { -1.0 };
+        let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
+        for (row, &f) in rows.iter().zip(forces).filter(|(_, f)| **f != 0.0) {
+            let f = sign * f * row.normal;
+            force += f;
+            moment += (row.position - centres[i]).cross(&f);
+        }
+        Wrench { force: force.into(), moment: moment.into() }
+    })
+}
+
+/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see it.
+fn action_reaction(e: &Equilibrium) -> f64 {
+    let total = |body: usize| {
+        let mut sum = Vec3::zeros();
+        for (row, &f) in e.rows.iter().zip(&e.solution.forces) {
+            let s = &row.supports[body];
+            let weight: f64 = s.weights[..s.count].iter().sum();
+            sum += f * weight * (e.poses[body].rotation * s.direction);
+        }
+        sum
+    };
+    let (a, b) = (total(0), total(1));
+    (a + b).amax() / a.amax().max(b.amax()).max(f64::MIN_POSITIVE)
+}
+
+/// Everything the results hold of a station.
+pub(crate) fn position(
+    pair: &GearPair,
+    gears: &[ElasticGear; 2],
+    set: &ContactSet,
+    window: &ToothWindow,
+    options: &StaticOptions,
+    e: &Equilibrium,
+    tooth_changes: u64,
+) -> StaticPosition {
+    let side = options.side();
+    let driven = options.driven();
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+    let wrench = wrenches(pair, &e.rows, &e.solution.forces);
+    let pairs: Vec<PairResult> =
+        (0..window.count()).map(|k| pair_result(pair, gears, set, window, options, e, k)).collect();
+    let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
+    let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
+    let moment = -side.sign() * options.torque;
+    let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
+    let penalty: f64 = match options.law {
+        contact::Law::Exact => 0.0,
+        contact::Law::Penalty(k) => {
+            e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
+        }
+    };
+    let theta1 = e.station.pinion_angle(pair, options);
+    StaticPosition {
+        pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
+        mesh_phase: e.station.phase,
+        transmission_error: e.transmission_error,
+        secant_stiffness: if options.torque == 0.0 {
+            f64::NAN
+        } else {
+            options.torque / base_radius / e.transmission_error
+        },
+        tangent_stiffness: e.solution.stiffness / (base_radius * base_radius),
+        contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
+        geometric_line_length: pair.contact_line_length(side, theta1),
+        max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
+        wrench,
+        strain_energy: elastic + penalty,
+        tooth_changes,
+        certificate: Certificate {
+            torque_residual: if moment == 0.0 { 0.0 } else { (wrench[driven].moment[2] / moment - 1.0).abs() },
+            complementarity_residual: e.solution.residual,
+            action_reaction_residual: action_reaction(e),
+            iterations: e.iterations,
+            window_edge_load: if total > 0.0 { edge / total } else { 0.0 },
+        },
+        pairs,
+    }
+}
+
+fn pair_result(
+    pair: &GearPair,
+    gears: &[ElasticGear; 2],
+    set: &ContactSet,
+    window: &ToothWindow,
+    options: &StaticOptions,
+    e: &Equilibrium,
+    k: usize,
+) -> PairResult {
+    let running = window.first() + k as i64;
+    let [pinion_tooth, wheel_tooth] = window.teeth_of(running);
+    let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
+    let loaded: Vec<(&ContactRow, f64)> =
+        e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
+    let samples = line_samples(pair, set, options, e, k);
+    let along = 1.0 / pair.base_helix_angle().cos();
+    let tolerance = TOUCHING * e.approach(pair);
+    let touches = options.torque > 0.0;
+    let length = |from: f64, to: f64| {
+        let part: Vec<LineSample> =
+            samples.iter().copied().filter(|s| s.z >= from - 1e-12 && s.z <= to + 1e-12).collect();
+        if touches { contact_length(&part, tolerance, along) } else { 0.0 }
+    };
+    let half = 0.5 * pair.face_width();
+    let bin = pair.face_width() / PRESSURE_BINS as f64;
+    let modulus =
+        hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
+    let max_pressure = (0..PRESSURE_BINS)
+        .map(|b| {
+            let (from, to) = (-half + b as f64 * bin, -half + (b + 1) as f64 * bin);
+            let inside = |row: &ContactRow| row.coordinates[1] >= from && row.coordinates[1] < to;
+            let (mut load, mut path) = (0.0, 0.0);
+            for (row, f) in loaded.iter().filter(|(row, _)| inside(row)) {
+                load += f;
+                path += f * row.coordinates[0] * pair.pinion.base_radius();
+            }
+            // A bin that the line leaves carries its load on part of its length.
+            let covered = length(from, to).max(0.25 * bin * along);
+            if load > 0.0 {
+                hertz::line_pressure(load / covered, relative_radius(pair, path / load), modulus)
+            } else {
+                0.0
+            }
+        })
+        .fold(0.0, f64::max);
+    PairResult {
+        pair: running,
+        pinion_tooth,
+        wheel_tooth,
+        normal_force: loaded.iter().map(|(_, f)| f).sum(),
+        max_pressure,
+        contact_line_length: length(-half, half),
+        points_in_contact: loaded.len(),
+    }
+}
+
+/// rho_n = rho_1 rho_2 / ((rho_1 + rho_2) cos b_b) at path coordinate xi = rho_1, mm.
+fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
+    let length = pair.tangent_length();
+    let rho = xi.clamp(1e-3 * length, 0.999 * length);
+    rho * (length - rho) / (length * pair.base_helix_angle().cos())
+}
+
+/// Least deformed gap of window pair `k` along the face, where the undeformed line of contact, or the end of the path, runs.
+fn line_samples(
+    pair: &GearPair,
+    set: &ContactSet,
+    options: &StaticOptions,
+    e: &Equilibrium,
+    k: usize,
+) -> Vec<LineSample> {
+    let side = options.side();
+    let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
+        return Vec::new();
+    };
+    let patch = &set.patches()[0][first];
+    let [low, high] = patch.range();
+    let [start, end] = pair.path_of_contact();
+    let base_radius = pair.pinion.base_radius();
+    let half = 0.5 * pair.face_width();
+    let scene = set.scene(options);
+    // Stay inside the faces: the flank's edge nodes are on the surface to round-off or, from Gmsh, to a nanometre.
+    let inset = |lo: f64, hi: f64| (lo + 1e-6 * (hi - lo), hi - 1e-6 * (hi - lo));
+    let (u_low, u_high) = inset(low[0].max(start / base_radius), high[0].min(end / base_radius));
+    let (z_low, z_high) = inset(low[1].max(-half), high[1].min(half));
+    let tooth = window_tooth(pair, options, e, set, first);
+    (0..LINE_SAMPLES)
+        .map(|i| {
+            let z = z_low + (z_high - z_low) * i as f64 / (LINE_SAMPLES - 1) as f64;
+            let xi = tooth + side.sign() * pair.base_helix_angle().tan() * z;
+            let coordinates = [(xi / base_radius).clamp(u_low, u_high), z];
+            let gap = patch.face_at(coordinates).and_then(|at| {
+                let position = patch.surface().point(coordinates);
+                let point = ContactPoint { at, coordinates, position, area: 0.0 };
+                let row = contact_row(&scene, &e.poses, (first, second), usize::MAX, &point)?;
+                Some(
+                    row.gap
+                        + opening(&row.supports[0], &e.displacements[0])
+                        + opening(&row.supports[1], &e.displacements[1]),
+                )
+            });
+            LineSample { z, gap: gap.unwrap_or(f64::INFINITY) }
+        })
+        .collect()
+}
+
+/// Path coordinate at mid-face of a patch's tooth, mm from T1.
+fn window_tooth(pair: &GearPair, options: &StaticOptions, e: &Equilibrium, set: &ContactSet, patch: usize) -> f64 {
+    // The pinion frame's own angle plus the tooth's place in it; whole turns drop out.
+    let frame = e.poses[0].rotation.euler_angles().2;
+    let tooth = set.patches()[0][patch].tooth as f64 * pair.pinion.pitch_angle();
+    let middle = pair.middle_angle(options.side());
+    let turn = frame + tooth - middle;
+    let wrapped = turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
+    pair.path_coordinate(options.side(), middle + wrapped, 0, 0.0)
+}
+
+/// Least gap [mm] at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
+pub(crate) fn outside_gap(
+    pair: &GearPair,
+    set: &ContactSet,
+    window: &ToothWindow,
+    options: &StaticOptions,
+    e: &Equilibrium,
+    running: i64,
+    side: Side,
+) -> f64 {
+    let [f1, f2] = set.first_teeth();
+    let last = window.first() + window.count() as i64 - 1;
+    let flank1 = pair.pinion.flank_of(side, i64::from(f1) + running - window.first());
+    let flank2 = pair.wheel.flank_of(side, i64::from(f2) + last - running);
+    let base_radius = pair.pinion.base_radius();
+    let [start, end] = pair.path_of_contact();
+    let theta1 = e.station.pinion_angle(pair, options);
+    let tooth = running - e.station.middle_pair(options);
+    let half = 0.5 * pair.face_width();
+    let (w_low, w_high) = (flank2.roll_form, flank2.roll_tip);
+    (0..=32)
+        .map(|i| {
+            let z = half * (f64::from(i) / 16.0 - 1.0);
+            let xi = pair.path_coordinate(side, theta1, tooth, z);
+            let u = xi.clamp(start, end) / base_radius;
+            let point = e.poses[0].transform_point(&flank1.point(u, z).into());
+            let seen = e.poses[1].inverse_transform_point(&point).coords;
+            match flank2.locate(&seen) {
+                Some(foot) if foot.roll >= w_low - 1e-6 && foot.roll <= w_high + 1e-6 => foot.distance,
+                _ => f64::INFINITY,
+            }
+        })
+        .fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,75 @@
+//! What is asked of a quasi-static analysis.
+
+use ale::Sense;
+use contact::{GapSource, Law};
+use geometry::{GearPair, Side};
+
+/// Which gear drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Driver {
+    /// Gear 1.
+    Pinion,
+    /// Gear 2.
+    Wheel,
+}
+
+/// Operation, contact and window of a quasi-static analysis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticOptions {
+    /// Which gear drives.
+    pub driver: Driver,
+    /// Sense in which the pinion turns.
+    pub sense: Sense,
+    /// Torque on the driven gear, N mm, >= 0.
+    pub torque: f64,
+    /// Contact law.
+    pub law: Law,
+    /// Gaps between smooth flanks or between the faces of the mesh.
+    pub gap: GapSource,
+    /// Gauss points along each edge of a flank face.
+    pub points_per_face_edge: usize,
+    /// Keep both flanks of the window's teeth, not the driving ones alone.
+    pub both_flanks: bool,
+    /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
+    pub window: Option<usize>,
+    /// How far a flank node may lie from the smooth flank, mm.
+    pub surface_tolerance: f64,
+}
+
+impl StaticOptions {
+    /// Defaults for a torque [N mm] on the driven gear of `pair`: pinion drives counter-clockwise, exact contact, 6 points an edge.
+    pub fn new(torque: f64, pair: &GearPair) -> Self {
+        Self {
+            driver: Driver::Pinion,
+            sense: Sense::Ccw,
+            torque,
+            law: Law::Exact,
+            gap: GapSource::Smooth,
+            points_per_face_edge: 6,
+            both_flanks: false,
+            window: None,
+            surface_tolerance: 0.01 * pair.pinion.data().normal_module,
+        }
+    }
+
+    /// The pinion's flanks that carry the load: the leading ones when it drives, the trailing ones when it is driven.
+    pub fn side(&self) -> Side {
+        match (self.driver, self.sense) {
+            (Driver::Pinion, Sense::Ccw) | (Driver::Wheel, Sense::Cw) => Side::Left,
+            (Driver::Pinion, Sense::Cw) | (Driver::Wheel, Sense::Ccw) => Side::Right,
+        }
+    }
+
+    /// Sides of the teeth whose flanks are kept.
+    pub fn sides(&self) -> Vec<Side> {
+        if self.both_flanks { vec![self.side(), self.side().opposite()] } else { vec![self.side()] }
+    }
+
+    /// Index of the driven gear: 0 pinion, 1 wheel.
+    pub fn driven(&self) -> usize {
+        match self.driver {
+            Driver::Pinion => 1,
+            Driver::Wheel => 0,
+        }
+    }
+}

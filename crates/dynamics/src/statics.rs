@@ -1,0 +1,260 @@
+//! Station by station through mesh cycles, with tooth changes.
+
+use ale::{ToothWindow, teeth_needed};
+use geometry::GearPair;
+
+use crate::{
+    ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
+    equilibrium::equilibrium, loads,
+};
+
+/// A tooth change as it happened: the same station solved with the window before and the one after.
+#[derive(Debug, Clone)]
+pub struct Change {
+    /// Result with the old window.
+    pub before: StaticPosition,
+    /// Result with the new window.
+    pub after: StaticPosition,
+    /// The new window.
+    pub window: ToothWindow,
+}
+
+/// A pair of elastic gears under torque.
+#[derive(Debug)]
+pub struct StaticModel {
+    pair: GearPair,
+    gears: [ElasticGear; 2],
+    options: StaticOptions,
+    window: ToothWindow,
+    set: ContactSet,
+    last: Option<Equilibrium>,
+    changes: u64,
+}
+
+impl StaticModel {
+    /// Teeth of the window that `options` ask of `pair`.
+    pub fn window_teeth(pair: &GearPair, options: &StaticOptions) -> usize {
+        options.window.unwrap_or_else(|| teeth_needed(pair.total_contact_ratio()))
+    }
+
+    /// First tooth of each gear's window at the start of a run: reduce the gears there.
+    ///
+    /// # Errors
+    /// [`StaticError::Window`] when the window is wider than a gear.
+    pub fn first_teeth(pair: &GearPair, options: &StaticOptions) -> Result<[u32; 2], StaticError> {
+        Ok(first_window(pair, options)?.first_teeth())
+    }
+
+    /// A model at the start of cycle 0.
+    ///
+    /// # Errors
+    /// [`StaticError`] when a value has no meaning, or meshes and geometry do not fit.
+    pub fn new(pair: GearPair, gears: [ElasticGear; 2], options: StaticOptions) -> Result<Self, StaticError> {
+        let fine = options.torque.is_finite() && options.torque >= 0.0;
+        if !fine {
+            let value = options.torque;
+            return Err(StaticError::OutOfRange { name: "torque [N mm]", value, expected: "0 or more" });
+        }
+        if let contact::Law::Penalty(value) = options.law
+            && !(value.is_finite() && value > 0.0)
+        {
+            return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
+        }
+        let window = first_window(&pair, &options)?;
+        let set = ContactSet::new(&pair, &gears, &window, &options)?;
+        Ok(Self { pair, gears, options, window, set, last: None, changes: 0 })
+    }
+
+    /// The pair.
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    /// The elastic gears.
+    pub fn gears(&self) -> &[ElasticGear; 2] {
+        &self.gears
+    }
+
+    /// The options.
+    pub fn options(&self) -> &StaticOptions {
+        &self.options
+    }
+
+    /// The window as it stands.
+    pub fn window(&self) -> &ToothWindow {
+        &self.window
+    }
+
+    /// Flanks and matrices of the window as it stands.
+    pub fn contact_set(&self) -> &ContactSet {
+        &self.set
+    }
+
+    /// The last solved contact.
+    pub fn last(&self) -> Option<&Equilibrium> {
+        self.last.as_ref()
+    }
+
+    /// Solves a station with the window as it stands.
+    ///
+    /// # Errors
+    /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
+    pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
+        if self.options.torque == 0.0 {
+            return Ok(self.unloaded(station));
+        }
+        let guess = self.last.take();
+        let e = equilibrium(&self.pair, &self.gears, &self.set, &self.window, &self.options, station, guess.as_ref())?;
+        let result = loads::position(&self.pair, &self.gears, &self.set, &self.window, &self.options, &e, self.changes);
+        let starved = self.starved(&e);
+        self.last = Some(e);
+        starved.map_or(Ok(result), Err)
+    }
+
+    /// A pair beside the window that overlaps at the loaded pose.
+    fn starved(&self, e: &Equilibrium) -> Option<StaticError> {
+        let pairs = self.window.pairs();
+        let least = 1e-3 * e.transmission_error.abs();
+        [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
+            let gap =
+                loads::outside_gap(&self.pair, &self.set, &self.window, &self.options, e, running, self.options.side());
+            (gap < -least).then(|| StaticError::Starved {
+                cycle: e.station.cycle,
+                phase: e.station.phase,
+                pair: running,
+                window: self.window.count(),
+                overlap_um: -1e3 * gap,
+                torque_nm: 1e-3 * self.options.torque,
+            })
+        })
+    }
+
+    /// Without torque the flanks just touch along the analytic lines; the unmodified pair has no transmission error.
+    fn unloaded(&self, station: Station) -> StaticPosition {
+        let theta1 = station.pinion_angle(&self.pair, &self.options);
+        let lines = self.pair.contact_lines(self.options.side(), theta1);
+        let middle = station.middle_pair(&self.options);
+        let pairs: Vec<_> = self
+            .window
+            .pairs()
+            .map(|running| {
+                let line = lines.iter().find(|l| l.tooth == running - middle);
+                let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
+                crate::PairResult {
+                    pair: running,
+                    pinion_tooth,
+                    wheel_tooth,
+                    normal_force: 0.0,
+                    max_pressure: 0.0,
+                    contact_line_length: line.map_or(0.0, |l| l.length),
+                    points_in_contact: 0,
+                }
+            })
+            .collect();
+        StaticPosition {
+            pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
+            mesh_phase: station.phase,
+            transmission_error: 0.0,
+            secant_stiffness: f64::NAN,
+            tangent_stiffness: 0.0,
+            contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
+            geometric_line_length: lines.iter().map(|l| l.length).sum(),
+            pairs,
+            wrench: Default::default(),
+            max_pressure: 0.0,
+            strain_energy: 0.0,
+            tooth_changes: self.changes,
+            certificate: Default::default(),
+        }
+    }
+
+    /// Moves the window one tooth on at the station just solved, and solves it again.
+    ///
+    /// # Errors
+    /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
+    pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
+        let forces: Vec<f64> = before.pairs.iter().map(|p| p.normal_force).collect();
+        let next = self.window.change(self.options.sense, &forces)?;
+        self.enter(next)?;
+        self.changes += 1;
+        // The patches of the window have other numbers now: points are not remembered across a change.
+        if let Some(last) = &mut self.last {
+            last.solution.active.clear();
+        }
+        self.solve(station)
+    }
+
+    fn enter(&mut self, window: ToothWindow) -> Result<(), StaticError> {
+        if !self.set.move_to(&self.gears, &window)? {
+            self.set = ContactSet::new(&self.pair, &self.gears, &window, &self.options)?;
+        }
+        self.window = window;
+        Ok(())
+    }
+
+    /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
+    /// outgoing tooth is free of load. `seen` gets every change.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn advance(&mut self, station: Station, mut seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
+        let due = ToothWindow::nominal_first(station.centre(&self.options), self.window.count());
+        let mut result = self.solve(station);
+        while (due - self.window.first()) * self.options.sense.sign() < 0 {
+            let before = match &result {
+                Ok(position) => position.clone(),
+                // A pair that comes in early is what the change is for; the outgoing tooth decides.
+                Err(StaticError::Starved { .. }) => match &self.last {
+                    Some(e) => loads::position(
+                        &self.pair,
+                        &self.gears,
+                        &self.set,
+                        &self.window,
+                        &self.options,
+                        e,
+                        self.changes,
+                    ),
+                    None => break,
+                },
+                Err(_) => break,
+            };
+            let outgoing = (self.window.outgoing(self.options.sense) - self.window.first()) as usize;
+            if before.pairs[outgoing].normal_force != 0.0 {
+                break;
+            }
+            let after = self.change(&before, station)?;
+            seen(&Change { before, after: after.clone(), window: self.window });
+            result = Ok(after);
+        }
+        result
+    }
+
+    /// Runs `cycles` mesh cycles of `positions` stations each; `seen` is told of each result (for progress).
+    ///
+    /// # Errors
+    /// [`StaticError`] of the first station that cannot be solved.
+    pub fn run(
+        &mut self,
+        positions: usize,
+        cycles: usize,
+        mut seen: impl FnMut(usize, &StaticPosition),
+    ) -> Result<StaticHistory, StaticError> {
+        let mut history = StaticHistory::default();
+        for i in 0..positions * cycles {
+            let station = Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 };
+            let position = self.advance(station, |_| ())?;
+            seen(i, &position);
+            history.positions.push(position);
+        }
+        Ok(history)
+    }
+}
+
+fn first_window(pair: &GearPair, options: &StaticOptions) -> Result<ToothWindow, StaticError> {
+    let count = StaticModel::window_teeth(pair, options);
+    let start = Station { cycle: 0, phase: 0.0 };
+    let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+    // Half a pitch is a tie between two windows; the first one serves the cycle that starts.
+    let inward = -1e-9 * options.sense.sign() as f64;
+    Ok(ToothWindow::new(ToothWindow::nominal_first(start.centre(options) + inward, count), count, teeth)?)
+}

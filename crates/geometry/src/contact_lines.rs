@@ -1,0 +1,59 @@
+//! Contact lines in the plane of action.
+
+use crate::{GearPair, Side};
+
+/// Contact line of one tooth pair, unloaded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLine {
+    /// Pinion tooth, not wrapped.
+    pub tooth: i64,
+    /// Axial range [z_0, z_1], mm.
+    pub z: [f64; 2],
+    /// Length along the line, mm.
+    pub length: f64,
+}
+
+impl GearPair {
+    /// Contact line of pinion tooth `tooth` at pinion angle `pinion_angle` [rad], if it is in contact.
+    ///
+    /// In the plane of action (path of contact by face width) the line is straight, inclined by b_b; it is clipped
+    /// by the rectangle: xi_A <= xi(z) <= xi_E, |z| <= b/2.
+    pub fn contact_line(&self, side: Side, pinion_angle: f64, tooth: i64) -> Option<ContactLine> {
+        let [start, end] = self.path_of_contact();
+        let half = 0.5 * self.face_width();
+        let middle = self.path_coordinate(side, pinion_angle, tooth, 0.0);
+        let slope = side.sign() * self.base_helix_angle().tan();
+        let (z0, z1) = if slope == 0.0 {
+            if middle < start || middle > end {
+                return None;
+            }
+            (-half, half)
+        } else {
+            let (a, b) = ((start - middle) / slope, (end - middle) / slope);
+            (a.min(b).max(-half), a.max(b).min(half))
+        };
+        (z1 > z0).then(|| ContactLine { tooth, z: [z0, z1], length: (z1 - z0) / self.base_helix_angle().cos() })
+    }
+
+    /// All contact lines at pinion angle `pinion_angle` [rad], ascending by tooth.
+    pub fn contact_lines(&self, side: Side, pinion_angle: f64) -> Vec<ContactLine> {
+        let pitch = self.transverse_base_pitch();
+        let [start, end] = self.path_of_contact();
+        let at_zero = self.path_coordinate(side, pinion_angle, 0, 0.0);
+        let reach = 0.5 * self.face_width() * self.base_helix_angle().tan().abs();
+        // xi(tooth) = at_zero + s tooth p_bt: every tooth whose line can reach the rectangle.
+        let (low, high) = ((start - reach - at_zero) / pitch, (end + reach - at_zero) / pitch);
+        let (low, high) = if side == Side::Left { (low, high) } else { (-high, -low) };
+        (low.floor() as i64..=high.ceil() as i64).filter_map(|k| self.contact_line(side, pinion_angle, k)).collect()
+    }
+
+    /// Total length of the contact lines, mm.
+    pub fn contact_line_length(&self, side: Side, pinion_angle: f64) -> f64 {
+        self.contact_lines(side, pinion_angle).iter().map(|line| line.length).sum()
+    }
+
+    /// Mean of the total contact-line length over a mesh cycle, eps_alpha b / cos(b_b), mm.
+    pub fn mean_contact_line_length(&self) -> f64 {
+        self.transverse_contact_ratio() * self.face_width() / self.base_helix_angle().cos()
+    }
+}

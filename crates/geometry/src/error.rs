@@ -1,0 +1,115 @@
+//! What can be wrong with the data of a gear or a pair.
+
+/// Gear data from which no gear, or no running pair, can be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// A value outside the range in which it has a meaning.
+    #[error("{name} = {value} is out of range: {expected}")]
+    OutOfRange {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The permitted range.
+        expected: &'static str,
+    },
+    /// The flanks meet below the tip circle.
+    #[error(
+        "the teeth are pointed: tip diameter {tip_diameter_mm:.3} mm, but the flanks meet at {pointed_diameter_mm:.3} mm"
+    )]
+    PointedTooth {
+        /// Tip diameter asked for, mm.
+        tip_diameter_mm: f64,
+        /// Diameter at which the tooth has no thickness left, mm.
+        pointed_diameter_mm: f64,
+    },
+    /// The rounding of the rack tip is wider than the rack's tooth.
+    #[error("root radius coefficient {coefficient} is too large: at most {largest:.4} fits the tooth space")]
+    RootRadius {
+        /// Coefficient asked for.
+        coefficient: f64,
+        /// Largest that fits.
+        largest: f64,
+    },
+    /// The bore reaches into the root circle.
+    #[error("bore diameter {bore_diameter_mm} mm leaves no rim below the root diameter {root_diameter_mm:.3} mm")]
+    Bore {
+        /// Bore diameter, mm.
+        bore_diameter_mm: f64,
+        /// Root diameter, mm.
+        root_diameter_mm: f64,
+    },
+    /// The two gears do not belong together.
+    #[error("pinion and wheel differ in {name}: {pinion} and {wheel}")]
+    Mismatch {
+        /// The quantity that must agree.
+        name: &'static str,
+        /// Pinion's value.
+        pinion: f64,
+        /// Wheel's value.
+        wheel: f64,
+    },
+    /// Base circles overlap.
+    #[error("centre distance {centre_distance_mm} mm is too small: the base circles need more than {least_mm:.4} mm")]
+    CentreDistance {
+        /// Centre distance, mm.
+        centre_distance_mm: f64,
+        /// Sum of the base radii, mm.
+        least_mm: f64,
+    },
+    /// The teeth are too thick for the centre distance.
+    #[error("the teeth jam: backlash along the line of action is {backlash_mm:.4} mm")]
+    Jammed {
+        /// Transverse base backlash, mm; negative.
+        backlash_mm: f64,
+    },
+    /// A tip reaches the other gear's root circle.
+    #[error("the {gear}'s tip runs into its mate's root circle: clearance {clearance_mm:.4} mm")]
+    TipClearance {
+        /// Whose tip.
+        gear: &'static str,
+        /// Clearance, mm; negative.
+        clearance_mm: f64,
+    },
+    /// The teeth do not reach each other.
+    #[error(
+        "the pair has no path of contact: the tips reach {overlap_mm:.4} mm into each other along the line of action"
+    )]
+    NoContact {
+        /// Length of path of contact, mm; not positive.
+        overlap_mm: f64,
+    },
+    /// Not even one pair of teeth is in contact at every moment.
+    #[error("total contact ratio {contact_ratio:.4} is below 1: the teeth lose each other")]
+    ContactRatio {
+        /// eps_gamma.
+        contact_ratio: f64,
+    },
+}
+
+impl GeometryError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::OutOfRange { name, expected, .. } => format!("give {name} {expected}"),
+            Self::PointedTooth { pointed_diameter_mm, .. } => {
+                format!(
+                    "lower the profile shift or the addendum, or set the tip diameter below {pointed_diameter_mm:.3} mm"
+                )
+            }
+            Self::RootRadius { largest, .. } => format!("use a root radius coefficient of at most {largest:.4}"),
+            Self::Bore { root_diameter_mm, .. } => {
+                format!("a rim of about two modules needs a bore well below {root_diameter_mm:.1} mm")
+            }
+            Self::Mismatch { .. } => "both gears of a pair share module, pressure angle and helix angle".into(),
+            Self::CentreDistance { least_mm, .. } => format!("the centre distance must exceed {least_mm:.4} mm"),
+            Self::Jammed { .. } => "raise the centre distance or the thickness allowances".into(),
+            Self::TipClearance { .. } => "raise the centre distance or the dedendum, or shorten the tip".into(),
+            Self::NoContact { .. } => "lower the centre distance or raise the tip diameters".into(),
+            Self::ContactRatio { .. } => {
+                "lower the centre distance, or raise addendum, helix angle or face width".into()
+            }
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! Involute helicoid: the exact flank surface.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::Vec3;
+
+/// Side of a tooth, seen from +z with the tooth pointing up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Counter-clockwise side.
+    Left,
+    /// Clockwise side.
+    Right,
+}
+
+impl Side {
+    /// +1 for left, -1 for right.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+
+    /// The other side.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// `left` or `right`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+/// One flank in its gear's own frame.
+///
+/// ```text
+/// P(u, z) = r_b [e_r(phi) + s u e_t(phi)] + z e_z,   phi = c + k z + s (sigma - u)
+/// n(u, z) = s cos(b_b) [e_t(phi) - tan(b_b) e_z]     out of the tooth
+/// ```
+/// u roll angle, s = +1 left / -1 right, c the tooth's centre angle, k = tan(b)/r the twist, sigma the half tooth
+/// angle at the base circle. The surface is developable: straight along its generators, so one principal
+/// curvature is 0 and the other cos(b_b)/(r_b u), in the direction e_r.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flank {
+    /// Which side of the tooth.
+    pub side: Side,
+    /// r_b, mm.
+    pub base_radius: f64,
+    /// sigma, rad.
+    pub base_half_angle: f64,
+    /// k, rad/mm.
+    pub twist: f64,
+    /// b_b, rad, signed.
+    pub base_helix_angle: f64,
+    /// c, rad.
+    pub centre_angle: f64,
+    /// Roll angle at the root form circle.
+    pub roll_form: f64,
+    /// Roll angle at the tip circle.
+    pub roll_tip: f64,
+    /// b/2, mm.
+    pub half_width: f64,
+}
+
+/// Foot point of a point in space on a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankPoint {
+    /// Roll angle of the foot.
+    pub roll: f64,
+    /// Axial position of the foot, mm.
+    pub z: f64,
+    /// Signed distance, mm; positive outside the tooth.
+    pub distance: f64,
+}
+
+impl Flank {
+    /// Direction angle phi of the base point that generates (u, z).
+    pub fn generating_angle(&self, u: f64, z: f64) -> f64 {
+        self.centre_angle + self.twist * z + self.side.sign() * (self.base_half_angle - u)
+    }
+
+    /// Surface point, mm.
+    pub fn point(&self, u: f64, z: f64) -> Vec3 {
+        let (sin, cos) = self.generating_angle(u, z).sin_cos();
+        let along = self.side.sign() * u;
+        Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z)
+    }
+
+    /// Unit normal, out of the tooth.
+    pub fn normal(&self, u: f64, z: f64) -> Vec3 {
+        let (sin, cos) = self.generating_angle(u, z).sin_cos();
+        let (sin_b, cos_b) = self.base_helix_angle.sin_cos();
+        self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b)
+    }
+
+    /// Derivatives of the surface point by roll angle [mm] and by z [1].
+    pub fn tangents(&self, u: f64, z: f64) -> [Vec3; 2] {
+        let (sin, cos) = self.generating_angle(u, z).sin_cos();
+        let p = self.point(u, z);
+        [self.base_radius * u * Vec3::new(cos, sin, 0.0), Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
+    }
+
+    /// Principal curvatures, 1/mm: across the generator (profile direction, convex positive) and along it (0).
+    pub fn curvatures(&self, u: f64) -> [f64; 2] {
+        [self.base_helix_angle.cos() / (self.base_radius * u), 0.0]
+    }
+
+    /// Foot point of `p` (mm, gear's own frame) on the unbounded helicoid of this tooth.
+    ///
+    /// Every offset surface of an involute helicoid is the same helicoid turned, so the foot is found in closed form:
+    /// ```text
+    /// W = sqrt(R^2 - r_b^2),  phi = arg p - s atan(W / r_b)
+    /// d = r_b cos(b_b) [s (phi - c - k z_p) - sigma + W / r_b]
+    /// z = z_p + s d sin(b_b),  r_b u = W - d cos(b_b)
+    /// ```
+    /// `None` below the base cylinder, where the involute has no normal. Check `roll` and `z` against the bounds.
+    pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
+        let s = self.side.sign();
+        let reach = p.x * p.x + p.y * p.y - self.base_radius * self.base_radius;
+        if reach < 0.0 {
+            return None;
+        }
+        let w = reach.sqrt();
+        let (sin_b, cos_b) = self.base_helix_angle.sin_cos();
+        let phi = p.y.atan2(p.x) - s * w.atan2(self.base_radius);
+        // The flank's own angle at u = W / r_b; the small difference is what the distance turns the helicoid by.
+        let expected = self.centre_angle + self.twist * p.z + s * (self.base_half_angle - w / self.base_radius);
+        let turn = wrap(phi - expected);
+        let distance = self.base_radius * cos_b * s * turn;
+        Some(FlankPoint { roll: (w - distance * cos_b) / self.base_radius, z: p.z + s * distance * sin_b, distance })
+    }
+}
+
+/// Angle in (-pi, pi].
+pub(crate) fn wrap(angle: f64) -> f64 {
+    let turned = angle.rem_euclid(2.0 * PI);
+    if turned > PI { turned - 2.0 * PI } else { turned }
+}

@@ -1,0 +1,194 @@
+//! Two gears at a working centre distance.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use crate::{Gear, GeometryError, Side};
+
+/// A running pair: pinion at the origin, wheel at (a, 0, 0).
+///
+/// ```text
+/// cos a_wt = (r_b1 + r_b2) / a
+/// ```
+/// The path of contact is measured by xi [mm] from the pinion's tangent point T1 along the transverse line of
+/// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GearPair {
+    /// Gear 1.
+    pub pinion: Gear,
+    /// Gear 2.
+    pub wheel: Gear,
+    centre_distance: f64,
+}
+
+impl GearPair {
+    /// A pair at the given centre distance [mm], or at the one without backlash from thinning
+    /// (`inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2)`).
+    ///
+    /// # Errors
+    /// [`GeometryError`] when the gears do not belong together, jam, or do not reach each other.
+    pub fn new(pinion: Gear, wheel: Gear, centre_distance: Option<f64>) -> Result<Self, GeometryError> {
+        let (a, b) = (pinion.data(), wheel.data());
+        let alike = [
+            ("normal module [mm]", a.normal_module, b.normal_module),
+            ("normal pressure angle [rad]", a.normal_pressure_angle, b.normal_pressure_angle),
+            ("helix angle of opposite hand [rad]", a.helix_angle, -b.helix_angle),
+        ];
+        for (name, p, w) in alike {
+            if (p - w).abs() > 1e-12 * (1.0 + p.abs()) {
+                return Err(GeometryError::Mismatch { name, pinion: p, wheel: w });
+            }
+        }
+        let centre_distance = centre_distance.unwrap_or_else(|| nominal_centre_distance(&pinion, &wheel));
+        let pair = Self { pinion, wheel, centre_distance };
+        pair.check()?;
+        Ok(pair)
+    }
+
+    fn check(&self) -> Result<(), GeometryError> {
+        let a = self.pinion.data();
+        let least = self.pinion.base_radius() + self.wheel.base_radius();
+        if !self.centre_distance.is_finite() || self.centre_distance <= least {
+            return Err(GeometryError::CentreDistance { centre_distance_mm: self.centre_distance, least_mm: least });
+        }
+        // Published pairs without thinning have shifts and distances rounded to four digits: a few 1e-5 m_n of jam.
+        if self.backlash() < -1e-4 * a.normal_module {
+            return Err(GeometryError::Jammed { backlash_mm: self.backlash() });
+        }
+        for (gear, tip, mate) in [("pinion", &self.pinion, &self.wheel), ("wheel", &self.wheel, &self.pinion)] {
+            let clearance = self.centre_distance - tip.tip_radius() - mate.root_radius();
+            if clearance < 0.0 {
+                return Err(GeometryError::TipClearance { gear, clearance_mm: clearance });
+            }
+        }
+        if self.path_length() <= 0.0 {
+            return Err(GeometryError::NoContact { overlap_mm: self.path_length() });
+        }
+        if self.total_contact_ratio() < 1.0 {
+            return Err(GeometryError::ContactRatio { contact_ratio: self.total_contact_ratio() });
+        }
+        Ok(())
+    }
+
+    /// Working centre distance a, mm.
+    pub fn centre_distance(&self) -> f64 {
+        self.centre_distance
+    }
+
+    /// Working transverse pressure angle a_wt, rad.
+    pub fn working_pressure_angle(&self) -> f64 {
+        ((self.pinion.base_radius() + self.wheel.base_radius()) / self.centre_distance).acos()
+    }
+
+    /// Working pitch radii r_w1, r_w2, mm.
+    pub fn working_radii(&self) -> [f64; 2] {
+        let cos = self.working_pressure_angle().cos();
+        [self.pinion.base_radius() / cos, self.wheel.base_radius() / cos]
+    }
+
+    /// Base helix angle of the pinion, rad, signed.
+    pub fn base_helix_angle(&self) -> f64 {
+        self.pinion.base_helix_angle()
+    }
+
+    /// Face width common to both gears, mm.
+    pub fn face_width(&self) -> f64 {
+        self.pinion.face_width().min(self.wheel.face_width())
+    }
+
+    /// Transverse base pitch, mm.
+    pub fn transverse_base_pitch(&self) -> f64 {
+        self.pinion.transverse_base_pitch()
+    }
+
+    /// Distance T1 T2 of the tangent points, a sin(a_wt), mm.
+    pub fn tangent_length(&self) -> f64 {
+        self.centre_distance * self.working_pressure_angle().sin()
+    }
+
+    /// Path of contact [xi_A, xi_E], mm from T1: bounded by the tips, and by each gear's root form circle
+    /// where that reaches higher.
+    pub fn path_of_contact(&self) -> [f64; 2] {
+        let length = self.tangent_length();
+        let (p, w) = (self.pinion.profile(), self.wheel.profile());
+        let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());
+        let start = (length - rb2 * w.roll_tip()).max(rb1 * p.roll_form());
+        let end = (rb1 * p.roll_tip()).min(length - rb2 * w.roll_form());
+        [start, end]
+    }
+
+    /// Length of the path of contact g_alpha, mm.
+    pub fn path_length(&self) -> f64 {
+        let [start, end] = self.path_of_contact();
+        end - start
+    }
+
+    /// Transverse contact ratio eps_alpha = g_alpha / p_bt.
+    pub fn transverse_contact_ratio(&self) -> f64 {
+        self.path_length() / self.transverse_base_pitch()
+    }
+
+    /// Overlap ratio eps_beta = b tan(b_b) / p_bt.
+    pub fn overlap_ratio(&self) -> f64 {
+        self.face_width() * self.base_helix_angle().tan().abs() / self.transverse_base_pitch()
+    }
+
+    /// Total contact ratio eps_gamma = eps_alpha + eps_beta.
+    pub fn total_contact_ratio(&self) -> f64 {
+        self.transverse_contact_ratio() + self.overlap_ratio()
+    }
+
+    /// Backlash between the coast flanks along the transverse line of action, mm, the drive flanks touching.
+    pub fn backlash(&self) -> f64 {
+        let a_wt = self.working_pressure_angle();
+        let inv = crate::involute(a_wt);
+        let thickness = |g: &Gear| 2.0 * (g.profile().base_half_angle() - inv) * g.base_radius() / a_wt.cos();
+        let pitch = 2.0 * PI * self.working_radii()[0] / f64::from(self.pinion.teeth());
+        (pitch - thickness(&self.pinion) - thickness(&self.wheel)) * a_wt.cos()
+    }
+
+    /// Path coordinate xi [mm] of pinion tooth `tooth` at height `z` [mm] when the pinion stands at angle
+    /// `pinion_angle` [rad, counter-clockwise] and the flanks on `side` are in contact.
+    ///
+    /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
+    pub fn path_coordinate(&self, side: Side, pinion_angle: f64, tooth: i64, z: f64) -> f64 {
+        let p = &self.pinion;
+        let turn = pinion_angle + tooth as f64 * p.pitch_angle() + p.twist() * z;
+        p.base_radius() * (side.sign() * turn + p.profile().base_half_angle() + self.working_pressure_angle())
+    }
+
+    /// Pinion angle [rad] at which pinion tooth 0 stands, at mid-face, in the middle of the path of contact.
+    pub fn middle_angle(&self, side: Side) -> f64 {
+        let [start, end] = self.path_of_contact();
+        let p = &self.pinion;
+        let roll = 0.5 * (start + end) / p.base_radius();
+        side.sign() * (roll - p.profile().base_half_angle() - self.working_pressure_angle())
+    }
+
+    /// Wheel angle [rad] at which its tooth 0 (own frame turned by this angle) touches pinion tooth 0 on flanks
+    /// `side`, both unloaded; pinion tooth k then touches wheel tooth -k.
+    ///
+    /// s (theta_2 - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
+    pub fn wheel_angle(&self, side: Side, pinion_angle: f64) -> f64 {
+        let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());
+        let (s1, s2) = (self.pinion.profile().base_half_angle(), self.wheel.profile().base_half_angle());
+        let (s, a_wt) = (side.sign(), self.working_pressure_angle());
+        let rest = self.tangent_length() - rb1 * (s * pinion_angle + s1 + a_wt) - rb2 * (s2 + a_wt);
+        PI + s * rest / rb2
+    }
+}
+
+/// inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2); a = (r_1 + r_2) cos a_t / cos a_wt.
+fn nominal_centre_distance(pinion: &Gear, wheel: &Gear) -> f64 {
+    let alpha_t = pinion.transverse_pressure_angle();
+    let (x1, x2) = (pinion.data().profile_shift, wheel.data().profile_shift);
+    let teeth = f64::from(pinion.teeth() + wheel.teeth());
+    let target = crate::involute(alpha_t) + 2.0 * (x1 + x2) * pinion.data().normal_pressure_angle.tan() / teeth;
+    let a_wt = if x1 + x2 == 0.0 {
+        alpha_t
+    } else {
+        crate::profile::bisect(0.0, 1.4, |a| target.max(0.0) - crate::involute(a))
+    };
+    (pinion.base_radius() + wheel.base_radius()) / a_wt.cos()
+}

@@ -1,0 +1,204 @@
+//! Transverse section of one tooth: involute, rack-generated fillet, root land.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use serde::Serialize;
+
+use crate::{GearData, GeometryError, involute};
+
+/// Half of the transverse tooth section, from the tip down to the middle of the tooth space.
+///
+/// All angles are measured from the tooth's centre line; the other half is the mirror image.
+/// Source: ISO 21771; the fillet is the envelope of the rack's tip rounding, a circle in the normal section and
+/// so an ellipse (stretched by 1/cos beta) in the transverse one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TransverseProfile {
+    base_radius: f64,
+    reference_radius: f64,
+    base_half_angle: f64,
+    half_pitch: f64,
+    roll_form: f64,
+    roll_tip: f64,
+    undercut: bool,
+    rack: RackTip,
+    fillet_end: f64,
+}
+
+/// Rounding of the generating rack's tip; origin at the pitch point, y away from the gear's centre.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct RackTip {
+    /// Centre of the rounding, normal section, mm.
+    centre: [f64; 2],
+    radius: f64,
+    cos_helix: f64,
+}
+
+impl RackTip {
+    /// Point of the fillet made by the rounding's point at angle `theta` from its lowest point:
+    /// radius and angle from the middle of the tooth space.
+    ///
+    /// The rack touches the gear where its normal passes through the pitch point: x_f = y n_x / n_y; the gear has
+    /// then turned by (x_f - x)/r.
+    fn generated(&self, theta: f64, reference_radius: f64) -> (f64, f64) {
+        let (sin, cos) = theta.sin_cos();
+        let x = (self.centre[0] + self.radius * sin) / self.cos_helix;
+        let y = self.centre[1] - self.radius * cos;
+        let touch = -y * sin * self.cos_helix / cos;
+        let radial = reference_radius + y;
+        (touch.hypot(radial), touch.atan2(radial) - (touch - x) / reference_radius)
+    }
+}
+
+impl TransverseProfile {
+    /// The section of a gear.
+    ///
+    /// # Errors
+    /// [`GeometryError::PointedTooth`], [`GeometryError::RootRadius`].
+    pub(crate) fn new(data: &GearData) -> Result<Self, GeometryError> {
+        let (m, z, x) = (data.normal_module, f64::from(data.teeth), data.profile_shift);
+        let (alpha, beta) = (data.normal_pressure_angle, data.helix_angle);
+        let alpha_t = (alpha.tan() / beta.cos()).atan();
+        let reference_radius = 0.5 * m * z / beta.cos();
+        let base_radius = reference_radius * alpha_t.cos();
+        let thickness = 0.5 * PI * m + 2.0 * x * m * alpha.tan() - data.thickness_allowance;
+        let base_half_angle = thickness / (m * z) + involute(alpha_t);
+        let tip_radius = match data.tip_diameter {
+            Some(d) => 0.5 * d,
+            None => reference_radius + m * (data.addendum_coefficient + x),
+        };
+        let roll_at = |r: f64| ((r / base_radius).powi(2) - 1.0).max(0.0).sqrt();
+        let roll_tip = roll_at(tip_radius);
+        if tip_radius <= base_radius {
+            return Err(GeometryError::OutOfRange {
+                name: "tip diameter",
+                value: 2.0 * tip_radius,
+                expected: "above the base diameter",
+            });
+        }
+        if base_half_angle <= roll_tip - roll_tip.atan() {
+            let pointed = bisect(0.0, roll_tip, |u| base_half_angle - (u - u.atan()));
+            return Err(GeometryError::PointedTooth {
+                tip_diameter_mm: 2.0 * tip_radius,
+                pointed_diameter_mm: 2.0 * base_radius * (1.0 + pointed * pointed).sqrt(),
+            });
+        }
+        let rho = data.root_radius_coefficient * m;
+        let depth = data.dedendum_coefficient * m - rho;
+        let half_rack = 0.25 * PI * m + 0.5 * data.thickness_allowance - depth * alpha.tan();
+        let rack =
+            RackTip { centre: [half_rack - rho / alpha.cos(), x * m - depth], radius: rho, cos_helix: beta.cos() };
+        if rack.centre[0] < 0.0 {
+            let wide = 0.25 * PI * m + 0.5 * data.thickness_allowance - data.dedendum_coefficient * m * alpha.tan();
+            let largest = wide / (1.0 / alpha.cos() - alpha.tan()) / m;
+            return Err(GeometryError::RootRadius { coefficient: data.root_radius_coefficient, largest });
+        }
+        let mut profile = Self {
+            base_radius,
+            reference_radius,
+            base_half_angle,
+            half_pitch: PI / z,
+            roll_form: 0.0,
+            roll_tip,
+            undercut: false,
+            rack,
+            fillet_end: FRAC_PI_2 - alpha,
+        };
+        profile.join_fillet(x * m - depth - rho * alpha.sin(), alpha_t)?;
+        Ok(profile)
+    }
+
+    /// Finds where the fillet ends and the involute starts; `y_end` [mm] is the height of the last point of the
+    /// rack's straight flank, whose path crosses the line of action at roll angle tan(alpha_t) + y / (r_b sin ...).
+    fn join_fillet(&mut self, y_end: f64, alpha_t: f64) -> Result<(), GeometryError> {
+        let roll_end = alpha_t.tan() + y_end / (self.base_radius * alpha_t.sin());
+        if roll_end >= 0.0 {
+            self.roll_form = roll_end;
+        } else {
+            // Undercut: the rack's tip cuts into the involute; both curves cross at one radius above the base.
+            self.undercut = true;
+            let excess = |theta: f64| {
+                let (r, space) = self.rack.generated(theta, self.reference_radius);
+                let u = ((r / self.base_radius).powi(2) - 1.0).max(0.0).sqrt();
+                (r, space - (self.half_pitch - self.half_angle(u)))
+            };
+            // Only what the rack cuts above the base circle counts; a slight undercut ends close to it.
+            let above = bisect(0.0, self.fillet_end, |t| self.base_radius - excess(t).0);
+            let samples = 4000;
+            let at = |i: usize| above + (self.fillet_end - above) * i as f64 / f64::from(samples as u32);
+            let crossing = (1..=samples).find(|&i| {
+                let ((r0, e0), (r1, e1)) = (excess(at(i - 1)), excess(at(i)));
+                r1 > r0 && e0 > 0.0 && e1 <= 0.0
+            });
+            let crossing = crossing.ok_or(GeometryError::OutOfRange {
+                name: "dedendum with this few teeth",
+                value: -y_end,
+                expected: "small enough that the undercut leaves an involute",
+            })?;
+            let theta = bisect(at(crossing - 1), at(crossing), |t| excess(t).1);
+            self.roll_form = ((excess(theta).0 / self.base_radius).powi(2) - 1.0).max(0.0).sqrt();
+            self.fillet_end = theta;
+        }
+        if self.roll_form >= self.roll_tip {
+            return Err(GeometryError::OutOfRange {
+                name: "tip diameter",
+                value: 2.0 * self.radius(self.roll_tip),
+                expected: "above the root form diameter",
+            });
+        }
+        Ok(())
+    }
+
+    /// Radius at roll angle `u`: r = r_b sqrt(1 + u^2), mm.
+    pub fn radius(&self, u: f64) -> f64 {
+        self.base_radius * (1.0 + u * u).sqrt()
+    }
+
+    /// Half tooth angle at roll angle `u`: sigma - (u - atan u), rad.
+    pub fn half_angle(&self, u: f64) -> f64 {
+        self.base_half_angle - (u - u.atan())
+    }
+
+    /// Half tooth angle at the base circle, sigma, rad.
+    pub fn base_half_angle(&self) -> f64 {
+        self.base_half_angle
+    }
+
+    /// Roll angle at the root form circle, where the fillet ends.
+    pub fn roll_form(&self) -> f64 {
+        self.roll_form
+    }
+
+    /// Roll angle at the tip circle.
+    pub fn roll_tip(&self) -> f64 {
+        self.roll_tip
+    }
+
+    /// Whether the rack's tip cuts away involute above the base circle.
+    pub fn is_undercut(&self) -> bool {
+        self.undercut
+    }
+
+    /// Point of the fillet: radius [mm] and angle from the tooth's centre line [rad];
+    /// `t` = 0 at the root land, 1 at the root form circle.
+    pub fn fillet(&self, t: f64) -> (f64, f64) {
+        let (r, space) = self.rack.generated(t * self.fillet_end, self.reference_radius);
+        (r, self.half_pitch - space)
+    }
+
+    /// Angle between the tooth's centre line and the start of the root land, rad; the land ends at pi/z.
+    pub fn root_land_start(&self) -> f64 {
+        self.fillet(0.0).1
+    }
+}
+
+/// Root of `f` between `a` (f > 0) and `b` (f <= 0), to round-off.
+pub(crate) fn bisect(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (a + b);
+        if middle == a || middle == b {
+            break;
+        }
+        if f(middle) > 0.0 { a = middle } else { b = middle }
+    }
+    0.5 * (a + b)
+}

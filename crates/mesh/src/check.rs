@@ -1,0 +1,250 @@
+//! What is wrong with a mesh, found before a solver stumbles over it.
+
+mod cuts;
+mod nodes;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::quality::{min_det_j, positions, scaled_jacobian};
+use crate::{FaceTable, GroupNames, Mesh, info};
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// Results will suffer.
+    Warning,
+    /// The mesh cannot be used.
+    Error,
+}
+
+/// What a finding is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum FindingKind {
+    /// Elements with det J <= 0 somewhere.
+    Inverted,
+    /// Elements of a scaled Jacobian below [`BAD_SHAPE`].
+    BadShape,
+    /// Nodes that no element uses.
+    OrphanNodes,
+    /// Nodes in one place.
+    DoubleNodes,
+    /// Faces of more than two elements.
+    CrowdedFaces,
+    /// Bodies that do not hang together.
+    Disconnected,
+    /// A part of the gear without a group.
+    MissingGroup,
+    /// Faces of a group that lie inside the body or on no element.
+    NotOnBoundary,
+    /// Periodic faces that do not fit onto each other.
+    CutsDiffer,
+    /// A bore that is no cylinder about z.
+    BoreNotRound,
+    /// A size that no gear in mm has.
+    Units,
+}
+
+/// One thing found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What it is about.
+    pub kind: FindingKind,
+    /// The finding in words and figures.
+    pub text: String,
+    /// How many elements, nodes or faces it concerns.
+    pub count: usize,
+    /// Tags of the elements concerned, at most [`SHOWN`], the worst first.
+    pub elements: Vec<u64>,
+    /// Tags of the nodes concerned, at most [`SHOWN`].
+    pub nodes: Vec<u64>,
+}
+
+/// Elements with a scaled Jacobian below this make stresses doubtful. (Verdict recommends 0.2 and
+/// more for hexahedra; fillets of fine gears come close to that.)
+pub const BAD_SHAPE: f64 = 0.1;
+
+/// Most tags that a finding names.
+pub const SHOWN: usize = 20;
+
+/// All findings about a mesh, the worst first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct MeshReport {
+    /// The findings.
+    pub findings: Vec<Finding>,
+}
+
+impl MeshReport {
+    /// Checks a mesh with our own group names.
+    pub fn new(mesh: &Mesh) -> Self {
+        Self::of_gear(mesh, &GroupNames::default(), None)
+    }
+
+    /// Checks the mesh of a gear with `teeth` teeth and someone's group names.
+    pub fn of_gear(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>) -> Self {
+        let table = FaceTable::new(mesh);
+        let mut findings = Vec::new();
+        shapes(mesh, &mut findings);
+        nodes::orphans(mesh, &mut findings);
+        nodes::doubles(mesh, &mut findings);
+        nodes::bodies(mesh, &mut findings);
+        crowded(mesh, &table, &mut findings);
+        groups(mesh, names, &mut findings);
+        off_boundary(mesh, &table, &mut findings);
+        cuts::check(mesh, names, teeth, &mut findings);
+        size(mesh, names, &mut findings);
+        findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+        Self { findings }
+    }
+
+    /// The worst severity; `None` when nothing was found.
+    pub fn worst(&self) -> Option<Severity> {
+        self.findings.iter().map(|f| f.severity).max()
+    }
+
+    /// Findings of one kind.
+    pub fn of(&self, kind: FindingKind) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(move |f| f.kind == kind)
+    }
+}
+
+impl Finding {
+    pub(crate) fn new(severity: Severity, kind: FindingKind, count: usize, text: String) -> Self {
+        Self { severity, kind, text, count, elements: Vec::new(), nodes: Vec::new() }
+    }
+
+    pub(crate) fn at_nodes(mut self, mesh: &Mesh, nodes: impl IntoIterator<Item = u32>) -> Self {
+        self.nodes = nodes.into_iter().take(SHOWN).map(|n| tag(mesh, n)).collect();
+        self
+    }
+}
+
+/// The file's tag of a node.
+pub(crate) fn tag(mesh: &Mesh, node: u32) -> u64 {
+    mesh.node_tags.get(node as usize).copied().unwrap_or(u64::from(node))
+}
+
+/// Inverted and badly shaped elements.
+fn shapes(mesh: &Mesh, findings: &mut Vec<Finding>) {
+    let mut inverted: Vec<(f64, u64)> = Vec::new();
+    let mut bad: Vec<(f64, u64)> = Vec::new();
+    for block in &mesh.blocks {
+        let judged: Vec<(f64, f64)> = block
+            .connectivity
+            .par_chunks_exact(block.kind.node_count())
+            .map(|element| {
+                let mut at = [[0.0; 3]; 27];
+                let at = positions(mesh, element, &mut at);
+                (min_det_j(block.kind, at), scaled_jacobian(block.kind, at))
+            })
+            .collect();
+        for (&(det_j, scaled), &tag) in judged.iter().zip(&block.tags) {
+            if det_j <= 0.0 || det_j.is_nan() {
+                inverted.push((det_j, tag));
+            } else if scaled < BAD_SHAPE {
+                bad.push((scaled, tag));
+            }
+        }
+    }
+    for list in [&mut inverted, &mut bad] {
+        list.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+    let tags = |list: &[(f64, u64)]| list.iter().take(SHOWN).map(|l| l.1).collect();
+    if let Some(&(det_j, tag)) = inverted.first() {
+        let text = format!("{} inverted: det J = {det_j:.3e} mm^3 in element {tag}", elements(inverted.len()));
+        let finding = Finding::new(Severity::Error, FindingKind::Inverted, inverted.len(), text);
+        findings.push(Finding { elements: tags(&inverted), ..finding });
+    }
+    if let Some(&(scaled, tag)) = bad.first() {
+        let text =
+            format!("{} of a scaled Jacobian below {BAD_SHAPE}: {scaled:.3} in element {tag}", elements(bad.len()));
+        let finding = Finding::new(Severity::Warning, FindingKind::BadShape, bad.len(), text);
+        findings.push(Finding { elements: tags(&bad), ..finding });
+    }
+}
+
+fn elements(count: usize) -> String {
+    if count == 1 { "1 element".into() } else { format!("{count} elements") }
+}
+
+fn crowded(mesh: &Mesh, table: &FaceTable, findings: &mut Vec<Finding>) {
+    let crowded = table.crowded();
+    if let Some(first) = crowded.first() {
+        let text = format!("{} faces belong to more than two elements: bodies overlap", crowded.len());
+        let finding = Finding::new(Severity::Error, FindingKind::CrowdedFaces, crowded.len(), text);
+        let elements = crowded.iter().take(SHOWN).map(|o| o.element_tag(mesh)).collect();
+        let finding = finding.at_nodes(mesh, first.face(mesh).corners().iter().copied());
+        findings.push(Finding { elements, ..finding });
+    }
+}
+
+/// Bore and flanks must be named, or the flanks found by other means.
+fn groups(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
+    let kind = FindingKind::MissingGroup;
+    let flanks: Vec<_> = mesh.surfaces.iter().filter_map(|s| names.parse(&s.name)).collect();
+    if mesh.surface(&names.bore).is_none() {
+        let text = format!("no physical group `{}`: which nodes are held by the shaft?", names.bore);
+        findings.push(Finding::new(Severity::Warning, kind, 1, text));
+    }
+    if flanks.is_empty() {
+        let text = format!("no physical group `{}`: flanks must be found from the gear's data", names.flank_left);
+        findings.push(Finding::new(Severity::Warning, kind, 1, text));
+    }
+    for &(side, tooth) in &flanks {
+        if !flanks.contains(&(side.opposite(), tooth)) {
+            let text = format!("no physical group `{}`", names.flank_of(side.opposite(), tooth));
+            findings.push(Finding::new(Severity::Note, kind, 1, text));
+        }
+    }
+    if mesh.surface(&names.cut_0).is_some() != mesh.surface(&names.cut_1).is_some() {
+        let text = format!("of `{}` and `{}` only one is there", names.cut_0, names.cut_1);
+        findings.push(Finding::new(Severity::Error, kind, 1, text));
+    }
+}
+
+/// Faces of groups that do not bound the body.
+fn off_boundary(mesh: &Mesh, table: &FaceTable, findings: &mut Vec<Finding>) {
+    for group in &mesh.surfaces {
+        let off: Vec<_> = group.faces.iter().filter(|f| table.owners(f.corner_key()).len() != 1).collect();
+        if let Some(first) = off.first() {
+            let text = format!(
+                "group `{}`: {} of {} faces lie inside the body or on no element",
+                group.name,
+                off.len(),
+                group.faces.len()
+            );
+            let finding = Finding::new(Severity::Warning, FindingKind::NotOnBoundary, off.len(), text);
+            findings.push(finding.at_nodes(mesh, first.corners().iter().copied()));
+        }
+    }
+}
+
+/// Size and place: the program counts in mm, and the axis is z.
+fn size(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
+    let largest = mesh.nodes.iter().map(|x| x[0].hypot(x[1])).fold(0.0, f64::max);
+    let guess = match largest {
+        // From watch gears of 0.5 mm to ring gears of 5 m.
+        r if r < 0.5 => Some(("metres", 1000.0)),
+        r if r < 5.0 => Some(("inches", 25.4)),
+        r if r > 5000.0 => Some(("micrometres", 0.001)),
+        _ => None,
+    };
+    if let Some((unit, factor)) = guess {
+        let text = format!(
+            "largest radius {largest:.4} mm: is the mesh in {unit}? Scaled by {factor} it would be {:.4} mm",
+            largest * factor
+        );
+        findings.push(Finding::new(Severity::Warning, FindingKind::Units, 1, text));
+    }
+    if let Some([low, high]) = info::bore_radius(mesh, names).filter(|[low, high]| high - low > 1e-3 * high) {
+        let text = format!("bore radius between {low:.4} and {high:.4} mm: is the gear's axis the z axis?");
+        findings.push(Finding::new(Severity::Warning, FindingKind::BoreNotRound, 1, text));
+    }
+}

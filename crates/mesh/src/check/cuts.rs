@@ -1,0 +1,78 @@
+//! Whether the two cut faces of a sector are the same face turned.
+
+use std::f64::consts::TAU;
+
+use super::nodes::{extent, place};
+use super::{Finding, FindingKind, Severity};
+use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup};
+
+/// Nodes of the cuts must fit within this times the extent of the mesh (failure mode F8).
+const FIT: f64 = 1e-9;
+
+/// Compares `cut_1` with `cut_0` turned by the angle of the sector: node count, face kinds, distances.
+///
+/// For one tooth a misfit is an error: the sector cannot be closed to a ring. Sectors of several
+/// teeth are used with free cuts, where it does not matter.
+pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, findings: &mut Vec<Finding>) {
+    let (Some(first), Some(second)) = (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) else { return };
+    let mut sector: Vec<i64> = mesh.surfaces.iter().filter_map(|s| Some(names.parse(&s.name)?.1)).collect();
+    sector.sort_unstable();
+    sector.dedup();
+    let severity = if sector.len() <= 1 { Severity::Error } else { Severity::Note };
+    let mut report = |count: usize, nodes: &[u32], text: String| {
+        let finding = Finding::new(severity, FindingKind::CutsDiffer, count, text);
+        findings.push(finding.at_nodes(mesh, nodes.iter().copied()));
+    };
+
+    let (from, to) = (first.nodes(), second.nodes());
+    if from.len() != to.len() {
+        report(1, &[], format!("`{}` has {} nodes, `{}` {}", first.name, from.len(), second.name, to.len()));
+    }
+    if kinds(first) != kinds(second) {
+        report(1, &[], format!("`{}` and `{}` have faces of different kinds or numbers", first.name, second.name));
+    }
+    let Some(teeth) = teeth.filter(|&z| z > 0) else { return };
+    let angle = TAU * sector.len().max(1) as f64 / f64::from(teeth);
+    let (sin, cos) = angle.sin_cos();
+    let tolerance = FIT * extent(mesh);
+    let mut targets: Vec<(f64, [f64; 3])> =
+        to.iter().map(|&n| mesh.nodes[n as usize]).map(|x| (place(&x), x)).collect();
+    targets.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut stray = Vec::new();
+    let mut farthest: f64 = 0.0;
+    for &node in &from {
+        let [x, y, z] = mesh.nodes[node as usize];
+        let turned = [cos * x - sin * y, sin * x + cos * y, z];
+        let start = targets.partition_point(|t| t.0 < place(&turned) - tolerance);
+        let near = targets[start..].iter().take_while(|t| t.0 <= place(&turned) + tolerance);
+        if near.map(|t| apart(&t.1, &turned)).all(|d| d > tolerance) {
+            // The true distance costs a search, so take it of the first few alone.
+            if stray.len() < 100 {
+                let least = targets.iter().map(|t| apart(&t.1, &turned)).fold(f64::INFINITY, f64::min);
+                farthest = farthest.max(least);
+            }
+            stray.push(node);
+        }
+    }
+    if !stray.is_empty() {
+        let text = format!(
+            "{} of {} nodes of `{}`, turned by {:.6} deg, meet no node of `{}`: {farthest:.3e} mm apart",
+            stray.len(),
+            from.len(),
+            first.name,
+            angle.to_degrees(),
+            second.name
+        );
+        report(stray.len(), &stray, text);
+    }
+}
+
+fn kinds(group: &SurfaceGroup) -> Vec<FaceKind> {
+    let mut kinds: Vec<FaceKind> = group.faces.iter().map(|f| f.kind).collect();
+    kinds.sort_unstable();
+    kinds
+}
+
+fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}

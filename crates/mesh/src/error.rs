@@ -1,0 +1,153 @@
+//! What can go wrong with a mesh.
+
+use std::path::PathBuf;
+
+use crate::msh::MshError;
+
+/// A mesh that cannot be read, written or understood as a gear.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// The file cannot be opened or read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// The file cannot be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// The file is not a mesh file as it should be.
+    #[error(transparent)]
+    Msh(Box<MshError>),
+    /// Lists of a mesh that do not fit together.
+    #[error("the mesh is inconsistent: {what}")]
+    Inconsistent {
+        /// What does not fit.
+        what: String,
+    },
+    /// A tag that the file format cannot hold.
+    #[error("tag {tag} does not fit into format 2.2 (largest: {})", i32::MAX)]
+    TagTooLarge {
+        /// The tag, or the largest that would be needed.
+        tag: u64,
+    },
+    /// A part of the gear that no physical group names.
+    #[error("no physical group `{wanted}`; the mesh has {}", list(found))]
+    MissingGroup {
+        /// Name of the group, `<k>` standing for a tooth number.
+        wanted: String,
+        /// Names of the groups of dimension 2 in the mesh.
+        found: Vec<String>,
+    },
+    /// A pattern of group names without the place for the tooth number.
+    #[error("the group name `{pattern}` must contain {{k}} where the tooth number stands")]
+    NoToothNumber {
+        /// The pattern.
+        pattern: String,
+    },
+    /// Two groups that name one flank of one tooth.
+    #[error("groups `{first}` and `{second}` name the same flank: tooth {tooth} of {teeth}")]
+    SameTooth {
+        /// Name of the one group.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Tooth they name, 0..teeth.
+        tooth: u32,
+        /// Number of teeth of the gear.
+        teeth: u32,
+    },
+    /// A face of a group that is no boundary face of the body.
+    #[error("group `{group}`: face with nodes {nodes:?} {what}")]
+    NotOnBoundary {
+        /// Name of the group.
+        group: String,
+        /// Corner nodes of the face, by tag.
+        nodes: Vec<u64>,
+        /// What it is instead.
+        what: &'static str,
+    },
+    /// The flanks of the given gear are not in the mesh.
+    #[error(
+        "the flanks of this gear are not in the mesh: {:.0} % of their area lies within {tolerance_mm} mm of the helicoids",
+        100.0 * coverage
+    )]
+    NoFlanks {
+        /// Part of the area of the flanks found, 0..1.
+        coverage: f64,
+        /// Distance allowed, mm.
+        tolerance_mm: f64,
+    },
+    /// The flanks are there, but the teeth are thicker or thinner.
+    #[error("the teeth of the mesh are {thicker_mm:.4} mm thicker than the gear's, measured along the base tangent")]
+    ToothThickness {
+        /// Both flanks together, mm; negative when thinner.
+        thicker_mm: f64,
+    },
+    /// The gear is not in the middle.
+    #[error("mid-face of the mesh is at z = {z_mm:.4} mm, not at 0")]
+    MidFace {
+        /// Mid-face of the mesh, mm.
+        z_mm: f64,
+    },
+    /// No boundary face on the bore cylinder.
+    #[error("no boundary face has the bore radius {wanted_mm:.4} mm; the smallest radius is {found_mm:.4} mm")]
+    NoBore {
+        /// Radius of the gear's bore, mm.
+        wanted_mm: f64,
+        /// Smallest radius of a node, mm.
+        found_mm: f64,
+    },
+}
+
+impl From<MshError> for MeshError {
+    fn from(error: MshError) -> Self {
+        Self::Msh(Box::new(error))
+    }
+}
+
+/// Names for a message, at most twelve.
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "no groups of dimension 2".into();
+    }
+    let shown: Vec<String> = names.iter().take(12).map(|n| format!("`{n}`")).collect();
+    let more = if names.len() > 12 { format!(" and {} more", names.len() - 12) } else { String::new() };
+    shown.join(", ") + &more
+}
+
+impl MeshError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::Msh(error) => return error.hint(),
+            Self::Read { .. } => "paths in a scene are relative to the scene file",
+            Self::Write { .. } => "is the folder there, and may it be written?",
+            Self::Inconsistent { .. } => "this is a fault of the program that made the mesh",
+            Self::TagTooLarge { .. } => "write format 4.1, or renumber the mesh",
+            Self::MissingGroup { .. } => {
+                "name the groups in the mesher (Gmsh: physical surfaces, Mesh.SaveAll = 0), or map its own names in the scene's `groups` table"
+            }
+            Self::NoToothNumber { .. } => "for example flank_left = \"Left_{k}\"",
+            Self::SameTooth { .. } => "tooth numbers count modulo the number of teeth: is that number right?",
+            Self::NotOnBoundary { .. } => {
+                "surface groups must hold boundary faces of the elements: mesh surfaces and volume together"
+            }
+            Self::NoFlanks { .. } => {
+                "do number of teeth, module, helix angle and hand fit the mesh? is its axis the z axis, its unit mm?"
+            }
+            Self::ToothThickness { .. } => "profile_shift or thickness_allowance_mm of the scene differ from the mesh",
+            Self::MidFace { .. } => "move the mesh so that its mid-face is at z = 0",
+            Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
+        };
+        Some(hint.to_owned())
+    }
+}

@@ -1,0 +1,179 @@
+//! A mesh of which the parts of the gear are known.
+
+use std::collections::BTreeMap;
+
+use geometry::{Gear, Side};
+
+use crate::{DEFAULT_TOLERANCE_MODULES, Face, FaceTable, FlankFit, GroupNames, Mesh, MeshError, SurfaceGroup};
+
+/// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearMesh {
+    mesh: Mesh,
+    teeth: u32,
+    bore: SurfaceGroup,
+    bore_nodes: Vec<u32>,
+    flanks: BTreeMap<(u32, Side), Vec<Face>>,
+    cuts: Option<[SurfaceGroup; 2]>,
+}
+
+impl GearMesh {
+    /// Finds the parts of a gear of `teeth` teeth by the names of the physical groups.
+    ///
+    /// The bore and at least one flank must be named; both cuts or none.
+    ///
+    /// # Errors
+    /// [`MeshError::MissingGroup`], [`MeshError::NotOnBoundary`] when a face of a group does not bound
+    /// the body, [`MeshError::SameTooth`] when two groups name one flank.
+    pub fn from_groups(mesh: Mesh, names: &GroupNames, teeth: u32) -> Result<Self, MeshError> {
+        names.check()?;
+        let table = FaceTable::new(&mesh);
+        let bore = Self::find_group(&mesh, &names.bore, &table)?;
+        let mut flanks = BTreeMap::new();
+        let mut named: BTreeMap<(u32, Side), &str> = BTreeMap::new();
+        for group in &mesh.surfaces {
+            let Some((side, number)) = names.parse(&group.name) else {
+                continue;
+            };
+            let tooth = number.rem_euclid(i64::from(teeth.max(1))) as u32;
+            if let Some(first) = named.insert((tooth, side), &group.name) {
+                let (first, second) = (first.to_owned(), group.name.clone());
+                return Err(MeshError::SameTooth { first, second, tooth, teeth });
+            }
+            flanks.insert((tooth, side), outward(group, &mesh, &table)?.faces);
+        }
+        if flanks.is_empty() {
+            return Err(missing(&mesh, &names.flank_left.replace("{k}", "<k>")));
+        }
+        let cuts = Self::find_cuts(&mesh, names, &table)?;
+        Ok(Self::from_parts(mesh, teeth, bore, flanks, cuts))
+    }
+
+    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
+    /// ([`FlankFit`] with the default tolerance, also returned).
+    ///
+    /// # Errors
+    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
+    pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
+        names.check()?;
+        if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
+            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
+        }
+        let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
+        let fit = FlankFit::new(mesh, gear, names, tolerance)?;
+        Ok((fit.gear.clone(), Some(fit)))
+    }
+
+    /// The group of that name, normals outwards.
+    pub(crate) fn find_group(mesh: &Mesh, name: &str, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
+        outward(mesh.surface(name).ok_or_else(|| missing(mesh, name))?, mesh, table)
+    }
+
+    /// Both cuts, or none where the mesh has none.
+    pub(crate) fn find_cuts(
+        mesh: &Mesh,
+        names: &GroupNames,
+        table: &FaceTable,
+    ) -> Result<Option<[SurfaceGroup; 2]>, MeshError> {
+        if mesh.surface(&names.cut_0).is_none() && mesh.surface(&names.cut_1).is_none() {
+            return Ok(None);
+        }
+        Ok(Some([Self::find_group(mesh, &names.cut_0, table)?, Self::find_group(mesh, &names.cut_1, table)?]))
+    }
+
+    /// From parts whose faces are known to be boundary faces with their normals outwards.
+    pub(crate) fn from_parts(
+        mesh: Mesh,
+        teeth: u32,
+        bore: SurfaceGroup,
+        flanks: BTreeMap<(u32, Side), Vec<Face>>,
+        cuts: Option<[SurfaceGroup; 2]>,
+    ) -> Self {
+        let bore_nodes = bore.nodes();
+        Self { mesh, teeth, bore, bore_nodes, flanks, cuts }
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Number of teeth z of the whole gear, also where the mesh is a sector.
+    pub fn tooth_count(&self) -> u32 {
+        self.teeth
+    }
+
+    /// Faces of the bore.
+    pub fn bore(&self) -> &SurfaceGroup {
+        &self.bore
+    }
+
+    /// Nodes of the bore, ascending.
+    pub fn bore_nodes(&self) -> &[u32] {
+        &self.bore_nodes
+    }
+
+    /// Faces of one flank; `tooth` counts modulo z. `None` when the mesh does not have it.
+    pub fn flank(&self, tooth: u32, side: Side) -> Option<&[Face]> {
+        self.flanks.get(&(tooth % self.teeth.max(1), side)).map(Vec::as_slice)
+    }
+
+    /// Teeth of which a flank is known, ascending, 0..z.
+    pub fn teeth(&self) -> Vec<u32> {
+        let mut teeth: Vec<u32> = self.flanks.keys().map(|k| k.0).collect();
+        teeth.dedup();
+        teeth
+    }
+
+    /// Whether the mesh has every flank of every tooth and no cuts.
+    pub fn is_whole_gear(&self) -> bool {
+        self.cuts.is_none() && self.flanks.len() as u64 == 2 * u64::from(self.teeth)
+    }
+
+    /// The periodic faces of a sector: the clockwise one, then the counter-clockwise one.
+    pub fn cuts(&self) -> Option<[&SurfaceGroup; 2]> {
+        self.cuts.as_ref().map(|[first, second]| [first, second])
+    }
+}
+
+/// No group of that name: say which there are.
+fn missing(mesh: &Mesh, wanted: &str) -> MeshError {
+    MeshError::MissingGroup { wanted: wanted.to_owned(), found: mesh.surfaces.iter().map(|s| s.name.clone()).collect() }
+}
+
+/// The faces of a group as the elements have them, normals outwards.
+///
+/// Files give faces in either orientation, and some writers start at another corner.
+fn outward(group: &SurfaceGroup, mesh: &Mesh, table: &FaceTable) -> Result<SurfaceGroup, MeshError> {
+    let mut faces = Vec::with_capacity(group.faces.len());
+    for face in &group.faces {
+        let mut owners = table.owners(face.corner_key());
+        let what = match (owners.next(), owners.next()) {
+            (Some(owner), None) => {
+                let own = owner.face(mesh);
+                if own.kind == face.kind && same_nodes(own.nodes(), face.nodes()) {
+                    faces.push(own);
+                    continue;
+                }
+                "is of another kind than the face of its element"
+            }
+            (None, _) => "is no face of a volume element",
+            _ => "lies inside the body, between two elements",
+        };
+        let tag = |&n: &u32| mesh.node_tags.get(n as usize).copied().unwrap_or(u64::from(n));
+        let nodes = face.corners().iter().map(tag).collect();
+        return Err(MeshError::NotOnBoundary { group: group.name.clone(), nodes, what });
+    }
+    Ok(SurfaceGroup { name: group.name.clone(), faces })
+}
+
+/// Whether two faces have the same nodes in any order.
+fn same_nodes(a: &[u32], b: &[u32]) -> bool {
+    let sorted = |nodes: &[u32]| {
+        let mut all = [u32::MAX; 9];
+        all[..nodes.len()].copy_from_slice(nodes);
+        all.sort_unstable();
+        all
+    };
+    sorted(a) == sorted(b)
+}

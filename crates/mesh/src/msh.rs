@@ -1,0 +1,44 @@
+//! Gmsh's mesh files (`.msh`), formats 2.2 and 4.1, text and binary: in and out.
+
+mod build;
+mod cursor;
+mod error;
+mod parse;
+mod raw;
+mod unique;
+mod v2;
+mod v4;
+mod write;
+
+pub use error::{MshError, MshProblem, Place};
+pub use write::MshFormat;
+
+use std::path::Path;
+
+use crate::{Mesh, MeshError};
+
+impl Mesh {
+    /// Reads a Gmsh mesh file of format 2.2 or 4.1, text or binary.
+    ///
+    /// Taken are the volume elements that lie in a physical volume (all, where there is none),
+    /// each once, the nodes they use, and the physical surfaces by name. Groups without a name
+    /// bear their tag in digits. Nodes and elements stand in ascending order of their tags.
+    ///
+    /// # Errors
+    /// [`MeshError::Read`] when the file cannot be opened, [`MeshError::Msh`] with section and
+    /// line or byte when it cannot be understood.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
+        Self::parse(&bytes, path)
+    }
+
+    /// The mesh in the content of a file, see [`Mesh::read`]; `path` is for messages alone.
+    ///
+    /// # Errors
+    /// [`MeshError::Msh`] with section and line or byte.
+    pub fn parse(bytes: &[u8], path: impl AsRef<Path>) -> Result<Self, MeshError> {
+        let (raw, mut cursor) = parse::parse(bytes, path.as_ref())?;
+        Ok(build::build(&raw, &mut cursor)?)
+    }
+}

@@ -1,0 +1,62 @@
+//! What can go wrong in the reduction.
+
+use geometry::Side;
+
+/// The gear could not be reduced.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReductionError {
+    /// Elements, assembly or factor.
+    #[error(transparent)]
+    Fem(#[from] fem::FemError),
+    /// The mesh has no such flank.
+    #[error("the mesh has no {} flank of tooth {tooth}; it has teeth {available:?}", side.name())]
+    MissingFlank {
+        /// Tooth asked for.
+        tooth: u32,
+        /// Side asked for.
+        side: Side,
+        /// Teeth of which the mesh has flanks.
+        available: Vec<u32>,
+    },
+    /// Bore and flank meet.
+    #[error("node {node} belongs to both the bore and the {} flank of tooth {tooth}", side.name())]
+    BoreOnFlank {
+        /// Node of the mesh.
+        node: u64,
+        /// Tooth.
+        tooth: u32,
+        /// Side.
+        side: Side,
+    },
+    /// Coordinates of another window.
+    #[error("{given} coordinates for a window of {wanted}")]
+    WrongLength {
+        /// Coordinates given.
+        given: usize,
+        /// Coordinates of the window.
+        wanted: usize,
+    },
+    /// A condensed matrix is not positive definite.
+    #[error("the compliance of the window from tooth {first} on is not positive definite")]
+    NotPositiveDefinite {
+        /// First tooth.
+        first: u32,
+    },
+}
+
+impl ReductionError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Fem(e) => e.hint(),
+            Self::MissingFlank { available, .. } => Some(format!(
+                "the window slides over {} teeth of the mesh: mesh the whole gear, or run fewer cycles or a narrower window",
+                available.len()
+            )),
+            Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
+            Self::WrongLength { .. } => None,
+            Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
+        }
+    }
+}

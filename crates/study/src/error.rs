@@ -1,0 +1,46 @@
+//! What can be wrong with a history.
+
+/// Why no statistics come out.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// Fewer samples than one a cycle, or no cycle at all.
+    #[error("{samples} samples cannot be divided into {cycles} whole cycles")]
+    NotWholeCycles {
+        /// Samples in the history.
+        samples: usize,
+        /// Cycles they are said to span.
+        cycles: usize,
+    },
+    /// A sample is NaN or infinite.
+    #[error("sample {index} is {value}, not a finite number")]
+    NotFinite {
+        /// Index of the first such sample.
+        index: usize,
+        /// What stands there.
+        value: f64,
+    },
+}
+
+impl StudyError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NotWholeCycles { .. } => {
+                Some("sample every cycle at the same number of evenly spaced positions".into())
+            }
+            Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
+        }
+    }
+}
+
+/// Every cycle has the same number of samples, at least one, and each is finite.
+pub(crate) fn check(samples: &[f64], cycles: usize) -> Result<usize, StudyError> {
+    if cycles == 0 || samples.is_empty() || !samples.len().is_multiple_of(cycles) {
+        return Err(StudyError::NotWholeCycles { samples: samples.len(), cycles });
+    }
+    match samples.iter().position(|v| !v.is_finite()) {
+        Some(index) => Err(StudyError::NotFinite { index, value: samples[index] }),
+        None => Ok(samples.len() / cycles),
+    }
+}

@@ -1,0 +1,63 @@
+//! Amplitudes of the mesh harmonics.
+
+use std::f64::consts::PI;
+
+use realfft::RealFftPlanner;
+use serde::Serialize;
+
+use crate::error::{StudyError, check};
+
+/// One harmonic of the mesh frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Harmonic {
+    /// Multiple of the mesh frequency, 1, 2, ...
+    pub order: usize,
+    /// Single-sided amplitude (half of its peak to peak), in the unit of the samples.
+    pub amplitude: f64,
+    /// Phase of the cosine `amplitude * cos(2 pi order * phase + phase_rad)`, rad, -pi .. pi.
+    pub phase_rad: f64,
+}
+
+/// The first `orders` mesh harmonics of `samples`, evenly spaced over `cycles` whole mesh cycles.
+///
+/// ```text
+/// X_h = 2/n sum_k x_k exp(-2 pi i (h cycles) k / n)
+/// ```
+///
+/// A sine of amplitude 1 reads 1 and its neighbours read 0: the record is a whole number of cycles, so no
+/// window is used. Orders above half of the samples in a cycle do not exist in the record and are
+/// left out; the one exactly at half carries its whole content once and is therefore not doubled.
+///
+/// # Errors
+/// Those of [`crate::cycle_statistics`].
+///
+/// # Example
+/// ```
+/// let wave: Vec<f64> = (0..16).map(|k| 7.0 + (2.0 * std::f64::consts::PI * k as f64 / 16.0).sin()).collect();
+/// let h = study::mesh_harmonics(&wave, 1, 3)?;
+/// assert!((h[0].amplitude - 1.0).abs() < 1e-14 && h[1].amplitude < 1e-14);
+/// # Ok::<(), study::StudyError>(())
+/// ```
+pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<Vec<Harmonic>, StudyError> {
+    let per_cycle = check(samples, cycles)?;
+    let n = samples.len();
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+    let mut input = samples.to_vec();
+    let mut spectrum = transform.make_output_vec();
+    // The lengths come from the plan itself, the only thing that `process` can complain about.
+    if transform.process(&mut input, &mut spectrum).is_err() {
+        return Err(StudyError::NotWholeCycles { samples: n, cycles });
+    }
+    Ok((1..=orders.min(per_cycle / 2))
+        .map(|order| {
+            let bin = spectrum[order * cycles];
+            let sides = if 2 * order == per_cycle { 1.0 } else { 2.0 };
+            let phase = bin.im.atan2(bin.re);
+            Harmonic {
+                order,
+                amplitude: sides * bin.norm() / n as f64,
+                phase_rad: if phase <= -PI { PI } else { phase },
+            }
+        })
+        .collect())
+}

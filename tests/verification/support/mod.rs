@@ -1,0 +1,85 @@
+//! What the verification tests share: the default pair, its meshes, and models of them.
+#![allow(dead_code, reason = "each test uses its part")]
+
+use std::path::PathBuf;
+
+use dynamics::{ElasticGear, FullGear, StaticModel, StaticOptions};
+use fem::{ElementOptions, Material};
+use geometry::{Gear, GearData, GearPair};
+use mesh::{GearMesh, GroupNames, Mesh};
+use reduction::{GearReducer, ReductionOptions};
+
+/// A pair with the meshes of both gears.
+pub struct Case {
+    pub pair: GearPair,
+    pub meshes: [GearMesh; 2],
+    pub elements: ElementOptions,
+    pub torque: f64,
+}
+
+pub fn steel() -> Material {
+    Material::new(2.06e5, 0.3, 7.85e-9).unwrap()
+}
+
+pub fn default_pair() -> GearPair {
+    let data = GearData::default();
+    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
+    GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap()
+}
+
+pub fn meshes_folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
+}
+
+fn read(name: &str, teeth: u32) -> GearMesh {
+    let path = meshes_folder().join(name);
+    let mesh = Mesh::read(&path).unwrap_or_else(|e| panic!("{e}"));
+    GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+impl Case {
+    /// One of the pairs of meshes of the finite-element reference.
+    pub fn reference(name: &str, elements: ElementOptions) -> Self {
+        Self::read(&format!("reference/{name}_g1.msh"), &format!("reference/{name}_g2.msh"), elements)
+    }
+
+    /// The default pair on two meshes of `meshes/`.
+    pub fn read(pinion: &str, wheel: &str, elements: ElementOptions) -> Self {
+        let pair = default_pair();
+        let meshes = [read(pinion, pair.pinion.teeth()), read(wheel, pair.wheel.teeth())];
+        Self { pair, meshes, elements, torque: 150e3 }
+    }
+
+    pub fn options(&self) -> StaticOptions {
+        StaticOptions::new(self.torque, &self.pair)
+    }
+
+    pub fn reduced(&self, options: StaticOptions) -> StaticModel {
+        let first = StaticModel::first_teeth(&self.pair, &options).unwrap();
+        let gears = [0, 1].map(|i| {
+            let o = ReductionOptions {
+                sides: options.sides(),
+                window: StaticModel::window_teeth(&self.pair, &options),
+                first: first[i],
+                elements: self.elements,
+            };
+            ElasticGear::Reduced(GearReducer::new(self.meshes[i].clone(), steel(), o).unwrap())
+        });
+        StaticModel::new(self.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    pub fn full(&self, options: StaticOptions) -> StaticModel {
+        let gears =
+            [0, 1].map(|i| ElasticGear::Full(FullGear::new(self.meshes[i].clone(), steel(), &self.elements).unwrap()));
+        StaticModel::new(self.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"))
+    }
+}
+
+/// Mean and peak to peak.
+pub fn summary(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (mut n, mut sum, mut low, mut high) = (0.0, 0.0, f64::INFINITY, f64::NEG_INFINITY);
+    for v in values {
+        (n, sum, low, high) = (n + 1.0, sum + v, v.min(low), v.max(high));
+    }
+    (sum / n, high - low)
+}
