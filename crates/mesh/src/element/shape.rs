@@ -90,10 +90,7 @@ impl ElementKind {
         let slope = [dx * fy * fz, fx * dy * fz, fx * fy * dz];
         if self == Hex20 && node.iter().all(|&c| c != 0.0) {
             let reach: f64 = (0..3).map(|k| xi[k] * node[k]).sum::<f64>() - 2.0;
-            return (
-                value * reach,
-                [0, 1, 2].map(|k| slope[k] * reach + value * node[k]),
-            );
+            return (value * reach, [0, 1, 2].map(|k| slope[k] * reach + value * node[k]));
         }
         (value, slope)
     }
@@ -111,14 +108,7 @@ impl ElementKind {
             let bubble = 1.0 - z * z;
             let by_l = 0.5 * ((4.0 * lk - 1.0) * h - bubble);
             let value = 0.5 * lk * ((2.0 * lk - 1.0) * h - bubble);
-            return (
-                value,
-                [
-                    by_l * d[0],
-                    by_l * d[1],
-                    0.5 * lk * ((2.0 * lk - 1.0) * c + 2.0 * z),
-                ],
-            );
+            return (value, [by_l * d[0], by_l * d[1], 0.5 * lk * ((2.0 * lk - 1.0) * c + 2.0 * z)]);
         }
         let [a, b] = self.edges()[i - 6];
         if b == a + 3 {
@@ -129,32 +119,20 @@ impl ElementKind {
         let (a, b, h) = (a % 3, b % 3, 1.0 + c * z);
         let (da, db) = (TRIANGULAR_SLOPES[a], TRIANGULAR_SLOPES[b]);
         let across = |k: usize| 2.0 * (l[a] * db[k] + l[b] * da[k]) * h;
-        (
-            2.0 * l[a] * l[b] * h,
-            [across(0), across(1), 2.0 * l[a] * l[b] * c],
-        )
+        (2.0 * l[a] * l[b] * h, [across(0), across(1), 2.0 * l[a] * l[b] * c])
     }
 }
 
 /// Quadratic Lagrange polynomial that is 1 at `c` and 0 at the other two of -1, 0, 1; with slope.
 pub(super) fn lagrange(x: f64, c: f64) -> (f64, f64) {
-    if c == 0.0 {
-        (1.0 - x * x, -2.0 * x)
-    } else {
-        (0.5 * x * (x + c), x + 0.5 * c)
-    }
+    if c == 0.0 { (1.0 - x * x, -2.0 * x) } else { (0.5 * x * (x + c), x + 0.5 * c) }
 }
 
 /// Gradients of the barycentric coordinates of a triangle.
 pub(super) const TRIANGULAR_SLOPES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
 
 /// Gradients of the barycentric coordinates of a tetrahedron.
-const TETRAHEDRAL_SLOPES: [[f64; 3]; 4] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-];
+const TETRAHEDRAL_SLOPES: [[f64; 3]; 4] = [[-1.0, -1.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Barycentric coordinates in a tetrahedron.
 fn tetrahedral([x, y, z]: [f64; 3]) -> [f64; 4] {
@@ -166,12 +144,7 @@ mod tests {
     use super::*;
 
     /// Points inside, on the border and outside of every reference element.
-    const PROBES: [[f64; 3]; 4] = [
-        [0.2, 0.3, 0.1],
-        [0.0, 0.0, -1.0],
-        [-0.7, 0.4, 0.9],
-        [0.31, 0.17, -0.6],
-    ];
+    const PROBES: [[f64; 3]; 4] = [[0.2, 0.3, 0.1], [0.0, 0.0, -1.0], [-0.7, 0.4, 0.9], [0.31, 0.17, -0.6]];
 
     fn middle(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
@@ -185,11 +158,7 @@ mod tests {
                 kind.shape(node, &mut n);
                 for (j, &value) in n.iter().enumerate() {
                     let wanted = f64::from(u8::from(i == j));
-                    assert!(
-                        (value - wanted).abs() < 1e-15,
-                        "{}: N_{j} at node {i} is {value}",
-                        kind.name()
-                    );
+                    assert!((value - wanted).abs() < 1e-15, "{}: N_{j} at node {i} is {value}", kind.name());
                 }
             }
         }
@@ -205,16 +174,8 @@ mod tests {
                 let count = kind.node_count();
                 assert!((n[..count].iter().sum::<f64>() - 1.0).abs() < 1e-14);
                 for k in 0..3 {
-                    let position: f64 = n
-                        .iter()
-                        .zip(kind.reference_nodes())
-                        .map(|(v, x)| v * x[k])
-                        .sum();
-                    assert!(
-                        (position - xi[k]).abs() < 1e-14,
-                        "{} at {xi:?}",
-                        kind.name()
-                    );
+                    let position: f64 = n.iter().zip(kind.reference_nodes()).map(|(v, x)| v * x[k]).sum();
+                    assert!((position - xi[k]).abs() < 1e-14, "{} at {xi:?}", kind.name());
                     assert!(dn[..count].iter().map(|d| d[k]).sum::<f64>().abs() < 1e-14);
                 }
             }
@@ -226,8 +187,7 @@ mod tests {
         let h = 1e-5;
         for kind in ElementKind::ALL {
             let count = kind.node_count();
-            let (mut up, mut down, mut dn) =
-                (vec![0.0; count], vec![0.0; count], vec![[0.0; 3]; count]);
+            let (mut up, mut down, mut dn) = (vec![0.0; count], vec![0.0; count], vec![[0.0; 3]; count]);
             for xi in PROBES {
                 kind.shape_gradient(xi, &mut dn);
                 for k in 0..3 {
@@ -239,11 +199,7 @@ mod tests {
                     for i in 0..count {
                         // cubic at most along one direction: the difference errs by h^2
                         let difference = (up[i] - down[i]) / (2.0 * h);
-                        assert!(
-                            (difference - dn[i][k]).abs() < 1e-9,
-                            "{} dN_{i}/d{k} at {xi:?}",
-                            kind.name()
-                        );
+                        assert!((difference - dn[i][k]).abs() < 1e-9, "{} dN_{i}/d{k} at {xi:?}", kind.name());
                     }
                 }
             }
@@ -262,35 +218,13 @@ mod tests {
                 for q in face.quadrature() {
                     face.shape(q.xi, &mut n);
                     face.shape_gradient(q.xi, &mut dn);
-                    let at = |k: usize| {
-                        local
-                            .iter()
-                            .zip(&n)
-                            .map(|(&i, v)| v * nodes[i][k])
-                            .sum::<f64>()
-                    };
-                    let along = |k: usize, d: usize| {
-                        local
-                            .iter()
-                            .zip(&dn)
-                            .map(|(&i, g)| g[d] * nodes[i][k])
-                            .sum::<f64>()
-                    };
-                    let (u, v) = (
-                        [0, 1, 2].map(|k| along(k, 0)),
-                        [0, 1, 2].map(|k| along(k, 1)),
-                    );
-                    let normal = [
-                        u[1] * v[2] - u[2] * v[1],
-                        u[2] * v[0] - u[0] * v[2],
-                        u[0] * v[1] - u[1] * v[0],
-                    ];
+                    let at = |k: usize| local.iter().zip(&n).map(|(&i, v)| v * nodes[i][k]).sum::<f64>();
+                    let along =
+                        |k: usize, d: usize| local.iter().zip(&dn).map(|(&i, g)| g[d] * nodes[i][k]).sum::<f64>();
+                    let (u, v) = ([0, 1, 2].map(|k| along(k, 0)), [0, 1, 2].map(|k| along(k, 1)));
+                    let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
                     let outward: f64 = (0..3).map(|k| (at(k) - centre[k]) * normal[k]).sum();
-                    assert!(
-                        outward > 0.0,
-                        "{}: face {local:?} turns inwards",
-                        kind.name()
-                    );
+                    assert!(outward > 0.0, "{}: face {local:?} turns inwards", kind.name());
                     (0..3).for_each(|k| total[k] += q.weight * normal[k]);
                 }
                 // edge nodes lie between their corners, in turn
@@ -298,20 +232,11 @@ mod tests {
                     let corners = face.corner_count();
                     for k in 0..corners {
                         let (a, b, m) = (local[k], local[(k + 1) % corners], local[corners + k]);
-                        assert_eq!(
-                            nodes[m],
-                            middle(nodes[a], nodes[b]),
-                            "{}: node {m}",
-                            kind.name()
-                        );
+                        assert_eq!(nodes[m], middle(nodes[a], nodes[b]), "{}: node {m}", kind.name());
                     }
                 }
             }
-            assert!(
-                total.iter().all(|t| t.abs() < 1e-14),
-                "{}: a hole, {total:?}",
-                kind.name()
-            );
+            assert!(total.iter().all(|t| t.abs() < 1e-14), "{}: a hole, {total:?}", kind.name());
         }
     }
 
