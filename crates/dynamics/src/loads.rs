@@ -58,8 +58,10 @@ pub(crate) fn position(
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let wrench = wrenches(pair, &e.rows, &e.solution.forces);
-    let pairs: Vec<PairResult> =
+    let mut pairs: Vec<PairResult> =
         (0..window.count()).map(|k| pair_result(pair, gears, set, window, options, e, k)).collect();
+    // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
+    pairs.sort_by_key(|p| p.pair);
     let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
     let moment = -side.sign() * options.torque;
@@ -144,7 +146,7 @@ fn pair_result(
         })
         .fold(0.0, f64::max);
     PairResult {
-        pair: running,
+        pair: options.sense.sign() * running,
         pinion_tooth,
         wheel_tooth,
         normal_force: loaded.iter().map(|(_, f)| f).sum(),
