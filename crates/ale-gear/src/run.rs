@@ -164,13 +164,6 @@ fn doubts(positions: &[StaticPosition]) -> Vec<String> {
     if torque > 1e-8 {
         said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
     }
-    if positions.iter().any(|p| p.pairs.len() > 1 && p.pairs.iter().all(|q| q.normal_force > 0.0)) {
-        said.push(
-            "at some positions every tooth of the window carries load: a wider window (analysis.window_teeth) would show whether a \
-             further pair helps"
-                .into(),
-        );
-    }
     said
 }
 
