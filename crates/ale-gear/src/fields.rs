@@ -132,7 +132,7 @@ impl<'a> GearState<'a> {
         let own = e.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);
         Ok(Self {
             displacement,
-            pressure: nodal_pressure(part, e, &nodes, count),
+            pressure: nodal_pressure(part, model, e, &nodes, count),
             rotation: own.to_rotation_matrix(),
             centre: e.poses[part].translation.vector,
             elements,
@@ -155,15 +155,21 @@ impl<'a> GearState<'a> {
     }
 }
 
-/// Mean pressure around each boundary node: sum of w F over sum of |w| A over the points whose shape functions reach it.
-fn nodal_pressure(part: usize, e: &Equilibrium, nodes: &[u32], count: usize) -> Vec<f64> {
-    let (mut force, mut area) = (vec![0.0; count], vec![0.0; count]);
-    for (row, f) in e.rows.iter().zip(&e.solution.forces) {
+/// Mean pressure around each boundary node: sum of w F over the area that the node stands for.
+fn nodal_pressure(part: usize, model: &StaticModel, e: &Equilibrium, nodes: &[u32], count: usize) -> Vec<f64> {
+    let mut force = vec![0.0; count];
+    for (row, f) in e.rows.iter().zip(&e.solution.forces).filter(|(_, f)| **f > 0.0) {
         let support = &row.supports[part];
         for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights[..support.count]) {
-            let Some(&node) = nodes.get(node as usize) else { continue };
-            force[node as usize] += w.abs() * f;
-            area[node as usize] += w.abs() * row.area;
+            if let Some(&node) = nodes.get(node as usize) {
+                force[node as usize] += w.abs() * f;
+            }
+        }
+    }
+    let mut area = vec![0.0; count];
+    for (node, a) in model.contact_set().patches()[part].iter().flat_map(contact::FlankPatch::nodal_areas) {
+        if let Some(&node) = nodes.get(node as usize) {
+            area[node as usize] += a;
         }
     }
     force.iter().zip(&area).map(|(f, a)| if *a > 0.0 { f / a } else { 0.0 }).collect()

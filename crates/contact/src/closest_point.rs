@@ -1,6 +1,8 @@
 //! Stage 2, point against surface: gap, normal and shape functions of each candidate point.
 
-use crate::{Candidates, ContactPoint, FlankPatch, Pose, Vec3, patch::Interpolation};
+use std::collections::BTreeMap;
+
+use crate::{Candidates, ContactPoint, FlankPatch, Pose, Vec3, least_gap, patch::Interpolation};
 
 /// What a gap is measured between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -27,7 +29,13 @@ pub struct Scene<'a> {
     pub second_tree: &'a Candidates,
     /// Gaps between what.
     pub source: GapSource,
+    /// Further points of pairs of patches, from [`line_points`]; they stand for no area, so they are for exact contact,
+    /// where a row needs none. With them the first touch is found where it is, not at the nearest Gauss point.
+    pub line: &'a LinePoints,
 }
+
+/// Points of least gap, by pair of patches.
+pub type LinePoints = BTreeMap<(usize, usize), Vec<ContactPoint>>;
 
 /// How a unit contact force loads one body: weights on boundary nodes, along one direction.
 ///
@@ -73,23 +81,39 @@ pub struct ContactRow {
 /// faces is no candidate. Where several patches of body 2 are near, each makes a row of its own.
 pub fn closest_points(scene: &Scene, poses: &[Pose; 2], reach: f64) -> Vec<ContactRow> {
     let pairs = scene.first_tree.pairs(&poses[0], scene.second_tree, &poses[1], reach);
-    let mut touching: Vec<(usize, usize, usize)> = pairs.iter().map(|p| (p.first.0, p.first.1, p.second.0)).collect();
-    touching.dedup();
+    let mut touching: Vec<(usize, usize, usize)> = pairs.iter().map(|p| (p.first.0, p.second.0, p.first.1)).collect();
     touching.sort_unstable();
     touching.dedup();
     let mut rows = Vec::new();
-    for (first, face, second) in touching {
+    for of_pair in touching.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let (first, second, _) = of_pair[0];
         let points = &scene.points[first];
         let per_face = points.len() / scene.first[first].face_count();
-        for point in face * per_face..(face + 1) * per_face {
-            if let Some(row) = contact_row(scene, poses, (first, second), point, &points[point])
-                && row.gap <= reach
-            {
-                rows.push(row);
-            }
-        }
+        let faces = of_pair.iter().map(|t| t.2);
+        let gauss = faces.flat_map(|face| (face * per_face..(face + 1) * per_face).map(|i| (i, points[i])));
+        let line = scene.line.get(&(first, second)).into_iter().flatten();
+        let line = line.enumerate().map(|(i, p)| (points.len() + i, *p));
+        rows.extend(
+            gauss
+                .chain(line)
+                .filter_map(|(i, point)| contact_row(scene, poses, (first, second), i, &point))
+                .filter(|row| row.gap <= reach),
+        );
     }
     rows
+}
+
+/// Points of least gap of two patches at `stations` equally spaced heights.
+pub fn line_points(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], stations: usize) -> Vec<ContactPoint> {
+    let [low, high] = first.range();
+    (0..stations)
+        .filter_map(|i| {
+            let z = low[1] + (high[1] - low[1]) * (i as f64 + 0.5) / stations as f64;
+            let coordinates = least_gap(first, second, poses, z)?;
+            let at = first.face_at(coordinates)?;
+            Some(ContactPoint { at, coordinates, position: first.surface().point(coordinates), area: 0.0 })
+        })
+        .collect()
 }
 
 /// Gap row of a point `p` (numbered `point`) of one pair of patches; `None` when it has no foot on the faces of body 2.

@@ -90,16 +90,21 @@ const FIRST_COMPLIANCE: f64 = 0.1;
 /// Each proximal step's compliance relative to the one before: the set hardly changes from step to step.
 const COMPLIANCE_DECAY: f64 = 0.1;
 /// Smallest; below it rows of faces with more points than nodes are linearly dependent to round-off.
-const LAST_COMPLIANCE: f64 = 1e-7;
+const LAST_COMPLIANCE: f64 = 1e-6;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 60;
+/// Block pivots without progress before single steps take over.
+const PATIENCE: usize = 10;
+/// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a solve
+/// with the last compliance.
+const PIVOT_TOLERANCE: f64 = 2e-12;
 /// Violation that counts as solved, relative to approach and force.
 const TOLERANCE: f64 = 1e-11;
 
 /// Solves the contact of `rows` under `moment` [N mm] about the body whose levers are `levers`.
 ///
-/// Block principal pivoting (all violated points change at once), single least-index pivots after Murty when that
-/// stops making progress, so it ends. Exact contact with more points than nodes has no unique forces and no
+/// Block principal pivoting (all violated points change at once); where that stops making progress, the primal active-set
+/// method, which ends because every step lowers the energy. Exact contact with more points than nodes has no unique forces and no
 /// regular matrix; the proximal-point method (a local compliance about the forces of the step before, smaller from step to step)
 /// converges to zero penetration all the same. `start`: forces of an earlier solution at these rows, or zeros.
 ///
@@ -165,64 +170,108 @@ fn first_guess(rows: &[ContactRow], levers: &[f64], driving: f64) -> Vec<usize> 
     order
 }
 
-/// The active set on which no inactive row is penetrated and no active row pulls.
+/// The active set on which no inactive row is penetrated and no active row pulls: block pivots while they make progress,
+/// then single steps that cannot cycle.
 fn pivot(
     bodies: &mut dyn LinearContact,
     problem: &Problem,
     mut active: Vec<usize>,
 ) -> Result<(Equality, Vec<usize>, usize), ContactError> {
-    let n = problem.gaps.len();
-    let (mut fewest, mut patience) = (usize::MAX, 10);
-    let limit = 200 + 4 * n;
-    let mut infeasible = 0;
-    for iteration in 1..=limit {
+    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    let mut iterations = 0;
+    loop {
         let answer = bodies.solve(&active, problem)?;
-        let mut force = vec![0.0; n];
-        for (&i, &f) in active.iter().zip(&answer.forces) {
-            force[i] = f;
+        iterations += 1;
+        let pulling: Vec<usize> = pulling(&active, &answer.forces);
+        let penetrated = penetrated(problem, &active, &answer);
+        let wrong = pulling.len() + penetrated.len();
+        if wrong == 0 {
+            return Ok((answer, active, iterations));
         }
-        let largest = answer.forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        let approach = answer.openings.iter().fold(0.0f64, |m, o| m.max(o.abs()));
-        let is_active = {
-            let mut flags = vec![false; n];
-            active.iter().for_each(|&i| flags[i] = true);
-            flags
-        };
-        let wrong: Vec<usize> = (0..n)
-            .filter(|&i| {
-                if is_active[i] {
-                    force[i] < -1e-14 * largest
-                } else {
-                    let gap = problem.gaps[i] + problem.levers[i] * answer.rotation + answer.openings[i];
-                    gap < -1e-13 * approach
-                }
-            })
-            .collect();
-        infeasible = wrong.len();
-        if wrong.is_empty() {
-            return Ok((answer, active, iteration));
-        }
-        let flip: &[usize] = if infeasible < fewest {
-            (fewest, patience) = (infeasible, 10);
-            &wrong
-        } else if patience > 0 {
+        if wrong < fewest {
+            (fewest, patience) = (wrong, PATIENCE);
+        } else if patience == 0 {
+            return single_steps(bodies, problem, &active, &answer, iterations);
+        } else {
             patience -= 1;
-            &wrong
-        } else {
-            &wrong[wrong.len() - 1..]
-        };
-        let mut next = is_active;
-        flip.iter().for_each(|&i| next[i] = !next[i]);
-        let kept: Vec<usize> = (0..n).filter(|&i| next[i]).collect();
-        // A load must rest on something: keep the row that carries most.
-        active = if kept.is_empty() {
-            let best = active.iter().zip(&answer.forces).max_by(|a, b| a.1.total_cmp(b.1)).map(|(&i, _)| i);
-            best.into_iter().collect()
-        } else {
-            kept
-        };
+        }
+        let mut next: Vec<usize> = active.iter().copied().filter(|i| pulling.binary_search(i).is_err()).collect();
+        next.extend(penetrated);
+        if next.is_empty() {
+            // A load must rest on something.
+            return single_steps(bodies, problem, &active, &answer, iterations);
+        }
+        next.sort_unstable();
+        active = next;
     }
-    Err(ContactError::NotConverged { iterations: limit, infeasible, points: n })
+}
+
+/// Active rows with a negative force, ascending.
+fn pulling(active: &[usize], forces: &[f64]) -> Vec<usize> {
+    let largest = forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+    active.iter().zip(forces).filter(|(_, f)| **f < -PIVOT_TOLERANCE * largest).map(|(&i, _)| i).collect()
+}
+
+/// Inactive rows with a negative gap, ascending.
+fn penetrated(problem: &Problem, active: &[usize], answer: &Equality) -> Vec<usize> {
+    let approach = answer.openings.iter().fold(0.0f64, |m, o| m.max(o.abs()));
+    (0..problem.gaps.len())
+        .filter(|i| active.binary_search(i).is_err() && open_gap(problem, answer, *i) < -PIVOT_TOLERANCE * approach)
+        .collect()
+}
+
+fn open_gap(problem: &Problem, answer: &Equality, i: usize) -> f64 {
+    problem.gaps[i] + problem.levers[i] * answer.rotation + answer.openings[i]
+}
+
+/// Primal active-set method of the quadratic programme: from forces >= 0 that balance the moment, each step lowers the
+/// energy, so no set comes twice.
+fn single_steps(
+    bodies: &mut dyn LinearContact,
+    problem: &Problem,
+    active: &[usize],
+    answer: &Equality,
+    mut iterations: usize,
+) -> Result<(Equality, Vec<usize>, usize), ContactError> {
+    let n = problem.gaps.len();
+    let driving = problem.moment.signum();
+    let mut force = vec![0.0; n];
+    active.iter().zip(&answer.forces).filter(|(_, f)| **f > 0.0).for_each(|(&i, &f)| force[i] = f);
+    let carried = |force: &[f64]| force.iter().zip(&problem.levers).map(|(f, l)| f * l).sum::<f64>();
+    if carried(&force) * driving <= 0.0 {
+        let best = (0..n).max_by(|&a, &b| (problem.levers[a] * driving).total_cmp(&(problem.levers[b] * driving)));
+        force.fill(0.0);
+        best.into_iter().for_each(|i| force[i] = 1.0);
+    }
+    let scale = problem.moment / carried(&force);
+    force.iter_mut().for_each(|f| *f *= scale);
+    let mut working: Vec<usize> = (0..n).filter(|&i| force[i] > 0.0).collect();
+    let limit = iterations + 200 + 20 * n;
+    while iterations < limit {
+        let answer = bodies.solve(&working, problem)?;
+        iterations += 1;
+        let pulls = pulling(&working, &answer.forces);
+        if pulls.is_empty() {
+            let deepest = penetrated(problem, &working, &answer)
+                .into_iter()
+                .min_by(|&a, &b| open_gap(problem, &answer, a).total_cmp(&open_gap(problem, &answer, b)));
+            let Some(deepest) = deepest else { return Ok((answer, working, iterations)) };
+            force.fill(0.0);
+            working.iter().zip(&answer.forces).for_each(|(&i, &f)| force[i] = f.max(0.0));
+            working.push(deepest);
+            working.sort_unstable();
+            continue;
+        }
+        // As far towards the answer as no force turns negative; the rows that stop the step leave.
+        let reach = |i: usize, target: f64| if target < 0.0 { force[i] / (force[i] - target) } else { f64::INFINITY };
+        let share = working.iter().zip(&answer.forces).map(|(&i, &t)| reach(i, t)).fold(1.0, f64::min);
+        let stopped: Vec<usize> =
+            working.iter().zip(&answer.forces).filter(|(i, t)| reach(**i, **t) <= share).map(|(&i, _)| i).collect();
+        working.iter().zip(&answer.forces).for_each(|(&i, &t)| force[i] += share * (t - force[i]));
+        stopped.iter().for_each(|&i| force[i] = 0.0);
+        working.retain(|i| stopped.binary_search(i).is_err());
+    }
+    Err(ContactError::NotConverged { iterations, infeasible: working.len(), points: n })
 }
 
 fn finish(rows: &[ContactRow], problem: &Problem, answer: Equality, active: Vec<usize>, iterations: usize) -> Solution {

@@ -3,7 +3,8 @@
 //! Three steps, in the order of the files:
 //!
 //! 1. [`Candidates`]: which flank faces may touch (bounding volumes, surface against surface);
-//! 2. [`closest_points`]: gap and normal of each candidate point against the other flank's smooth surface;
+//! 2. [`closest_points`]: gap and normal of each candidate point against the other flank's smooth surface, and of the
+//!    line of least gap;
 //! 3. [`complementarity`]: forces so that g >= 0, p >= 0, p g = 0 at every point, together with the rotation that
 //!    balances the torque.
 //!
@@ -16,16 +17,18 @@ pub mod complementarity;
 mod condensed;
 mod error;
 pub mod hertz;
+mod least_gap;
 mod line_length;
 mod patch;
 mod points;
 mod surface;
 
 pub use candidates::{Candidates, FacePair};
-pub use closest_point::{ContactRow, GapSource, Scene, Support, closest_points, contact_row};
+pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
 pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
+pub use least_gap::least_gap;
 pub use line_length::{LineSample, contact_length};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};

@@ -212,6 +212,19 @@ impl FlankPatch {
         range(self.nodes.iter().map(|n| n.at))
     }
 
+    /// Boundary nodes and the area each stands for, mm^2: the integral of |N_i|, every entry positive.
+    pub fn nodal_areas(&self) -> Vec<(u32, f64)> {
+        let mut areas: Vec<(u32, f64)> = self.nodes.iter().map(|n| (n.boundary, 0.0)).collect();
+        for point in crate::contact_points(self, 3, crate::GapSource::Smooth) {
+            let face = &self.faces[point.at.face];
+            let weights = self.interpolation(point.at).weights;
+            for (&node, w) in face.nodes[..face.kind.node_count()].iter().zip(weights) {
+                areas[node as usize].1 += w.abs() * point.area;
+            }
+        }
+        areas
+    }
+
     /// Mean size of a face in each surface coordinate.
     pub fn mean_face_size(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
@@ -230,6 +243,11 @@ impl FlankPatch {
             let xi = self.invert(face as usize, at)?;
             inside(self.faces[face as usize].kind, xi).then_some(FacePoint { face: face as usize, xi })
         })
+    }
+
+    /// Whether the surface coordinates lie on the faces.
+    pub fn covers(&self, at: [f64; 2]) -> bool {
+        self.face_at(at).is_some()
     }
 
     fn invert(&self, face: usize, at: [f64; 2]) -> Option<[f64; 2]> {

@@ -17,6 +17,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn point(&self, at: [f64; 2]) -> Vec3;
     /// Unit normal out of the material.
     fn normal(&self, at: [f64; 2]) -> Vec3;
+    /// Derivative of the point by the first surface coordinate.
+    fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
 }
@@ -29,6 +31,10 @@ impl Surface for geometry::Flank {
 
     fn normal(&self, [u, z]: [f64; 2]) -> Vec3 {
         geometry::Flank::normal(self, u, z)
+    }
+
+    fn profile_tangent(&self, [u, z]: [f64; 2]) -> Vec3 {
+        self.tangents(u, z)[0]
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
@@ -54,6 +60,11 @@ impl Surface for Cylinder {
     fn normal(&self, [angle, _]: [f64; 2]) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         Vec3::new(cos, sin, 0.0)
+    }
+
+    fn profile_tangent(&self, [angle, _]: [f64; 2]) -> Vec3 {
+        let (sin, cos) = angle.sin_cos();
+        self.radius * Vec3::new(-sin, cos, 0.0)
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {

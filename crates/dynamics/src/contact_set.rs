@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use ale::ToothWindow;
 use contact::{
-    Candidates, Condensed, ContactError, ContactPoint, ContactRow, FlankPatch, LinearContact, Scene, contact_points,
+    Candidates, Condensed, ContactError, ContactPoint, ContactRow, FlankPatch, GapSource, Law, LinePoints,
+    LinearContact, Pose, Scene, contact_points, line_points,
 };
 use geometry::{Gear, GearPair, Side};
 use reduction::Window;
@@ -17,6 +18,8 @@ pub struct ContactSet {
     patches: [Vec<FlankPatch>; 2],
     points: Vec<Vec<ContactPoint>>,
     trees: [Candidates; 2],
+    /// Axial stations for points of least gap: as many as Gauss points lie along the face.
+    stations: usize,
     /// Side of each patch.
     sides: [Vec<Side>; 2],
     /// First tooth of each gear's window in the frame of its matrices.
@@ -47,9 +50,14 @@ impl ContactSet {
         let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
             <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
         let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
+        let stations = p1.first().map_or(0, |p| {
+            let [low, high] = p.range();
+            let faces = ((high[1] - low[1]) / p.mean_face_size()[1]).round().max(1.0);
+            faces as usize * options.points_per_face_edge
+        });
         let trees = [Candidates::new(&p1), Candidates::new(&p2)];
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        Ok(Self { patches: [p1, p2], points, trees, sides: [s1, s2], first: [f1, f2], windows })
+        Ok(Self { patches: [p1, p2], points, trees, stations, sides: [s1, s2], first: [f1, f2], windows })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -112,7 +120,28 @@ impl ContactSet {
         self.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
     }
 
-    pub(crate) fn scene(&self, options: &StaticOptions) -> Scene<'_> {
+    /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty), or where
+    /// gaps are not those of the smooth flanks.
+    ///
+    /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
+    pub(crate) fn line_points(&self, options: &StaticOptions, poses: &[Pose; 2]) -> LinePoints {
+        let mut line = LinePoints::new();
+        if options.law != Law::Exact || options.gap != GapSource::Smooth {
+            return line;
+        }
+        let pairs = self.patches[0].len() / self.kept_sides();
+        for pair in 0..pairs {
+            for side in [Side::Left, Side::Right] {
+                if let (Some(a), Some(b)) = (self.patch_of(0, pair, side), self.patch_of(1, pair, side)) {
+                    let points = line_points(&self.patches[0][a], &self.patches[1][b], poses, self.stations);
+                    line.insert((a, b), points);
+                }
+            }
+        }
+        line
+    }
+
+    pub(crate) fn scene<'a>(&'a self, options: &StaticOptions, line: &'a LinePoints) -> Scene<'a> {
         Scene {
             first: &self.patches[0],
             points: &self.points,
@@ -120,6 +149,7 @@ impl ContactSet {
             first_tree: &self.trees[0],
             second_tree: &self.trees[1],
             source: options.gap,
+            line,
         }
     }
 

@@ -132,7 +132,8 @@ pub(crate) fn equilibrium(
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let moment = -side.sign() * options.torque;
-    let scene = set.scene(options);
+    let line = set.line_points(options, &poses(pair, options, set, window, station, 0.0));
+    let scene = set.scene(options, &line);
     let force = options.torque / base_radius;
     let mut rotation = guess.map_or(0.0, |g| g.rotation);
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
@@ -168,7 +169,9 @@ pub(crate) fn equilibrium(
         rotation += solution.rotation;
         step_mm = (solution.rotation * base_radius).abs();
         let error = side.sign() * base_radius * rotation;
-        if step_mm <= POSE_TOLERANCE * error.abs().max(1e-9 * guessed) {
+        // An angle of a few radians resolves no smaller steps.
+        let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
+        if step_mm <= (POSE_TOLERANCE * error.abs()).max(round_off) {
             let displacements = bodies.displacements(&solution.forces);
             drop(bodies);
             return Ok(Equilibrium {

@@ -1,7 +1,9 @@
 //! From a solved contact to the quantities of a station.
 
 use ale::ToothWindow;
-use contact::{ContactPoint, ContactRow, LineSample, Vec3, contact_length, contact_row, hertz, opening};
+use contact::{
+    ContactPoint, ContactRow, LinePoints, LineSample, Vec3, contact_length, contact_row, hertz, least_gap, opening,
+};
 use geometry::{GearPair, Side};
 
 use crate::{Certificate, ContactSet, ElasticGear, Equilibrium, PairResult, StaticOptions, StaticPosition, Wrench};
@@ -9,8 +11,9 @@ use crate::{Certificate, ContactSet, ElasticGear, Equilibrium, PairResult, Stati
 /// Axial stations at which the least gap of a pair is looked at.
 const LINE_SAMPLES: usize = 193;
 /// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
-/// interpolated deflection leaves gaps of that order open.
-const TOUCHING: f64 = 0.02;
+/// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
+/// by as much within a few hundredths of a millimetre.
+const TOUCHING: f64 = 0.15;
 /// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
 /// and only over more than an element do their forces add up to a line load.
 const BIN_ELEMENTS: f64 = 1.5;
@@ -152,7 +155,8 @@ fn pair_result(
         pair: options.sense.sign() * running,
         pinion_tooth,
         wheel_tooth,
-        normal_force: loaded.iter().map(|(_, f)| f).sum(),
+        // 0.0 first: the sum of nothing is -0.0 otherwise.
+        normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
         max_pressure,
         contact_line_length: length(-half, half),
         points_in_contact: loaded.len(),
@@ -166,7 +170,7 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
     rho * (length - rho) / (length * pair.base_helix_angle().cos())
 }
 
-/// Least deformed gap of window pair `k` along the face, where the undeformed line of contact, or the end of the path, runs.
+/// Deformed gap of window pair `k` along the face, where the undeformed flanks at the loaded pose are nearest.
 fn line_samples(
     pair: &GearPair,
     set: &ContactSet,
@@ -178,46 +182,26 @@ fn line_samples(
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();
     };
-    let patch = &set.patches()[0][first];
+    let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
     let [low, high] = patch.range();
-    let [start, end] = pair.path_of_contact();
-    let base_radius = pair.pinion.base_radius();
     let half = 0.5 * pair.face_width();
-    let scene = set.scene(options);
-    // Stay inside the faces: the flank's edge nodes are on the surface to round-off or, from Gmsh, to a nanometre.
-    let inset = |lo: f64, hi: f64| (lo + 1e-6 * (hi - lo), hi - 1e-6 * (hi - lo));
-    let (u_low, u_high) = inset(low[0].max(start / base_radius), high[0].min(end / base_radius));
-    let (z_low, z_high) = inset(low[1].max(-half), high[1].min(half));
-    let tooth = window_tooth(pair, options, e, set, first);
+    let line = LinePoints::new();
+    let scene = set.scene(options, &line);
+    let inset = 1e-6 * (high[1] - low[1]);
+    let (z_low, z_high) = ((low[1] + inset).max(-half), (high[1] - inset).min(half));
     (0..LINE_SAMPLES)
         .map(|i| {
             let z = z_low + (z_high - z_low) * i as f64 / (LINE_SAMPLES - 1) as f64;
-            let xi = tooth + side.sign() * pair.base_helix_angle().tan() * z;
-            let coordinates = [(xi / base_radius).clamp(u_low, u_high), z];
-            let gap = patch.face_at(coordinates).and_then(|at| {
-                let position = patch.surface().point(coordinates);
-                let point = ContactPoint { at, coordinates, position, area: 0.0 };
+            let gap = least_gap(patch, other, &e.poses, z).and_then(|coordinates| {
+                let at = patch.face_at(coordinates)?;
+                let point = ContactPoint { at, coordinates, position: patch.surface().point(coordinates), area: 0.0 };
                 let row = contact_row(&scene, &e.poses, (first, second), usize::MAX, &point)?;
-                Some(
-                    row.gap
-                        + opening(&row.supports[0], &e.displacements[0])
-                        + opening(&row.supports[1], &e.displacements[1]),
-                )
+                let [u1, u2] = &e.displacements;
+                Some(row.gap + opening(&row.supports[0], u1) + opening(&row.supports[1], u2))
             });
             LineSample { z, gap: gap.unwrap_or(f64::INFINITY) }
         })
         .collect()
-}
-
-/// Path coordinate at mid-face of a patch's tooth, mm from T1.
-fn window_tooth(pair: &GearPair, options: &StaticOptions, e: &Equilibrium, set: &ContactSet, patch: usize) -> f64 {
-    // The pinion frame's own angle plus the tooth's place in it; whole turns drop out.
-    let frame = e.poses[0].rotation.euler_angles().2;
-    let tooth = set.patches()[0][patch].tooth as f64 * pair.pinion.pitch_angle();
-    let middle = pair.middle_angle(options.side());
-    let turn = frame + tooth - middle;
-    let wrapped = turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
-    pair.path_coordinate(options.side(), middle + wrapped, 0, 0.0)
 }
 
 /// Least gap [mm] at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.

@@ -83,3 +83,33 @@ pub fn summary(values: impl Iterator<Item = f64>) -> (f64, f64) {
     }
     (sum / n, high - low)
 }
+
+/// The default pair at another helix angle [deg] on meshes of the built-in mesher, hex8;
+/// `counts`: elements along the profile, the fillet, across the tooth, along the face, in the rim.
+pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
+    let data = GearData { helix_angle: beta_deg.to_radians(), ..GearData::default() };
+    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
+    let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let [profile, fillet, thickness, face, rim] = counts;
+    let options = mesh::StructuredOptions {
+        order: 1,
+        elements_profile: profile,
+        elements_fillet: fillet,
+        elements_thickness: thickness,
+        elements_face: face,
+        elements_rim: rim,
+        extent: mesh::Extent::Whole,
+    };
+    let meshes = [&pair.pinion, &pair.wheel].map(|gear| {
+        let mesh = mesh::generate(gear, &options).unwrap();
+        GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
+    });
+    Case { pair, meshes, elements: ElementOptions::default(), torque: 150e3 }
+}
+
+/// The same mesh, larger.
+pub fn scaled(gear: &GearMesh, by: f64) -> GearMesh {
+    let mut mesh = gear.mesh().clone();
+    mesh.nodes.iter_mut().flatten().for_each(|x| *x *= by);
+    GearMesh::from_groups(mesh, &GroupNames::default(), gear.tooth_count()).unwrap()
+}
