@@ -29,7 +29,7 @@ pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use least_gap::least_gap;
-pub use line_length::{LineSample, contact_length};
+pub use line_length::{contact_intervals, covered};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
 pub use surface::{Cylinder, Foot, Surface};
