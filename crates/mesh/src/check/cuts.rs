@@ -2,12 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::nodes::{extent, place};
 use super::{Finding, FindingKind, Severity};
+use crate::periodic::{Places, Turn};
 use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup};
-
-/// Nodes of the cuts must fit within this times the extent of the mesh (failure mode F8).
-const FIT: f64 = 1e-9;
 
 /// Compares `cut_1` with `cut_0` turned by the angle of the sector: node count, face kinds, distances.
 ///
@@ -33,23 +30,16 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
     }
     let Some(teeth) = teeth.filter(|&z| z > 0) else { return };
     let angle = TAU * sector.len().max(1) as f64 / f64::from(teeth);
-    let (sin, cos) = angle.sin_cos();
-    let tolerance = FIT * extent(mesh);
-    let mut targets: Vec<(f64, [f64; 3])> =
-        to.iter().map(|&n| mesh.nodes[n as usize]).map(|x| (place(&x), x)).collect();
-    targets.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let turn = Turn::new(angle);
+    let targets = Places::new(mesh, &to);
     let mut stray = Vec::new();
     let mut farthest: f64 = 0.0;
     for &node in &from {
-        let [x, y, z] = mesh.nodes[node as usize];
-        let turned = [cos * x - sin * y, sin * x + cos * y, z];
-        let start = targets.partition_point(|t| t.0 < place(&turned) - tolerance);
-        let near = targets[start..].iter().take_while(|t| t.0 <= place(&turned) + tolerance);
-        if near.map(|t| apart(&t.1, &turned)).all(|d| d > tolerance) {
+        let turned = turn.of(mesh.nodes[node as usize]);
+        if targets.at(&turned).is_none() {
             // The true distance costs a search, so take it of the first few alone.
             if stray.len() < 100 {
-                let least = targets.iter().map(|t| apart(&t.1, &turned)).fold(f64::INFINITY, f64::min);
-                farthest = farthest.max(least);
+                farthest = farthest.max(targets.nearest(&turned));
             }
             stray.push(node);
         }
@@ -71,8 +61,4 @@ fn kinds(group: &SurfaceGroup) -> Vec<FaceKind> {
     let mut kinds: Vec<FaceKind> = group.faces.iter().map(|f| f.kind).collect();
     kinds.sort_unstable();
     kinds
-}
-
-fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
