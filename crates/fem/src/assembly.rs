@@ -24,7 +24,7 @@ pub struct System {
     pub mass: SymmetricMatrix,
 }
 
-/// Stiffness K [N/mm] and consistent mass M [t] of the free degrees of freedom.
+/// Stiffness K (N/mm) and consistent mass M (t) of the free degrees of freedom.
 ///
 /// The same bits for any number of threads.
 ///
@@ -36,7 +36,7 @@ pub fn assemble(mesh: &Mesh, material: &Material, dofs: &DofMap, options: &Eleme
     Ok(System { stiffness: stiffness_on(&pattern, mesh, material, options)?, mass: mass_on(&pattern, mesh, material)? })
 }
 
-/// Stiffness K [N/mm] alone; see [`assemble`].
+/// Stiffness K (N/mm) alone; see [`assemble`].
 ///
 /// # Errors
 /// As [`assemble`].
@@ -49,7 +49,7 @@ pub fn assemble_stiffness(
     stiffness_on(&Pattern::new(mesh, dofs)?, mesh, material, options)
 }
 
-/// Consistent mass M [t] alone; see [`assemble`].
+/// Consistent mass M (t) alone; see [`assemble`].
 ///
 /// # Errors
 /// As [`assemble`].

@@ -72,7 +72,7 @@ impl DofMap {
         self.free_nodes.get(dof / 3).map(|&node| (node, dof % 3))
     }
 
-    /// Displacement of every node [mm] from that of the free degrees of freedom; fixed nodes rest.
+    /// Displacement of every node (mm) from that of the free degrees of freedom; fixed nodes rest.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `free` does not have `free_count()` entries.

@@ -70,8 +70,7 @@ impl BoundaryLastFactor {
             Spec::default(),
         );
         if let Err(LltError::NonPositivePivot { index }) = result {
-            // the index counts from 0 or 1, depending on the kernel that met it
-            let dof = ordering.forward.get(index.min(stiffness.n() - 1)).copied().unwrap_or(0);
+            let dof = ordering.forward.get(index).copied().unwrap_or(index);
             return Err(FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 });
         }
         let factor = Self { ordering, symbolic, values, boundary: boundary.to_vec() };
@@ -121,12 +120,12 @@ impl BoundaryLastFactor {
         heights.map(|h| (h as f64) * (h as f64)).sum()
     }
 
-    /// Condensed stiffness K^ = L_BB L_BB' [N/mm], n_B x n_B, both triangles.
+    /// Condensed stiffness K^ = L_BB L_BB' (N/mm), n_B x n_B, both triangles.
     pub fn condensed_stiffness(&self) -> Mat<f64> {
         dense::times_transpose(self.boundary_factor().as_ref())
     }
 
-    /// Compliance C = K^^-1 [mm/N] of the boundary, n_B x n_B, both triangles.
+    /// Compliance C = K^^-1 (mm/N) of the boundary, n_B x n_B, both triangles.
     pub fn compliance(&self) -> Mat<f64> {
         dense::inverse_of_product(self.boundary_factor().as_ref())
     }
@@ -136,7 +135,7 @@ impl BoundaryLastFactor {
     /// ```text
     /// u = T u_B = [Phi_IC u_B; u_B],   L_II' u_I = -L_BI' u_B
     /// ```
-    /// `boundary`: n_B x k [mm]; result: n x k [mm] in the matrix's own numbering. The same map carries any
+    /// `boundary`: n_B x k (mm); result: n x k (mm) in the matrix's own numbering. The same map carries any
     /// boundary quantity, velocities for instance.
     ///
     /// # Errors
@@ -161,7 +160,7 @@ impl BoundaryLastFactor {
     /// ```text
     /// f^ = T' f = f_B - L_BI L_II^-1 f_I
     /// ```
-    /// `force`: n x k [N] in the matrix's own numbering; result: n_B x k [N]. The adjoint of
+    /// `force`: n x k (N) in the matrix's own numbering; result: n_B x k (N). The adjoint of
     /// [`BoundaryLastFactor::expand`].
     ///
     /// # Errors
@@ -180,7 +179,7 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Solves K x = b in place for one or many columns; `rhs`: n x k, b [N] in, x [mm] out.
+    /// Solves K x = b in place for one or many columns; `rhs`: n x k, b (N) in, x (mm) out.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `rhs` does not have n rows.

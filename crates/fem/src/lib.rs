@@ -3,7 +3,7 @@
 //! From a mesh to its matrices and their factors:
 //!
 //! 1. [`Material`], [`ElementOptions`], [`DofMap`]: what is meant;
-//! 2. [`assemble`]: sparse stiffness [N/mm] and consistent mass [t];
+//! 2. [`assemble`]: sparse stiffness (N/mm) and consistent mass (t);
 //! 3. [`BoundaryLastFactor`]: one sparse Cholesky factor that holds the condensed stiffness, the compliance
 //!    and the constraint modes of chosen boundary coordinates;
 //! 4. [`IndefiniteFactor`]: the same for a system with constraints;

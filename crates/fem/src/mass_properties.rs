@@ -23,7 +23,7 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// Inertia tensor about another `point` [mm], t mm^2 (Huygens and Steiner).
+    /// Inertia tensor about another `point` (mm), t mm^2 (Huygens and Steiner).
     pub fn inertia_about_tmm2(&self, point: [f64; 3]) -> [[f64; 3]; 3] {
         let d = [0, 1, 2].map(|a| self.centre_mm[a] - point[a]);
         std::array::from_fn(|a| std::array::from_fn(|b| self.inertia_tmm2[a][b] + self.mass_t * spread(d, a, b)))

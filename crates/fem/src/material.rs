@@ -14,7 +14,7 @@ impl Material {
     /// Case-hardened steel as most gears have: 206 GPa, 0.3, 7850 kg/m^3.
     pub const STEEL: Self = Self { young: 2.06e5, poisson: 0.3, density: 7.85e-9 };
 
-    /// A material from Young's modulus [MPa], Poisson's ratio [1] and density [t/mm^3].
+    /// A material from Young's modulus (MPa), Poisson's ratio and density (t/mm^3).
     ///
     /// Displacement elements lock as nu nears 1/2, so nu >= 0.4999 is refused.
     ///
@@ -76,7 +76,7 @@ impl Material {
         d
     }
 
-    /// Stress [MPa] of a strain; components as in [`Material::elasticity_mpa`].
+    /// Stress (MPa) of a strain; components as in [`Material::elasticity_mpa`].
     pub fn stress_mpa(&self, strain: [f64; 6]) -> [f64; 6] {
         let (lambda, mu) = self.lame_mpa();
         let pressure = lambda * (strain[0] + strain[1] + strain[2]);

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
 use element::ElementStress;
 
-/// Stress at every node [MPa] from the displacement of every node [mm].
+/// Stress at every node (MPa) from the displacement of every node (mm).
 ///
 /// Nodes of no element get zero. The same bits for any number of threads.
 ///

@@ -144,3 +144,15 @@ fn damaged_meshes_are_refused() {
     assert!(matches!(run(&mesh, &dofs), Err(FemError::Inverted { tag: 1, .. })));
     assert!(matches!(run(&good, &DofMap::new(7, &[])), Err(FemError::Shape { .. })));
 }
+
+/// Nothing in, nothing out, and no panic on the way.
+#[test]
+fn an_empty_mesh_gives_empty_matrices() {
+    let dofs = DofMap::new(0, &[]);
+    let system = assemble(&mesh::Mesh::default(), &STEEL, &dofs, &ElementOptions::default()).unwrap();
+    assert_eq!((system.stiffness.n(), system.mass.n()), (0, 0));
+    let factor = fem::BoundaryLastFactor::new(&system.stiffness, &[]).unwrap();
+    assert_eq!((factor.n(), factor.nonzeros()), (0, 0));
+    assert_eq!(fem::IndefiniteFactor::new(&system.stiffness, &[]).unwrap().n(), 0);
+    assert_eq!(mass_properties(&mesh::Mesh::default(), &STEEL).unwrap().mass_t, 0.0);
+}

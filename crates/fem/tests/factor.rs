@@ -181,6 +181,28 @@ fn a_body_that_can_move_is_refused() {
     assert!(matches!(run(&clamped, &[9999]), Err(FemError::BadDof { dof: 9999, .. })));
 }
 
+/// The message names the degree of freedom that breaks down, in the matrix's own numbering.
+#[test]
+fn the_loose_degree_of_freedom_is_named() {
+    for n in [3, 40, 300] {
+        for loose in [0, 1, n / 2, n - 1] {
+            // a chain of springs to ground; one entry has lost its ground and its sign
+            let triplets: Vec<_> = (0..n)
+                .map(|i| (i, i, if i == loose { -1.0 } else { 4.0 }))
+                .chain((1..n).map(|i| (i, i - 1, 0.1)))
+                .collect();
+            let k = SymmetricMatrix::from_triplets(n, &triplets).unwrap();
+            let backwards: Vec<usize> = (0..n).rev().collect();
+            for boundary in [&[][..], &backwards] {
+                match BoundaryLastFactor::new(&k, boundary) {
+                    Err(FemError::NotPositiveDefinite { dof, .. }) => assert_eq!(dof, loose),
+                    other => panic!("{other:?}"),
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn wrong_sizes_are_refused() {
     let (_, _, k) = clamped(ElementKind::Hex8, [2, 2, 2]);

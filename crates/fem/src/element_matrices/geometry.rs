@@ -36,7 +36,7 @@ impl Table {
     }
 }
 
-/// Inverse of the Jacobian dx/dxi, and its determinant [mm^3]; `inverse[k][a]` = dxi_k / dx_a.
+/// Inverse of the Jacobian dx/dxi, and its determinant (mm^3); `inverse[k][a]` = dxi_k / dx_a.
 ///
 /// # Errors
 /// [`FemError::Inverted`] when the determinant is not above zero.
@@ -72,7 +72,7 @@ pub(crate) fn checked_jacobian(
     Ok((inverse, det))
 }
 
-/// Gradients in true coordinates [1/mm] from reference gradients: g = J^-T dN/dxi.
+/// Gradients in true coordinates (1/mm) from reference gradients: g = J^-T dN/dxi.
 pub(crate) fn gradients(inverse: &[[f64; 3]; 3], dn: &[[f64; 3]], g: &mut [[f64; 3]]) {
     for (g, d) in g.iter_mut().zip(dn) {
         *g = [0, 1, 2].map(|a| d[0] * inverse[0][a] + d[1] * inverse[1][a] + d[2] * inverse[2][a]);

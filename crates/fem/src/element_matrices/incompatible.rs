@@ -15,7 +15,7 @@ use super::{IncompatibleModes, kernels::block_index};
 pub(crate) const BUBBLES: usize = 3;
 const NODES: usize = 8;
 
-/// Gradients [1/mm] of the three bubbles at `xi`.
+/// Gradients (1/mm) of the three bubbles at `xi`.
 pub(crate) fn bubble_gradients(
     modes: IncompatibleModes,
     xi: [f64; 3],
@@ -37,7 +37,7 @@ pub(crate) struct Condensed {
 }
 
 impl Condensed {
-    /// Amplitudes alpha_k of the three bubbles [mm] for the nodes' displacements [mm].
+    /// Amplitudes alpha_k of the three bubbles (mm) for the nodes' displacements (mm).
     pub(crate) fn amplitudes(&self, displacement: &[[f64; 3]]) -> [[f64; 3]; BUBBLES] {
         let u = SVector::<f64, 24>::from_iterator(displacement.iter().flatten().copied());
         let alpha = -self.k_aa.solve(&(self.k_au * u));

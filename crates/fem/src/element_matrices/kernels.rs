@@ -108,7 +108,7 @@ impl StiffnessKernel {
     }
 }
 
-/// Consistent mass of elements of one kind; one scalar [t] a node pair, the same for x, y and z.
+/// Consistent mass of elements of one kind; one scalar (t) a node pair, the same for x, y and z.
 pub(crate) struct MassKernel {
     kind: ElementKind,
     table: Table,
@@ -138,7 +138,7 @@ impl MassKernel {
     }
 }
 
-/// Stiffness matrix of one element, 3n x 3n [N/mm]; row 3i + axis belongs to local node i.
+/// Stiffness matrix of one element, 3n x 3n (N/mm); row 3i + axis belongs to local node i.
 ///
 /// # Errors
 /// [`FemError::Shape`] for a wrong number of nodes, [`FemError::Inverted`] with that `tag`.
@@ -168,7 +168,7 @@ pub fn element_stiffness(
     Ok(dense)
 }
 
-/// Consistent mass matrix of one element for one direction, n x n [t].
+/// Consistent mass matrix of one element for one direction, n x n (t).
 ///
 /// # Errors
 /// As [`element_stiffness`].

@@ -20,7 +20,8 @@ pub enum Integration {
     /// 3 x 3 x 3 points: no zero modes but the rigid ones.
     #[default]
     Full,
-    /// 2 x 2 x 2 points: a little softer, with six zero modes that do not pass from element to element.
+    /// 2 x 2 x 2 points: a little softer. Each element has six zero modes more; they die out where
+    /// elements lie side by side, but not along a single stack, which is then refused as movable.
     Reduced,
 }
 

@@ -72,7 +72,7 @@ impl ElementStress {
         Ok(Prepared { gradients: all, bubbles: condensed.map(|c| (bubbles, c)) })
     }
 
-    /// Stress [MPa] at each node from the nodes' displacements [mm].
+    /// Stress (MPa) at each node from the nodes' displacements (mm).
     pub(super) fn at_nodes(&self, prepared: &Prepared, u: &[[f64; 3]]) -> Vec<[f64; 6]> {
         let amplitudes = prepared.bubbles.as_ref().map(|(g, c)| (g, c.amplitudes(u)));
         let at_points: Vec<[f64; 6]> = prepared

@@ -146,6 +146,10 @@ mod tests {
     /// Points inside, on the border and outside of every reference element.
     const PROBES: [[f64; 3]; 4] = [[0.2, 0.3, 0.1], [0.0, 0.0, -1.0], [-0.7, 0.4, 0.9], [0.31, 0.17, -0.6]];
 
+    fn middle(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
+    }
+
     #[test]
     fn each_shape_function_is_one_at_its_node_and_zero_at_the_others() {
         for kind in ElementKind::ALL {
@@ -228,10 +232,7 @@ mod tests {
                     let corners = face.corner_count();
                     for k in 0..corners {
                         let (a, b, m) = (local[k], local[(k + 1) % corners], local[corners + k]);
-                        for d in 0..3 {
-                            let middle = 0.5 * (nodes[a][d] + nodes[b][d]);
-                            assert_eq!(nodes[m][d], middle, "{}: node {m}", kind.name());
-                        }
+                        assert_eq!(nodes[m], middle(nodes[a], nodes[b]), "{}: node {m}", kind.name());
                     }
                 }
             }
@@ -244,9 +245,7 @@ mod tests {
         for kind in ElementKind::ALL.into_iter().filter(|k| k.order() == 2) {
             let nodes = kind.reference_nodes();
             for (k, &[a, b]) in kind.edges().iter().enumerate() {
-                for d in 0..3 {
-                    assert_eq!(nodes[kind.corner_count() + k][d], 0.5 * (nodes[a][d] + nodes[b][d]));
-                }
+                assert_eq!(nodes[kind.corner_count() + k], middle(nodes[a], nodes[b]));
             }
         }
     }
