@@ -57,18 +57,6 @@ impl RunArgs {
                 Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
             ));
         }
-        for (whose, gear) in [("pinion", &scene.pinion), ("wheel", &scene.wheel)] {
-            let periodic = gear.mesher.is_some_and(|m| m.sector_teeth == 1);
-            if periodic && scene.analysis.model != Model::Iso {
-                return Err(CommandError::input(
-                    format_args!(
-                        "{}: [{whose}.mesher] sector_teeth = 1 is a periodic sector, which this version can mesh but not run",
-                        self.scene.display()
-                    ),
-                    Some("use `sector_teeth = 0` for the whole gear".into()),
-                ));
-            }
-        }
         if self.threads == Some(0) {
             return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
         }
