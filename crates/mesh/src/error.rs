@@ -171,7 +171,7 @@ impl From<MshError> for MeshError {
 }
 
 /// Names for a message, at most twelve.
-fn list(names: &[String]) -> String {
+pub(crate) fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "no groups of dimension 2".into();
     }

@@ -1,10 +1,13 @@
 //! Whether the two cut faces of a sector are the same face turned.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+
+use geometry::Side;
 
 use super::{Finding, FindingKind, Severity};
 use crate::periodic::{Places, Turn};
-use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup};
+use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup, info};
 
 /// Compares `cut_1` with `cut_0` turned by the angle of the sector: node count, face kinds, distances.
 ///
@@ -12,10 +15,11 @@ use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup};
 /// teeth are used with free cuts, where it does not matter.
 pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, findings: &mut Vec<Finding>) {
     let (Some(first), Some(second)) = (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) else { return };
-    let mut sector: Vec<i64> = mesh.surfaces.iter().filter_map(|s| Some(names.parse(&s.name)?.1)).collect();
-    sector.sort_unstable();
-    sector.dedup();
-    let severity = if sector.len() <= 1 { Severity::Error } else { Severity::Note };
+    let named = named_teeth(mesh, names);
+    // Without named flanks the directions of the cuts tell how many teeth lie between them.
+    let between = || Some((info::between_cuts(mesh, names)? / TAU * f64::from(teeth?)).round().max(1.0));
+    let count = if named > 0 { Some(named as f64) } else { between() };
+    let severity = if count == Some(1.0) { Severity::Error } else { Severity::Note };
     let mut report = |count: usize, nodes: &[u32], text: String| {
         let finding = Finding::new(severity, FindingKind::CutsDiffer, count, text);
         findings.push(finding.at_nodes(mesh, nodes.iter().copied()));
@@ -28,8 +32,8 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
     if kinds(first) != kinds(second) {
         report(1, &[], format!("`{}` and `{}` have faces of different kinds or numbers", first.name, second.name));
     }
-    let Some(teeth) = teeth.filter(|&z| z > 0) else { return };
-    let angle = TAU * sector.len().max(1) as f64 / f64::from(teeth);
+    let (Some(teeth), Some(count)) = (teeth.filter(|&z| z > 0), count) else { return };
+    let angle = TAU * count / f64::from(teeth);
     let turn = Turn::new(angle);
     let targets = Places::new(mesh, &to);
     let mut stray = Vec::new();
@@ -55,6 +59,13 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
         );
         report(stray.len(), &stray, text);
     }
+}
+
+/// Teeth of the sector by its named flanks; a sector cut through the teeth has a left and a right flank of two of them.
+fn named_teeth(mesh: &Mesh, names: &GroupNames) -> usize {
+    let flanks: BTreeSet<_> = mesh.surfaces.iter().filter_map(|s| names.parse(&s.name)).collect();
+    let of = |side| flanks.iter().filter(|f| f.0 == side).count();
+    of(Side::Left).max(of(Side::Right))
 }
 
 fn kinds(group: &SurfaceGroup) -> Vec<FaceKind> {
