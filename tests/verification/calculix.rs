@@ -52,7 +52,7 @@ fn run(mesh: &str, elements: ElementOptions, gap: GapSource) -> StaticHistory {
     options.gap = gap;
     options.points_per_face_edge = 8;
     let mut model: StaticModel = case.reduced(options);
-    model.run(8, 1, |_, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
+    model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
 }
 
 fn compare(name: &str, history: &StaticHistory, reference: &Reference) {

@@ -11,6 +11,7 @@
 pub mod command;
 pub mod error;
 pub mod facts;
+mod fields;
 pub mod memory;
 pub mod output;
 pub mod phases;

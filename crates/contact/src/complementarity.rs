@@ -84,9 +84,13 @@ pub struct Solution {
     pub residual: f64,
 }
 
-/// Row compliance of exact contact while iterating, relative to a point's own compliance. The proximal iteration takes
-/// its effect out again; larger: more proximal steps, smaller: worse conditioned where points outnumber nodes.
-const PROXIMAL_COMPLIANCE: f64 = 1e-7;
+/// Row compliance of exact contact in the first proximal step, relative to a point's own compliance: large enough that
+/// the active set settles in a few pivots from any start.
+const FIRST_COMPLIANCE: f64 = 0.1;
+/// Each proximal step's compliance relative to the one before: the set hardly changes from step to step.
+const COMPLIANCE_DECAY: f64 = 0.1;
+/// Smallest; below it rows of faces with more points than nodes are linearly dependent to round-off.
+const LAST_COMPLIANCE: f64 = 1e-7;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 60;
 /// Violation that counts as solved, relative to approach and force.
@@ -95,9 +99,9 @@ const TOLERANCE: f64 = 1e-11;
 /// Solves the contact of `rows` under `moment` [N mm] about the body whose levers are `levers`.
 ///
 /// Block principal pivoting (all violated points change at once), single least-index pivots after Murty when that
-/// stops making progress, so it ends. Exact contact with more points than nodes has no unique forces; the
-/// proximal-point method then picks the forces next to `start` and converges to zero penetration all the same.
-/// `start`: forces of an earlier solution at these rows, or zeros.
+/// stops making progress, so it ends. Exact contact with more points than nodes has no unique forces and no
+/// regular matrix; the proximal-point method (a local compliance about the forces of the step before, smaller from step to step)
+/// converges to zero penetration all the same. `start`: forces of an earlier solution at these rows, or zeros.
 ///
 /// # Errors
 /// [`ContactError::NotConverged`], [`ContactError::NoLever`].
@@ -117,7 +121,7 @@ pub fn solve(
     }
     let compliance = match law {
         Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
-        Law::Exact => vec![PROXIMAL_COMPLIANCE * bodies.self_compliance()?; rows.len()],
+        Law::Exact => vec![0.0; rows.len()],
     };
     let mut problem = Problem { gaps, levers: levers.to_vec(), compliance, moment };
     let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
@@ -128,9 +132,12 @@ pub fn solve(
         let (answer, active, iterations) = pivot(bodies, &problem, active)?;
         return Ok(finish(rows, &problem, answer, active, iterations));
     };
+    let own = bodies.self_compliance()?;
     let mut before = start.to_vec();
     let mut total = 0;
+    let mut relative = FIRST_COMPLIANCE;
     for _ in 0..PROXIMAL_STEPS {
+        problem.compliance.fill(relative * own);
         for (i, row) in rows.iter().enumerate() {
             problem.gaps[i] = row.gap - problem.compliance[i] * before[i];
         }
@@ -143,6 +150,7 @@ pub fn solve(
         }
         before.clone_from(&solution.forces);
         active = settled;
+        relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
     Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
 }

@@ -202,21 +202,24 @@ impl FlankPatch {
         [low.add_scalar(-margin), high.add_scalar(margin)]
     }
 
-    /// Range of surface coordinates of a face, grown a little for curved edges.
+    /// Range of surface coordinates of a face.
     fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
         range(self.corners(face).map(|n| n.at))
     }
 
     /// Range of surface coordinates of the whole patch.
     pub fn range(&self) -> [[f64; 2]; 2] {
-        let mut r = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for n in &self.nodes {
-            for k in 0..2 {
-                r[0][k] = r[0][k].min(n.at[k]);
-                r[1][k] = r[1][k].max(n.at[k]);
-            }
+        range(self.nodes.iter().map(|n| n.at))
+    }
+
+    /// Mean size of a face in each surface coordinate.
+    pub fn mean_face_size(&self) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for face in 0..self.faces.len() {
+            let [low, high] = self.face_range(face);
+            (0..2).for_each(|k| sum[k] += high[k] - low[k]);
         }
-        r
+        sum.map(|s| s / self.faces.len().max(1) as f64)
     }
 
     /// The face point with the given surface coordinates; `None` outside the patch.
@@ -240,11 +243,9 @@ impl FlankPatch {
             let (mut r, mut j) = ([-at[0], -at[1]], [[0.0; 2]; 2]);
             for (i, &node) in f.nodes[..count].iter().enumerate() {
                 let q = self.nodes[node as usize].at;
-                for a in 0..2 {
-                    r[a] += n[i] * q[a];
-                    for b in 0..2 {
-                        j[a][b] += dn[i][b] * q[a];
-                    }
+                for (a, &q) in q.iter().enumerate() {
+                    r[a] += n[i] * q;
+                    j[a] = [j[a][0] + dn[i][0] * q, j[a][1] + dn[i][1] * q];
                 }
             }
             let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];

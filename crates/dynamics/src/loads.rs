@@ -11,8 +11,9 @@ const LINE_SAMPLES: usize = 193;
 /// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
 /// interpolated deflection leaves gaps of that order open.
 const TOUCHING: f64 = 0.02;
-/// Axial bins for the line load behind the Hertzian pressure.
-const PRESSURE_BINS: usize = 12;
+/// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
+/// and only over more than an element do their forces add up to a line load.
+const BIN_ELEMENTS: f64 = 1.5;
 
 /// Forces and moments on both gears, about their own centres, common axes.
 pub(crate) fn wrenches(pair: &GearPair, rows: &[ContactRow], forces: &[f64]) -> [Wrench; 2] {
@@ -58,8 +59,10 @@ pub(crate) fn position(
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let wrench = wrenches(pair, &e.rows, &e.solution.forces);
-    let pairs: Vec<PairResult> =
+    let mut pairs: Vec<PairResult> =
         (0..window.count()).map(|k| pair_result(pair, gears, set, window, options, e, k)).collect();
+    // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
+    pairs.sort_by_key(|p| p.pair);
     let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
     let moment = -side.sign() * options.torque;
@@ -122,10 +125,12 @@ fn pair_result(
         if touches { contact_length(&part, tolerance, along) } else { 0.0 }
     };
     let half = 0.5 * pair.face_width();
-    let bin = pair.face_width() / PRESSURE_BINS as f64;
+    let face = set.patch_of(0, k, options.side()).map_or(0.0, |p| set.patches()[0][p].mean_face_size()[1]);
+    let bins = (pair.face_width() / (BIN_ELEMENTS * face)).floor().clamp(1.0, 64.0) as usize;
+    let bin = pair.face_width() / bins as f64;
     let modulus =
         hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
-    let max_pressure = (0..PRESSURE_BINS)
+    let max_pressure = (0..bins)
         .map(|b| {
             let (from, to) = (-half + b as f64 * bin, -half + (b + 1) as f64 * bin);
             let inside = |row: &ContactRow| row.coordinates[1] >= from && row.coordinates[1] < to;
@@ -144,7 +149,7 @@ fn pair_result(
         })
         .fold(0.0, f64::max);
     PairResult {
-        pair: running,
+        pair: options.sense.sign() * running,
         pinion_tooth,
         wheel_tooth,
         normal_force: loaded.iter().map(|(_, f)| f).sum(),

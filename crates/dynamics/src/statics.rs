@@ -134,14 +134,14 @@ impl StaticModel {
         let theta1 = station.pinion_angle(&self.pair, &self.options);
         let lines = self.pair.contact_lines(self.options.side(), theta1);
         let middle = station.middle_pair(&self.options);
-        let pairs: Vec<_> = self
+        let mut pairs: Vec<_> = self
             .window
             .pairs()
             .map(|running| {
                 let line = lines.iter().find(|l| l.tooth == running - middle);
                 let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
                 crate::PairResult {
-                    pair: running,
+                    pair: self.options.sense.sign() * running,
                     pinion_tooth,
                     wheel_tooth,
                     normal_force: 0.0,
@@ -151,6 +151,7 @@ impl StaticModel {
                 }
             })
             .collect();
+        pairs.sort_by_key(|p| p.pair);
         StaticPosition {
             pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
             mesh_phase: station.phase,
@@ -173,7 +174,7 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
-        let forces: Vec<f64> = before.pairs.iter().map(|p| p.normal_force).collect();
+        let forces: Vec<f64> = self.window.pairs().map(|running| self.force_of(before, running)).collect();
         let next = self.window.change(self.options.sense, &forces)?;
         self.enter(next)?;
         self.changes += 1;
@@ -182,6 +183,12 @@ impl StaticModel {
             last.solution.active.clear();
         }
         self.solve(station)
+    }
+
+    /// Normal force of the pair of a running number, N; results number pairs in the sense of rotation.
+    fn force_of(&self, position: &StaticPosition, running: i64) -> f64 {
+        let number = self.options.sense.sign() * running;
+        position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
     }
 
     fn enter(&mut self, window: ToothWindow) -> Result<(), StaticError> {
@@ -218,8 +225,7 @@ impl StaticModel {
                 },
                 Err(_) => break,
             };
-            let outgoing = (self.window.outgoing(self.options.sense) - self.window.first()) as usize;
-            if before.pairs[outgoing].normal_force != 0.0 {
+            if self.force_of(&before, self.window.outgoing(self.options.sense)) != 0.0 {
                 break;
             }
             let after = self.change(&before, station)?;
@@ -237,13 +243,13 @@ impl StaticModel {
         &mut self,
         positions: usize,
         cycles: usize,
-        mut seen: impl FnMut(usize, &StaticPosition),
+        mut seen: impl FnMut(usize, &StaticPosition, &Self),
     ) -> Result<StaticHistory, StaticError> {
         let mut history = StaticHistory::default();
         for i in 0..positions * cycles {
             let station = Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 };
             let position = self.advance(station, |_| ())?;
-            seen(i, &position);
+            seen(i, &position, self);
             history.positions.push(position);
         }
         Ok(history)
