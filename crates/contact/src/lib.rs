@@ -21,6 +21,7 @@ mod least_gap;
 mod line_length;
 mod patch;
 mod points;
+mod pressure;
 mod surface;
 
 pub use candidates::{Candidates, FacePair};
@@ -32,6 +33,7 @@ pub use least_gap::least_gap;
 pub use line_length::{contact_intervals, covered};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
+pub use pressure::nodal_pressures;
 pub use surface::{Cylinder, Foot, Surface};
 
 /// Points and vectors, mm.
