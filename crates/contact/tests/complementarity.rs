@@ -45,12 +45,14 @@ fn row(gap: f64) -> ContactRow {
     }
 }
 
-/// C = B B' of the given rank, entries about 1e-5 mm/N.
+/// C = B B' + bending: of rank + 1, entries about 1e-5 mm/N. Bending alike at all rows: as on a tooth, no set of pressing forces leaves it
+/// undeflected.
 fn compliance(n: usize, rank: usize, seed: &[f64]) -> Mat<f64> {
     let b = Mat::from_fn(n, rank, |i, j| {
         1e-3 * seed[(i * 7919 + j * 104_729) % seed.len()] + if i % rank == j { 3e-3 } else { 0.0 }
     });
-    &b * b.transpose()
+    let local = &b * b.transpose();
+    Mat::from_fn(n, n, |i, j| local[(i, j)] + 1e-5)
 }
 
 fn check(c: &Mat<f64>, gaps: &[f64], moment: f64, law: Law) -> Result<(), TestCaseError> {
@@ -80,7 +82,7 @@ proptest! {
     #[test]
     fn conditions_hold(
         n in 1..60usize, share in 0.2..1.0f64, seed in prop::collection::vec(-1.0..1.0f64, 211),
-        spread in prop_oneof![Just(0.0), Just(1e-9), 1e-5..1e-1f64], load in -3..6i32, penalty in prop::option::of(3.0..9.0f64),
+        spread in prop_oneof![Just(0.0), Just(1e-9), 1e-5..1e-3f64], load in 0..6i32, penalty in prop::option::of(3.0..9.0f64),
     ) {
         let rank = ((n as f64 * share).ceil() as usize).max(1);
         let gaps: Vec<f64> = (0..n).map(|i| spread * seed[(i * 31) % seed.len()].abs()).collect();
