@@ -11,7 +11,7 @@ use support::{Case, generated};
 
 /// A pair of helix angle `beta` on small meshes of the built-in mesher.
 fn small_case(beta_deg: f64) -> Case {
-    generated(beta_deg, [3, 2, 2, 8, 2])
+    generated(beta_deg, [4, 2, 2, 12, 2])
 }
 
 /// Total contact-line length as the torque goes to zero against the analytic value, 32 positions: within 1 %.
@@ -26,16 +26,6 @@ fn contact_line_length_tends_to_the_analytic_one() {
         let mut worst = (0.0f64, 0.0);
         for p in &history.positions {
             let off = p.contact_line_length / p.geometric_line_length - 1.0;
-            if off.abs() > 0.01 {
-                println!(
-                    "beta {beta} phase {} te {:e} L {} {} {:?}",
-                    p.mesh_phase,
-                    p.transmission_error,
-                    p.contact_line_length,
-                    p.geometric_line_length,
-                    p.pairs.iter().map(|p| (p.contact_line_length, p.normal_force)).collect::<Vec<_>>()
-                );
-            }
             if off.abs() > worst.0.abs() {
                 worst = (off, p.mesh_phase);
             }
@@ -85,7 +75,8 @@ fn forces_are_in_equilibrium() {
             assert!((w1.force[0].abs() / on_plane - a_wt.sin()).abs() < 1e-3, "{at}: pressure angle");
             let total: f64 = p.pairs.iter().map(|q| q.normal_force).sum();
             let sum = 20e3 / base_radius / case.pair.base_helix_angle().cos();
-            assert!((total / sum - 1.0).abs() < 1e-5, "{at}: sum of normal forces {total}, {sum}");
+            // The normals are the wheel's: exact for its torque, to the width of the band for the pinion's.
+            assert!((total / sum - 1.0).abs() < 1e-4, "{at}: sum of normal forces {total}, {sum}");
             assert!(p.transmission_error > 0.0, "{at}: the driven gear lags: {}", p.transmission_error);
         }
     }

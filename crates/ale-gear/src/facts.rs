@@ -37,7 +37,7 @@ pub struct Facts {
 /// Where a mesh comes from and how large it is.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct MeshFacts {
-    /// File as the scene names it, or `built-in mesher`.
+    /// File as the scene names it, or `built-in mesher`; and whether a sector was repeated.
     pub source: String,
     /// Number of nodes.
     pub nodes: usize,

@@ -155,22 +155,14 @@ impl<'a> GearState<'a> {
     }
 }
 
-/// Mean pressure around each boundary node: sum of w F over the area that the node stands for.
+/// Contact pressure at every node of the mesh; zero off the flanks.
 fn nodal_pressure(part: usize, model: &StaticModel, e: &Equilibrium, nodes: &[u32], count: usize) -> Vec<f64> {
-    let mut force = vec![0.0; count];
-    for (row, f) in e.rows.iter().zip(&e.solution.forces).filter(|(_, f)| **f > 0.0) {
-        let support = &row.supports[part];
-        for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights[..support.count]) {
-            if let Some(&node) = nodes.get(node as usize) {
-                force[node as usize] += w.abs() * f;
-            }
-        }
-    }
-    let mut area = vec![0.0; count];
-    for (node, a) in model.contact_set().patches()[part].iter().flat_map(contact::FlankPatch::nodal_areas) {
+    let mut all = vec![0.0; count];
+    let patches = &model.contact_set().patches()[part];
+    for (node, pressure) in contact::nodal_pressures(patches, part, &e.rows, &e.solution.forces) {
         if let Some(&node) = nodes.get(node as usize) {
-            area[node as usize] += a;
+            all[node as usize] = pressure;
         }
     }
-    force.iter().zip(&area).map(|(f, a)| if *a > 0.0 { f / a } else { 0.0 }).collect()
+    all
 }

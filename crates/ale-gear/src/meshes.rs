@@ -38,7 +38,6 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 CommandError::input(message, e.hint())
             };
             let mesh = Mesh::read(&file).map_err(|e| complain(&e))?;
-            let facts = facts(path.display().to_string(), &mesh);
             let mut warnings = sound(&file.display().to_string(), &mesh, gear)?;
             let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(|e| complain(&e))?;
             if let Some(fit) = fit {
@@ -55,14 +54,16 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 ));
             }
             on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
-            Ok(SceneMesh { gear: found, facts, warnings })
+            let source = path.display().to_string();
+            let (gear, facts) = whole(found, source).map_err(|e| complain(&e))?;
+            Ok(SceneMesh { gear, facts, warnings })
         }
         None => {
             let mesh = generated(scene, whose, gear, exact)?;
-            let facts = facts("built-in mesher".to_owned(), &mesh);
-            let (found, _) = GearMesh::find(mesh, exact, &mesh::GroupNames::default())
-                .map_err(|e| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint()))?;
-            Ok(SceneMesh { gear: found, facts, warnings: Vec::new() })
+            let failed = |e: MeshError| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint());
+            let (found, _) = GearMesh::find(mesh, exact, &mesh::GroupNames::default()).map_err(failed)?;
+            let (gear, facts) = whole(found, "built-in mesher".to_owned()).map_err(failed)?;
+            Ok(SceneMesh { gear, facts, warnings: Vec::new() })
         }
     }
 }
@@ -135,6 +136,16 @@ fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Res
         }
     }
     Ok(())
+}
+
+/// The mesh to compute with, a periodic sector repeated to the whole gear, and what the summary says of it.
+fn whole(found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
+    if found.is_periodic_sector() {
+        source += &format!(", one sector, repeated {} times", found.tooth_count());
+    }
+    let gear = found.whole()?;
+    let facts = facts(source, gear.mesh());
+    Ok((gear, facts))
 }
 
 /// Size of a mesh.

@@ -21,6 +21,7 @@ mod least_gap;
 mod line_length;
 mod patch;
 mod points;
+mod pressure;
 mod surface;
 
 pub use candidates::{Candidates, FacePair};
@@ -29,9 +30,10 @@ pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use least_gap::least_gap;
-pub use line_length::{LineSample, contact_length};
+pub use line_length::{contact_intervals, covered};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
+pub use pressure::nodal_pressures;
 pub use surface::{Cylinder, Foot, Surface};
 
 /// Points and vectors, mm.

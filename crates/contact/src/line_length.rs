@@ -1,57 +1,73 @@
 //! Length of a contact line from the contact state.
 
-/// Least deformed gap at one axial station of a tooth pair.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LineSample {
-    /// Axial position on body 1, mm.
-    pub z: f64,
-    /// Least gap there after rotation and deflection, mm; negative between points that touch.
-    pub gap: f64,
-}
-
-/// Length [mm] over which the samples (ascending in z) touch, i.e. have a gap below `tolerance` [mm].
+/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` [mm], the least deformed gap at height z, is
+/// at most `tolerance`.
 ///
-/// Where contact begins or ends between two samples the crossing is interpolated linearly, so the length is continuous in
-/// the position of the gears. `along` is the length of line a unit of z, 1/cos(b_b).
-pub fn contact_length(samples: &[LineSample], tolerance: f64, along: f64) -> f64 {
-    let covered: f64 = samples
-        .windows(2)
-        .map(|w| {
-            let (a, b) = (w[0].gap - tolerance, w[1].gap - tolerance);
-            let dz = w[1].z - w[0].z;
-            match (a <= 0.0, b <= 0.0) {
-                (true, true) => dz,
-                (false, false) => 0.0,
-                // A gap that jumps to infinity ends at the last sample that touches.
-                (true, false) => dz * crossing(-a, b),
-                (false, true) => dz * crossing(-b, a),
+/// `samples` equally spaced stations of `range` tell where contact begins and ends; each end is then bisected to a
+/// 10^4th of a step, so the length is continuous in the position of the gears. A stretch of contact shorter than a step can be missed.
+pub fn contact_intervals(gap: impl Fn(f64) -> f64, range: [f64; 2], samples: usize, tolerance: f64) -> Vec<[f64; 2]> {
+    let touches = |z: f64| gap(z) <= tolerance;
+    let step = (range[1] - range[0]) / (samples.max(2) - 1) as f64;
+    let end = |mut inside: f64, mut outside: f64| {
+        for _ in 0..14 {
+            let middle = 0.5 * (inside + outside);
+            if touches(middle) { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let mut intervals = Vec::new();
+    let mut open: Option<f64> = None;
+    let mut before = None;
+    for i in 0..samples.max(2) {
+        let z = (range[0] + step * i as f64).min(range[1]);
+        match (open, touches(z)) {
+            (None, true) => open = Some(before.map_or(z, |b| end(z, b))),
+            (Some(from), false) => {
+                intervals.push([from, end(before.unwrap_or(z), z)]);
+                open = None;
             }
-        })
-        .sum();
-    covered * along
+            _ => {}
+        }
+        before = Some(z);
+    }
+    if let Some(from) = open {
+        intervals.push([from, range[1]]);
+    }
+    intervals
 }
 
-/// Share of a step from -inside to +outside that lies below zero.
-fn crossing(inside: f64, outside: f64) -> f64 {
-    if outside.is_finite() && inside + outside > 0.0 { inside / (inside + outside) } else { 0.5 }
+/// Length of the part of the intervals that lies in `range`, in the unit of z.
+pub fn covered(intervals: &[[f64; 2]], range: [f64; 2]) -> f64 {
+    intervals.iter().map(|i| (i[1].min(range[1]) - i[0].max(range[0])).max(0.0)).sum()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LineSample, contact_length};
+    use super::{contact_intervals, covered};
 
-    /// A gap that rises linearly through the tolerance gives the exact length, wherever the samples lie.
+    /// Wherever the samples lie, and however steeply the gap rises at the ends, the length is the exact one.
     #[test]
     fn length_is_continuous() {
         for shift in [0.0, 0.013, 0.04, 0.099] {
-            let samples: Vec<LineSample> = (0..=20)
-                .map(|i| {
-                    let z = f64::from(i);
-                    LineSample { z, gap: (z - 7.5 - shift).abs() - 3.0 }
-                })
-                .collect();
-            let length = contact_length(&samples, 0.0, 1.25);
-            assert!((length - 7.5).abs() < 1e-12, "{length} at {shift}");
+            for steepness in [1.0, 1e6] {
+                let gap = |z: f64| {
+                    let out = (z - 7.5 - shift).abs() - 3.0;
+                    if out > 0.0 { steepness * out } else { out }
+                };
+                let intervals = contact_intervals(gap, [0.0, 20.0], 21, 0.0);
+                let length = covered(&intervals, [0.0, 20.0]);
+                assert!((length - 6.0).abs() < 1e-3, "{length} at {shift}");
+                assert!((covered(&intervals, [7.5 + shift, 20.0]) - 3.0).abs() < 1e-3);
+            }
         }
+    }
+
+    /// Contact over the whole range, at its ends only, and nowhere.
+    #[test]
+    fn whole_and_empty() {
+        let of = |gap: fn(f64) -> f64| covered(&contact_intervals(gap, [-1.0, 1.0], 9, 0.0), [-1.0, 1.0]);
+        assert_eq!(of(|_| -1.0), 2.0);
+        assert_eq!(of(|_| f64::INFINITY), 0.0);
+        assert!((of(|z| 0.5 - z.abs()) - 1.0).abs() < 1e-4);
     }
 }

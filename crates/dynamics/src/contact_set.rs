@@ -18,7 +18,7 @@ pub struct ContactSet {
     patches: [Vec<FlankPatch>; 2],
     points: Vec<Vec<ContactPoint>>,
     trees: [Candidates; 2],
-    /// Axial stations for points of least gap: as many as Gauss points lie along the face.
+    /// Axial stations for points of least gap: twice as many as Gauss points lie along the face.
     stations: usize,
     /// Side of each patch.
     sides: [Vec<Side>; 2],
@@ -53,7 +53,7 @@ impl ContactSet {
         let stations = p1.first().map_or(0, |p| {
             let [low, high] = p.range();
             let faces = ((high[1] - low[1]) / p.mean_face_size()[1]).round().max(1.0);
-            faces as usize * options.points_per_face_edge
+            2 * faces as usize * options.points_per_face_edge
         });
         let trees = [Candidates::new(&p1), Candidates::new(&p2)];
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);

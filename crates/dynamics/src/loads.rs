@@ -2,14 +2,14 @@
 
 use ale::ToothWindow;
 use contact::{
-    ContactPoint, ContactRow, LinePoints, LineSample, Vec3, contact_length, contact_row, hertz, least_gap, opening,
+    ContactPoint, ContactRow, LinePoints, Vec3, contact_intervals, contact_row, covered, hertz, least_gap, opening,
 };
 use geometry::{GearPair, Side};
 
 use crate::{Certificate, ContactSet, ElasticGear, Equilibrium, PairResult, StaticOptions, StaticPosition, Wrench};
 
 /// Axial stations at which the least gap of a pair is looked at.
-const LINE_SAMPLES: usize = 193;
+const LINE_SAMPLES: usize = 97;
 /// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
 /// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
 /// by as much within a few hundredths of a millimetre.
@@ -118,15 +118,8 @@ fn pair_result(
     let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
     let loaded: Vec<(&ContactRow, f64)> =
         e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
-    let samples = line_samples(pair, set, options, e, k);
+    let line = contact_line(pair, set, options, e, k);
     let along = 1.0 / pair.base_helix_angle().cos();
-    let tolerance = TOUCHING * e.approach(pair);
-    let touches = options.torque > 0.0;
-    let length = |from: f64, to: f64| {
-        let part: Vec<LineSample> =
-            samples.iter().copied().filter(|s| s.z >= from - 1e-12 && s.z <= to + 1e-12).collect();
-        if touches { contact_length(&part, tolerance, along) } else { 0.0 }
-    };
     let half = 0.5 * pair.face_width();
     let face = set.patch_of(0, k, options.side()).map_or(0.0, |p| set.patches()[0][p].mean_face_size()[1]);
     let bins = (pair.face_width() / (BIN_ELEMENTS * face)).floor().clamp(1.0, 64.0) as usize;
@@ -143,9 +136,9 @@ fn pair_result(
                 path += f * row.coordinates[0] * pair.pinion.base_radius();
             }
             // A bin that the line leaves carries its load on part of its length.
-            let covered = length(from, to).max(0.25 * bin * along);
+            let length = along * covered(&line, [from, to]).max(0.25 * bin);
             if load > 0.0 {
-                hertz::line_pressure(load / covered, relative_radius(pair, path / load), modulus)
+                hertz::line_pressure(load / length, relative_radius(pair, path / load), modulus)
             } else {
                 0.0
             }
@@ -158,7 +151,7 @@ fn pair_result(
         // 0.0 first: the sum of nothing is -0.0 otherwise.
         normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
         max_pressure,
-        contact_line_length: length(-half, half),
+        contact_line_length: along * covered(&line, [-half, half]),
         points_in_contact: loaded.len(),
     }
 }
@@ -170,14 +163,15 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
     rho * (length - rho) / (length * pair.base_helix_angle().cos())
 }
 
-/// Deformed gap of window pair `k` along the face, where the undeformed flanks at the loaded pose are nearest.
-fn line_samples(
+/// Axial intervals over which window pair `k` touches: the deformed gap where the undeformed flanks at the loaded pose are
+/// nearest.
+fn contact_line(
     pair: &GearPair,
     set: &ContactSet,
     options: &StaticOptions,
     e: &Equilibrium,
     k: usize,
-) -> Vec<LineSample> {
+) -> Vec<[f64; 2]> {
     let side = options.side();
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();
@@ -187,21 +181,17 @@ fn line_samples(
     let half = 0.5 * pair.face_width();
     let line = LinePoints::new();
     let scene = set.scene(options, &line);
+    let gap = |z: f64| -> Option<f64> {
+        let coordinates = least_gap(patch, other, &e.poses, z)?;
+        let at = patch.face_at(coordinates)?;
+        let point = ContactPoint { at, coordinates, position: patch.surface().point(coordinates), area: 0.0 };
+        let row = contact_row(&scene, &e.poses, (first, second), usize::MAX, &point)?;
+        let [u1, u2] = &e.displacements;
+        Some(row.gap + opening(&row.supports[0], u1) + opening(&row.supports[1], u2))
+    };
     let inset = 1e-6 * (high[1] - low[1]);
-    let (z_low, z_high) = ((low[1] + inset).max(-half), (high[1] - inset).min(half));
-    (0..LINE_SAMPLES)
-        .map(|i| {
-            let z = z_low + (z_high - z_low) * i as f64 / (LINE_SAMPLES - 1) as f64;
-            let gap = least_gap(patch, other, &e.poses, z).and_then(|coordinates| {
-                let at = patch.face_at(coordinates)?;
-                let point = ContactPoint { at, coordinates, position: patch.surface().point(coordinates), area: 0.0 };
-                let row = contact_row(&scene, &e.poses, (first, second), usize::MAX, &point)?;
-                let [u1, u2] = &e.displacements;
-                Some(row.gap + opening(&row.supports[0], u1) + opening(&row.supports[1], u2))
-            });
-            LineSample { z, gap: gap.unwrap_or(f64::INFINITY) }
-        })
-        .collect()
+    let range = [(low[1] + inset).max(-half), (high[1] - inset).min(half)];
+    contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * e.approach(pair))
 }
 
 /// Least gap [mm] at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.

@@ -1,11 +1,13 @@
 //! What is wrong with a mesh, found before a solver stumbles over it.
 
+mod conformity;
 mod cuts;
 mod nodes;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::error::list;
 use crate::quality::{min_det_j, positions, scaled_jacobian};
 use crate::{FaceTable, GroupNames, Mesh, info};
 
@@ -36,6 +38,8 @@ pub enum FindingKind {
     DoubleNodes,
     /// Faces of more than two elements.
     CrowdedFaces,
+    /// Elements that touch without sharing a face as a whole.
+    NotConforming,
     /// Bodies that do not hang together.
     Disconnected,
     /// A part of the gear without a group.
@@ -46,6 +50,10 @@ pub enum FindingKind {
     CutsDiffer,
     /// A bore that is no cylinder about z.
     BoreNotRound,
+    /// A gear whose axis seems to be another than z.
+    Axis,
+    /// A mid-face that is not at z = 0.
+    MidFace,
     /// A size that no gear in mm has.
     Units,
 }
@@ -96,10 +104,12 @@ impl MeshReport {
         nodes::doubles(mesh, &mut findings);
         nodes::bodies(mesh, &mut findings);
         crowded(mesh, &table, &mut findings);
+        conformity::check(mesh, &table, &mut findings);
         groups(mesh, names, &mut findings);
         off_boundary(mesh, &table, &mut findings);
         cuts::check(mesh, names, teeth, &mut findings);
         size(mesh, names, &mut findings);
+        place(mesh, &mut findings);
         findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
         Self { findings }
     }
@@ -158,7 +168,10 @@ fn shapes(mesh: &Mesh, findings: &mut Vec<Finding>) {
     }
     let tags = |list: &[(f64, u64)]| list.iter().take(SHOWN).map(|l| l.1).collect();
     if let Some(&(det_j, tag)) = inverted.first() {
-        let text = format!("{} inverted: det J = {det_j:.3e} mm^3 in element {tag}", elements(inverted.len()));
+        let mut text = format!("{} inverted: det J = {det_j:.3e} mm^3 in element {tag}", elements(inverted.len()));
+        if inverted.len() == mesh.element_count() {
+            text += "; these are all: was the mesh mirrored, or written in another program's node order?";
+        }
         let finding = Finding::new(Severity::Error, FindingKind::Inverted, inverted.len(), text);
         findings.push(Finding { elements: tags(&inverted), ..finding });
     }
@@ -185,16 +198,29 @@ fn crowded(mesh: &Mesh, table: &FaceTable, findings: &mut Vec<Finding>) {
     }
 }
 
+/// Names of the groups that there are.
+fn group_list(mesh: &Mesh) -> String {
+    list(&mesh.surfaces.iter().map(|s| s.name.clone()).collect::<Vec<_>>())
+}
+
 /// Bore and flanks must be named, or the flanks found by other means.
 fn groups(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
     let kind = FindingKind::MissingGroup;
     let flanks: Vec<_> = mesh.surfaces.iter().filter_map(|s| names.parse(&s.name)).collect();
     if mesh.surface(&names.bore).is_none() {
-        let text = format!("no physical group `{}`: which nodes are held by the shaft?", names.bore);
+        let text = format!(
+            "no physical group `{}`: which nodes are held by the shaft? The mesh has {}",
+            names.bore,
+            group_list(mesh)
+        );
         findings.push(Finding::new(Severity::Warning, kind, 1, text));
     }
     if flanks.is_empty() {
-        let text = format!("no physical group `{}`: flanks must be found from the gear's data", names.flank_left);
+        let text = format!(
+            "no physical group `{}`: flanks must be found from the gear's data. The mesh has {}",
+            names.flank_left,
+            group_list(mesh)
+        );
         findings.push(Finding::new(Severity::Warning, kind, 1, text));
     }
     for &(side, tooth) in &flanks {
@@ -246,5 +272,30 @@ fn size(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
     if let Some([low, high]) = info::bore_radius(mesh, names).filter(|[low, high]| high - low > 1e-3 * high) {
         let text = format!("bore radius between {low:.4} and {high:.4} mm: is the gear's axis the z axis?");
         findings.push(Finding::new(Severity::Warning, FindingKind::BoreNotRound, 1, text));
+    }
+}
+
+/// Axis and mid-face: about z, at z = 0.
+fn place(mesh: &Mesh, findings: &mut Vec<Finding>) {
+    let range = |value: &dyn Fn(&[f64; 3]) -> f64| {
+        mesh.nodes.iter().map(value).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)])
+    };
+    // A gear with a bore has no node near its axis.
+    let hollow = |a: usize, b: usize| {
+        let [low, high] = range(&|x| x[a].hypot(x[b]));
+        low / high
+    };
+    if hollow(0, 1) < 0.01
+        && let Some((name, _)) = [("x", hollow(1, 2)), ("y", hollow(2, 0))].into_iter().find(|(_, open)| *open > 0.1)
+    {
+        let text = format!("nodes lie on the z axis, none near the {name} axis: is that the gear's? It must be z");
+        findings.push(Finding::new(Severity::Warning, FindingKind::Axis, 1, text));
+        return;
+    }
+    let [low, high] = range(&|x| x[2]);
+    let middle = 0.5 * (low + high);
+    if middle.abs() > 1e-3 * (high - low) {
+        let text = format!("mid-face at z = {middle:.4} mm, not at 0: tooth 0 is where it should be at z = 0 only");
+        findings.push(Finding::new(Severity::Warning, FindingKind::MidFace, 1, text));
     }
 }

@@ -106,6 +106,62 @@ pub enum MeshError {
         /// Smallest radius of a node, mm.
         found_mm: f64,
     },
+    /// Only a sector between two cuts can be repeated.
+    #[error("the mesh is no periodic sector: it has no cuts")]
+    NoCuts,
+    /// A node of one cut that meets none of the other.
+    #[error(
+        "node {node} of `{cut}`, turned by {angle_deg:.6} deg, meets no node of `{other}`: \
+         the nearest is {distance_mm:.3e} mm away, allowed is {tolerance_mm:.1e} mm"
+    )]
+    CutsApart {
+        /// The node, by tag.
+        node: u64,
+        /// Name of its cut.
+        cut: String,
+        /// Name of the other cut.
+        other: String,
+        /// Angle of the sector, deg; negative from the second cut to the first.
+        angle_deg: f64,
+        /// Distance from the nearest node of the other cut, mm.
+        distance_mm: f64,
+        /// Distance allowed, mm.
+        tolerance_mm: f64,
+    },
+    /// A face of one cut that meets no face of the other though its nodes meet nodes.
+    #[error("the face of `{cut}` with nodes {nodes:?} meets no face of `{other}`, though its nodes do")]
+    CutFaces {
+        /// Name of its cut.
+        cut: String,
+        /// Name of the other cut.
+        other: String,
+        /// Corner nodes of the face, by tag.
+        nodes: Vec<u64>,
+    },
+    /// Parts of the cut faces that no group holds.
+    #[error(
+        "node {node}, turned by one tooth, meets node {other}, but is not in `{}`: `{}` and `{}` hold only a part of the \
+         cut faces", cuts[0], cuts[0], cuts[1]
+    )]
+    CutInPart {
+        /// The node on the first cut, by tag.
+        node: u64,
+        /// The node on the second cut, by tag.
+        other: u64,
+        /// Names of the cuts.
+        cuts: [String; 2],
+    },
+    /// A node off the axis on both cuts.
+    #[error("the two cuts of the sector share a node off the axis")]
+    CutsCross,
+    /// More nodes than anything here could solve.
+    #[error("the whole gear would have {nodes} nodes: at most {most} are made")]
+    TooLarge {
+        /// Nodes of the whole gear.
+        nodes: u64,
+        /// Limit.
+        most: u64,
+    },
 }
 
 impl From<MshError> for MeshError {
@@ -115,7 +171,7 @@ impl From<MshError> for MeshError {
 }
 
 /// Names for a message, at most twelve.
-fn list(names: &[String]) -> String {
+pub(crate) fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "no groups of dimension 2".into();
     }
@@ -146,6 +202,14 @@ impl MeshError {
             }
             Self::ToothThickness { .. } => "profile_shift or thickness_allowance_mm of the scene differ from the mesh",
             Self::MidFace { .. } => "move the mesh so that its mid-face is at z = 0",
+            Self::NoCuts => "name its periodic faces `cut_0` (clockwise) and `cut_1`, or mesh the whole gear",
+            Self::CutsApart { .. } => {
+                "is the number of teeth right, and `cut_0` the clockwise cut? make `cut_1` by turning `cut_0`: mesh one and copy it (Gmsh: `Periodic Surface`, coordinates with 16 digits)"
+            }
+            Self::CutFaces { .. } => "mesh one cut and copy it to the other by a turn (Gmsh: `Periodic Surface`)",
+            Self::CutInPart { .. } => "put all faces of each cut into its group",
+            Self::CutsCross => "is the sector the smallest part that repeats, one tooth?",
+            Self::TooLarge { .. } => "make the sector's mesh coarser",
             Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
         };
         Some(hint.to_owned())

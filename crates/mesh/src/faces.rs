@@ -86,6 +86,14 @@ impl FaceTable {
         owners
     }
 
+    /// Faces inside the body with the two elements that share each.
+    pub(crate) fn inner(&self) -> impl Iterator<Item = [FaceOwner; 2]> + '_ {
+        self.shared().filter_map(|owners| match owners {
+            [a, b] => Some([a.owner, b.owner]),
+            _ => None,
+        })
+    }
+
     /// Faces of more than two elements: two bodies in one place, or elements turned inside out.
     pub fn crowded(&self) -> Vec<FaceOwner> {
         self.shared().filter(|owners| owners.len() > 2).map(|owners| owners[0].owner).collect()

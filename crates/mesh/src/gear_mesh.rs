@@ -9,12 +9,12 @@ use crate::{DEFAULT_TOLERANCE_MODULES, Face, FaceTable, FlankFit, GroupNames, Me
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearMesh {
-    mesh: Mesh,
-    teeth: u32,
-    bore: SurfaceGroup,
+    pub(crate) mesh: Mesh,
+    pub(crate) teeth: u32,
+    pub(crate) bore: SurfaceGroup,
     bore_nodes: Vec<u32>,
-    flanks: BTreeMap<(u32, Side), Vec<Face>>,
-    cuts: Option<[SurfaceGroup; 2]>,
+    pub(crate) flanks: BTreeMap<(u32, Side), Vec<Face>>,
+    pub(crate) cuts: Option<[SurfaceGroup; 2]>,
 }
 
 impl GearMesh {

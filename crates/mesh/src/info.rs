@@ -174,13 +174,15 @@ fn likely_gear(mesh: &Mesh, names: &GroupNames, tip_radius: f64, face_width: f64
         let next = directions.get(&(side, tooth.checked_add(1)?))?;
         Some((next - angle).rem_euclid(TAU))
     });
-    let between_cuts = || {
-        let [first, second] = [&names.cut_0, &names.cut_1].map(|n| mesh.surface(n).map(|g| direction(mesh, g)));
-        Some((second? - first?).rem_euclid(TAU) / named.len() as f64)
-    };
-    let pitch = between_flanks.or_else(between_cuts);
+    let pitch = between_flanks.or_else(|| Some(between_cuts(mesh, names)? / named.len() as f64));
     let teeth = pitch.map(|p| TAU / p).filter(|z| (3.0..1e5).contains(z)).map(|z| z.round() as u32);
     LikelyGear { bore_radius, tip_radius, face_width, named_teeth: named.len(), teeth, angle_deg: angle_held(mesh) }
+}
+
+/// Angle from the first cut to the second, by the means of their nodes, rad in 0..2 pi.
+pub(crate) fn between_cuts(mesh: &Mesh, names: &GroupNames) -> Option<f64> {
+    let [first, second] = [&names.cut_0, &names.cut_1].map(|n| mesh.surface(n).map(|g| direction(mesh, g)));
+    Some((second? - first?).rem_euclid(TAU))
 }
 
 /// Angle about z of the mean of a group's nodes, rad.

@@ -12,7 +12,9 @@ mod group_names;
 mod info;
 pub mod model;
 pub mod msh;
+mod periodic;
 mod quality;
+mod sector;
 pub mod structured;
 
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};

@@ -74,6 +74,15 @@ impl Face {
         corner_key(self.corners())
     }
 
+    /// The same face in other node numbers.
+    pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
+        let mut face = *self;
+        for node in &mut face.nodes[..self.kind.node_count()] {
+            *node = number(*node);
+        }
+        face
+    }
+
     /// The same face seen from the other side: the normal is turned.
     #[must_use]
     pub fn reversed(&self) -> Self {

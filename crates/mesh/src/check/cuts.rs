@@ -1,13 +1,13 @@
 //! Whether the two cut faces of a sector are the same face turned.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-use super::nodes::{extent, place};
-use super::{Finding, FindingKind, Severity};
-use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup};
+use geometry::Side;
 
-/// Nodes of the cuts must fit within this times the extent of the mesh (failure mode F8).
-const FIT: f64 = 1e-9;
+use super::{Finding, FindingKind, Severity};
+use crate::periodic::{Places, Turn};
+use crate::{FaceKind, GroupNames, Mesh, SurfaceGroup, info};
 
 /// Compares `cut_1` with `cut_0` turned by the angle of the sector: node count, face kinds, distances.
 ///
@@ -15,10 +15,11 @@ const FIT: f64 = 1e-9;
 /// teeth are used with free cuts, where it does not matter.
 pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, findings: &mut Vec<Finding>) {
     let (Some(first), Some(second)) = (mesh.surface(&names.cut_0), mesh.surface(&names.cut_1)) else { return };
-    let mut sector: Vec<i64> = mesh.surfaces.iter().filter_map(|s| Some(names.parse(&s.name)?.1)).collect();
-    sector.sort_unstable();
-    sector.dedup();
-    let severity = if sector.len() <= 1 { Severity::Error } else { Severity::Note };
+    let named = named_teeth(mesh, names);
+    // Without named flanks the directions of the cuts tell how many teeth lie between them.
+    let between = || Some((info::between_cuts(mesh, names)? / TAU * f64::from(teeth?)).round().max(1.0));
+    let count = if named > 0 { Some(named as f64) } else { between() };
+    let severity = if count == Some(1.0) { Severity::Error } else { Severity::Note };
     let mut report = |count: usize, nodes: &[u32], text: String| {
         let finding = Finding::new(severity, FindingKind::CutsDiffer, count, text);
         findings.push(finding.at_nodes(mesh, nodes.iter().copied()));
@@ -31,25 +32,18 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
     if kinds(first) != kinds(second) {
         report(1, &[], format!("`{}` and `{}` have faces of different kinds or numbers", first.name, second.name));
     }
-    let Some(teeth) = teeth.filter(|&z| z > 0) else { return };
-    let angle = TAU * sector.len().max(1) as f64 / f64::from(teeth);
-    let (sin, cos) = angle.sin_cos();
-    let tolerance = FIT * extent(mesh);
-    let mut targets: Vec<(f64, [f64; 3])> =
-        to.iter().map(|&n| mesh.nodes[n as usize]).map(|x| (place(&x), x)).collect();
-    targets.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (Some(teeth), Some(count)) = (teeth.filter(|&z| z > 0), count) else { return };
+    let angle = TAU * count / f64::from(teeth);
+    let turn = Turn::new(angle);
+    let targets = Places::new(mesh, &to);
     let mut stray = Vec::new();
     let mut farthest: f64 = 0.0;
     for &node in &from {
-        let [x, y, z] = mesh.nodes[node as usize];
-        let turned = [cos * x - sin * y, sin * x + cos * y, z];
-        let start = targets.partition_point(|t| t.0 < place(&turned) - tolerance);
-        let near = targets[start..].iter().take_while(|t| t.0 <= place(&turned) + tolerance);
-        if near.map(|t| apart(&t.1, &turned)).all(|d| d > tolerance) {
+        let turned = turn.of(mesh.nodes[node as usize]);
+        if targets.at(&turned).is_none() {
             // The true distance costs a search, so take it of the first few alone.
             if stray.len() < 100 {
-                let least = targets.iter().map(|t| apart(&t.1, &turned)).fold(f64::INFINITY, f64::min);
-                farthest = farthest.max(least);
+                farthest = farthest.max(targets.nearest(&turned));
             }
             stray.push(node);
         }
@@ -67,12 +61,15 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
     }
 }
 
+/// Teeth of the sector by its named flanks; a sector cut through the teeth has a left and a right flank of two of them.
+fn named_teeth(mesh: &Mesh, names: &GroupNames) -> usize {
+    let flanks: BTreeSet<_> = mesh.surfaces.iter().filter_map(|s| names.parse(&s.name)).collect();
+    let of = |side| flanks.iter().filter(|f| f.0 == side).count();
+    of(Side::Left).max(of(Side::Right))
+}
+
 fn kinds(group: &SurfaceGroup) -> Vec<FaceKind> {
     let mut kinds: Vec<FaceKind> = group.faces.iter().map(|f| f.kind).collect();
     kinds.sort_unstable();
     kinds
-}
-
-fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }

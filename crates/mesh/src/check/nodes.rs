@@ -4,20 +4,13 @@ use rayon::prelude::*;
 
 use super::{Finding, FindingKind, Severity};
 use crate::Mesh;
+use crate::periodic::{distance, place};
 
 /// Nodes nearer than this times the size of the mesh are in one place.
 const COINCIDENT: f64 = 1e-9;
 
-/// A direction in which distinct nodes of a regular mesh hardly ever have the same place.
-const SKEW: [f64; 3] = [0.577_913_5, 0.706_231_7, 0.409_113_9];
-
-/// Place of a point along [`SKEW`]; two points are never nearer than their places.
-pub(super) fn place(x: &[f64; 3]) -> f64 {
-    x[0] * SKEW[0] + x[1] * SKEW[1] + x[2] * SKEW[2]
-}
-
 /// Largest extent of the mesh, mm.
-pub(super) fn extent(mesh: &Mesh) -> f64 {
+fn extent(mesh: &Mesh) -> f64 {
     (0..3)
         .map(|k| {
             let range =
@@ -25,10 +18,6 @@ pub(super) fn extent(mesh: &Mesh) -> f64 {
             range.1 - range.0
         })
         .fold(0.0, f64::max)
-}
-
-fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
 
 pub(super) fn orphans(mesh: &Mesh, findings: &mut Vec<Finding>) {
