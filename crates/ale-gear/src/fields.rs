@@ -31,7 +31,7 @@ impl<'a> FieldWriter<'a> {
         model: &StaticModel,
     ) -> Result<(), CommandError> {
         let output = &self.scene.output;
-        if !output.vtu || index % output.vtu_every.max(1) as usize != 0 {
+        if !output.vtu || !index.is_multiple_of(output.vtu_every.max(1) as usize) {
             return Ok(());
         }
         let first = -PI / f64::from(self.scene.pinion.teeth);
