@@ -1,0 +1,125 @@
+//! Two-stage search = brute force; supports carry what they must.
+
+use contact::{
+    Candidates, FlankPatch, GapSource, LinePoints, Pose, Scene, Vec3, closest_points, contact_points, contact_row,
+};
+use geometry::{Gear, GearData, GearPair, Side};
+use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use nalgebra::{Translation3, UnitQuaternion};
+use proptest::prelude::*;
+
+struct Flanks {
+    pair: GearPair,
+    patches: [Vec<FlankPatch>; 2],
+}
+
+fn flanks(order: u32) -> Flanks {
+    let data = GearData::default();
+    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
+    let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let options = StructuredOptions {
+        order,
+        elements_profile: 3,
+        elements_face: 5,
+        extent: Extent::Sector(3),
+        ..StructuredOptions::default()
+    };
+    let patches = [&pair.pinion, &pair.wheel].map(|gear| {
+        let mesh = generate(gear, &options).unwrap();
+        let parts = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap();
+        let mut made = Vec::new();
+        for tooth in parts.teeth() {
+            let faces = parts.flank(tooth, Side::Left).unwrap();
+            let surface = Box::new(gear.flank_of(Side::Left, i64::from(tooth)));
+            made.push(FlankPatch::new(i64::from(tooth), surface, &parts.mesh().nodes, faces, |n| n, 1e-9).unwrap());
+        }
+        made
+    });
+    Flanks { pair, patches }
+}
+
+fn poses(pair: &GearPair, turn: f64, lag: f64, shift: [f64; 3], tilt: [f64; 2]) -> [Pose; 2] {
+    let theta1 = pair.middle_angle(Side::Left) + turn;
+    let about = |angle: f64| UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angle);
+    let misaligned = UnitQuaternion::from_scaled_axis(Vec3::new(tilt[0], tilt[1], 0.0));
+    let centre = Translation3::new(pair.centre_distance() + shift[0], shift[1], shift[2]);
+    [
+        Pose::from_parts(Translation3::identity(), about(theta1)),
+        Pose::from_parts(centre, misaligned * about(pair.wheel_angle(Side::Left, theta1) + lag)),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+    /// Random poses, misaligned ones among them: what the bounding volumes let through contains every point that is nearer
+    /// than the reach, and the gaps are the same.
+    #[test]
+    fn two_stages_find_what_brute_force_finds(
+        turn in -0.15..0.15f64, lag in -2e-3..2e-3f64, shift in prop::array::uniform3(-0.3..0.3f64),
+        tilt in prop::array::uniform2(-5e-3..5e-3f64), reach in 0.0..0.2f64, order in 1..=2u32,
+    ) {
+        static SETS: std::sync::OnceLock<[Flanks; 2]> = std::sync::OnceLock::new();
+        let set = &SETS.get_or_init(|| [flanks(1), flanks(2)])[order as usize - 1];
+        let points: Vec<_> = set.patches[0].iter().map(|p| contact_points(p, 3, GapSource::Smooth)).collect();
+        let trees = [Candidates::new(&set.patches[0]), Candidates::new(&set.patches[1])];
+        let scene = Scene {
+            first: &set.patches[0], points: &points, second: &set.patches[1], first_tree: &trees[0], second_tree: &trees[1],
+            source: GapSource::Smooth, line: &LinePoints::new(),
+        };
+        let poses = poses(&set.pair, turn, lag, shift, tilt);
+        let found = closest_points(&scene, &poses, reach);
+        let mut all = Vec::new();
+        for first in 0..set.patches[0].len() {
+            for second in 0..set.patches[1].len() {
+                for (i, p) in points[first].iter().enumerate() {
+                    // Points deep inside the other tooth are another flank's business: overlap up to the reach counts.
+                    all.extend(contact_row(&scene, &poses, (first, second), i, p).filter(|r| r.gap.abs() <= reach));
+                }
+            }
+        }
+        let key = |r: &contact::ContactRow| (r.patches, r.point);
+        for row in &all {
+            let twin = found.iter().find(|r| key(r) == key(row));
+            prop_assert!(twin == Some(row), "missed {:?} with gap {}", key(row), row.gap);
+        }
+    }
+}
+
+/// A row's weights sum to one on both bodies, its forces are opposite, and the weights interpolate the point: a uniform field
+/// opens no gap, a rigid turn opens it by lever times angle.
+#[test]
+fn supports_carry_rigid_motions() {
+    let set = flanks(2);
+    let points: Vec<_> = set.patches[0].iter().map(|p| contact_points(p, 4, GapSource::Smooth)).collect();
+    let trees = [Candidates::new(&set.patches[0]), Candidates::new(&set.patches[1])];
+    let line = LinePoints::new();
+    let scene = Scene {
+        first: &set.patches[0],
+        points: &points,
+        second: &set.patches[1],
+        first_tree: &trees[0],
+        second_tree: &trees[1],
+        source: GapSource::Smooth,
+        line: &line,
+    };
+    let at = |lag: f64| poses(&set.pair, 0.02, lag, [0.0; 3], [0.0; 2]);
+    let rows = closest_points(&scene, &at(0.0), 0.05);
+    assert!(rows.len() > 100, "{} rows", rows.len());
+    let h = 1e-5;
+    for row in &rows {
+        for support in &row.supports {
+            let sum: f64 = support.weights[..support.count].iter().sum();
+            assert!((sum - 1.0).abs() < 1e-12, "weights sum to {sum}");
+            assert!((support.direction.norm() - 1.0).abs() < 1e-12);
+        }
+        // Lever = d gap / d angle, against central differences of the gap itself.
+        let gap = |lag: f64| {
+            let p = &points[row.patches.0][row.point];
+            contact_row(&scene, &at(lag), row.patches, row.point, p).map(|r| r.gap)
+        };
+        if let (Some(a), Some(b)) = (gap(h), gap(-h)) {
+            let slope = (a - b) / (2.0 * h);
+            assert!((slope - row.levers[1]).abs() < 1e-6 * slope.abs(), "{slope} and {}", row.levers[1]);
+        }
+    }
+}
