@@ -41,7 +41,7 @@ impl<'a> FieldWriter<'a> {
             let path = self.results.path(&file);
             let cannot = |e: &std::io::Error| CommandError::write(&path, e);
             let mut out = BufWriter::new(std::fs::File::create(&path).map_err(|e| cannot(&e))?);
-            self.gear(part, model, &mut out)?.map_err(|e| cannot(&e))?;
+            self.gear(part, position, model, &mut out)?.map_err(|e| cannot(&e))?;
             self.entries.push(PvdEntry { time_s, part, file });
         }
         Ok(())
@@ -58,13 +58,14 @@ impl<'a> FieldWriter<'a> {
     fn gear(
         &self,
         part: usize,
+        position: &StaticPosition,
         model: &StaticModel,
         out: &mut impl std::io::Write,
     ) -> Result<std::io::Result<()>, CommandError> {
         let elastic = &model.gears()[part];
         let gear = elastic.gear();
         let mesh = gear.mesh();
-        let state = GearState::new(part, model)?;
+        let state = GearState::new(part, position, model)?;
         let nodes: Vec<[f64; 3]> = mesh.nodes.iter().map(|&p| state.place(p)).collect();
         let mut values: Vec<(&str, usize, Vec<f64>)> = Vec::new();
         for field in &self.scene.output.fields {
@@ -101,16 +102,19 @@ struct GearState<'a> {
 }
 
 impl<'a> GearState<'a> {
-    fn new(part: usize, model: &'a StaticModel) -> Result<Self, CommandError> {
+    fn new(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, CommandError> {
         static PLAIN: std::sync::LazyLock<fem::ElementOptions> = std::sync::LazyLock::new(fem::ElementOptions::default);
         let elastic = &model.gears()[part];
         let count = elastic.gear().mesh().nodes.len();
         let Some(e) = model.last() else {
             // Without torque nothing is deformed, and the gears stand as the geometry says.
+            let (pair, options) = (model.pair(), model.options());
+            let turned = pair.middle_angle(options.side()) + options.sense.sign() as f64 * position.pinion_angle;
+            let angle = if part == 0 { turned } else { pair.wheel_angle(options.side(), turned) };
             return Ok(Self {
                 displacement: vec![[0.0; 3]; count],
                 pressure: vec![0.0; count],
-                rotation: Rotation3::identity(),
+                rotation: Rotation3::from_axis_angle(&Vector3::z_axis(), angle),
                 centre: Vector3::new(if part == 0 { 0.0 } else { model.pair().centre_distance() }, 0.0, 0.0),
                 elements: &PLAIN,
             });

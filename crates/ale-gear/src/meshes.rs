@@ -38,6 +38,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 CommandError::input(message, e.hint())
             };
             let mesh = Mesh::read(&file).map_err(|e| complain(&e))?;
+            of_this_size(&file.display().to_string(), whose, &mesh, exact)?;
             let mut warnings = sound(&file.display().to_string(), &mesh, gear)?;
             let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(|e| complain(&e))?;
             if let Some(fit) = fit {
@@ -92,6 +93,21 @@ fn options(m: &MesherScene) -> StructuredOptions {
             k => Extent::Sector(k),
         },
     }
+}
+
+/// Refuses a mesh that is far larger or smaller than the gear: another unit, or another gear.
+fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), CommandError> {
+    let reach = mesh.nodes.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let tip = exact.tip_radius();
+    if (0.5..2.0).contains(&(reach / tip)) {
+        return Ok(());
+    }
+    Err(CommandError::input(
+        format_args!(
+            "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
+        ),
+        Some("coordinates must be in mm (not m or inch), the gear's axis on z".into()),
+    ))
 }
 
 /// Refuses a mesh with errors; hands on its warnings.

@@ -67,7 +67,7 @@ pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> R
     let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
     facts.model.insert("cyclic_gears".into(), cyclic.into());
     warnings.extend(sector_warnings(&model));
-    warnings.extend(doubts(&history.positions));
+    warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     history.warnings.extend(warnings);
     Ok(Solved { history, facts })
 }
@@ -116,7 +116,11 @@ fn elastic_gears(
             let options = ReductionOptions { sides: options.sides(), window, first: first[i], elements };
             GearReducer::new(mesh.gear, material, options).map(ElasticGear::Reduced)
         };
-        gear.map_err(|e| CommandError::input(format_args!("{}: {whose}: {e}", mesh.facts.source), e.hint()))
+        let place = match scene.gears()[i].mesh {
+            Some(_) => mesh.facts.source.clone(),
+            None => format!("{}: built-in mesher", scene.file.display()),
+        };
+        gear.map_err(|e| CommandError::input(format_args!("{place}: {whose}: {e}"), e.hint()))
     };
     let [pinion, wheel] = meshes;
     let (pinion, wheel) = rayon::join(|| build(0, pinion), || build(1, wheel));
@@ -156,13 +160,23 @@ fn sector_warnings(model: &StaticModel) -> Vec<String> {
         .collect()
 }
 
+/// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
+const LARGE_ERROR_MODULES: f64 = 0.05;
+
 /// What the certificates say that a user should hear.
-fn doubts(positions: &[StaticPosition]) -> Vec<String> {
+fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let torque = worst(|p| p.certificate.torque_residual);
     if torque > 1e-8 {
         said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
+    }
+    let error = worst(|p| p.transmission_error.abs());
+    if error > LARGE_ERROR_MODULES * module {
+        said.push(format!(
+            "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \
+             small deflections; is the torque in N m?"
+        ));
     }
     said
 }

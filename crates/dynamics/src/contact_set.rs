@@ -115,6 +115,12 @@ impl ContactSet {
         patch / self.kept_sides()
     }
 
+    /// Whether a patch of the pinion and one of the wheel are the two flanks of one pair. Any others stay whole tooth
+    /// thicknesses apart, yet their smooth surfaces, which go on behind the teeth, may look like deep penetration.
+    pub(crate) fn partners(&self, (first, second): (usize, usize)) -> bool {
+        self.patch_of(1, self.pair_of(first), self.sides[0][first]) == Some(second)
+    }
+
     fn kept_sides(&self) -> usize {
         let first = self.patches[0].first().map(|p| p.tooth);
         self.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)

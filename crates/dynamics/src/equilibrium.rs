@@ -145,7 +145,8 @@ pub(crate) fn equilibrium(
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
         let poses = poses(pair, options, set, window, station, rotation);
-        let rows = closest_points(&scene, &poses, reach);
+        let mut rows = closest_points(&scene, &poses, reach);
+        rows.retain(|r| set.partners(r.patches));
         if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
             if reach > pair.pinion.data().normal_module {
                 return Err(fail(ContactError::NoCandidates { reach_mm: reach }));

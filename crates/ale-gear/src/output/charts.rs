@@ -17,6 +17,9 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(90, 90, 90),
 ];
 
+/// Height of a legend's line over the height of the chart.
+const LEGEND_ROOM: f64 = 0.09;
+
 /// Curves over one pair of axes. The value axis begins at zero when `from_zero` is set; without points, or with
 /// nothing finite, the chart is left out and `None` comes back.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
@@ -31,7 +34,11 @@ pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_z
         (low - if zero && low == 0.0 { 0.0 } else { margin }, high + margin)
     };
     let (x_low, x_high) = span(|p| p.0, false);
-    let (y_low, y_high) = span(|p| p.1, from_zero);
+    let (y_low, mut y_high) = span(|p| p.1, from_zero);
+    if curves.len() > 1 {
+        // Room for the legend above the curves.
+        y_high += LEGEND_ROOM * curves.len() as f64 * (y_high - y_low);
+    }
 
     let mut svg = String::new();
     draw(&mut svg, title, x, y, curves, [x_low, x_high, y_low, y_high]).ok()?;
@@ -69,6 +76,7 @@ fn draw(
     if curves.len() > 1 {
         chart
             .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
             .background_style(WHITE.mix(0.85))
             .border_style(RGBColor(160, 160, 160))
             .draw()

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, Once, PoisonError};
 
 use crate::error::CommandError;
 
@@ -14,11 +15,31 @@ pub struct ResultDirectory {
     finished: bool,
 }
 
+/// Temporary folders of this process, for the case that the user stops it.
+static PARTIAL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static HANDLER: Once = Once::new();
+/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
+const STOPPED: i32 = 130;
+
+/// Ctrl-C and a polite kill take the temporary folders with them.
+fn clean_up_when_stopped() {
+    HANDLER.call_once(|| {
+        // A host that has a handler of its own keeps it; then the folder's name still says what it is.
+        let _ = ctrlc::set_handler(|| {
+            let partial = PARTIAL.lock().unwrap_or_else(PoisonError::into_inner);
+            for folder in partial.iter() {
+                let _ = fs::remove_dir_all(folder);
+            }
+            std::process::exit(STOPPED);
+        });
+    });
+}
+
 impl ResultDirectory {
     /// Makes the temporary folder.
     ///
     /// # Errors
-    /// Exit status 2 when `wanted` is a file, or a folder that holds anything but an earlier result: nothing
+    /// Exit status 2 when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier result: nothing
     /// that this program did not write is ever replaced.
     pub fn create(wanted: &Path) -> Result<Self, CommandError> {
         let complaint = |what: String, hint: &str| {
@@ -45,6 +66,8 @@ impl ResultDirectory {
             _ => PathBuf::from("."),
         };
         let partial = parent.join(format!(".{}.partial-{}", name.to_string_lossy(), std::process::id()));
+        clean_up_when_stopped();
+        PARTIAL.lock().unwrap_or_else(PoisonError::into_inner).push(partial.clone());
         fs::create_dir_all(&partial)
             .map_err(|e| complaint(format!("cannot be made: {e}"), "give a folder that you may write to"))?;
         Ok(Self { wanted: wanted.to_owned(), partial, finished: false })
@@ -99,6 +122,7 @@ impl ResultDirectory {
 
 impl Drop for ResultDirectory {
     fn drop(&mut self) {
+        PARTIAL.lock().unwrap_or_else(PoisonError::into_inner).retain(|p| *p != self.partial);
         if !self.finished {
             // Nothing more can be done about it here, and the folder's name says what it is.
             let _ = fs::remove_dir_all(&self.partial);
