@@ -1,4 +1,5 @@
 //! Regression on the meshes that Gmsh wrote (`meshes/`): what comes out of each of them.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 mod support;
 

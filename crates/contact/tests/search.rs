@@ -69,9 +69,9 @@ proptest! {
         let poses = poses(&set.pair, turn, lag, shift, tilt);
         let found = closest_points(&scene, &poses, reach);
         let mut all = Vec::new();
-        for first in 0..set.patches[0].len() {
+        for (first, of_patch) in points.iter().enumerate() {
             for second in 0..set.patches[1].len() {
-                for (i, p) in points[first].iter().enumerate() {
+                for (i, p) in of_patch.iter().enumerate() {
                     // Points deep inside the other tooth are another flank's business: overlap up to the reach counts.
                     all.extend(contact_row(&scene, &poses, (first, second), i, p).filter(|r| r.gap.abs() <= reach));
                 }
