@@ -188,3 +188,33 @@ fn plain_hex8_locks() {
     println!("mean STE: incompatible modes {:.3} um, plain hex8 {:.3} um", 1e3 * soft, 1e3 * stiff);
     assert!(stiff < 0.97 * soft, "{stiff} against {soft}");
 }
+
+/// Keeping the coast flanks too changes nothing as long as they do not touch; flanks that are no pair are never rows,
+/// although their smooth surfaces go on behind the teeth.
+#[test]
+fn coast_flanks_stay_out_of_it() {
+    let case = generated(20.0, [2, 2, 2, 4, 1]);
+    let run = |both_flanks: bool| {
+        let options = StaticOptions { both_flanks, points_per_face_edge: 4, ..case.options() };
+        case.reduced(options).run(8, 2, |_, _, _| ()).unwrap()
+    };
+    for (a, b) in run(false).positions.iter().zip(&run(true).positions) {
+        let off = a.transmission_error / b.transmission_error - 1.0;
+        assert!(off.abs() < 1e-9, "phase {}: {off:e}", a.mesh_phase);
+    }
+}
+
+/// From a feather's touch to overload: equilibrium is found, and without torque the flanks just touch.
+#[test]
+fn any_torque_is_solved() {
+    let case = generated(20.0, [2, 2, 2, 4, 1]);
+    for torque in [0.0, 1e-9, 1e-3, 1.0, 1e3, 1e6, 1e7] {
+        let options = StaticOptions { torque, points_per_face_edge: 4, ..case.options() };
+        let history = case.reduced(options).run(4, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{torque} N mm: {e}"));
+        for p in &history.positions {
+            assert!(p.certificate.torque_residual < 1e-8, "{torque} N mm: {:?}", p.certificate);
+            // An angle of a few radians is known to some 1e-14 mm on the base circle.
+            assert!(p.transmission_error >= -1e-13, "{torque} N mm: {}", p.transmission_error);
+        }
+    }
+}

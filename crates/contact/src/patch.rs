@@ -225,6 +225,12 @@ impl FlankPatch {
         areas
     }
 
+    /// Surface coordinates of a boundary node of the patch.
+    pub fn node_coordinates(&self, boundary: u32) -> Option<[f64; 2]> {
+        // Boundary nodes are numbered in the order of the mesh's nodes, which is the order here.
+        self.nodes.binary_search_by_key(&boundary, |n| n.boundary).ok().map(|i| self.nodes[i].at)
+    }
+
     /// Mean size of a face in each surface coordinate.
     pub fn mean_face_size(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];

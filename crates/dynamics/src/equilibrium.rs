@@ -47,7 +47,7 @@ const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
-const POSE_TOLERANCE: f64 = 1e-11;
+const POSE_TOLERANCE: f64 = 1e-10;
 
 impl Station {
     /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle.

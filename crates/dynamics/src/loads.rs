@@ -2,7 +2,8 @@
 
 use ale::ToothWindow;
 use contact::{
-    ContactPoint, ContactRow, LinePoints, Vec3, contact_intervals, contact_row, covered, hertz, least_gap, opening,
+    ContactPoint, ContactRow, FlankPatch, LinePoints, Vec3, contact_intervals, contact_row, covered, hertz, least_gap,
+    opening,
 };
 use geometry::{GearPair, Side};
 
@@ -121,29 +122,12 @@ fn pair_result(
     let line = contact_line(pair, set, options, e, k);
     let along = 1.0 / pair.base_helix_angle().cos();
     let half = 0.5 * pair.face_width();
-    let face = set.patch_of(0, k, options.side()).map_or(0.0, |p| set.patches()[0][p].mean_face_size()[1]);
-    let bins = (pair.face_width() / (BIN_ELEMENTS * face)).floor().clamp(1.0, 64.0) as usize;
-    let bin = pair.face_width() / bins as f64;
     let modulus =
         hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
-    let max_pressure = (0..bins)
-        .map(|b| {
-            let (from, to) = (-half + b as f64 * bin, -half + (b + 1) as f64 * bin);
-            let inside = |row: &ContactRow| row.coordinates[1] >= from && row.coordinates[1] < to;
-            let (mut load, mut path) = (0.0, 0.0);
-            for (row, f) in loaded.iter().filter(|(row, _)| inside(row)) {
-                load += f;
-                path += f * row.coordinates[0] * pair.pinion.base_radius();
-            }
-            // A bin that the line leaves carries its load on part of its length.
-            let length = along * covered(&line, [from, to]).max(0.25 * bin);
-            if load > 0.0 {
-                hertz::line_pressure(load / length, relative_radius(pair, path / load), modulus)
-            } else {
-                0.0
-            }
-        })
-        .fold(0.0, f64::max);
+    let max_pressure = set.patch_of(0, k, options.side()).map_or(0.0, |p| {
+        let patch = &set.patches()[0][p];
+        line_pressure(pair, patch, &loaded, &line, modulus)
+    });
     PairResult {
         pair: options.sense.sign() * running,
         pinion_tooth,
@@ -154,6 +138,48 @@ fn pair_result(
         contact_line_length: along * covered(&line, [-half, half]),
         points_in_contact: loaded.len(),
     }
+}
+
+/// Largest Hertzian pressure along the line of a pair, MPa, from the line load in axial bins.
+///
+/// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's force is
+/// spread over one element of face width about it, and bins of [`BIN_ELEMENTS`] elements take their share.
+fn line_pressure(
+    pair: &GearPair,
+    patch: &FlankPatch,
+    loaded: &[(&ContactRow, f64)],
+    line: &[[f64; 2]],
+    modulus: f64,
+) -> f64 {
+    let along = 1.0 / pair.base_helix_angle().cos();
+    let half = 0.5 * pair.face_width();
+    let element = patch.mean_face_size()[1];
+    let bins = (pair.face_width() / (BIN_ELEMENTS * element)).floor().clamp(1.0, 64.0) as usize;
+    let width = pair.face_width() / bins as f64;
+    let mut load = vec![0.0; bins];
+    let mut path = vec![0.0; bins];
+    for (row, f) in loaded {
+        let support = &row.supports[0];
+        for (&node, w) in support.nodes[..support.count].iter().zip(support.weights) {
+            let Some([_, z]) = patch.node_coordinates(node) else { continue };
+            let (from, to) = ((z - 0.5 * element).max(-half), (z + 0.5 * element).min(half));
+            for b in 0..bins {
+                let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+                let share = f * w * covered(&[bin], [from, to]) / (to - from);
+                load[b] += share;
+                path[b] += share * row.coordinates[0] * pair.pinion.base_radius();
+            }
+        }
+    }
+    (0..bins)
+        .map(|b| {
+            let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+            // A bin that the line leaves carries its load on part of its length.
+            let length = along * covered(line, bin).max(0.5 * width);
+            let radius = if load[b] > 0.0 { relative_radius(pair, path[b] / load[b]) } else { return 0.0 };
+            hertz::line_pressure(load[b] / length, radius, modulus)
+        })
+        .fold(0.0, f64::max)
 }
 
 /// rho_n = rho_1 rho_2 / ((rho_1 + rho_2) cos b_b) at path coordinate xi = rho_1, mm.
