@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use ale::ToothWindow;
 use contact::{ContactError, ContactRow, Pose, Solution, Vec3, closest_points, complementarity};
 use geometry::GearPair;
 use nalgebra::{Translation3, UnitQuaternion};
 
-use crate::{ContactSet, ElasticGear, StaticError, StaticOptions};
+use crate::{StaticError, StaticOptions, parts::Parts};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -69,14 +68,8 @@ impl Station {
 }
 
 /// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
-pub(crate) fn poses(
-    pair: &GearPair,
-    options: &StaticOptions,
-    set: &ContactSet,
-    window: &ToothWindow,
-    station: Station,
-    rotation: f64,
-) -> [Pose; 2] {
+pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2] {
+    let Parts { pair, set, window, options, .. } = *parts;
     let theta1 = station.pinion_angle(pair, options);
     let mut angles = [theta1, pair.wheel_angle(options.side(), theta1)];
     angles[options.driven()] += rotation;
@@ -119,20 +112,17 @@ impl Equilibrium {
 /// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
 /// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact.
 pub(crate) fn equilibrium(
-    pair: &GearPair,
-    gears: &[ElasticGear; 2],
-    set: &ContactSet,
-    window: &ToothWindow,
-    options: &StaticOptions,
+    parts: &Parts,
     station: Station,
     guess: Option<&Equilibrium>,
 ) -> Result<Equilibrium, StaticError> {
+    let Parts { pair, gears, set, options, .. } = *parts;
     let fail = |source: ContactError| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
     let side = options.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let moment = -side.sign() * options.torque;
-    let line = set.line_points(options, &poses(pair, options, set, window, station, 0.0));
+    let line = set.line_points(options, &poses(parts, station, 0.0));
     let scene = set.scene(options, &line);
     let force = options.torque / base_radius;
     let mut rotation = guess.map_or(0.0, |g| g.rotation);
@@ -144,7 +134,7 @@ pub(crate) fn equilibrium(
     let mut iterations = 0;
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
-        let poses = poses(pair, options, set, window, station, rotation);
+        let poses = poses(parts, station, rotation);
         let mut rows = closest_points(&scene, &poses, reach);
         rows.retain(|r| set.partners(r.patches));
         if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {

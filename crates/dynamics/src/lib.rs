@@ -8,8 +8,10 @@ mod elastic;
 mod equilibrium;
 mod error;
 mod full;
+mod line;
 mod loads;
 mod options;
+mod parts;
 pub mod result;
 mod statics;
 

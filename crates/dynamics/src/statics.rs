@@ -5,7 +5,7 @@ use geometry::GearPair;
 
 use crate::{
     ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
-    equilibrium::equilibrium, loads,
+    equilibrium::equilibrium, line, loads, parts::Parts,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -65,6 +65,11 @@ impl StaticModel {
         Ok(Self { pair, gears, options, window, set, last: None, changes: 0 })
     }
 
+    fn parts(&self) -> Parts<'_> {
+        let Self { pair, gears, set, window, options, .. } = self;
+        Parts { pair, gears, set, window, options }
+    }
+
     /// The pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair
@@ -104,8 +109,8 @@ impl StaticModel {
             return Ok(self.unloaded(station));
         }
         let guess = self.last.take();
-        let e = equilibrium(&self.pair, &self.gears, &self.set, &self.window, &self.options, station, guess.as_ref())?;
-        let result = loads::position(&self.pair, &self.gears, &self.set, &self.window, &self.options, &e, self.changes);
+        let e = equilibrium(&self.parts(), station, guess.as_ref())?;
+        let result = loads::position(&self.parts(), &e, self.changes);
         let starved = self.starved(&e);
         self.last = Some(e);
         starved.map_or(Ok(result), Err)
@@ -116,8 +121,7 @@ impl StaticModel {
         let pairs = self.window.pairs();
         let least = 1e-3 * e.transmission_error.abs();
         [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
-            let gap =
-                loads::outside_gap(&self.pair, &self.set, &self.window, &self.options, e, running, self.options.side());
+            let gap = line::outside_gap(&self.parts(), e, running);
             (gap < -least).then(|| StaticError::Starved {
                 cycle: e.station.cycle,
                 phase: e.station.phase,
@@ -212,15 +216,7 @@ impl StaticModel {
                 Ok(position) => position.clone(),
                 // A pair that comes in early is what the change is for; the outgoing tooth decides.
                 Err(StaticError::Starved { .. }) => match &self.last {
-                    Some(e) => loads::position(
-                        &self.pair,
-                        &self.gears,
-                        &self.set,
-                        &self.window,
-                        &self.options,
-                        e,
-                        self.changes,
-                    ),
+                    Some(e) => loads::position(&self.parts(), e, self.changes),
                     None => break,
                 },
                 Err(_) => break,
