@@ -1,7 +1,7 @@
 //! Where a checked scene becomes a call of the solvers.
 
 use contact::{GapSource, Law};
-use dynamics::{ElasticGear, FullGear, StaticError, StaticModel, StaticOptions, StaticPosition};
+use dynamics::{ElasticGear, FullGear, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
 use reduction::{GearReducer, ReductionOptions};
@@ -24,23 +24,90 @@ pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> R
     if scene.analysis.model == Model::Iso {
         return phases.run("solve", || iso_model::solve(scene, &pair));
     }
-    let [pinion, wheel] = phases.run("mesh", || {
+    let meshes = phases.run("mesh", || {
         let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
         let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
         Ok::<_, CommandError>([pinion, wheel])
     })?;
-    let mut warnings = [pinion.warnings.clone(), wheel.warnings.clone()].concat();
+    let mut warnings: Vec<String> = meshes.iter().flat_map(|m| m.warnings.clone()).collect();
+    let mut options = options(scene, &pair);
+    let (model, mut history) = loop {
+        match attempt(scene, phases, results, &pair, &meshes, &options) {
+            Ok(solved) => break solved,
+            Err(Failure::Command(e)) => return Err(e),
+            Err(Failure::Static(e)) => match wider_window(scene, &pair, &meshes, &options, &e) {
+                Some(teeth) => {
+                    warnings.push(format!("{e}; the window was widened to {teeth} teeth"));
+                    options.window = Some(teeth);
+                }
+                None => return Err(complaint(scene, &e)),
+            },
+        }
+    };
+    let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     let mut facts = Facts {
         geometry: gears::geometry_facts(&pair),
-        meshes: vec![pinion.facts.clone(), wheel.facts.clone()],
+        meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
+        dof_before,
+        dof_after: dof_after(&model, dof_before),
+        window_teeth: Some(model.window().count() as u32),
+        contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
         ..Facts::default()
     };
-    let options = options(scene, &pair);
-    let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let elastic = phases.run(name, || elastic_gears(scene, &pair, &options, [pinion, wheel]))?;
-    facts.dof_before = [0, 1].map(|i| free_dofs(&elastic[i]));
-    let mut model = StaticModel::new(pair, elastic, options).map_err(|e| complaint(scene, &e))?;
+    let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
+    facts.model.insert("cyclic_gears".into(), cyclic.into());
+    warnings.extend(sector_warnings(&model));
+    warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
+    history.warnings.extend(warnings);
+    Ok(Solved { history, facts })
+}
 
+/// Why an attempt with one width of the window failed.
+enum Failure {
+    /// The solver's own error, which another width may cure.
+    Static(StaticError),
+    /// Anything else.
+    Command(CommandError),
+}
+
+impl From<CommandError> for Failure {
+    fn from(e: CommandError) -> Self {
+        Self::Command(e)
+    }
+}
+
+impl From<StaticError> for Failure {
+    fn from(e: StaticError) -> Self {
+        Self::Static(e)
+    }
+}
+
+/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the teeth.
+fn wider_window(
+    scene: &Scene,
+    pair: &GearPair,
+    meshes: &[SceneMesh; 2],
+    options: &StaticOptions,
+    error: &StaticError,
+) -> Option<usize> {
+    let teeth = StaticModel::window_teeth(pair, options) + 1;
+    let starved = matches!(error, StaticError::Starved { .. });
+    let room = meshes.iter().all(|m| teeth < m.gear.teeth().len());
+    (starved && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
+}
+
+/// Reduction and run with one width of the window.
+fn attempt(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    pair: &GearPair,
+    meshes: &[SceneMesh; 2],
+    options: &StaticOptions,
+) -> Result<(StaticModel, StaticHistory), Failure> {
+    let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
+    let elastic = phases.run(name, || elastic_gears(scene, pair, options, meshes))?;
+    let mut model = StaticModel::new(pair.clone(), elastic, options.clone())?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let steps = per_cycle * scene.analysis.cycles as usize;
     let mut fields = FieldWriter::new(scene, results);
@@ -54,22 +121,12 @@ pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> R
             }
         });
         match failed {
-            Some(error) => Err(error),
-            None => history.map_err(|e| complaint(scene, &e)),
+            Some(error) => Err(Failure::Command(error)),
+            None => history.map_err(Failure::Static),
         }
-    });
-    let mut history = history?;
+    })?;
     fields.finish()?;
-
-    facts.dof_after = dof_after(&model, facts.dof_before);
-    facts.window_teeth = Some(model.window().count() as u32);
-    facts.contact_points = Some(model.contact_set().points().iter().map(Vec::len).sum());
-    let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
-    facts.model.insert("cyclic_gears".into(), cyclic.into());
-    warnings.extend(sector_warnings(&model));
-    warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
-    history.warnings.extend(warnings);
-    Ok(Solved { history, facts })
+    Ok((model, history))
 }
 
 fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
@@ -99,11 +156,11 @@ fn elastic_gears(
     scene: &Scene,
     pair: &GearPair,
     options: &StaticOptions,
-    meshes: [SceneMesh; 2],
+    meshes: &[SceneMesh; 2],
 ) -> Result<[ElasticGear; 2], CommandError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| complaint(scene, &e))?;
     let window = StaticModel::window_teeth(pair, options);
-    let build = |i: usize, mesh: SceneMesh| -> Result<ElasticGear, CommandError> {
+    let build = |i: usize, mesh: &SceneMesh| -> Result<ElasticGear, CommandError> {
         let whose = ["pinion", "wheel"][i];
         let m = scene.gears()[i].material;
         let material = Material::new(m.young_mpa, m.poisson, m.density()).map_err(|e| {
@@ -111,10 +168,10 @@ fn elastic_gears(
         })?;
         let elements = ElementOptions::default();
         let gear = if scene.analysis.model == Model::Full {
-            FullGear::new(mesh.gear, material, &elements).map(ElasticGear::Full)
+            FullGear::new(mesh.gear.clone(), material, &elements).map(ElasticGear::Full)
         } else {
             let options = ReductionOptions { sides: options.sides(), window, first: first[i], elements };
-            GearReducer::new(mesh.gear, material, options).map(ElasticGear::Reduced)
+            GearReducer::new(mesh.gear.clone(), material, options).map(ElasticGear::Reduced)
         };
         let place = match scene.gears()[i].mesh {
             Some(_) => mesh.facts.source.clone(),
