@@ -12,7 +12,7 @@ use dynamics::{StaticHistory, StaticModel};
 use fem::{ElementOptions, IncompatibleModes, Integration};
 use support::{Case, summary};
 
-/// STE [um] and forces [N] of pairs -1, 0, +1 at s = 0, 1/8 .. 7/8.
+/// STE [um] and forces (N) of pairs -1, 0, +1 at s = 0, 1/8 .. 7/8.
 struct Reference {
     ste_um: [f64; 8],
     pair_force_n: [[f64; 3]; 8],

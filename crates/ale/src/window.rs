@@ -88,7 +88,7 @@ impl ToothWindow {
         }
     }
 
-    /// The window one tooth on, for both gears at once. `forces` [N] are the normal forces of the window's pairs,
+    /// The window one tooth on, for both gears at once. `forces` (N) are the normal forces of the window's pairs,
     /// ascending; the outgoing pair must carry none at all: contact force is exactly zero where a gap is open.
     ///
     /// # Errors

@@ -40,7 +40,7 @@ impl Candidates {
         Self { boxes, owners, tree }
     }
 
-    /// Pairs of faces whose boxes come within `reach` [mm] of each other, ascending; poses map own frames to the common
+    /// Pairs of faces whose boxes come within `reach` (mm) of each other, ascending; poses map own frames to the common
     /// one. Conservative: a pair that is left out is farther apart than `reach`.
     pub fn pairs(&self, pose: &Pose, other: &Self, other_pose: &Pose, reach: f64) -> Vec<FacePair> {
         let relative = to_parry(&(pose.inverse() * other_pose));

@@ -75,7 +75,7 @@ pub struct ContactRow {
     pub supports: [Support; 2],
 }
 
-/// Gap rows of all candidate points nearer than `reach` [mm], ascending by (patch, point).
+/// Gap rows of all candidate points nearer than `reach` (mm), ascending by (patch, point).
 ///
 /// g = (x_1 - x_2) . n_2 with x_2 the foot of x_1 on body 2's smooth surface. A point whose foot lies off body 2's
 /// faces is no candidate. Where several patches of body 2 are near, each makes a row of its own.

@@ -105,7 +105,7 @@ const PENALTY_TOLERANCE: f64 = 1e-9;
 /// Violation that counts as solved, relative to approach and force.
 const TOLERANCE: f64 = 1e-11;
 
-/// Solves the contact of `rows` under `moment` [N mm] about the body whose levers are `levers`.
+/// Solves the contact of `rows` under `moment` (N mm) about the body whose levers are `levers`.
 ///
 /// Block principal pivoting (all violated points change at once); where that stops making progress, the primal active-set
 /// method, which ends because every step lowers the energy. Exact contact with more points than nodes has no unique forces and no

@@ -12,7 +12,7 @@ use crate::{
 /// ```text
 /// o_i = sum_j C_ij F_j,   C = sum over both bodies of A C_b A'
 /// ```
-/// C_b [mm/N] is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A the rows' supports. Columns
+/// C_b (mm/N) is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A the rows' supports. Columns
 /// C_b A'_j are made when a row first becomes active and kept.
 #[derive(Debug)]
 pub struct Condensed<'a> {

@@ -7,7 +7,7 @@ pub fn effective_modulus(bodies: [(f64, f64); 2]) -> f64 {
     1.0 / bodies.iter().map(|(young, nu)| (1.0 - nu * nu) / young).sum::<f64>()
 }
 
-/// Largest pressure p0 [MPa] of a line load q [N/mm] between cylinders of relative radius rho [mm].
+/// Largest pressure p0 (MPa) of a line load q (N/mm) between cylinders of relative radius rho (mm).
 ///
 /// ```text
 /// p0 = sqrt(q E* / (pi rho)),   1/rho = 1/rho_1 + 1/rho_2
@@ -16,7 +16,7 @@ pub fn line_pressure(load: f64, radius: f64, effective_modulus: f64) -> f64 {
     (load * effective_modulus / (PI * radius)).sqrt()
 }
 
-/// Half-width a [mm] of the same contact: a = 2 q / (pi p0).
+/// Half-width a (mm) of the same contact: a = 2 q / (pi p0).
 pub fn half_width(load: f64, radius: f64, effective_modulus: f64) -> f64 {
     if load > 0.0 { 2.0 * load / (PI * line_pressure(load, radius, effective_modulus)) } else { 0.0 }
 }

@@ -7,7 +7,7 @@ const SCAN: usize = 24;
 /// Bisection steps: the bracket shrinks to round-off.
 const STEPS: usize = 60;
 
-/// Surface coordinates on `first` at height `z` [mm] where the gap to the smooth surface of `second` is least; ends of the
+/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of the
 /// faces included. `None` where no point of the station faces `second`.
 ///
 /// The gap's slope along the profile is n_2 . dx_1/du, with n_2 the normal at the foot; its zero is bracketed by a scan and

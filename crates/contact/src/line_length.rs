@@ -1,6 +1,6 @@
 //! Length of a contact line from the contact state.
 
-/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` [mm], the least deformed gap at height z, is
+/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at height z, is
 /// at most `tolerance`.
 ///
 /// `samples` equally spaced stations of `range` tell where contact begins and ends; each end is then bisected to a

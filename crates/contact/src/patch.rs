@@ -57,7 +57,7 @@ struct Bins {
 }
 
 impl FlankPatch {
-    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` [mm] is how far
+    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` (mm) is how far
     /// a node may lie from the smooth surface.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::{ContactRow, FlankPatch};
 
-/// Pressure [MPa] at the boundary nodes of body `body` (0 or 1): nodal force over nodal area.
+/// Pressure (MPa) at the boundary nodes of body `body` (0 or 1): nodal force over nodal area.
 ///
 /// ```text
 /// p_i = sum_j |N_i(x_j)| F_j / integral of |N_i|

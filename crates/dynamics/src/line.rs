@@ -93,7 +93,7 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * e.approach(pair))
 }
 
-/// Least gap [mm] at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
+/// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
 pub(crate) fn outside_gap(parts: &Parts, e: &Equilibrium, running: i64) -> f64 {
     let Parts { pair, set, window, options, .. } = *parts;
     let side = options.side();

@@ -37,7 +37,7 @@ pub struct StaticOptions {
 }
 
 impl StaticOptions {
-    /// Defaults for a torque [N mm] on the driven gear of `pair`: pinion drives counter-clockwise, exact contact, 6 points an edge.
+    /// Defaults for a torque (N mm) on the driven gear of `pair`: pinion drives counter-clockwise, exact contact, 6 points an edge.
     pub fn new(torque: f64, pair: &GearPair) -> Self {
         Self {
             driver: Driver::Pinion,

@@ -129,7 +129,7 @@ fn an_inverted_element_is_named() {
     }
 }
 
-/// Tip deflection [mm] of a 10 x 1 x 1 mm cantilever under 1 N across the tip face, and that of beam theory.
+/// Tip deflection (mm) of a 10 x 1 x 1 mm cantilever under 1 N across the tip face, and that of beam theory.
 fn cantilever(kind: ElementKind, cells: [usize; 3], options: &ElementOptions) -> Result<(f64, f64), FemError> {
     let size = [10.0, 1.0, 1.0];
     let mesh = box_mesh(kind, cells, |c| [0, 1, 2].map(|a| c[a] * size[a] / cells[a] as f64));

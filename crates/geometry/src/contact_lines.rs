@@ -14,7 +14,7 @@ pub struct ContactLine {
 }
 
 impl GearPair {
-    /// Contact line of pinion tooth `tooth` at pinion angle `pinion_angle` [rad], if it is in contact.
+    /// Contact line of pinion tooth `tooth` at pinion angle `pinion_angle` (rad), if it is in contact.
     ///
     /// In the plane of action (path of contact by face width) the line is straight, inclined by b_b; it is clipped
     /// by the rectangle: xi_A <= xi(z) <= xi_E, |z| <= b/2.
@@ -35,7 +35,7 @@ impl GearPair {
         (z1 > z0).then(|| ContactLine { tooth, z: [z0, z1], length: (z1 - z0) / self.base_helix_angle().cos() })
     }
 
-    /// All contact lines at pinion angle `pinion_angle` [rad], ascending by tooth.
+    /// All contact lines at pinion angle `pinion_angle` (rad), ascending by tooth.
     pub fn contact_lines(&self, side: Side, pinion_angle: f64) -> Vec<ContactLine> {
         let pitch = self.transverse_base_pitch();
         let [start, end] = self.path_of_contact();

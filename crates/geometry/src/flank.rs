@@ -104,7 +104,7 @@ impl Flank {
         self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b)
     }
 
-    /// Derivatives of the surface point by roll angle [mm] and by z [1].
+    /// Derivatives of the surface point by roll angle (mm) and by z (1).
     pub fn tangents(&self, u: f64, z: f64) -> [Vec3; 2] {
         let (sin, cos) = self.generating_angle(u, z).sin_cos();
         let p = self.point(u, z);

@@ -11,7 +11,7 @@ use crate::{Gear, GeometryError, Side};
 /// ```text
 /// cos a_wt = (r_b1 + r_b2) / a
 /// ```
-/// The path of contact is measured by xi [mm] from the pinion's tangent point T1 along the transverse line of
+/// The path of contact is measured by xi (mm) from the pinion's tangent point T1 along the transverse line of
 /// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearPair {
@@ -23,7 +23,7 @@ pub struct GearPair {
 }
 
 impl GearPair {
-    /// A pair at the given centre distance [mm], or at the one without backlash from thinning
+    /// A pair at the given centre distance (mm), or at the one without backlash from thinning
     /// (`inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2)`).
     ///
     /// # Errors
@@ -148,7 +148,7 @@ impl GearPair {
         (pitch - thickness(&self.pinion) - thickness(&self.wheel)) * a_wt.cos()
     }
 
-    /// Path coordinate xi [mm] of pinion tooth `tooth` at height `z` [mm] when the pinion stands at angle
+    /// Path coordinate xi (mm) of pinion tooth `tooth` at height `z` (mm) when the pinion stands at angle
     /// `pinion_angle` [rad, counter-clockwise] and the flanks on `side` are in contact.
     ///
     /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
@@ -158,7 +158,7 @@ impl GearPair {
         p.base_radius() * (side.sign() * turn + p.profile().base_half_angle() + self.working_pressure_angle())
     }
 
-    /// Pinion angle [rad] at which pinion tooth 0 stands, at mid-face, in the middle of the path of contact.
+    /// Pinion angle (rad) at which pinion tooth 0 stands, at mid-face, in the middle of the path of contact.
     pub fn middle_angle(&self, side: Side) -> f64 {
         let [start, end] = self.path_of_contact();
         let p = &self.pinion;
@@ -166,7 +166,7 @@ impl GearPair {
         side.sign() * (roll - p.profile().base_half_angle() - self.working_pressure_angle())
     }
 
-    /// Wheel angle [rad] at which its tooth 0 (own frame turned by this angle) touches pinion tooth 0 on flanks
+    /// Wheel angle (rad) at which its tooth 0 (own frame turned by this angle) touches pinion tooth 0 on flanks
     /// `side`, both unloaded; pinion tooth k then touches wheel tooth -k.
     ///
     /// s (theta_2 - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)

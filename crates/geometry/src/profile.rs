@@ -107,7 +107,7 @@ impl TransverseProfile {
         Ok(profile)
     }
 
-    /// Finds where the fillet ends and the involute starts; `y_end` [mm] is the height of the last point of the
+    /// Finds where the fillet ends and the involute starts; `y_end` (mm) is the height of the last point of the
     /// rack's straight flank, whose path crosses the line of action at roll angle tan(alpha_t) + y / (r_b sin ...).
     fn join_fillet(&mut self, y_end: f64, alpha_t: f64) -> Result<(), GeometryError> {
         let roll_end = alpha_t.tan() + y_end / (self.base_radius * alpha_t.sin());
@@ -178,7 +178,7 @@ impl TransverseProfile {
         self.undercut
     }
 
-    /// Point of the fillet: radius [mm] and angle from the tooth's centre line [rad];
+    /// Point of the fillet: radius (mm) and angle from the tooth's centre line (rad);
     /// `t` = 0 at the root land, 1 at the root form circle.
     pub fn fillet(&self, t: f64) -> (f64, f64) {
         let (r, space) = self.rack.generated(t * self.fillet_end, self.reference_radius);

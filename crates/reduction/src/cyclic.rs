@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use mesh::Mesh;
 
-/// Permutation that a turn by `pitch` [rad] about z makes of the mesh: node i goes where node `p[i]` is.
+/// Permutation that a turn by `pitch` (rad) about z makes of the mesh: node i goes where node `p[i]` is.
 ///
 /// `None` unless every node (within `tolerance` mm) and every element has an image: then the gear is cyclic and
 /// all windows have the same matrices, each in its own frame.

@@ -174,7 +174,7 @@ impl GearReducer {
         nodes
     }
 
-    /// Displacement [mm] of every node in the gear's own frame when the window's coordinates are `u` and all else is free
+    /// Displacement (mm) of every node in the gear's own frame when the window's coordinates are `u` and all else is free
     /// of load: T u = [u_B; Phi_IC u_B].
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use geometry::{Gear, TransverseProfile};
 
 use super::StructuredOptions;
 
-/// A point in polar coordinates: radius [mm], angle from the tooth's centre line [rad].
+/// A point in polar coordinates: radius (mm), angle from the tooth's centre line (rad).
 pub(super) type Polar = [f64; 2];
 
 /// The counter-clockwise half of the section's boundary at lattice resolution (element ends, and middles for order 2).
@@ -104,7 +104,7 @@ impl<'a> FilletCurve<'a> {
     }
 }
 
-/// Way down and around [mm] over sample interval i.
+/// Way down and around (mm) over sample interval i.
 fn step(profile: &TransverseProfile, i: usize) -> (f64, f64) {
     let at = |i: usize| profile.fillet(1.0 - i as f64 / SAMPLES as f64);
     let ((r0, a0), (r1, a1)) = (at(i), at(i + 1));
