@@ -124,6 +124,7 @@ fn position(
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         pairs,
         wrench,
+        root_stress: Default::default(),
         strain_energy: 0.5 * base_force * transmission_error,
         tooth_changes: 0, // there is no window that could slide
         certificate: certificate(scene, &wrench),

@@ -13,6 +13,7 @@ mod loads;
 mod options;
 mod parts;
 pub mod result;
+mod root_stress;
 mod statics;
 
 pub use contact_set::ContactSet;
@@ -21,4 +22,5 @@ pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
 pub use options::{Driver, StaticOptions};
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, Wrench};
+pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};
 pub use statics::{Change, StaticModel};

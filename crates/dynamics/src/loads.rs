@@ -74,6 +74,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         geometric_line_length: pair.contact_line_length(side, theta1),
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
+        root_stress: Default::default(),
         strain_energy: elastic + penalty,
         tooth_changes,
         certificate: Certificate {
