@@ -131,7 +131,7 @@ fn stress_is_linear_in_the_coordinates() {
     assert!(gear.stress_modes(&window, &[u32::MAX]).is_err(), "a node that does not exist");
 }
 
-/// Fillets are found where the section has them: every node on the exact curve or on the root land, both sides of a tooth mirror
+/// Fillets are found where the section has them: every node on the exact curve or on the root land (mid-side nodes on chords), both sides of a tooth mirror
 /// images at mid-face, the middle of a space on both fillets.
 #[test]
 fn fillet_nodes_lie_on_the_fillet() {
@@ -162,7 +162,7 @@ fn fillet_nodes_lie_on_the_fillet() {
             }
         }
         println!("{name}: {worst:.1e} mm off the exact section at worst");
-        assert!(worst < 2e-3, "{name}: a node is {worst} mm off the fillet");
+        assert!(worst < 5e-3, "{name}: a node is {worst} mm off the fillet");
         let shared: Vec<_> =
             found.nodes(0, Side::Left).iter().filter(|n| found.nodes(1, Side::Right).contains(n)).collect();
         assert!(name == "tet10" || !shared.is_empty(), "{name}: nobody is on the middle of the space");
