@@ -13,12 +13,14 @@ mod loads;
 mod options;
 mod parts;
 pub mod result;
+mod slice_set;
 mod statics;
 
 pub use contact_set::ContactSet;
 pub use elastic::{ElasticGear, FullGear};
 pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
-pub use options::{Driver, StaticOptions};
-pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, Wrench};
+pub use options::{Driver, Method, StaticOptions};
+pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
+pub use slice_set::SliceSet;
 pub use statics::{Change, StaticModel};

@@ -11,10 +11,12 @@
 
 mod cyclic;
 mod error;
+mod half_tooth;
 mod reducer;
 mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use half_tooth::HalfTooth;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use window::{ReducedGear, Window};
