@@ -93,6 +93,8 @@ const COMPLIANCE_DECAY: f64 = 0.1;
 const LAST_COMPLIANCE: f64 = 1e-6;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 60;
+/// Newton steps on the local compliance of slices before giving up; five or six do.
+const SLICE_STEPS: usize = 60;
 /// Block pivots without progress before single steps take over.
 const PATIENCE: usize = 10;
 /// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a solve
@@ -167,6 +169,63 @@ pub fn solve(
         relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
     Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+}
+
+/// Solves the contact of slices: each row has a compliance of its own besides the bodies', not linear in its force.
+///
+/// ```text
+/// g_i = g0_i + l_i dtheta + o_i(F) + delta_i(F_i)
+/// ```
+/// Newton on the complementarity: delta is replaced by its tangent at the last forces, the resulting linear problem is solved
+/// exactly, active set and all; the tangents are exact, so the error falls quadratically. delta grows slower and slower with the load, so the steps
+/// approach from below and need no damping. `local(i, F)` gives delta_i (mm) and its slope (mm/N); slopes are positive.
+///
+/// # Errors
+/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+pub fn solve_slices(
+    bodies: &mut dyn LinearContact,
+    rows: &[ContactRow],
+    levers: &[f64],
+    moment: f64,
+    local: impl Fn(usize, f64) -> (f64, f64),
+    start: &[f64],
+) -> Result<Solution, ContactError> {
+    let driving = moment.signum();
+    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+        return Err(ContactError::NoLever { lever_mm });
+    }
+    let n = rows.len();
+    let gaps = vec![0.0; n];
+    let mut problem = Problem { gaps, levers: levers.to_vec(), compliance: vec![0.0; n], moment };
+    let mut active: Vec<usize> = (0..n).filter(|&i| start[i] > 0.0).collect();
+    let mut forces = start.to_vec();
+    if active.is_empty() {
+        active = first_guess(rows, levers, driving);
+        // Tangents at a typical force: half of the rows share the load.
+        forces.fill(2.0 * moment.abs() / (lever_mm * n as f64));
+    }
+    let mut total = 0;
+    for _ in 0..SLICE_STEPS {
+        for (i, row) in rows.iter().enumerate() {
+            let (approach, slope) = local(i, forces[i]);
+            problem.compliance[i] = slope;
+            problem.gaps[i] = row.gap + approach - slope * forces[i];
+        }
+        let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
+        total += iterations;
+        let mut solution = finish(rows, &problem, answer, settled, total);
+        for (i, o) in solution.openings.iter_mut().enumerate() {
+            *o += local(i, solution.forces[i]).0;
+        }
+        solution.residual = exact_residual(rows, levers, &solution);
+        if solution.residual < TOLERANCE {
+            return Ok(solution);
+        }
+        forces.clone_from(&solution.forces);
+        active = solution.active;
+    }
+    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: n })
 }
 
 /// Points that touch first when the body turns: those within a hundredth of the way of the nearest.

@@ -11,7 +11,7 @@ pub struct FullGear {
     pub gear: GearMesh,
     /// Its material.
     pub material: Material,
-    /// Element variants used.
+    /// Element variants.
     pub elements: ElementOptions,
     /// Free degrees of freedom.
     pub dofs: DofMap,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use contact::{ContactError, ContactRow, Pose, Solution, Vec3, closest_points, complementarity};
+use contact::{ContactError, ContactRow, Pose, Slice, Solution, Vec3, closest_points, complementarity};
 use geometry::GearPair;
 use nalgebra::{Translation3, UnitQuaternion};
 
@@ -33,6 +33,8 @@ pub struct Equilibrium {
     pub transmission_error: f64,
     /// Candidate points.
     pub rows: Vec<ContactRow>,
+    /// The slice of each row; none where points touch.
+    pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
     /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames.
@@ -135,8 +137,14 @@ pub(crate) fn equilibrium(
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
         let poses = poses(parts, station, rotation);
-        let mut rows = closest_points(&scene, &poses, reach);
-        rows.retain(|r| set.partners(r.patches));
+        let (rows, slices) = match set.slices() {
+            Some(slices) => slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), &poses, reach),
+            None => {
+                let mut rows = closest_points(&scene, &poses, reach);
+                rows.retain(|r| set.partners(r.patches));
+                (rows, Vec::new())
+            }
+        };
         if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
             if reach > pair.pinion.data().normal_module {
                 return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
@@ -148,8 +156,16 @@ pub(crate) fn equilibrium(
         let start: Vec<f64> =
             rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
         let mut bodies = set.bodies(gears, &rows).map_err(fail)?;
-        let solution =
-            complementarity::solve(&mut *bodies, &rows, &levers, moment, options.law, &start).map_err(fail)?;
+        let solution = if set.slices().is_some() {
+            let local = |i: usize, force: f64| {
+                let state = slices[i].local.under(force / slices[i].length);
+                (state.approach, state.slope / slices[i].length)
+            };
+            complementarity::solve_slices(&mut *bodies, &rows, &levers, moment, local, &start)
+        } else {
+            complementarity::solve(&mut *bodies, &rows, &levers, moment, options.law, &start)
+        }
+        .map_err(fail)?;
         iterations += solution.iterations;
         // A row that the step can close must have been among the rows.
         let farthest = levers.iter().fold(0.0f64, |m, l| m.max((l * solution.rotation).abs()));
@@ -171,6 +187,7 @@ pub(crate) fn equilibrium(
                 rotation,
                 transmission_error: error,
                 rows,
+                slices,
                 solution,
                 displacements,
                 iterations,

@@ -14,13 +14,15 @@ mod options;
 mod parts;
 pub mod result;
 mod root_stress;
+mod slice_set;
 mod statics;
 
 pub use contact_set::ContactSet;
 pub use elastic::{ElasticGear, FullGear};
 pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
-pub use options::{Driver, StaticOptions};
-pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, Wrench};
+pub use options::{Driver, Method, StaticOptions};
+pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
 pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};
+pub use slice_set::SliceSet;
 pub use statics::{Change, StaticModel};

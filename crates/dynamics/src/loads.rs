@@ -1,10 +1,10 @@
 //! From a solved contact to the quantities of a station.
 
-use contact::{ContactRow, Vec3, covered, hertz};
+use contact::{ContactRow, Slice, Vec3, covered, hertz};
 use geometry::GearPair;
 
 use crate::{
-    Certificate, Equilibrium, PairResult, StaticPosition, Wrench,
+    Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench,
     line::{contact_line, line_pressure},
     parts::Parts,
 };
@@ -53,6 +53,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
     let moment = -side.sign() * options.torque;
     let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
+    let local: f64 = e.slices.iter().zip(&e.solution.forces).map(|(s, &f)| local_energy(s, f)).sum();
     let penalty: f64 = match options.law {
         contact::Law::Exact => 0.0,
         contact::Law::Penalty(k) => {
@@ -75,7 +76,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
         root_stress: Default::default(),
-        strain_energy: elastic + penalty,
+        strain_energy: elastic + local + penalty,
         tooth_changes,
         certificate: Certificate {
             torque_residual: if moment == 0.0 { 0.0 } else { (wrench[driven].moment[2] / moment - 1.0).abs() },
@@ -100,10 +101,22 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     let half = 0.5 * pair.face_width();
     let modulus =
         hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
-    let max_pressure = set.patch_of(0, k, options.side()).map_or(0.0, |p| {
-        let patch = &set.patches()[0][p];
-        line_pressure(pair, patch, &loaded, &line, modulus)
-    });
+    let slices: Vec<SliceResult> = e
+        .slices
+        .iter()
+        .zip(e.rows.iter().zip(&e.solution.forces))
+        .filter(|(_, (row, f))| **f > 0.0 && mine(row))
+        .map(|(s, (_, &f))| slice_result(s, f))
+        .collect();
+    let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
+    let max_pressure = if set.slices().is_some() {
+        pressed
+    } else {
+        set.patch_of(0, k, options.side()).map_or(0.0, |p| {
+            let patch = &set.patches()[0][p];
+            line_pressure(pair, patch, &loaded, &line, modulus)
+        })
+    };
     PairResult {
         pair: options.sense.sign() * running,
         pinion_tooth,
@@ -113,5 +126,31 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
         max_pressure,
         contact_line_length: along * covered(&line, [-half, half]),
         points_in_contact: loaded.len(),
+        slices,
     }
+}
+
+fn slice_result(slice: &Slice, force: f64) -> SliceResult {
+    let line_load = force / slice.length;
+    let state = slice.local.under(line_load);
+    SliceResult {
+        z: slice.z,
+        roll: [slice.at[0][0], slice.at[1][0]],
+        line_load,
+        half_width: state.half_width,
+        pressure: state.pressure,
+        off_line: slice.local.off_line,
+    }
+}
+
+/// What the local approach stores beyond half of force times approach, N mm: its slope falls as the load grows.
+///
+/// delta = q (b - c ln q) stores q delta / 2 + c q^2 / 4 per length of line, and c = delta / q - d delta/dq.
+fn local_energy(slice: &Slice, force: f64) -> f64 {
+    let q = force / slice.length;
+    if q <= 0.0 {
+        return 0.0;
+    }
+    let state = slice.local.under(q);
+    0.25 * slice.length * q * (state.approach - q * state.slope)
 }

@@ -167,6 +167,7 @@ impl StaticModel {
                     max_pressure: 0.0,
                     contact_line_length: line.map_or(0.0, |l| l.length),
                     points_in_contact: 0,
+                    slices: Vec::new(),
                 }
             })
             .collect();

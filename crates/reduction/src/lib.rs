@@ -11,12 +11,14 @@
 
 mod cyclic;
 mod error;
+mod half_tooth;
 mod reducer;
 mod stress_modes;
 mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use half_tooth::HalfTooth;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

@@ -1,0 +1,49 @@
+//! Slice contact against the mesh-converged values of the default pair.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+//!
+//! Source: `nodal` contact with the band resolved by a fine local mesh under every contact line, made by an independent code,
+//! 2026; sectors of 5 teeth, cut faces free, bore rigid, 150 N m. Single positions +- 0.3 %, pair forces +- 10 N.
+
+mod support;
+
+use dynamics::StaticHistory;
+use fem::ElementOptions;
+use support::{Case, summary};
+
+const STE_UM: [f64; 8] = [10.21, 10.40, 10.87, 11.18, 11.05, 11.16, 10.86, 10.38];
+const PAIR_FORCE_N: [[f64; 3]; 8] = [
+    [0.0, 1823.0, 1724.0],
+    [0.0, 2078.0, 1469.0],
+    [0.0, 2337.0, 1210.0],
+    [149.0, 2508.0, 890.0],
+    [533.0, 2484.0, 530.0],
+    [892.0, 2500.0, 154.0],
+    [1215.0, 2332.0, 0.0],
+    [1476.0, 2071.0, 0.0],
+];
+
+fn run(mesh: &str) -> StaticHistory {
+    let case = Case::reference(mesh, ElementOptions::default());
+    let options = case.slice_options();
+    case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
+}
+
+#[test]
+fn hex20_reaches_the_converged_values() {
+    let history = run("ref_qcoarse_hex20");
+    let (mean, swing) = summary(history.positions.iter().map(|p| 1e3 * p.transmission_error));
+    println!("mean {mean:.4} (10.77), p-p {swing:.4} (0.96)");
+    for (p, (ste, wanted)) in history.positions.iter().zip(STE_UM.iter().zip(&PAIR_FORCE_N)) {
+        let found: Vec<f64> = p.pairs.iter().map(|q| q.normal_force).collect();
+        println!(
+            "s {:.3}: STE {:.4} ({ste}) {:+.2} %, forces {found:.1?} ({wanted:?}), p {:.0}, L {:.3} ({:.3}), {:?}",
+            p.mesh_phase,
+            1e3 * p.transmission_error,
+            100.0 * (1e3 * p.transmission_error / ste - 1.0),
+            p.max_pressure,
+            p.contact_line_length,
+            p.geometric_line_length,
+            p.certificate
+        );
+    }
+}
