@@ -87,6 +87,8 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.
