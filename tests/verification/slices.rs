@@ -6,7 +6,7 @@
 
 mod support;
 
-use dynamics::StaticHistory;
+use dynamics::{StaticHistory, StaticOptions};
 use fem::ElementOptions;
 use support::{Case, summary};
 
@@ -23,7 +23,8 @@ const PAIR_FORCE_N: [[f64; 3]; 8] = [
 ];
 
 fn run(mesh: &str) -> StaticHistory {
-    let case = Case::reference(mesh, ElementOptions::default());
+    let case =
+        Case::reference(mesh, ElementOptions { integration: fem::Integration::Reduced, ..ElementOptions::default() });
     let options = case.slice_options();
     case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
 }
@@ -45,5 +46,60 @@ fn hex20_reaches_the_converged_values() {
             p.geometric_line_length,
             p.certificate
         );
+    }
+}
+
+/// All degrees of freedom kept, or reduced: the same slices, the same answer.
+#[test]
+fn reduced_equals_full() {
+    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let options = case.slice_options();
+    let [a, b] = [case.reduced(options.clone()), case.full(options)].map(|mut m| m.run(8, 1, |_, _, _| ()).unwrap());
+    for (a, b) in a.positions.iter().zip(&b.positions) {
+        let off = (a.transmission_error / b.transmission_error - 1.0).abs();
+        assert!(off < 1e-8, "phase {}: STE off by {off:e}", a.mesh_phase);
+        let total: f64 = a.pairs.iter().map(|p| p.normal_force).sum();
+        for (p, q) in a.pairs.iter().zip(&b.pairs) {
+            let off = (p.normal_force - q.normal_force).abs() / total;
+            assert!(off < 1e-8, "phase {}, pair {}: force off by {off:e}", a.mesh_phase, p.pair);
+        }
+    }
+}
+
+/// Power is lost at every position and comes out of the driver; without friction the torques are in the ratio of the teeth.
+#[test]
+fn friction_takes_power() {
+    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let run = |friction: f64| {
+        case.reduced(StaticOptions { friction, ..case.slice_options() }).run(16, 1, |_, _, _| ()).unwrap().positions
+    };
+    let (with, without) = (run(0.08), run(0.0));
+    for (a, b) in with.iter().zip(&without) {
+        let drive = -b.wrench[0].moment[2];
+        assert!(a.friction_work > 0.0 && b.friction_work == 0.0, "phase {}: {}", a.mesh_phase, a.friction_work);
+        // Virtual work: what the driver puts in beyond what comes out is friction's.
+        let lost = -a.wrench[0].moment[2] - drive;
+        let off = lost / a.friction_work - 1.0;
+        assert!(
+            off.abs() < 0.02,
+            "phase {}: {lost} N mm a radian lost, friction takes {}",
+            a.mesh_phase,
+            a.friction_work
+        );
+    }
+}
+
+/// Without friction the torques are in the ratio of the teeth wherever no edge presses off the line of action.
+#[test]
+fn torques_are_in_the_ratio_of_the_teeth() {
+    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let options = StaticOptions { torque: 1e3, ..case.slice_options() };
+    let positions = case.reduced(options).run(16, 1, |_, _, _| ()).unwrap().positions;
+    let on_line: Vec<_> =
+        positions.iter().filter(|p| p.pairs.iter().flat_map(|p| &p.slices).all(|s| s.off_line == 0.0)).collect();
+    assert!(on_line.len() >= 8, "{} of {} positions without an edge", on_line.len(), positions.len());
+    for p in on_line {
+        let off = p.wrench[0].moment[2] / p.wrench[1].moment[2] - 1.0;
+        assert!(off.abs() < 1e-8, "phase {}: torques are off by {off:e}", p.mesh_phase);
     }
 }

@@ -48,8 +48,10 @@ pub struct Support {
     pub weights: [f64; 9],
     /// How many of them are used.
     pub count: usize,
-    /// Direction d in the body's own frame: the direction of the force on the body.
+    /// Direction d in the body's own frame: the direction of the normal force on the body.
     pub direction: Vec3,
+    /// Force on the body for a unit normal force, own frame: `direction`, and friction on top.
+    pub load: Vec3,
 }
 
 /// One candidate point with everything the solve needs.
@@ -71,6 +73,10 @@ pub struct ContactRow {
     pub coordinates: [f64; 2],
     /// d gap / d angle of each body about its own z axis, mm; a unit normal force turns the body with just this moment.
     pub levers: [f64; 2],
+    /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no friction.
+    pub torque_levers: [f64; 2],
+    /// Force on body 1 for a unit normal force, common frame: `normal`, and friction on top.
+    pub traction: Vec3,
     /// Loading of the bodies.
     pub supports: [Support; 2],
 }
@@ -144,6 +150,8 @@ pub fn contact_row(
         normal,
         coordinates: p.coordinates,
         levers: levers(poses, &position, &normal),
+        torque_levers: levers(poses, &position, &normal),
+        traction: normal,
         supports: [
             Support::new(patch.interpolation(p.at), poses[0].inverse_transform_vector(&normal)),
             Support::new(other.interpolation(at), -normal_2),
@@ -181,6 +189,8 @@ pub(crate) fn row_at(
         normal,
         coordinates: at[0],
         levers: levers(poses, &position, &normal),
+        torque_levers: levers(poses, &position, &normal),
+        traction: normal,
         supports: [
             support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal))?,
             support_at(patches[1], at[1], -normal_2)?,
@@ -195,6 +205,25 @@ pub(crate) fn support_at(patch: &FlankPatch, at: [f64; 2], direction: Vec3) -> O
 
 impl Support {
     fn new(i: Interpolation, direction: Vec3) -> Self {
-        Self { nodes: i.nodes, weights: i.weights, count: i.count, direction }
+        Self { nodes: i.nodes, weights: i.weights, count: i.count, direction, load: direction }
+    }
+}
+
+impl ContactRow {
+    /// Adds friction: `tangential` (common frame) is the friction force on body 1 for a unit normal force.
+    ///
+    /// Gaps stay what they are; the bodies and the moments see normal and friction force together.
+    #[must_use]
+    pub fn with_friction(mut self, poses: &[Pose; 2], tangential: &Vec3) -> Self {
+        self.traction = self.normal + tangential;
+        self.torque_levers = levers(poses, &self.position, &self.traction);
+        self.supports[0].load = poses[0].inverse_transform_vector(&self.traction);
+        self.supports[1].load = -poses[1].inverse_transform_vector(&self.traction);
+        self
+    }
+
+    /// Whether friction acts.
+    pub fn has_friction(&self) -> bool {
+        self.traction != self.normal
     }
 }

@@ -77,7 +77,7 @@ pub(crate) fn load_columns(support: &Support, mut add: impl FnMut(usize, f64)) {
     for k in 0..support.count {
         let at = 3 * support.nodes[k] as usize;
         for axis in 0..3 {
-            let f = support.weights[k] * support.direction[axis];
+            let f = support.weights[k] * support.load[axis];
             if f != 0.0 {
                 add(at + axis, f);
             }
@@ -92,10 +92,12 @@ impl LinearContact for Condensed<'_> {
             self.prepare(j, 0);
             self.prepare(j, 1);
         }
+        let friction = active.iter().any(|&i| self.rows[i].has_friction());
         let mut s = Mat::<f64>::zeros(n, n);
         for (b, &j) in active.iter().enumerate() {
             let [Some(first), Some(second)] = &self.columns[j] else { unreachable!("prepared above") };
-            for (a, &i) in active.iter().enumerate().skip(b) {
+            // Without friction the matrix is symmetric, and the lower half is enough.
+            for (a, &i) in active.iter().enumerate().skip(if friction { 0 } else { b }) {
                 let supports = &self.rows[i].supports;
                 s[(a, b)] = opening(&supports[0], first)
                     + opening(&supports[1], second)
@@ -104,12 +106,15 @@ impl LinearContact for Condensed<'_> {
             s[(b, b)] += problem.compliance[j];
         }
         let rhs = Mat::from_fn(n, 2, |a, k| if k == 0 { -problem.gaps[active[a]] } else { problem.levers[active[a]] });
-        let factor = s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?;
-        let x = factor.solve(&rhs);
+        let x = if friction {
+            s.partial_piv_lu().solve(&rhs)
+        } else {
+            s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?.solve(&rhs)
+        };
         let (mut carried, mut stiffness) = (0.0, 0.0);
         for (a, &i) in active.iter().enumerate() {
-            carried += problem.levers[i] * x[(a, 0)];
-            stiffness += problem.levers[i] * x[(a, 1)];
+            carried += problem.torque_levers[i] * x[(a, 0)];
+            stiffness += problem.torque_levers[i] * x[(a, 1)];
         }
         let rotation = (carried - problem.moment) / stiffness;
         let forces: Vec<f64> = (0..n).map(|a| x[(a, 0)] - rotation * x[(a, 1)]).collect();

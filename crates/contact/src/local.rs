@@ -82,7 +82,7 @@ impl LocalContact {
 
 impl LocalBody {
     /// The bracket and its derivative by ln a.
-    fn bracket(&self, a: f64, _off_line: f64) -> (f64, f64) {
+    fn bracket(&self, a: f64, off_line: f64) -> (f64, f64) {
         let inner = (2.0 * self.depth / a).ln() + 0.5 + self.layer;
         let reach = EDGE_REACH * self.depth;
         let nearest = 0.09 * a;
@@ -92,7 +92,14 @@ impl LocalBody {
             return (inner, -1.0);
         }
         let growth = if self.tip_distance > nearest { 0.0 } else { -softening };
-        (inner + softening * (reach / d).ln(), -1.0 + growth)
+        let s = softening * (reach / d).ln();
+        if self.tip_distance < 1e-9 && off_line > 0.0 {
+            let e = 2.0 * (off_line / a).ln() + 2.4;
+            if e > s {
+                return (inner + e, -3.0);
+            }
+        }
+        (inner + s, -1.0 + growth)
     }
 
     fn end_factor(&self) -> f64 {

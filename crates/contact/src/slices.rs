@@ -179,6 +179,8 @@ fn edge_row(
     row.position = poses[1].transform_point(&patches[1].surface().point(at[1]).into()).coords;
     row.normal = normal;
     row.levers = crate::closest_point::levers(poses, &row.position, &normal);
+    row.torque_levers = row.levers;
+    row.traction = normal;
     row.supports = [
         support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal))?,
         support_at(patches[1], at[1], -poses[1].inverse_transform_vector(&normal))?,

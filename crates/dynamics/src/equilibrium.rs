@@ -6,7 +6,7 @@ use contact::{ContactError, ContactRow, Pose, Slice, Solution, Vec3, closest_poi
 use geometry::GearPair;
 use nalgebra::{Translation3, UnitQuaternion};
 
-use crate::{StaticError, StaticOptions, parts::Parts};
+use crate::{StaticError, StaticOptions, friction, parts::Parts};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -145,6 +145,7 @@ pub(crate) fn equilibrium(
                 (rows, Vec::new())
             }
         };
+        let rows = friction::applied(pair, options, &poses, rows);
         if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
             if reach > pair.pinion.data().normal_module {
                 return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
@@ -152,7 +153,6 @@ pub(crate) fn equilibrium(
             reach = 4.0 * reach.max(1e-9);
             continue;
         }
-        let levers: Vec<f64> = rows.iter().map(|r| r.levers[driven]).collect();
         let start: Vec<f64> =
             rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
         let mut bodies = set.bodies(gears, &rows).map_err(fail)?;
@@ -161,14 +161,14 @@ pub(crate) fn equilibrium(
                 let state = slices[i].local.under(force / slices[i].length);
                 (state.approach, state.slope / slices[i].length)
             };
-            complementarity::solve_slices(&mut *bodies, &rows, &levers, moment, local, &start)
+            complementarity::solve_slices(&mut *bodies, &rows, driven, moment, local, &start)
         } else {
-            complementarity::solve(&mut *bodies, &rows, &levers, moment, options.law, &start)
+            complementarity::solve(&mut *bodies, &rows, driven, moment, options.law, &start)
         }
         .map_err(fail)?;
         iterations += solution.iterations;
         // A row that the step can close must have been among the rows.
-        let farthest = levers.iter().fold(0.0f64, |m, l| m.max((l * solution.rotation).abs()));
+        let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * solution.rotation).abs()));
         if 1.05 * farthest > reach {
             reach = 1.5 * farthest;
             continue;

@@ -100,8 +100,10 @@ impl LinearContact for FullContact<'_> {
 
     fn self_compliance(&mut self) -> Result<f64, ContactError> {
         // One row alone, without torque: u = K^-1 A' on a unit load.
-        let (matrix, last) =
-            self.tangent(&[], &Problem { gaps: vec![], levers: vec![], compliance: vec![], moment: 0.0 })?;
+        let (matrix, last) = self.tangent(
+            &[],
+            &Problem { gaps: vec![], levers: vec![], torque_levers: vec![], compliance: vec![], moment: 0.0 },
+        )?;
         let n = matrix.n() - 1;
         drop(last);
         let stiffness =

@@ -7,6 +7,7 @@ mod contact_set;
 mod elastic;
 mod equilibrium;
 mod error;
+mod friction;
 mod full;
 mod line;
 mod loads;

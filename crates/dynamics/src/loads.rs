@@ -4,7 +4,7 @@ use contact::{ContactRow, Slice, Vec3, covered, hertz};
 use geometry::GearPair;
 
 use crate::{
-    Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench,
+    Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench, friction,
     line::{contact_line, line_pressure},
     parts::Parts,
 };
@@ -16,7 +16,7 @@ pub(crate) fn wrenches(pair: &GearPair, rows: &[ContactRow], forces: &[f64]) -> 
         let sign = if i == 0 { 1.0 } else { -1.0 };
         let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
         for (row, &f) in rows.iter().zip(forces).filter(|(_, f)| **f != 0.0) {
-            let f = sign * f * row.normal;
+            let f = sign * f * row.traction;
             force += f;
             moment += (row.position - centres[i]).cross(&f);
         }
@@ -31,7 +31,7 @@ fn action_reaction(e: &Equilibrium) -> f64 {
         for (row, &f) in e.rows.iter().zip(&e.solution.forces) {
             let s = &row.supports[body];
             let weight: f64 = s.weights[..s.count].iter().sum();
-            sum += f * weight * (e.poses[body].rotation * s.direction);
+            sum += f * weight * (e.poses[body].rotation * s.load);
         }
         sum
     };
@@ -60,6 +60,8 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
             e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
         }
     };
+    let friction_work =
+        e.rows.iter().zip(&e.solution.forces).map(|(row, f)| f * friction::work(pair, &e.poses, row)).sum();
     let theta1 = e.station.pinion_angle(pair, options);
     StaticPosition {
         pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
@@ -76,6 +78,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
         root_stress: Default::default(),
+        friction_work,
         strain_energy: elastic + local + penalty,
         tooth_changes,
         certificate: Certificate {

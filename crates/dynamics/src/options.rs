@@ -35,6 +35,8 @@ pub struct StaticOptions {
     pub method: Method,
     /// Slices over the face width.
     pub slices: usize,
+    /// Coefficient of friction.
+    pub friction: f64,
     /// Contact law of points.
     pub law: Law,
     /// Gaps between smooth flanks or between the faces of the mesh.
@@ -60,6 +62,7 @@ impl StaticOptions {
             torque,
             method: Method::Slice,
             slices: 32,
+            friction: 0.0,
             law: Law::Exact,
             gap: GapSource::Smooth,
             points_per_face_edge: 6,

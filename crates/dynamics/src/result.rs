@@ -92,6 +92,8 @@ pub struct StaticPosition {
     /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
     /// asked for.
     pub root_stress: [Vec<FilletStress>; 2],
+    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.

@@ -90,14 +90,9 @@ impl SliceSet {
             for (b, half) in halves.iter().enumerate() {
                 let local: Vec<Support> = group.iter().map(|row| half.own(&row.supports[b])).collect();
                 for (j, column) in local.iter().map(|s| half.displacement(s)).enumerate() {
-                    for (i, support) in local.iter().enumerate().skip(j) {
+                    for (i, support) in local.iter().enumerate() {
                         x[(start + i, start + j)] -= opening(support, &column);
                     }
-                }
-            }
-            for j in 0..group.len() {
-                for i in j + 1..group.len() {
-                    x[(start + j, start + i)] = x[(start + i, start + j)];
                 }
             }
             start += group.len();
@@ -122,7 +117,7 @@ impl Half {
         let mut u = vec![0.0; w.nrows()];
         for k in 0..support.count {
             for axis in 0..3 {
-                let f = support.weights[k] * support.direction[axis];
+                let f = support.weights[k] * support.load[axis];
                 let column = w.col(3 * support.nodes[k] as usize + axis);
                 u.iter_mut().zip(column.iter()).for_each(|(u, c)| *u += f * c);
             }

@@ -56,6 +56,12 @@ impl StaticModel {
             let value = options.torque;
             return Err(StaticError::OutOfRange { name: "torque [N mm]", value, expected: "0 or more" });
         }
+        let whole = gears.iter().any(|g| matches!(g, ElasticGear::Full(_)));
+        let limit = if whole { 0.0 } else { 1.0 };
+        if !(0.0..=limit).contains(&options.friction) {
+            let expected = if whole { "0 with all degrees of freedom kept" } else { "0 to 1" };
+            return Err(StaticError::OutOfRange { name: "friction coefficient", value: options.friction, expected });
+        }
         if let contact::Law::Penalty(value) = options.law
             && !(value.is_finite() && value > 0.0)
         {
@@ -184,6 +190,7 @@ impl StaticModel {
             wrench: Default::default(),
             root_stress: Default::default(),
             max_pressure: 0.0,
+            friction_work: 0.0,
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),
