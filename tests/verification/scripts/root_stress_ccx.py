@@ -7,7 +7,8 @@
 The same load goes onto both programs, so contact plays no part: 1000 N along (0.3, -0.9, 0.3)/|.|, in equal shares on the
 nodes of `flank_left_0` whose radius is 47.0 .. 48.5 mm; bore held; the sectors' cuts free; E 206000 MPa, nu 0.3.
 Read from the .frd file: nodal stress, which CalculiX extrapolates from the Gauss points and averages over the elements of
-a node. Fillet nodes: on boundary faces other than bore, end faces, cuts; root radius - 0.06 mm <= r <= form radius; on no flank.
+a node. Fillet nodes: on boundary faces other than bore, end faces, cuts; root radius - 0.06 mm <= r <= 45.0349 mm, where the
+fillet's tangent makes 20 deg with the tooth's centre line; on no flank.
 """
 
 import json
@@ -27,7 +28,7 @@ CASES = [  # mesh, element of CalculiX
     ("sector3_tet10.msh", "C3D10"),
     ("sector3_tet4.msh", "C3D4"),
 ]
-FORM_RADIUS, ROOT_RADIUS, TWIST = 45.5511, 44.1381, np.tan(np.radians(20)) / 47.88799976
+UPPER_RADIUS, ROOT_RADIUS, TWIST = 45.0349, 44.1381, np.tan(np.radians(20)) / 47.88799976
 BAND, FORCE = (47.0, 48.5), 1000.0 * np.array([0.3, -0.9, 0.3]) / np.linalg.norm([0.3, -0.9, 0.3])
 ORDER = {  # Gmsh type: (nodes in CalculiX's order, corners of the faces)
     5: (list(range(8)), [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]),
@@ -87,7 +88,7 @@ def fillet_nodes(nodes, elements, kind, groups):
                     edge_nodes.add(int(element[corner_count + k]))
     for tag in (corners | edge_nodes) - flank:
         x, y, z = nodes[tag]
-        if not ROOT_RADIUS - 0.06 <= np.hypot(x, y) <= FORM_RADIUS + 3e-4:
+        if not ROOT_RADIUS - 0.06 <= np.hypot(x, y) <= UPPER_RADIUS + 3e-4:
             continue
         off = (np.arctan2(y, x) - TWIST * z) / (2 * np.pi / 30)
         if abs(off) <= 0.5 + 1e-6:
