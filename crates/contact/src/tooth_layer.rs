@@ -14,13 +14,14 @@ pub struct ToothLayer {
     poisson: f64,
     constant: f64,
     overshoot: f64,
+    edge_radius: f64,
 }
 
 impl ToothLayer {
     /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`, clamped
-    /// `overshoot` (mm) past the centre surface.
-    pub fn new(flank: Flank, young: f64, poisson: f64, overshoot: f64) -> Self {
-        Self { flank, young, poisson, constant: layer_constant(poisson), overshoot }
+    /// `overshoot` (mm) past the centre surface; its tip edge is rounded by an arc of radius `edge_radius` (mm).
+    pub fn new(flank: Flank, young: f64, poisson: f64, overshoot: f64, edge_radius: f64) -> Self {
+        Self { flank, young, poisson, constant: layer_constant(poisson), overshoot, edge_radius }
     }
 
     /// The layer at surface coordinates (roll angle, z).
@@ -41,6 +42,7 @@ impl ToothLayer {
             depth: depth.max(1e-3 * f.base_radius),
             tip_distance: (0.5 * f.base_radius * (f.roll_tip * f.roll_tip - u * u)).max(0.0),
             tip_angle: FRAC_PI_2 + f.roll_tip.atan(),
+            edge_radius: self.edge_radius,
             end_distance: (f.half_width - z.abs()).max(0.0),
         }
     }

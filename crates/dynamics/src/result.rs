@@ -24,7 +24,7 @@ pub struct SliceResult {
     pub half_width: f64,
     /// Largest pressure across the band, MPa.
     pub pressure: f64,
-    /// How far off the line of action a tip edge presses, mm; 0 for flank on flank.
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
     pub off_line: f64,
 }
 

@@ -102,6 +102,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
         Hand::Against(other) => against(s, raw, other)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
     let (mesh, mesher) = mesh_source(s, raw, teeth)?;
     Ok(GearScene {
@@ -115,6 +116,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             bore_limit,
         )?,
         profile_shift: s.number("profile_shift", &raw.profile_shift, 0.0, -1.5, 2.0)?,
+        tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,
             Some(_) => {

@@ -11,6 +11,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "bore_diameter_mm",
             "profile_shift",
             "tip_diameter_mm",
+            "tip_edge_radius_mm",
             "thickness_allowance_mm",
             "mesh",
             "mesher",

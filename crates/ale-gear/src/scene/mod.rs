@@ -57,6 +57,8 @@ pub struct GearScene {
     /// Tip diameter, mm; `None`: from addendum and profile shift.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_diameter_mm: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius_mm: f64,
     /// Thinning of the tooth in the normal section, mm.
     pub thickness_allowance_mm: f64,
     /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.

@@ -43,6 +43,7 @@ pub(super) struct RawGear {
     pub bore_diameter_mm: Number,
     pub profile_shift: Number,
     pub tip_diameter_mm: Number,
+    pub tip_edge_radius_mm: Number,
     pub thickness_allowance_mm: Number,
     pub mesh: Word,
     pub mesher: Option<Spanned<RawMesher>>,
