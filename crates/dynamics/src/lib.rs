@@ -14,6 +14,7 @@ mod loads;
 mod options;
 mod parts;
 pub mod result;
+mod root_stress;
 mod slice_set;
 mod statics;
 
@@ -23,5 +24,6 @@ pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
 pub use options::{Driver, Method, StaticOptions};
 pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
+pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};
 pub use slice_set::SliceSet;
 pub use statics::{Change, StaticModel};

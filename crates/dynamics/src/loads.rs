@@ -77,6 +77,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         geometric_line_length: pair.contact_line_length(side, theta1),
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
+        root_stress: Default::default(),
         friction_work,
         strain_energy: elastic + local + penalty,
         tooth_changes,

@@ -47,6 +47,8 @@ pub struct StaticOptions {
     pub both_flanks: bool,
     /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
     pub window: Option<usize>,
+    /// Compute stress in the root fillets at every station.
+    pub root_stress: bool,
     /// How far a flank node may lie from the smooth flank, mm.
     pub surface_tolerance: f64,
 }
@@ -66,6 +68,7 @@ impl StaticOptions {
             points_per_face_edge: 6,
             both_flanks: false,
             window: None,
+            root_stress: false,
             surface_tolerance: 0.01 * pair.pinion.data().normal_module,
         }
     }

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::FilletStress;
+
 /// Force and moment of the mesh on one gear, about its own centre, global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
@@ -87,6 +89,9 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
+    /// asked for.
+    pub root_stress: [Vec<FilletStress>; 2],
     /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
     pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.

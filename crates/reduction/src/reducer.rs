@@ -116,6 +116,11 @@ impl GearReducer {
         &self.factor
     }
 
+    /// Matrices of the window that was reduced with the factorisation.
+    pub(crate) fn first_window(&self) -> &Arc<ReducedGear> {
+        &self.base
+    }
+
     /// Whether the mesh is the same after a turn by one pitch.
     pub fn is_cyclic(&self) -> bool {
         self.turn.is_some()
@@ -192,13 +197,15 @@ impl GearReducer {
 
     /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.
     pub fn material_nodes(&self, window: &Window) -> Vec<u32> {
-        let mut nodes = window.reduced.nodes.clone();
-        if let Some(turn) = &self.turn {
-            for _ in 0..window.shift {
-                nodes.iter_mut().for_each(|n| *n = turn[*n as usize]);
-            }
+        window.reduced.nodes.iter().map(|&n| self.material_node(window, n)).collect()
+    }
+
+    /// The mesh's own node at the place of `node` of the window's frame: turned on by the window's shift.
+    pub fn material_node(&self, window: &Window, node: u32) -> u32 {
+        match &self.turn {
+            Some(turn) => (0..window.shift).fold(node, |n, _| turn.get(n as usize).copied().unwrap_or(n)),
+            None => node,
         }
-        nodes
     }
 
     /// Displacement (mm) of every node in the gear's own frame when the window's coordinates are `u` and all else is free
@@ -303,6 +310,7 @@ fn boundary_nodes(gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<
     Ok(nodes)
 }
 
-fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
+/// Matrix rows of the nodes' free freedoms, x, y, z of each node in turn.
+pub(crate) fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
     nodes.iter().flat_map(|&n| (0..3).filter_map(move |axis| dofs.dof(n, axis))).collect()
 }
