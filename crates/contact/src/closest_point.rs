@@ -69,7 +69,8 @@ pub struct ContactRow {
     pub normal: Vec3,
     /// Surface coordinates on body 1.
     pub coordinates: [f64; 2],
-    /// d gap / d angle of each body about its own z axis, mm; a unit normal force turns the body with just this moment.
+    /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns the body with
+    /// just this moment.
     pub levers: [f64; 2],
     /// Loading of the bodies.
     pub supports: [Support; 2],
@@ -132,12 +133,16 @@ pub fn contact_row(
     let normal_2 = other.surface().normal(foot.at);
     let gap = match scene.source {
         GapSource::Smooth => foot.distance,
-        GapSource::Facet => (seen - other.facet_point(at)).dot(&normal_2),
+        // Facets are those of the nominal flanks: what is ground off either of them opens the gap.
+        GapSource::Facet => {
+            let ground_off = patch.surface().depth(p.coordinates) + other.surface().depth(foot.at);
+            (seen - other.facet_point(at)).dot(&normal_2) + ground_off
+        }
     };
     let normal = poses[1].rotation * normal_2;
     let lever = |pose: &Pose| {
         let arm = position - pose.translation.vector;
-        arm.x * normal.y - arm.y * normal.x
+        arm.cross(&normal).dot(&(pose.rotation * Vec3::z()))
     };
     let support =
         |i: Interpolation, direction: Vec3| Support { nodes: i.nodes, weights: i.weights, count: i.count, direction };

@@ -7,7 +7,8 @@ use crate::Vec3;
 pub struct Foot {
     /// Surface coordinates of the foot.
     pub at: [f64; 2],
-    /// Signed distance of the point, mm; positive outside the material.
+    /// Signed distance of the point, mm; positive outside the material. Of a surface with [`Surface::depth`]: distance from the
+    /// nominal surface plus the depth at the foot, zero exactly on the surface itself.
     pub distance: f64,
 }
 
@@ -21,6 +22,11 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
+    /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal surface: their
+    /// nodes lie on it and not on this one.
+    fn depth(&self, _at: [f64; 2]) -> f64 {
+        0.0
+    }
 }
 
 /// Surface coordinates of an involute flank are (roll angle, z).
@@ -39,6 +45,29 @@ impl Surface for geometry::Flank {
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
         geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+}
+
+/// Surface coordinates are those of the nominal flank.
+impl Surface for geometry::ModifiedFlank {
+    fn point(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::ModifiedFlank::point(self, u, z)
+    }
+
+    fn normal(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::ModifiedFlank::normal(self, u, z)
+    }
+
+    fn profile_tangent(&self, [u, z]: [f64; 2]) -> Vec3 {
+        self.tangents(u, z)[0]
+    }
+
+    fn locate(&self, p: &Vec3) -> Option<Foot> {
+        geometry::ModifiedFlank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+
+    fn depth(&self, [u, z]: [f64; 2]) -> f64 {
+        geometry::ModifiedFlank::depth(self, u, z).value
     }
 }
 

@@ -5,7 +5,7 @@ use geometry::GearPair;
 
 use crate::{
     ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
-    equilibrium::equilibrium, line, loads, parts::Parts,
+    equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -60,6 +60,7 @@ impl StaticModel {
         {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
+        pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
         Ok(Self { pair, gears, options, window, set, last: None, changes: 0 })
@@ -106,7 +107,7 @@ impl StaticModel {
     /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
         if self.options.torque == 0.0 {
-            return Ok(self.unloaded(station));
+            return self.unloaded(station);
         }
         let guess = self.last.take();
         let e = equilibrium(&self.parts(), station, guess.as_ref())?;
@@ -119,7 +120,7 @@ impl StaticModel {
     /// A pair beside the window that overlaps at the loaded pose.
     fn starved(&self, e: &Equilibrium) -> Option<StaticError> {
         let pairs = self.window.pairs();
-        let least = 1e-3 * e.transmission_error.abs();
+        let least = 1e-3 * e.elastic_error().abs();
         [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
             let gap = line::outside_gap(&self.parts(), e, running);
             (gap < -least).then(|| StaticError::Starved {
@@ -133,8 +134,11 @@ impl StaticModel {
         })
     }
 
-    /// Without torque the flanks just touch along the analytic lines; the unmodified pair has no transmission error.
-    fn unloaded(&self, station: Station) -> StaticPosition {
+    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
+    /// their least gap is.
+    fn unloaded(&self, station: Station) -> Result<StaticPosition, StaticError> {
+        let touch = Unloaded::new(&self.pair, &self.options, station)?;
+        let error = touch.transmission_error();
         let theta1 = station.pinion_angle(&self.pair, &self.options);
         let lines = self.pair.contact_lines(self.options.side(), theta1);
         let middle = station.middle_pair(&self.options);
@@ -142,7 +146,8 @@ impl StaticModel {
             .window
             .pairs()
             .map(|running| {
-                let line = lines.iter().find(|l| l.tooth == running - middle);
+                let nominal = lines.iter().find(|l| l.tooth == running - middle).map_or(0.0, |l| l.length);
+                let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
                 let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
                 crate::PairResult {
                     pair: self.options.sense.sign() * running,
@@ -150,16 +155,17 @@ impl StaticModel {
                     wheel_tooth,
                     normal_force: 0.0,
                     max_pressure: 0.0,
-                    contact_line_length: line.map_or(0.0, |l| l.length),
+                    contact_line_length: length,
                     points_in_contact: 0,
                 }
             })
             .collect();
         pairs.sort_by_key(|p| p.pair);
-        StaticPosition {
+        Ok(StaticPosition {
             pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
             mesh_phase: station.phase,
-            transmission_error: 0.0,
+            transmission_error: error,
+            kinematic_transmission_error: error,
             secant_stiffness: f64::NAN,
             tangent_stiffness: 0.0,
             contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
@@ -170,7 +176,7 @@ impl StaticModel {
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),
-        }
+        })
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
