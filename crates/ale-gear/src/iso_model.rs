@@ -102,7 +102,6 @@ fn position(
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
         pairs.push(PairResult {
-            slices: Vec::new(),
             pair: number,
             pinion_tooth: wrap(line.tooth, scene.pinion.teeth),
             wheel_tooth: wrap(-line.tooth, scene.wheel.teeth),
@@ -116,10 +115,10 @@ fn position(
     pairs.sort_by_key(|p| p.pair);
     let transmission_error = base_force / stiffness;
     StaticPosition {
-        friction_work: 0.0,
         pinion_angle,
         mesh_phase: phase,
         transmission_error,
+        kinematic_transmission_error: 0.0, // unmodified flanks
         secant_stiffness: stiffness,
         tangent_stiffness: stiffness,
         contact_line_length: length,

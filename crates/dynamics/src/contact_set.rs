@@ -27,6 +27,8 @@ pub struct ContactSet {
     /// Reduced windows; `None` for full gears.
     windows: Option<[Window; 2]>,
     slices: Option<SliceSet>,
+    /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
+    pitch_errors: [bool; 2],
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -68,7 +70,9 @@ impl ContactSet {
         });
         let trees = [Candidates::new(&p1), Candidates::new(&p2)];
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        Ok(Self { patches: [p1, p2], points, trees, stations, sides: [s1, s2], first: [f1, f2], windows, slices })
+        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
+        Ok(Self { patches, points, trees, stations, sides, first, windows, slices, pitch_errors })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -79,7 +83,8 @@ impl ContactSet {
         for i in 0..2 {
             let ElasticGear::Reduced(gear) = &gears[i] else { return Ok(false) };
             let w = gear.window(first[i]).map_err(|source| StaticError::Reduction { gear: NAMES[i], source })?;
-            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() {
+            let other_flanks = w.shift != mine[i].shift && self.pitch_errors[i];
+            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() || other_flanks {
                 return Ok(false);
             }
             next.push(w);
@@ -225,6 +230,8 @@ fn flanks(
         None => (0..count as u32).map(|i| (first + i) % z).collect(),
     };
     let number = |node: u32| boundary_number(elastic, window.as_ref(), node);
+    // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
+    let shift = window.as_ref().map_or(0, |w| w.shift);
     let (mut patches, mut sides) = (Vec::new(), Vec::new());
     for &tooth in &teeth {
         for side in options.sides() {
@@ -232,7 +239,7 @@ fn flanks(
                 gear: name,
                 source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
             })?;
-            let surface = Box::new(geometry.flank_of(side, i64::from(tooth)));
+            let surface = Box::new(geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift)));
             let patch = FlankPatch::new(
                 i64::from(tooth),
                 surface,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::FilletStress;
 
-/// Force and moment of the mesh on one gear, about its own centre, global axes.
+/// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
     /// Force, N.
@@ -75,7 +75,10 @@ pub struct StaticPosition {
     pub mesh_phase: f64,
     /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
     pub transmission_error: f64,
-    /// F_bt / te, N/mm; NaN without load.
+    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the transmission
+    /// error does, from where the unmodified flanks would touch with the axes parallel through the gears' centres.
+    pub kinematic_transmission_error: f64,
+    /// F_bt / (te - kinematic te), N/mm; NaN without load.
     pub secant_stiffness: f64,
     /// d F_bt / d te, N/mm.
     pub tangent_stiffness: f64,
