@@ -1,8 +1,7 @@
 //! Unloaded, modified, misaligned flanks: the angle at which they just touch against the closed form in the plane of action.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use ale::Sense;
-use dynamics::{Driver, Misalignment, Offset, StaticOptions, Station, kinematic_transmission_error};
+use dynamics::{StaticOptions, Station, kinematic_transmission_error};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
 

@@ -194,6 +194,7 @@ fn elastic_gears(
 fn free_dofs(gear: &ElasticGear) -> usize {
     match gear {
         ElasticGear::Reduced(r) => r.dofs().free_count(),
+        ElasticGear::Grid(r) => r.dofs().free_count(),
         ElasticGear::Full(f) => f.dofs.free_count(),
     }
 }

@@ -138,6 +138,12 @@ impl FlankPatch {
         Interpolation { nodes, weights, count }
     }
 
+    /// Boundary nodes at a face point and their shape functions.
+    pub fn node_weights(&self, at: FacePoint) -> Vec<(u32, f64)> {
+        let i = self.interpolation(at);
+        i.nodes[..i.count].iter().copied().zip(i.weights).collect()
+    }
+
     /// Surface coordinates at a face point, interpolated from the nodes'.
     pub fn coordinates(&self, at: FacePoint) -> [f64; 2] {
         let mut sum = [0.0; 2];

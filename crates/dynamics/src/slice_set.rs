@@ -36,7 +36,7 @@ impl SliceSet {
         pair: &GearPair,
         gears: &[ElasticGear; 2],
         flanks: [&[(u32, Side)]; 2],
-        number: impl Fn(usize, u32) -> u32,
+        number: impl Fn(usize, (u32, Side), u32) -> u32,
         options: &StaticOptions,
     ) -> Result<Self, StaticError> {
         let count = options.slices.max(1);
@@ -46,7 +46,7 @@ impl SliceSet {
         let mut halves = [Vec::new(), Vec::new()];
         for (i, of_gear) in halves.iter_mut().enumerate() {
             for &(tooth, side) in flanks[i] {
-                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, node), i)?);
+                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, (tooth, side), node), i)?);
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
@@ -137,6 +137,7 @@ fn half(
     let fail = |source| StaticError::Reduction { gear: ["pinion", "wheel"][which], source };
     let half = match gear {
         ElasticGear::Reduced(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
+        ElasticGear::Grid(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
         ElasticGear::Full(f) => {
             Arc::new(HalfTooth::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
         }

@@ -11,6 +11,7 @@
 
 mod cyclic;
 mod error;
+mod grid;
 mod half_tooth;
 mod reducer;
 mod stress_modes;
@@ -18,6 +19,7 @@ mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use grid::{FlankGrid, GridReducer};
 pub use half_tooth::HalfTooth;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use stress_modes::StressModes;
