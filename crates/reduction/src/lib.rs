@@ -11,10 +11,13 @@
 
 mod cyclic;
 mod error;
+mod layer_profile;
+mod plane_strain;
 mod reducer;
 mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use layer_profile::LayerProfile;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use window::{ReducedGear, Window};
