@@ -102,6 +102,7 @@ fn position(
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
         pairs.push(PairResult {
+            slices: Vec::new(),
             pair: number,
             pinion_tooth: wrap(line.tooth, scene.pinion.teeth),
             wheel_tooth: wrap(-line.tooth, scene.wheel.teeth),
@@ -114,6 +115,7 @@ fn position(
     pairs.sort_by_key(|p| p.pair);
     let transmission_error = base_force / stiffness;
     StaticPosition {
+        friction_work: 0.0,
         pinion_angle,
         mesh_phase: phase,
         transmission_error,

@@ -19,6 +19,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn normal(&self, at: [f64; 2]) -> Vec3;
     /// Derivative of the point by the first surface coordinate.
     fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
+    /// Curvature across the contact line, 1/mm; convex positive.
+    fn curvature(&self, at: [f64; 2]) -> f64;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
 }
@@ -35,6 +37,10 @@ impl Surface for geometry::Flank {
 
     fn profile_tangent(&self, [u, z]: [f64; 2]) -> Vec3 {
         self.tangents(u, z)[0]
+    }
+
+    fn curvature(&self, [u, _]: [f64; 2]) -> f64 {
+        self.curvatures(u)[0]
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
@@ -65,6 +71,10 @@ impl Surface for Cylinder {
     fn profile_tangent(&self, [angle, _]: [f64; 2]) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         self.radius * Vec3::new(-sin, cos, 0.0)
+    }
+
+    fn curvature(&self, _: [f64; 2]) -> f64 {
+        self.radius.recip()
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {

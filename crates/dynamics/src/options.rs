@@ -13,6 +13,15 @@ pub enum Driver {
     Wheel,
 }
 
+/// How contact is made discrete.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// One line load an axial slice; bulk compliance from the mesh, local compliance in closed form.
+    Slice,
+    /// Points of the flank mesh.
+    Nodal,
+}
+
 /// Operation, contact and window of a quasi-static analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticOptions {
@@ -22,7 +31,13 @@ pub struct StaticOptions {
     pub sense: Sense,
     /// Torque on the driven gear, N mm, >= 0.
     pub torque: f64,
-    /// Contact law.
+    /// Slices or points.
+    pub method: Method,
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Contact law of points.
     pub law: Law,
     /// Gaps between smooth flanks or between the faces of the mesh.
     pub gap: GapSource,
@@ -43,6 +58,9 @@ impl StaticOptions {
             driver: Driver::Pinion,
             sense: Sense::Ccw,
             torque,
+            method: Method::Slice,
+            slices: 32,
+            friction: 0.0,
             law: Law::Exact,
             gap: GapSource::Smooth,
             points_per_face_edge: 6,

@@ -11,6 +11,23 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
+/// One loaded slice of a contact line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SliceResult {
+    /// Height on the pinion, mm.
+    pub z: f64,
+    /// Roll angle of the contact on pinion and wheel, rad.
+    pub roll: [f64; 2],
+    /// Line load, N per mm of contact line.
+    pub line_load: f64,
+    /// Half-width of the band, mm.
+    pub half_width: f64,
+    /// Largest pressure across the band, MPa.
+    pub pressure: f64,
+    /// How far off the line of action a tip edge presses, mm; 0 for flank on flank.
+    pub off_line: f64,
+}
+
 /// One tooth pair of the window at one position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairResult {
@@ -26,8 +43,10 @@ pub struct PairResult {
     pub max_pressure: f64,
     /// Length of this pair's contact line, mm.
     pub contact_line_length: f64,
-    /// Contact points (cells or quadrature points) that carry load.
+    /// Slices or quadrature points that carry load.
     pub points_in_contact: usize,
+    /// The loaded slices, ascending in z; none where points touch.
+    pub slices: Vec<SliceResult>,
 }
 
 /// How well a position is solved.
@@ -68,6 +87,8 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.

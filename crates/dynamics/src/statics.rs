@@ -55,6 +55,12 @@ impl StaticModel {
             let value = options.torque;
             return Err(StaticError::OutOfRange { name: "torque [N mm]", value, expected: "0 or more" });
         }
+        let whole = gears.iter().any(|g| matches!(g, ElasticGear::Full(_)));
+        let limit = if whole { 0.0 } else { 1.0 };
+        if !(0.0..=limit).contains(&options.friction) {
+            let expected = if whole { "0 with all degrees of freedom kept" } else { "0 to 1" };
+            return Err(StaticError::OutOfRange { name: "friction coefficient", value: options.friction, expected });
+        }
         if let contact::Law::Penalty(value) = options.law
             && !(value.is_finite() && value > 0.0)
         {
@@ -152,6 +158,7 @@ impl StaticModel {
                     max_pressure: 0.0,
                     contact_line_length: line.map_or(0.0, |l| l.length),
                     points_in_contact: 0,
+                    slices: Vec::new(),
                 }
             })
             .collect();
@@ -167,6 +174,7 @@ impl StaticModel {
             pairs,
             wrench: Default::default(),
             max_pressure: 0.0,
+            friction_work: 0.0,
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),

@@ -11,6 +11,7 @@
 
 mod cyclic;
 mod error;
+mod half_tooth;
 mod layer_profile;
 mod plane_strain;
 mod reducer;
@@ -18,6 +19,7 @@ mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use window::{ReducedGear, Window};

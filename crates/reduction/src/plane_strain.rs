@@ -56,8 +56,11 @@ impl PlaneBody {
             .collect();
         let (mut triplets, mut coupling) = (Vec::new(), Vec::new());
         for (tag, element) in elements.iter().enumerate() {
-            let k = stiffness(element.map(|n| points[n]), poisson)
-                .ok_or(FemError::Inverted { kind: "quad8", tag: tag as u64, det_j_mm3: 0.0 })?;
+            let k = stiffness(element.map(|n| points[n]), poisson).ok_or(FemError::Inverted {
+                kind: "quad8",
+                tag: tag as u64,
+                det_j_mm3: 0.0,
+            })?;
             for (i, &ni) in element.iter().enumerate() {
                 let Some(row) = rows[ni] else { continue };
                 for (j, &nj) in element.iter().enumerate() {

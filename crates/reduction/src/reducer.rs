@@ -8,11 +8,11 @@ use std::{
 
 use faer::{Mat, Side as Triangle, linalg::solvers::DenseSolveCore};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
-use geometry::Side;
+use geometry::{Gear, Side};
 use mesh::GearMesh;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::{ReducedGear, ReductionError, Window, pitch_permutation};
+use crate::{HalfTooth, ReducedGear, ReductionError, Window, pitch_permutation};
 
 /// What to keep.
 #[derive(Debug, Clone)]
@@ -44,6 +44,7 @@ pub struct GearReducer {
     turn: Option<Vec<u32>>,
     base: Arc<ReducedGear>,
     others: Mutex<BTreeMap<u32, Arc<ReducedGear>>>,
+    halves: Mutex<BTreeMap<(u32, Side), Arc<HalfTooth>>>,
 }
 
 /// How far a node may be from the place of its image for a gear to count as cyclic, relative to its size.
@@ -71,7 +72,18 @@ impl GearReducer {
         let size = mesh.nodes.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let pitch = 2.0 * PI / f64::from(gear.tooth_count());
         let turn = if gear.is_whole_gear() { pitch_permutation(mesh, pitch, CYCLIC_TOLERANCE * size) } else { None };
-        Ok(Self { gear, material, options, dofs, stiffness, factor, turn, base, others: Mutex::default() })
+        Ok(Self {
+            gear,
+            material,
+            options,
+            dofs,
+            stiffness,
+            factor,
+            turn,
+            base,
+            others: Mutex::default(),
+            halves: Mutex::default(),
+        })
     }
 
     /// The meshed gear.
@@ -134,6 +146,21 @@ impl GearReducer {
         let reduced = Arc::new(self.reduce_by_solves(first)?);
         others.insert(first, reduced.clone());
         Ok(Window { reduced, shift: 0 })
+    }
+
+    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was meshed.
+    ///
+    /// # Errors
+    /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
+    pub fn half_tooth(&self, geometry: &Gear, tooth: u32, side: Side) -> Result<Arc<HalfTooth>, ReductionError> {
+        let mut halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(half) = halves.get(&(tooth, side)) {
+            return Ok(half.clone());
+        }
+        let half = HalfTooth::new(&self.gear, geometry, &self.material, &self.options.elements, tooth, side)?;
+        let half = Arc::new(half);
+        halves.insert((tooth, side), half.clone());
+        Ok(half)
     }
 
     /// C = R K^-1 R' by solves with the factor, and K^ as its inverse.

@@ -23,6 +23,7 @@ const WRENCH: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm",
 const TRAILING: &[&str] = &[
     "max_pressure_mpa",
     "strain_energy_nmm",
+    "friction_power_loss_w",
     "tooth_changes",
     "torque_residual",
     "complementarity_residual",
@@ -68,6 +69,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         row.extend([
             p.max_pressure,
             p.strain_energy,
+            1e-3 * p.friction_work * scene.pinion_speed(),
             p.tooth_changes as f64,
             c.torque_residual,
             c.complementarity_residual,

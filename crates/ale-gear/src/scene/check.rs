@@ -223,30 +223,21 @@ fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
 }
 
 fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
-    if let Some(friction) = &raw.friction
-        && *friction.get_ref() != 0.0
-    {
-        return Err(SceneError::NotYet {
-            place: s.place(&friction.span()),
-            key: "friction".into(),
-            what: format!("Coulomb friction of {}", friction.get_ref()),
-            instead: "leave it out: contact is frictionless".into(),
-        });
-    }
-    let method = match &raw.method {
-        Some(word) if word.get_ref() == "slice" => {
-            return Err(not_yet(s, "method", word, "contact by axial slices", "use `method = \"nodal\"`"));
-        }
-        word => s.choice("method", word, &[("nodal", Method::Nodal)])?,
-    };
+    let method = s.choice("method", &raw.method, &[("slice", Method::Slice), ("nodal", Method::Nodal)])?;
+    let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
+    let slices = s.whole("slices", &raw.slices, 32, 4, 1000)?;
+    let gap = s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?;
+    let points = s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?;
     Ok(ContactScene {
         method,
+        slices: sliced.then_some(slices),
+        friction: s.number("friction", &raw.friction, 0.0, 0.0, 1.0)?,
         penalty_mpa_per_mm: match raw.penalty_mpa_per_mm {
             None => None,
             Some(_) => Some(s.number("penalty_mpa_per_mm", &raw.penalty_mpa_per_mm, 0.0, 1.0, 1e15)?),
         },
-        gap: s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?,
-        points_per_face_edge: s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?,
+        gap: nodal.then_some(gap),
+        points_per_face_edge: nodal.then_some(points),
         flanks: s.choice("flanks", &raw.flanks, &[("driving", Flanks::Driving), ("both", Flanks::Both)])?,
     })
 }
@@ -318,6 +309,35 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
                 advice: "leave it out: the window follows from the contact ratio".into(),
             });
         }
+    }
+    let nodal_only = [
+        ("penalty_mpa_per_mm", raw.contact.penalty_mpa_per_mm.as_ref().map(toml::Spanned::span)),
+        ("gap", raw.contact.gap.as_ref().map(toml::Spanned::span)),
+        ("points_per_face_edge", raw.contact.points_per_face_edge.as_ref().map(toml::Spanned::span)),
+    ];
+    let nodal_key = nodal_only.into_iter().find_map(|(key, span)| Some((key, span?)));
+    if let (Method::Slice, Some((key, span))) = (scene.contact.method, nodal_key) {
+        return Err(SceneError::Conflict {
+            place: s.place(&span),
+            what: format!("`{key}` means nothing to slices"),
+            advice: "leave it out, or use `method = \"nodal\"`".into(),
+        });
+    }
+    if let (Method::Nodal, Some(slices)) = (scene.contact.method, &raw.contact.slices) {
+        return Err(SceneError::Conflict {
+            place: s.place(&slices.span()),
+            what: "`slices` means nothing to the method \"nodal\"".into(),
+            advice: "leave it out, or use `method = \"slice\"`".into(),
+        });
+    }
+    if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)
+        && scene.contact.friction != 0.0
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&friction.span()),
+            what: "only the model \"reduced\" has friction".into(),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
     }
     if let (Some(penalty), Model::Iso) = (&raw.contact.penalty_mpa_per_mm, scene.analysis.model) {
         return Err(SceneError::Conflict {

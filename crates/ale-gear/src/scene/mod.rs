@@ -159,13 +159,20 @@ pub enum Rotation {
 pub struct ContactScene {
     /// Where the contact unknowns sit.
     pub method: Method,
+    /// Slices over the face width; `None` for the method nodal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slices: Option<u32>,
+    /// Coefficient of friction.
+    pub friction: f64,
     /// Pressure a mm of penetration, MPa/mm; `None`: exact complementarity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty_mpa_per_mm: Option<f64>,
-    /// Which surface gives the gaps.
-    pub gap: Gap,
-    /// Contact points along each edge of a flank face.
-    pub points_per_face_edge: u32,
+    /// Which surface gives the gaps; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Gap>,
+    /// Contact points along each edge of a flank face; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points_per_face_edge: Option<u32>,
     /// Which flanks may touch.
     pub flanks: Flanks,
 }
@@ -174,6 +181,8 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
+    /// One line load an axial slice.
+    Slice,
     /// Quadrature points of the flank mesh.
     Nodal,
 }

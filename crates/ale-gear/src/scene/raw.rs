@@ -107,6 +107,7 @@ pub(super) struct RawOperation {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawContact {
     pub method: Word,
+    pub slices: Whole,
     pub penalty_mpa_per_mm: Number,
     pub gap: Word,
     pub points_per_face_edge: Whole,
