@@ -49,6 +49,7 @@ impl ToothLayer {
             depth: depth.max(1e-3 * f.base_radius),
             tip_distance: (0.5 * f.base_radius * (f.roll_tip * f.roll_tip - u * u)).max(0.0),
             tip_angle: self.profile.tip_angle(),
+            tip_gradient: self.profile.tip_gradient(),
             edge_radius: self.edge_radius,
             end_distance: (f.half_width - z.abs()).max(0.0),
         }

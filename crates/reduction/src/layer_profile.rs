@@ -32,6 +32,7 @@ pub struct LayerProfile {
     roll_tip: f64,
     base_radius: f64,
     tip_angle: f64,
+    tip_gradient: f64,
 }
 
 /// First element at the tip edge, normal modules.
@@ -83,8 +84,10 @@ impl LayerProfile {
         let part = arcs[1] / (arcs[2] - arcs[1]);
         constants[0] = constants[1] - part * (constants[2] - constants[1]);
         let slopes = slopes(&arcs, &constants);
+        let [edge, next] = [&section.flank[0], &section.flank[1]];
+        let tip_gradient = slopes[0] + (1.0 + eta) * (next.depth / edge.depth).ln() / next.arc;
         let roll_tip = gear.profile().roll_tip();
-        Ok(Self { arcs, constants, slopes, roll_tip, base_radius: gear.base_radius(), tip_angle })
+        Ok(Self { arcs, constants, slopes, roll_tip, base_radius: gear.base_radius(), tip_angle, tip_gradient })
     }
 
     /// c at a roll angle; with a continuous slope. Past either end of the flank: the value there.
@@ -97,6 +100,11 @@ impl LayerProfile {
         let (a, b) = (self.constants[i], self.constants[i + 1]);
         let (da, db) = (h * self.slopes[i], h * self.slopes[i + 1]);
         a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)))
+    }
+
+    /// d/dx [c + (1 + eta) ln t] at the tip edge, x the distance from it, 1/mm.
+    pub fn tip_gradient(&self) -> f64 {
+        self.tip_gradient
     }
 
     /// Angle between flank and tip land in the section normal to the contact line, rad.
