@@ -62,14 +62,14 @@ pub fn slice(
         Place::Inside(u) | Place::OwnEnd(u) => {
             let foot = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?;
             let at = [[u, z], foot.at];
+            let mut row = row_at([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
             let off = if matches!(place, Place::Inside(_)) {
                 0.0
             } else {
                 off_line([a.patch, b.patch], [&poses[0], &poses[1]], at)
             };
             let local = local(flanks, at, off);
-            let gap = foot.distance + local.edge_opening();
-            let row = row_at([a.patch, b.patch], poses, patches, point, at, gap)?;
+            row.gap += local.edge_opening();
             Some((row, Slice { z, at, length, local }))
         }
         Place::OtherEnd(_) => {
@@ -78,9 +78,9 @@ pub fn slice(
             let foot = a.patch.surface().locate(&carried([&poses[1], &poses[0]], b.patch, [u, z]))?;
             let at = [foot.at, [u, z]];
             let off = off_line([b.patch, a.patch], [&poses[1], &poses[0]], [at[1], at[0]]);
+            let mut row = edge_row([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
             let local = local(flanks, at, off);
-            let gap = foot.distance + local.edge_opening();
-            let row = edge_row([a.patch, b.patch], poses, patches, point, at, gap)?;
+            row.gap += local.edge_opening();
             Some((row, Slice { z, at, length, local }))
         }
     }
@@ -144,17 +144,18 @@ fn nearest(patches: [&FlankPatch; 2], poses: [&Pose; 2], z: f64) -> Option<Place
     Some(Place::Inside(0.5 * (a + b)))
 }
 
-/// How far past the edge of body 1 the smooth flanks would touch, mm of arc: by the angle at which they recede from each other
-/// at the edge.
+/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
+/// which the flanks recede from each other there.
 ///
 /// ```text
-/// o = epsilon R,   epsilon = |dg/du| / |dx_1/du|,   1/R = 1/rho_1 + 1/rho_2
+/// o = R epsilon,   epsilon = |dg/du| / (r_b u),   1/R: relative curvature
 /// ```
 fn off_line(patches: [&FlankPatch; 2], poses: [&Pose; 2], at: [[f64; 2]; 2]) -> f64 {
     let Some((_, slope, _)) = gap(patches, poses, at[0]) else { return 0.0 };
     let tangent = patches[0].surface().profile_tangent(at[0]).norm();
     let curvature = [0, 1].map(|i| patches[i].surface().curvature(at[i]));
     let receding = (slope / tangent).abs();
+    // tangent = r_b u; the flanks' relative curvature turns arc length into receding angle.
     receding / (curvature[0] + curvature[1])
 }
 
