@@ -154,6 +154,7 @@ fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
         points_per_face_edge: scene.contact.points_per_face_edge.map_or(defaults.points_per_face_edge, |n| n as usize),
         both_flanks: scene.contact.flanks == Flanks::Both,
         window: scene.analysis.window_teeth.map(|w| w as usize),
+        root_stress: scene.output.root_stress,
         ..defaults
     }
 }

@@ -5,7 +5,10 @@ use std::fmt::Write;
 
 use dynamics::result::StaticHistory;
 
-use super::pairs;
+use super::{
+    pairs,
+    root_stress::{MAX_PRINCIPAL, MEASURES, Measure, VON_MISES},
+};
 use crate::scene::Scene;
 
 const LEADING: &[&str] = &[
@@ -32,6 +35,10 @@ const TRAILING: &[&str] = &[
     "iterations",
 ];
 
+const GEARS: [&str; 2] = ["pinion", "wheel"];
+/// Root stresses that have a column for every pair.
+const BY_PAIR: [Measure; 2] = [MAX_PRINCIPAL, VON_MISES];
+
 /// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits.
 ///
 /// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
@@ -39,11 +46,19 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let columns = pairs::columns(history, pitch);
     let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-    for gear in ["pinion", "wheel"] {
+    for gear in GEARS {
         names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
     }
     names.extend(columns.iter().map(|k| format!("normal_force_pair_{k}_n")));
     names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    if scene.output.root_stress {
+        for gear in GEARS {
+            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
+        }
+        for (gear, k) in GEARS.iter().flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
+            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
+        }
+    }
 
     let mut csv = names.join(",");
     csv.push('\n');
@@ -77,6 +92,13 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
             c.window_edge_load,
             c.iterations as f64,
         ]);
+        if scene.output.root_stress {
+            row.extend((0..2).flat_map(|gear| MEASURES.map(|m| m.stress(p, gear, None))));
+            for (gear, &k) in (0..2).flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
+                let tooth = pairs::teeth(p, k, pitch).map(|teeth| teeth[gear]);
+                row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
+            }
+        }
         for (k, value) in row.into_iter().enumerate() {
             if k > 0 {
                 csv.push(',');

@@ -294,6 +294,7 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
         }
     }
     Ok(OutputScene {
+        root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
         vtu: raw.vtu.unwrap_or(false),
         fields,
         vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
@@ -338,6 +339,13 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
         return Err(SceneError::Conflict {
             place: s.place(&friction.span()),
             what: "only the model \"reduced\" has friction".into(),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
+    }
+    if let (Some(asked), true, Model::Iso) = (&raw.output.root_stress, scene.output.root_stress, scene.analysis.model) {
+        return Err(SceneError::Conflict {
+            place: s.place(&asked.span()),
+            what: "`root_stress` needs a mesh, and the model \"iso\" has none".into(),
             advice: "leave it out, or use `model = \"reduced\"`".into(),
         });
     }

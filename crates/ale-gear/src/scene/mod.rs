@@ -245,9 +245,11 @@ pub enum Model {
     Full,
 }
 
-/// Which files are written beside `summary.json`, `history.csv` and `report.html`.
+/// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct OutputScene {
+    /// Stress in the root fillets at every position.
+    pub root_stress: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.
