@@ -8,11 +8,14 @@
 mod half_section;
 #[path = "support/plane.rs"]
 mod plane;
+#[path = "support/plane_gear.rs"]
+mod plane_gear;
 
 use contact::{LocalBody, LocalContact, hertz, layer_constant};
 use geometry::{Gear, GearData};
 use half_section::HalfSection;
 use plane::{Lattice, even, graded, press, under_hertz};
+use plane_gear::{Place, PlaneGear};
 use reduction::LayerProfile;
 
 const STEEL: (f64, f64) = (2.06e5, 0.3);
@@ -263,4 +266,86 @@ fn tip_edges_sharp_and_rounded() {
     }
     println!("largest error: sharp {:.2} %, rounded {:.2} %", 100.0 * worst[0], 100.0 * worst[1]);
     assert!(worst[0] < 0.01 && worst[1] < 0.03, "{worst:?}");
+}
+
+/// Slice formula on a coarse plane-strain sector: STE (mm) of pairs at `rolls` on both gears under F' (N/mm).
+fn slice_ste(bulk: &[faer::Mat<f64>], local: &[LocalContact], load: f64) -> f64 {
+    let n = local.len();
+    let (mut q, mut ste) = (vec![load / n as f64; n], 0.0);
+    for _ in 0..40 {
+        let states: Vec<_> = local.iter().zip(&q).map(|(l, &q)| l.under(q)).collect();
+        let system = faer::Mat::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
+            (true, true) => bulk.iter().map(|b| b[(i, j)]).sum::<f64>() + if i == j { states[i].slope } else { 0.0 },
+            (false, false) => 0.0,
+            _ => -1.0,
+        });
+        let rhs = faer::Mat::from_fn(
+            n + 1,
+            1,
+            |i, _| {
+                if i < n { states[i].slope * q[i] - states[i].approach } else { -load }
+            },
+        );
+        use faer::linalg::solvers::Solve;
+        let answer = system.partial_piv_lu().solve(&rhs);
+        (0..n).for_each(|i| q[i] = answer[(i, 0)]);
+        ste = answer[(n, 0)];
+    }
+    ste
+}
+
+/// STE of the default tooth as a spur pair, sectors of 5 teeth, cuts free, bore held, against values with the band resolved on the whole sector
+/// (independent code, elements of a sixteenth of the half-width; given with the finite-element reference of the default pair).
+#[test]
+fn plane_strain_sector() {
+    let data = GearData { helix_angle: 0.0, face_width: 1.0, ..GearData::default() };
+    let gear = Gear::new(data).unwrap();
+    let material = fem::Material::new(STEEL.0, STEEL.1, 7.85e-9).unwrap();
+    let profile = LayerProfile::new(&gear, STEEL.1, 0.0).unwrap();
+    let base = gear.base_radius();
+    let pitch_roll = gear.transverse_pressure_angle().tan();
+    let (tip, pitch) = (gear.profile().roll_tip(), gear.pitch_angle());
+    let half_path = tip - pitch_roll;
+    let reference = [
+        ("pitch point", vec![0.0], [3.481, 6.767, 13.145]),
+        ("90 % of the path", vec![0.8 * half_path], [4.272, 8.348, 16.301]),
+        ("99 % of the path", vec![0.98 * half_path], [4.834, 9.470, 18.548]),
+        ("two pairs", vec![-0.5 * pitch, 0.5 * pitch], [2.320, 4.542, 8.887]),
+    ];
+    let mut worst = Vec::new();
+    for counts in [[4, 2, 4, 3], [6, 2, 4, 3], [8, 4, 6, 4], [16, 6, 8, 6], [32, 12, 16, 10]] {
+        let bulk = PlaneGear::new(&gear, &material, counts);
+        let mut largest = 0.0f64;
+        for (name, places, values) in &reference {
+            let rolls: Vec<[f64; 2]> = places.iter().map(|p| [pitch_roll + p, pitch_roll - p]).collect();
+            let of_gear = |which: usize| {
+                let sign = if which == 0 { 1 } else { -1 };
+                let teeth: Vec<Place> =
+                    rolls.iter().enumerate().map(|(k, r)| Place { tooth: sign * k as i64, roll: r[which] }).collect();
+                let mut w = bulk.whole(&teeth);
+                teeth.iter().enumerate().for_each(|(i, &t)| w[(i, i)] -= bulk.half_tooth(t));
+                w
+            };
+            let local: Vec<LocalContact> = rolls
+                .iter()
+                .map(|r| LocalContact {
+                    bodies: r.map(|u| body(&gear, &profile, STEEL, 0.5 * base * (tip * tip - u * u), 0.0)),
+                    radius: base * r[0] * r[1] / (r[0] + r[1]),
+                    off_line: 0.0,
+                })
+                .collect();
+            let bulk = [of_gear(0), of_gear(1)];
+            print!("{counts:?} {name:>17}:");
+            for (load, value) in [50.0, 100.0, 200.0].into_iter().zip(values) {
+                let ste = 1e3 * slice_ste(&bulk, &local, load);
+                let off = ste / value - 1.0;
+                print!(" {ste:.3} ({value}, {:+.2} %)", 100.0 * off);
+                largest = largest.max(off.abs());
+            }
+            println!();
+        }
+        worst.push(largest);
+    }
+    println!("largest error by mesh: {worst:.4?}");
+    assert!(worst[1] < 0.01 && worst[4] < 0.005, "{worst:?}");
 }
