@@ -248,6 +248,8 @@ pub enum Model {
 /// Which files are written beside `summary.json`, `history.csv` and `report.html`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct OutputScene {
+    /// The contact lines slice by slice.
+    pub contact_lines: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

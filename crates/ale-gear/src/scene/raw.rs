@@ -129,6 +129,7 @@ pub(super) struct RawAnalysis {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawOutput {
+    pub contact_lines: Option<Spanned<bool>>,
     pub vtu: Option<bool>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,
