@@ -1,6 +1,7 @@
 //! From a solved contact to the quantities of a station.
 
 use contact::{ContactRow, Pose, Slice, Vec3, covered, hertz};
+use geometry::Side;
 
 use crate::{
     Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench, friction,
@@ -111,7 +112,7 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
         .iter()
         .zip(e.rows.iter().zip(&e.solution.forces))
         .filter(|(_, (row, f))| **f > 0.0 && mine(row))
-        .map(|(s, (_, &f))| slice_result(s, f))
+        .map(|(s, (row, &f))| slice_result(s, set.side(row.patches.0), f))
         .collect();
     let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
     let max_pressure = if set.slices().is_some() {
@@ -135,11 +136,13 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     }
 }
 
-fn slice_result(slice: &Slice, force: f64) -> SliceResult {
+fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     let line_load = force / slice.length;
     let state = slice.local.under(line_load);
     SliceResult {
         z: slice.z,
+        wheel_z: slice.at[1][1],
+        side,
         roll: [slice.at[0][0], slice.at[1][0]],
         line_load,
         half_width: state.half_width,

@@ -1,5 +1,6 @@
 //! What a quasi-static analysis hands on, position by position.
 
+use geometry::Side;
 use serde::Serialize;
 
 use crate::FilletStress;
@@ -18,6 +19,10 @@ pub struct Wrench {
 pub struct SliceResult {
     /// Height on the pinion, mm.
     pub z: f64,
+    /// Height on the wheel, mm: another one where the wheel is displaced along its axis.
+    pub wheel_z: f64,
+    /// Side of the teeth that touches, the same on both gears.
+    pub side: Side,
     /// Roll angle of the contact on pinion and wheel, rad.
     pub roll: [f64; 2],
     /// Line load, N per mm of contact line.

@@ -99,15 +99,20 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
                 row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
             }
         }
-        for (k, value) in row.into_iter().enumerate() {
-            if k > 0 {
-                csv.push(',');
-            }
-            push_number(&mut csv, value);
-        }
-        csv.push('\n');
+        push_row(&mut csv, row);
     }
     csv
+}
+
+/// One line of numbers with commas between them.
+pub(super) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
+    for (k, value) in row.into_iter().enumerate() {
+        if k > 0 {
+            csv.push(',');
+        }
+        push_number(csv, value);
+    }
+    csv.push('\n');
 }
 
 /// The shortest text that reads back to the same number.

@@ -295,6 +295,7 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
     }
     Ok(OutputScene {
         root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
+        contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
         vtu: raw.vtu.unwrap_or(false),
         fields,
         vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
@@ -331,6 +332,14 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             place: s.place(&slices.span()),
             what: "`slices` means nothing to the method \"nodal\"".into(),
             advice: "leave it out, or use `method = \"slice\"`".into(),
+        });
+    }
+    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !crate::pattern::has_slices(scene))
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: "`contact_lines` lists slices, and this scene has none".into(),
+            advice: "leave it out, or use the method \"slice\" and the model \"reduced\" or \"full\"".into(),
         });
     }
     if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)

@@ -48,7 +48,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
     ("operation", &["driver", "rotation", "torque_nm", "speed_rpm"]),
     ("contact", &["method", "slices", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
     ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
-    ("output", &["root_stress", "vtu", "fields", "vtu_every"]),
+    ("output", &["contact_lines", "root_stress", "vtu", "fields", "vtu_every"]),
 ];
 
 /// The nearest of `known` if it is near enough to be meant.

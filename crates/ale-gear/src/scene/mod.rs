@@ -250,6 +250,8 @@ pub enum Model {
 pub struct OutputScene {
     /// Stress in the root fillets at every position.
     pub root_stress: bool,
+    /// The contact lines slice by slice.
+    pub contact_lines: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

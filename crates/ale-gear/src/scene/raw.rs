@@ -130,6 +130,7 @@ pub(super) struct RawAnalysis {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawOutput {
     pub root_stress: Option<Spanned<bool>>,
+    pub contact_lines: Option<Spanned<bool>>,
     pub vtu: Option<bool>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,
