@@ -75,7 +75,7 @@ const GIVEN: [Given; 4] = [
 fn stress_modes_agree_with_calculix_under_the_same_forces() {
     let pair = default_pair();
     for case in &GIVEN {
-        let mesh = Mesh::read(&meshes_folder().join(case.mesh)).unwrap();
+        let mesh = Mesh::read(meshes_folder().join(case.mesh)).unwrap();
         let gear = GearMesh::from_groups(mesh, &GroupNames::default(), 30).unwrap();
         let options = ReductionOptions { sides: vec![Side::Left], window: 1, first: 0, elements: case.options };
         let gear = GearReducer::new(gear, steel(), options).unwrap();

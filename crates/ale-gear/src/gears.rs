@@ -20,6 +20,7 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
         dedendum_coefficient: scene.pair.dedendum_coefficient,
         root_radius_coefficient: scene.pair.root_radius_coefficient,
         tip_diameter: gear.tip_diameter_mm,
+        tip_edge_radius: gear.tip_edge_radius_mm,
         bore_diameter: gear.bore_diameter_mm,
     }
 }

@@ -118,6 +118,7 @@ fn position(
         pinion_angle,
         mesh_phase: phase,
         transmission_error,
+        kinematic_transmission_error: 0.0, // unmodified flanks
         secant_stiffness: stiffness,
         tangent_stiffness: stiffness,
         contact_line_length: length,

@@ -12,7 +12,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
-use crate::scene::{Driver, Flanks, Gap, Model, Rotation, Scene};
+use crate::scene::{Driver, Flanks, Gap, Method, Model, Rotation, Scene};
 use crate::{gears, iso_model, meshes};
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way.
@@ -130,6 +130,7 @@ fn attempt(
 }
 
 fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
+    let defaults = StaticOptions::new(scene.operation.torque(), pair);
     StaticOptions {
         driver: match scene.operation.driver {
             Driver::Pinion => dynamics::Driver::Pinion,
@@ -139,16 +140,22 @@ fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
             Rotation::Ccw => ale::Sense::Ccw,
             Rotation::Cw => ale::Sense::Cw,
         },
+        method: match scene.contact.method {
+            Method::Slice => dynamics::Method::Slice,
+            Method::Nodal => dynamics::Method::Nodal,
+        },
+        slices: scene.contact.slices.map_or(defaults.slices, |n| n as usize),
+        friction: scene.contact.friction,
         law: scene.contact.penalty_mpa_per_mm.map_or(Law::Exact, Law::Penalty),
         gap: match scene.contact.gap {
-            Gap::Smooth => GapSource::Smooth,
-            Gap::Facet => GapSource::Facet,
+            Some(Gap::Facet) => GapSource::Facet,
+            Some(Gap::Smooth) | None => GapSource::Smooth,
         },
-        points_per_face_edge: scene.contact.points_per_face_edge as usize,
+        points_per_face_edge: scene.contact.points_per_face_edge.map_or(defaults.points_per_face_edge, |n| n as usize),
         both_flanks: scene.contact.flanks == Flanks::Both,
         window: scene.analysis.window_teeth.map(|w| w as usize),
         root_stress: scene.output.root_stress,
-        ..StaticOptions::new(scene.operation.torque(), pair)
+        ..defaults
     }
 }
 
@@ -188,6 +195,7 @@ fn elastic_gears(
 fn free_dofs(gear: &ElasticGear) -> usize {
     match gear {
         ElasticGear::Reduced(r) => r.dofs().free_count(),
+        ElasticGear::Grid(r) => r.dofs().free_count(),
         ElasticGear::Full(f) => f.dofs.free_count(),
     }
 }

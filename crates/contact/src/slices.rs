@@ -62,13 +62,15 @@ pub fn slice(
         Place::Inside(u) | Place::OwnEnd(u) => {
             let foot = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?;
             let at = [[u, z], foot.at];
-            let row = row_at([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
+            let mut row = row_at([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
             let off = if matches!(place, Place::Inside(_)) {
                 0.0
             } else {
                 off_line([a.patch, b.patch], [&poses[0], &poses[1]], at)
             };
-            Some((row, Slice { z, at, length, local: local(flanks, at, off) }))
+            let local = local(flanks, at, off);
+            row.gap += local.edge_opening();
+            Some((row, Slice { z, at, length, local }))
         }
         Place::OtherEnd(_) => {
             // Seen from the other body the same place is its own end.
@@ -76,8 +78,10 @@ pub fn slice(
             let foot = a.patch.surface().locate(&carried([&poses[1], &poses[0]], b.patch, [u, z]))?;
             let at = [foot.at, [u, z]];
             let off = off_line([b.patch, a.patch], [&poses[1], &poses[0]], [at[1], at[0]]);
-            let row = edge_row([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
-            Some((row, Slice { z, at, length, local: local(flanks, at, off) }))
+            let mut row = edge_row([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
+            let local = local(flanks, at, off);
+            row.gap += local.edge_opening();
+            Some((row, Slice { z, at, length, local }))
         }
     }
 }
@@ -140,11 +144,11 @@ fn nearest(patches: [&FlankPatch; 2], poses: [&Pose; 2], z: f64) -> Option<Place
     Some(Place::Inside(0.5 * (a + b)))
 }
 
-/// How far off the line of action an edge of body 1 presses, mm along that line: by the angle at which the flanks recede
-/// from each other there.
+/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
+/// which the flanks recede from each other there.
 ///
 /// ```text
-/// o = r_b epsilon / (1 + rho_1 / rho_2),   epsilon = |dg/du| / (rho_1 cos b_b),   rho = r_b u
+/// o = R epsilon,   epsilon = |dg/du| / (r_b u),   1/R: relative curvature
 /// ```
 fn off_line(patches: [&FlankPatch; 2], poses: [&Pose; 2], at: [[f64; 2]; 2]) -> f64 {
     let Some((_, slope, _)) = gap(patches, poses, at[0]) else { return 0.0 };
@@ -152,8 +156,7 @@ fn off_line(patches: [&FlankPatch; 2], poses: [&Pose; 2], at: [[f64; 2]; 2]) -> 
     let curvature = [0, 1].map(|i| patches[i].surface().curvature(at[i]));
     let receding = (slope / tangent).abs();
     // tangent = r_b u; the flanks' relative curvature turns arc length into receding angle.
-    let arc = receding / (curvature[0] + curvature[1]);
-    arc * at[0][0].recip()
+    receding / (curvature[0] + curvature[1])
 }
 
 fn local(flanks: [SliceFlank; 2], at: [[f64; 2]; 2], off_line: f64) -> LocalContact {

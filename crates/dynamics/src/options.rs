@@ -4,6 +4,8 @@ use ale::Sense;
 use contact::{GapSource, Law};
 use geometry::{GearPair, Side};
 
+use crate::Offset;
+
 /// Which gear drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Driver {
@@ -49,8 +51,10 @@ pub struct StaticOptions {
     pub window: Option<usize>,
     /// Compute stress in the root fillets at every station.
     pub root_stress: bool,
-    /// How far a flank node may lie from the smooth flank, mm.
+    /// How far a flank node may lie from the smooth nominal flank, mm.
     pub surface_tolerance: f64,
+    /// Rigid displacement of pinion and wheel: misalignment.
+    pub offsets: [Offset; 2],
 }
 
 impl StaticOptions {
@@ -70,6 +74,7 @@ impl StaticOptions {
             window: None,
             root_stress: false,
             surface_tolerance: 0.01 * pair.pinion.data().normal_module,
+            offsets: [Offset::default(); 2],
         }
     }
 

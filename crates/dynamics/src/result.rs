@@ -1,10 +1,11 @@
 //! What a quasi-static analysis hands on, position by position.
 
+use geometry::Side;
 use serde::Serialize;
 
 use crate::FilletStress;
 
-/// Force and moment of the mesh on one gear, about its own centre, global axes.
+/// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
     /// Force, N.
@@ -18,6 +19,10 @@ pub struct Wrench {
 pub struct SliceResult {
     /// Height on the pinion, mm.
     pub z: f64,
+    /// Height on the wheel, mm: another one where the wheel is displaced along its axis.
+    pub wheel_z: f64,
+    /// Side of the teeth that touches, the same on both gears.
+    pub side: Side,
     /// Roll angle of the contact on pinion and wheel, rad.
     pub roll: [f64; 2],
     /// Line load, N per mm of contact line.
@@ -26,7 +31,7 @@ pub struct SliceResult {
     pub half_width: f64,
     /// Largest pressure across the band, MPa.
     pub pressure: f64,
-    /// How far off the line of action a tip edge presses, mm; 0 for flank on flank.
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
     pub off_line: f64,
 }
 
@@ -75,7 +80,10 @@ pub struct StaticPosition {
     pub mesh_phase: f64,
     /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
     pub transmission_error: f64,
-    /// F_bt / te, N/mm; NaN without load.
+    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the transmission
+    /// error does, from where the unmodified flanks would touch with the axes parallel through the gears' centres.
+    pub kinematic_transmission_error: f64,
+    /// F_bt / (te - kinematic te), N/mm; NaN without load.
     pub secant_stiffness: f64,
     /// d F_bt / d te, N/mm.
     pub tangent_stiffness: f64,

@@ -5,7 +5,7 @@ use geometry::GearPair;
 
 use crate::{
     ContactSet, ElasticGear, Equilibrium, FilletStress, StaticError, StaticHistory, StaticOptions, StaticPosition,
-    Station, equilibrium::equilibrium, line, loads, parts::Parts, root_stress::RootStress,
+    Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose, root_stress::RootStress,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -67,6 +67,7 @@ impl StaticModel {
         {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
+        pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
@@ -115,7 +116,7 @@ impl StaticModel {
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
         if self.options.torque == 0.0 {
             let root_stress = self.root_stress(None)?;
-            return Ok(StaticPosition { root_stress, ..self.unloaded(station) });
+            return Ok(StaticPosition { root_stress, ..self.unloaded(station)? });
         }
         let guess = self.last.take();
         let e = equilibrium(&self.parts(), station, guess.as_ref())?;
@@ -140,7 +141,7 @@ impl StaticModel {
     /// A pair beside the window that overlaps at the loaded pose.
     fn starved(&self, e: &Equilibrium) -> Option<StaticError> {
         let pairs = self.window.pairs();
-        let least = 1e-3 * e.transmission_error.abs();
+        let least = 1e-3 * e.elastic_error().abs();
         [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
             let gap = line::outside_gap(&self.parts(), e, running);
             (gap < -least).then(|| StaticError::Starved {
@@ -154,8 +155,11 @@ impl StaticModel {
         })
     }
 
-    /// Without torque the flanks just touch along the analytic lines; the unmodified pair has no transmission error.
-    fn unloaded(&self, station: Station) -> StaticPosition {
+    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
+    /// their least gap is.
+    fn unloaded(&self, station: Station) -> Result<StaticPosition, StaticError> {
+        let touch = Unloaded::new(&self.pair, &self.options, station)?;
+        let error = touch.transmission_error();
         let theta1 = station.pinion_angle(&self.pair, &self.options);
         let lines = self.pair.contact_lines(self.options.side(), theta1);
         let middle = station.middle_pair(&self.options);
@@ -163,7 +167,8 @@ impl StaticModel {
             .window
             .pairs()
             .map(|running| {
-                let line = lines.iter().find(|l| l.tooth == running - middle);
+                let nominal = lines.iter().find(|l| l.tooth == running - middle).map_or(0.0, |l| l.length);
+                let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
                 let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
                 crate::PairResult {
                     pair: self.options.sense.sign() * running,
@@ -171,17 +176,18 @@ impl StaticModel {
                     wheel_tooth,
                     normal_force: 0.0,
                     max_pressure: 0.0,
-                    contact_line_length: line.map_or(0.0, |l| l.length),
+                    contact_line_length: length,
                     points_in_contact: 0,
                     slices: Vec::new(),
                 }
             })
             .collect();
         pairs.sort_by_key(|p| p.pair);
-        StaticPosition {
+        Ok(StaticPosition {
             pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
             mesh_phase: station.phase,
-            transmission_error: 0.0,
+            transmission_error: error,
+            kinematic_transmission_error: error,
             secant_stiffness: f64::NAN,
             tangent_stiffness: 0.0,
             contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
@@ -194,7 +200,7 @@ impl StaticModel {
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),
-        }
+        })
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.

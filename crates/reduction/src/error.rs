@@ -45,6 +45,9 @@ pub enum ReductionError {
         /// Coordinates of the window.
         wanted: usize,
     },
+    /// Stress asked of a gear that only knows means of its flanks' displacements.
+    #[error("a gear reduced to grids over its flanks has no stress modes")]
+    NoStressModes,
     /// A condensed matrix is not positive definite.
     #[error("the compliance of the window from tooth {first} on is not positive definite")]
     NotPositiveDefinite {
@@ -69,6 +72,7 @@ impl ReductionError {
             ),
             Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
             Self::WrongLength { .. } => None,
+            Self::NoStressModes => Some("reduce the gear to its flank nodes".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }
     }

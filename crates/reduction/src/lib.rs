@@ -11,14 +11,19 @@
 
 mod cyclic;
 mod error;
+mod grid;
 mod half_tooth;
+mod layer_profile;
+mod plane_strain;
 mod reducer;
 mod stress_modes;
 mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use grid::{FlankGrid, GridReducer};
 pub use half_tooth::HalfTooth;
+pub use layer_profile::LayerProfile;
 pub use reducer::{GearReducer, ReductionOptions};
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

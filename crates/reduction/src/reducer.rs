@@ -48,7 +48,7 @@ pub struct GearReducer {
 }
 
 /// How far a node may be from the place of its image for a gear to count as cyclic, relative to its size.
-const CYCLIC_TOLERANCE: f64 = 1e-9;
+pub(crate) const CYCLIC_TOLERANCE: f64 = 1e-9;
 
 impl GearReducer {
     /// Assembles, factors and reduces the first window.
@@ -282,7 +282,7 @@ impl GearReducer {
 }
 
 /// Teeth first, first + 1, ... counter-clockwise.
-fn window_teeth(gear: &GearMesh, first: u32, count: usize) -> Vec<u32> {
+pub(crate) fn window_teeth(gear: &GearMesh, first: u32, count: usize) -> Vec<u32> {
     (0..count as u32).map(|i| (first + i) % gear.tooth_count()).collect()
 }
 

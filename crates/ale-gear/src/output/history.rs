@@ -26,6 +26,7 @@ const WRENCH: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm",
 const TRAILING: &[&str] = &[
     "max_pressure_mpa",
     "strain_energy_nmm",
+    "friction_power_loss_w",
     "tooth_changes",
     "torque_residual",
     "complementarity_residual",
@@ -83,6 +84,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         row.extend([
             p.max_pressure,
             p.strain_energy,
+            1e-3 * p.friction_work * scene.pinion_speed(),
             p.tooth_changes as f64,
             c.torque_residual,
             c.complementarity_residual,
@@ -97,15 +99,20 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
                 row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
             }
         }
-        for (k, value) in row.into_iter().enumerate() {
-            if k > 0 {
-                csv.push(',');
-            }
-            push_number(&mut csv, value);
-        }
-        csv.push('\n');
+        push_row(&mut csv, row);
     }
     csv
+}
+
+/// One line of numbers with commas between them.
+pub(super) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
+    for (k, value) in row.into_iter().enumerate() {
+        if k > 0 {
+            csv.push(',');
+        }
+        push_number(csv, value);
+    }
+    csv.push('\n');
 }
 
 /// The shortest text that reads back to the same number.

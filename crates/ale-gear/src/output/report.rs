@@ -13,7 +13,7 @@ use crate::scene::Scene;
 
 const TEMPLATE: &str = include_str!("report.html");
 
-/// The report as HTML, charts inlined as SVG.
+/// The report as HTML, charts inlined as SVG; `pattern` is the picture of the contact pattern, where there is one.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
@@ -23,6 +23,7 @@ pub fn write_report(
     facts: &Facts,
     cost: &Cost,
     headline: &Headline,
+    pattern: Option<&str>,
 ) -> Result<String, CommandError> {
     let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
     let mut environment = Environment::new();
@@ -43,6 +44,7 @@ pub fn write_report(
         facts => Serde(facts),
         cost => Serde(cost),
         charts => charts(scene, history),
+        pattern => pattern,
         warnings => &history.warnings,
     })
     .map_err(failed)

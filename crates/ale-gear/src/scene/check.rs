@@ -102,6 +102,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
         Hand::Against(other) => against(s, raw, other)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
     let (mesh, mesher) = mesh_source(s, raw, teeth)?;
     Ok(GearScene {
@@ -115,6 +116,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             bore_limit,
         )?,
         profile_shift: s.number("profile_shift", &raw.profile_shift, 0.0, -1.5, 2.0)?,
+        tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,
             Some(_) => {
@@ -223,30 +225,21 @@ fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
 }
 
 fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
-    if let Some(friction) = &raw.friction
-        && *friction.get_ref() != 0.0
-    {
-        return Err(SceneError::NotYet {
-            place: s.place(&friction.span()),
-            key: "friction".into(),
-            what: format!("Coulomb friction of {}", friction.get_ref()),
-            instead: "leave it out: contact is frictionless".into(),
-        });
-    }
-    let method = match &raw.method {
-        Some(word) if word.get_ref() == "slice" => {
-            return Err(not_yet(s, "method", word, "contact by axial slices", "use `method = \"nodal\"`"));
-        }
-        word => s.choice("method", word, &[("nodal", Method::Nodal)])?,
-    };
+    let method = s.choice("method", &raw.method, &[("slice", Method::Slice), ("nodal", Method::Nodal)])?;
+    let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
+    let slices = s.whole("slices", &raw.slices, 32, 4, 1000)?;
+    let gap = s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?;
+    let points = s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?;
     Ok(ContactScene {
         method,
+        slices: sliced.then_some(slices),
+        friction: s.number("friction", &raw.friction, 0.0, 0.0, 1.0)?,
         penalty_mpa_per_mm: match raw.penalty_mpa_per_mm {
             None => None,
             Some(_) => Some(s.number("penalty_mpa_per_mm", &raw.penalty_mpa_per_mm, 0.0, 1.0, 1e15)?),
         },
-        gap: s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?,
-        points_per_face_edge: s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?,
+        gap: nodal.then_some(gap),
+        points_per_face_edge: nodal.then_some(points),
         flanks: s.choice("flanks", &raw.flanks, &[("driving", Flanks::Driving), ("both", Flanks::Both)])?,
     })
 }
@@ -302,6 +295,7 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
     }
     Ok(OutputScene {
         root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
+        contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
         vtu: raw.vtu.unwrap_or(false),
         fields,
         vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
@@ -319,6 +313,43 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
                 advice: "leave it out: the window follows from the contact ratio".into(),
             });
         }
+    }
+    let nodal_only = [
+        ("penalty_mpa_per_mm", raw.contact.penalty_mpa_per_mm.as_ref().map(toml::Spanned::span)),
+        ("gap", raw.contact.gap.as_ref().map(toml::Spanned::span)),
+        ("points_per_face_edge", raw.contact.points_per_face_edge.as_ref().map(toml::Spanned::span)),
+    ];
+    let nodal_key = nodal_only.into_iter().find_map(|(key, span)| Some((key, span?)));
+    if let (Method::Slice, Some((key, span))) = (scene.contact.method, nodal_key) {
+        return Err(SceneError::Conflict {
+            place: s.place(&span),
+            what: format!("`{key}` means nothing to slices"),
+            advice: "leave it out, or use `method = \"nodal\"`".into(),
+        });
+    }
+    if let (Method::Nodal, Some(slices)) = (scene.contact.method, &raw.contact.slices) {
+        return Err(SceneError::Conflict {
+            place: s.place(&slices.span()),
+            what: "`slices` means nothing to the method \"nodal\"".into(),
+            advice: "leave it out, or use `method = \"slice\"`".into(),
+        });
+    }
+    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !crate::pattern::has_slices(scene))
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: "`contact_lines` lists slices, and this scene has none".into(),
+            advice: "leave it out, or use the method \"slice\" and the model \"reduced\" or \"full\"".into(),
+        });
+    }
+    if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)
+        && scene.contact.friction != 0.0
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&friction.span()),
+            what: "only the model \"reduced\" has friction".into(),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
     }
     if let (Some(asked), true, Model::Iso) = (&raw.output.root_stress, scene.output.root_stress, scene.analysis.model) {
         return Err(SceneError::Conflict {

@@ -11,6 +11,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "bore_diameter_mm",
             "profile_shift",
             "tip_diameter_mm",
+            "tip_edge_radius_mm",
             "thickness_allowance_mm",
             "mesh",
             "mesher",
@@ -45,9 +46,9 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
     ),
     ("material", &["young_mpa", "poisson", "density_kg_m3"]),
     ("operation", &["driver", "rotation", "torque_nm", "speed_rpm"]),
-    ("contact", &["method", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
+    ("contact", &["method", "slices", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
     ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
-    ("output", &["root_stress", "vtu", "fields", "vtu_every"]),
+    ("output", &["contact_lines", "root_stress", "vtu", "fields", "vtu_every"]),
 ];
 
 /// The nearest of `known` if it is near enough to be meant.

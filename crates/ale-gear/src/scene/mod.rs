@@ -57,6 +57,8 @@ pub struct GearScene {
     /// Tip diameter, mm; `None`: from addendum and profile shift.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_diameter_mm: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius_mm: f64,
     /// Thinning of the tooth in the normal section, mm.
     pub thickness_allowance_mm: f64,
     /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.
@@ -159,13 +161,20 @@ pub enum Rotation {
 pub struct ContactScene {
     /// Where the contact unknowns sit.
     pub method: Method,
+    /// Slices over the face width; `None` for the method nodal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slices: Option<u32>,
+    /// Coefficient of friction.
+    pub friction: f64,
     /// Pressure a mm of penetration, MPa/mm; `None`: exact complementarity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty_mpa_per_mm: Option<f64>,
-    /// Which surface gives the gaps.
-    pub gap: Gap,
-    /// Contact points along each edge of a flank face.
-    pub points_per_face_edge: u32,
+    /// Which surface gives the gaps; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Gap>,
+    /// Contact points along each edge of a flank face; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points_per_face_edge: Option<u32>,
     /// Which flanks may touch.
     pub flanks: Flanks,
 }
@@ -174,6 +183,8 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
+    /// One line load an axial slice.
+    Slice,
     /// Quadrature points of the flank mesh.
     Nodal,
 }
@@ -239,6 +250,8 @@ pub enum Model {
 pub struct OutputScene {
     /// Stress in the root fillets at every position.
     pub root_stress: bool,
+    /// The contact lines slice by slice.
+    pub contact_lines: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

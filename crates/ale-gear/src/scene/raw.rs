@@ -43,6 +43,7 @@ pub(super) struct RawGear {
     pub bore_diameter_mm: Number,
     pub profile_shift: Number,
     pub tip_diameter_mm: Number,
+    pub tip_edge_radius_mm: Number,
     pub thickness_allowance_mm: Number,
     pub mesh: Word,
     pub mesher: Option<Spanned<RawMesher>>,
@@ -107,6 +108,7 @@ pub(super) struct RawOperation {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawContact {
     pub method: Word,
+    pub slices: Whole,
     pub penalty_mpa_per_mm: Number,
     pub gap: Word,
     pub points_per_face_edge: Whole,
@@ -128,6 +130,7 @@ pub(super) struct RawAnalysis {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawOutput {
     pub root_stress: Option<Spanned<bool>>,
+    pub contact_lines: Option<Spanned<bool>>,
     pub vtu: Option<bool>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,
