@@ -17,6 +17,9 @@ const REDUCED: ElementOptions =
 const C3D8I: ElementOptions =
     ElementOptions { integration: Integration::Full, incompatible_modes: IncompatibleModes::WithoutJacobianRatio };
 
+/// A stress measure of a tensor, MPa.
+type Measure = fn(&[f64; 6]) -> f64;
+
 /// Peaks of one fillet: maximum principal, minimum principal, von Mises (MPa), each with the tag of its node.
 type Peaks = [(f64, u64); 3];
 
@@ -98,7 +101,7 @@ fn stress_modes_agree_with_calculix_under_the_same_forces() {
             let nodes = fillets.nodes(0, side);
             let stress = gear.stress_modes(&window, nodes).unwrap().stress(&u).unwrap();
             let scale = wanted[2].0;
-            let measures: [(&str, fn(&[f64; 6]) -> f64, f64); 3] = [
+            let measures: [(&str, Measure, f64); 3] = [
                 ("max principal", fem::max_principal, 1.0),
                 ("min principal", fem::min_principal, -1.0),
                 ("von Mises", fem::von_mises, 1.0),
