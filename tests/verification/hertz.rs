@@ -139,12 +139,15 @@ fn solve(per_half_width: f64, law: Law) -> Result<(f64, f64), ContactError> {
         source: GapSource::Smooth,
         line: &LinePoints::new(),
     };
-    let rows = closest_points(&scene, &[Pose::identity(), Pose::identity()], 1.0);
+    let mut rows = closest_points(&scene, &[Pose::identity(), Pose::identity()], 1.0);
     // The one rigid coordinate is the upper body's approach, so the "moment" is the load.
-    let levers: Vec<f64> = rows.iter().map(|r| r.normal.y).collect();
+    for row in &mut rows {
+        row.levers[0] = row.normal.y;
+        row.torque_levers[0] = row.normal.y;
+    }
     let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
     let load = -LINE_LOAD * THICKNESS;
-    let solution = complementarity::solve(&mut elastic, &rows, &levers, load, law, &vec![0.0; rows.len()])?;
+    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()])?;
     let pressures = nodal_pressures(&patches[..1], 0, &rows, &solution.forces);
     let pressure = pressures.values().copied().fold(0.0, f64::max);
     // The half-ellipse has the second moment a^2 / 4: a measure that does not jump from element to element.

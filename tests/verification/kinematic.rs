@@ -90,7 +90,8 @@ fn kinematic_te_is_the_geometric_one() {
     let none = FlankModification::default;
     for beta in [0.0, 12.0, -20.0] {
         // Tips are relieved by more than the other modifications bring forward, so that no pair touches beyond its path.
-        let relieved = |gear: usize, shape| FlankModification { tip_relief: tip_relief(beta, gear, 0.03, shape), ..none() };
+        let relieved =
+            |gear: usize, shape| FlankModification { tip_relief: tip_relief(beta, gear, 0.03, shape), ..none() };
         let relieved = |shape| [0, 1].map(|g| relieved(g, shape));
         let with = |m: fn(&mut FlankModification), shape| {
             let mut flanks = relieved(shape);

@@ -109,6 +109,7 @@ fn position(
             max_pressure: pressure(scene, pair, turned, line, normal_force / length),
             contact_line_length: line.length,
             points_in_contact: 1,
+            slices: Vec::new(),
         });
     }
     pairs.sort_by_key(|p| p.pair);
@@ -125,6 +126,8 @@ fn position(
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         pairs,
         wrench,
+        root_stress: Default::default(),
+        friction_work: 0.0,
         strain_energy: 0.5 * base_force * transmission_error,
         tooth_changes: 0, // there is no window that could slide
         certificate: certificate(scene, &wrench),

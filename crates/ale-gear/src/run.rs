@@ -1,7 +1,9 @@
 //! Where a checked scene becomes a call of the solvers.
 
 use contact::{GapSource, Law};
-use dynamics::{ElasticGear, FullGear, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
+use dynamics::{
+    ElasticGear, FullGear, Misalignment, Offset, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition,
+};
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
 use reduction::{GearReducer, ReductionOptions};
@@ -12,7 +14,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
-use crate::scene::{Driver, Flanks, Gap, Model, Rotation, Scene};
+use crate::scene::{Driver, Flanks, Gap, Method, Model, Rotation, Scene};
 use crate::{gears, iso_model, meshes};
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way.
@@ -130,7 +132,16 @@ fn attempt(
 }
 
 fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
+    let defaults = StaticOptions::new(scene.operation.torque(), pair);
+    let m = scene.pair.misalignment;
+    let misalignment = Misalignment {
+        deviation: 1e-3 * m.deviation_um,
+        inclination: 1e-3 * m.inclination_um,
+        in_plane_of_action: 1e-3 * m.in_plane_of_action_um,
+        across_plane_of_action: 1e-3 * m.across_plane_of_action_um,
+    };
     StaticOptions {
+        offsets: [Offset::default(), misalignment.wheel_offset(pair, scene.side())],
         driver: match scene.operation.driver {
             Driver::Pinion => dynamics::Driver::Pinion,
             Driver::Wheel => dynamics::Driver::Wheel,
@@ -139,15 +150,21 @@ fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
             Rotation::Ccw => ale::Sense::Ccw,
             Rotation::Cw => ale::Sense::Cw,
         },
+        method: match scene.contact.method {
+            Method::Slice => dynamics::Method::Slice,
+            Method::Nodal => dynamics::Method::Nodal,
+        },
+        slices: scene.contact.slices.map_or(defaults.slices, |n| n as usize),
+        friction: scene.contact.friction,
         law: scene.contact.penalty_mpa_per_mm.map_or(Law::Exact, Law::Penalty),
         gap: match scene.contact.gap {
-            Gap::Smooth => GapSource::Smooth,
-            Gap::Facet => GapSource::Facet,
+            Some(Gap::Facet) => GapSource::Facet,
+            Some(Gap::Smooth) | None => GapSource::Smooth,
         },
-        points_per_face_edge: scene.contact.points_per_face_edge as usize,
+        points_per_face_edge: scene.contact.points_per_face_edge.map_or(defaults.points_per_face_edge, |n| n as usize),
         both_flanks: scene.contact.flanks == Flanks::Both,
         window: scene.analysis.window_teeth.map(|w| w as usize),
-        ..StaticOptions::new(scene.operation.torque(), pair)
+        ..defaults
     }
 }
 
@@ -228,7 +245,7 @@ fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
     if torque > 1e-8 {
         said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
     }
-    let error = worst(|p| p.transmission_error.abs());
+    let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
     if error > LARGE_ERROR_MODULES * module {
         said.push(format!(
             "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \

@@ -36,7 +36,7 @@ fn defaults_are_those_of_the_documentation() {
     assert!(scene.wheel.helix_angle_deg.is_sign_positive());
     assert_eq!((scene.operation.speed_rpm, scene.operation.driver), (1000.0, Driver::Pinion));
     assert_eq!((scene.analysis.positions_per_cycle, scene.analysis.cycles), (32, 1));
-    assert_eq!((scene.analysis.model, scene.contact.points_per_face_edge), (Model::Reduced, 6));
+    assert_eq!((scene.analysis.model, scene.contact.slices), (Model::Reduced, Some(32)));
     assert_eq!(scene.pinion.mesher.map(|m| (m.order, m.sector_teeth)), Some((2, 0)));
     assert_eq!(scene.wheel.material.young_mpa, 2.06e5);
 }

@@ -48,8 +48,10 @@ pub struct Support {
     pub weights: [f64; 9],
     /// How many of them are used.
     pub count: usize,
-    /// Direction d in the body's own frame: the direction of the force on the body.
+    /// Direction d in the body's own frame: the direction of the normal force on the body.
     pub direction: Vec3,
+    /// Force on the body for a unit normal force, own frame: `direction`, and friction on top.
+    pub load: Vec3,
 }
 
 /// One candidate point with everything the solve needs.
@@ -72,6 +74,10 @@ pub struct ContactRow {
     /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns the body with
     /// just this moment.
     pub levers: [f64; 2],
+    /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no friction.
+    pub torque_levers: [f64; 2],
+    /// Force on body 1 for a unit normal force, common frame: `normal`, and friction on top.
+    pub traction: Vec3,
     /// Loading of the bodies.
     pub supports: [Support; 2],
 }
@@ -140,12 +146,6 @@ pub fn contact_row(
         }
     };
     let normal = poses[1].rotation * normal_2;
-    let lever = |pose: &Pose| {
-        let arm = position - pose.translation.vector;
-        arm.cross(&normal).dot(&(pose.rotation * Vec3::z()))
-    };
-    let support =
-        |i: Interpolation, direction: Vec3| Support { nodes: i.nodes, weights: i.weights, count: i.count, direction };
     Some(ContactRow {
         patches: (first, second),
         point,
@@ -154,10 +154,81 @@ pub fn contact_row(
         position,
         normal,
         coordinates: p.coordinates,
-        levers: [lever(&poses[0]), -lever(&poses[1])],
+        levers: levers(poses, &position, &normal),
+        torque_levers: levers(poses, &position, &normal),
+        traction: normal,
         supports: [
-            support(patch.interpolation(p.at), poses[0].inverse_transform_vector(&normal)),
-            support(other.interpolation(at), -normal_2),
+            Support::new(patch.interpolation(p.at), poses[0].inverse_transform_vector(&normal)),
+            Support::new(other.interpolation(at), -normal_2),
         ],
     })
+}
+
+/// d gap / d angle of each body about its own z axis, mm, for a force at `position` along `normal` on body 1.
+pub(crate) fn levers(poses: &[Pose; 2], position: &Vec3, normal: &Vec3) -> [f64; 2] {
+    let lever = |pose: &Pose| {
+        let arm = position - pose.translation.vector;
+        arm.cross(normal).dot(&(pose.rotation * Vec3::z()))
+    };
+    [lever(&poses[0]), -lever(&poses[1])]
+}
+
+/// Row of a pair of points with known surface coordinates and gap; `None` when a patch has no faces near them.
+pub(crate) fn row_at(
+    patches: [&FlankPatch; 2],
+    poses: &[Pose; 2],
+    numbers: (usize, usize),
+    point: usize,
+    at: [[f64; 2]; 2],
+    gap: f64,
+) -> Option<ContactRow> {
+    let position = poses[0].transform_point(&patches[0].surface().point(at[0]).into()).coords;
+    let normal_2 = patches[1].surface().normal(at[1]);
+    let normal = poses[1].rotation * normal_2;
+    Some(ContactRow {
+        patches: numbers,
+        point,
+        gap,
+        area: 0.0,
+        position,
+        normal,
+        coordinates: at[0],
+        levers: levers(poses, &position, &normal),
+        torque_levers: levers(poses, &position, &normal),
+        traction: normal,
+        supports: [
+            support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal))?,
+            support_at(patches[1], at[1], -normal_2)?,
+        ],
+    })
+}
+
+/// Loading of a body at surface coordinates; those past the edge of the faces load the edge.
+pub(crate) fn support_at(patch: &FlankPatch, at: [f64; 2], direction: Vec3) -> Option<Support> {
+    Some(Support::new(patch.interpolation(patch.nearest_face_at(at)?), direction))
+}
+
+impl Support {
+    fn new(i: Interpolation, direction: Vec3) -> Self {
+        Self { nodes: i.nodes, weights: i.weights, count: i.count, direction, load: direction }
+    }
+}
+
+impl ContactRow {
+    /// Adds friction: `tangential` (common frame) is the friction force on body 1 for a unit normal force.
+    ///
+    /// Gaps stay what they are; the bodies and the moments see normal and friction force together.
+    #[must_use]
+    pub fn with_friction(mut self, poses: &[Pose; 2], tangential: &Vec3) -> Self {
+        self.traction = self.normal + tangential;
+        self.torque_levers = levers(poses, &self.position, &self.traction);
+        self.supports[0].load = poses[0].inverse_transform_vector(&self.traction);
+        self.supports[1].load = -poses[1].inverse_transform_vector(&self.traction);
+        self
+    }
+
+    /// Whether friction acts.
+    pub fn has_friction(&self) -> bool {
+        self.traction != self.normal
+    }
 }

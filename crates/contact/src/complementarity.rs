@@ -4,6 +4,7 @@
 //! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
 //! F_i >= 0,  g_i >= 0,  F_i g_i = 0
 //! ```
+//! With friction the moment of a force has a lever of its own, and the openings are those by normal and friction force together.
 //! g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the penalty law, 0
 //! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
 //! for the rotation and the gaps is unique.
@@ -46,6 +47,8 @@ pub struct Problem {
     pub gaps: Vec<f64>,
     /// l, mm.
     pub levers: Vec<f64>,
+    /// Moment of a unit normal force, friction included, mm: l without friction.
+    pub torque_levers: Vec<f64>,
     /// d, mm/N.
     pub compliance: Vec<f64>,
     /// M, N mm.
@@ -93,6 +96,8 @@ const COMPLIANCE_DECAY: f64 = 0.1;
 const LAST_COMPLIANCE: f64 = 1e-6;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 60;
+/// Newton steps on the local compliance of slices before giving up; five or six do.
+const SLICE_STEPS: usize = 60;
 /// Block pivots without progress before single steps take over.
 const PATIENCE: usize = 10;
 /// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a solve
@@ -105,7 +110,7 @@ const PENALTY_TOLERANCE: f64 = 1e-9;
 /// Violation that counts as solved, relative to approach and force.
 const TOLERANCE: f64 = 1e-11;
 
-/// Solves the contact of `rows` under `moment` (N mm) about the body whose levers are `levers`.
+/// Solves the contact of `rows` under `moment` (N mm) about the axis of body number `body`.
 ///
 /// Block principal pivoting (all violated points change at once); where that stops making progress, the primal active-set
 /// method, which ends because every step lowers the energy. Exact contact with more points than nodes has no unique forces and no
@@ -117,12 +122,13 @@ const TOLERANCE: f64 = 1e-11;
 pub fn solve(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],
-    levers: &[f64],
+    body: usize,
     moment: f64,
     law: Law,
     start: &[f64],
 ) -> Result<Solution, ContactError> {
     let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
+    let [levers, torque_levers] = levers_of(rows, body);
     let driving = moment.signum();
     let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
     if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
@@ -132,10 +138,10 @@ pub fn solve(
         Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
         Law::Exact => vec![0.0; rows.len()],
     };
-    let mut problem = Problem { gaps, levers: levers.to_vec(), compliance, moment };
+    let mut problem = Problem { gaps, levers: levers.clone(), torque_levers, compliance, moment };
     let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
     if active.is_empty() {
-        active = first_guess(rows, levers, driving);
+        active = first_guess(rows, &levers, driving);
     }
     let Law::Exact = law else {
         let (answer, active, iterations) = pivot(bodies, &problem, active)?;
@@ -158,7 +164,7 @@ pub fn solve(
         let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
         total += iterations;
         let mut solution = finish(rows, &problem, answer, settled.clone(), total);
-        solution.residual = exact_residual(rows, levers, &solution);
+        solution.residual = exact_residual(rows, &levers, &solution);
         if solution.residual < TOLERANCE {
             return Ok(solution);
         }
@@ -167,6 +173,68 @@ pub fn solve(
         relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
     Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+}
+
+/// Solves the contact of slices: each row has a compliance of its own besides the bodies', not linear in its force.
+///
+/// ```text
+/// g_i = g0_i + l_i dtheta + o_i(F) + delta_i(F_i)
+/// ```
+/// Newton on the complementarity: delta is replaced by its tangent at the last forces, the resulting linear problem is solved
+/// exactly, active set and all; the tangents are exact, so the error falls quadratically. delta grows slower and slower with the load, so the steps
+/// approach from below and need no damping. `local(i, F)` gives delta_i (mm) and its slope (mm/N); slopes are positive.
+///
+/// # Errors
+/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+pub fn solve_slices(
+    bodies: &mut dyn LinearContact,
+    rows: &[ContactRow],
+    body: usize,
+    moment: f64,
+    local: impl Fn(usize, f64) -> (f64, f64),
+    start: &[f64],
+) -> Result<Solution, ContactError> {
+    let [levers, torque_levers] = levers_of(rows, body);
+    let driving = moment.signum();
+    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+        return Err(ContactError::NoLever { lever_mm });
+    }
+    let n = rows.len();
+    let gaps = vec![0.0; n];
+    let mut problem = Problem { gaps, levers: levers.clone(), torque_levers, compliance: vec![0.0; n], moment };
+    let mut active: Vec<usize> = (0..n).filter(|&i| start[i] > 0.0).collect();
+    let mut forces = start.to_vec();
+    if active.is_empty() {
+        active = first_guess(rows, &levers, driving);
+        // Tangents at a typical force: half of the rows share the load.
+        forces.fill(2.0 * moment.abs() / (lever_mm * n as f64));
+    }
+    let mut total = 0;
+    for _ in 0..SLICE_STEPS {
+        for (i, row) in rows.iter().enumerate() {
+            let (approach, slope) = local(i, forces[i]);
+            problem.compliance[i] = slope;
+            problem.gaps[i] = row.gap + approach - slope * forces[i];
+        }
+        let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
+        total += iterations;
+        let mut solution = finish(rows, &problem, answer, settled, total);
+        for (i, o) in solution.openings.iter_mut().enumerate() {
+            *o += local(i, solution.forces[i]).0;
+        }
+        solution.residual = exact_residual(rows, &levers, &solution);
+        if solution.residual < TOLERANCE {
+            return Ok(solution);
+        }
+        forces.clone_from(&solution.forces);
+        active = solution.active;
+    }
+    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: n })
+}
+
+fn levers_of(rows: &[ContactRow], body: usize) -> [Vec<f64>; 2] {
+    [rows.iter().map(|r| r.levers[body]).collect(), rows.iter().map(|r| r.torque_levers[body]).collect()]
 }
 
 /// Points that touch first when the body turns: those within a hundredth of the way of the nearest.
@@ -246,7 +314,7 @@ fn single_steps(
     let driving = problem.moment.signum();
     let mut force = vec![0.0; n];
     active.iter().zip(&answer.forces).filter(|(_, f)| **f > 0.0).for_each(|(&i, &f)| force[i] = f);
-    let carried = |force: &[f64]| force.iter().zip(&problem.levers).map(|(f, l)| f * l).sum::<f64>();
+    let carried = |force: &[f64]| force.iter().zip(&problem.torque_levers).map(|(f, l)| f * l).sum::<f64>();
     if carried(&force) * driving <= 0.0 {
         let best = (0..n).max_by(|&a, &b| (problem.levers[a] * driving).total_cmp(&(problem.levers[b] * driving)));
         force.fill(0.0);

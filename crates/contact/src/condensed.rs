@@ -10,8 +10,10 @@ use crate::{
 /// Compliance of both bodies seen from the contact rows.
 ///
 /// ```text
-/// o_i = sum_j C_ij F_j,   C = sum over both bodies of A C_b A'
+/// o_i = sum_j C_ij F_j,   C = sum over both bodies of A C_b A' + X
 /// ```
+/// X (mm/N) a correction between rows, if there is one: what slices take away of the bodies' own compliance.
+///
 /// C_b (mm/N) is the body's boundary compliance (3 n x 3 n, node by node x, y, z), A the rows' supports. Columns
 /// C_b A'_j are made when a row first becomes active and kept.
 #[derive(Debug)]
@@ -19,22 +21,30 @@ pub struct Condensed<'a> {
     rows: &'a [ContactRow],
     compliance: [MatRef<'a, f64>; 2],
     columns: Vec<[Option<Vec<f64>>; 2]>,
+    correction: Option<Mat<f64>>,
 }
 
 impl<'a> Condensed<'a> {
     /// The bodies' boundary compliances, and the rows they touch at.
     pub fn new(rows: &'a [ContactRow], compliance: [MatRef<'a, f64>; 2]) -> Self {
-        Self { rows, compliance, columns: vec![[None, None]; rows.len()] }
+        Self { rows, compliance, columns: vec![[None, None]; rows.len()], correction: None }
+    }
+
+    /// The same with a correction X between rows, mm/N, symmetric.
+    #[must_use]
+    pub fn corrected(self, correction: Option<Mat<f64>>) -> Self {
+        Self { correction, ..self }
     }
 
     /// C_ij, mm/N.
     fn entry(&mut self, i: usize, j: usize) -> f64 {
-        (0..2)
+        let bodies: f64 = (0..2)
             .map(|b| {
                 self.prepare(j, b);
                 self.columns[j][b].as_deref().map_or(0.0, |c| opening(&self.rows[i].supports[b], c))
             })
-            .sum()
+            .sum();
+        bodies + self.correction.as_ref().map_or(0.0, |x| x[(i, j)])
     }
 
     fn prepare(&mut self, row: usize, body: usize) {
@@ -67,7 +77,7 @@ pub(crate) fn load_columns(support: &Support, mut add: impl FnMut(usize, f64)) {
     for k in 0..support.count {
         let at = 3 * support.nodes[k] as usize;
         for axis in 0..3 {
-            let f = support.weights[k] * support.direction[axis];
+            let f = support.weights[k] * support.load[axis];
             if f != 0.0 {
                 add(at + axis, f);
             }
@@ -82,29 +92,42 @@ impl LinearContact for Condensed<'_> {
             self.prepare(j, 0);
             self.prepare(j, 1);
         }
+        let friction = active.iter().any(|&i| self.rows[i].has_friction());
         let mut s = Mat::<f64>::zeros(n, n);
         for (b, &j) in active.iter().enumerate() {
             let [Some(first), Some(second)] = &self.columns[j] else { unreachable!("prepared above") };
-            for (a, &i) in active.iter().enumerate().skip(b) {
+            // Without friction the matrix is symmetric, and the lower half is enough.
+            for (a, &i) in active.iter().enumerate().skip(if friction { 0 } else { b }) {
                 let supports = &self.rows[i].supports;
-                s[(a, b)] = opening(&supports[0], first) + opening(&supports[1], second);
+                s[(a, b)] = opening(&supports[0], first)
+                    + opening(&supports[1], second)
+                    + self.correction.as_ref().map_or(0.0, |x| x[(i, j)]);
             }
             s[(b, b)] += problem.compliance[j];
         }
         let rhs = Mat::from_fn(n, 2, |a, k| if k == 0 { -problem.gaps[active[a]] } else { problem.levers[active[a]] });
-        let factor = s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?;
-        let x = factor.solve(&rhs);
+        let x = if friction {
+            s.partial_piv_lu().solve(&rhs)
+        } else {
+            s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?.solve(&rhs)
+        };
         let (mut carried, mut stiffness) = (0.0, 0.0);
         for (a, &i) in active.iter().enumerate() {
-            carried += problem.levers[i] * x[(a, 0)];
-            stiffness += problem.levers[i] * x[(a, 1)];
+            carried += problem.torque_levers[i] * x[(a, 0)];
+            stiffness += problem.torque_levers[i] * x[(a, 1)];
         }
         let rotation = (carried - problem.moment) / stiffness;
         let forces: Vec<f64> = (0..n).map(|a| x[(a, 0)] - rotation * x[(a, 1)]).collect();
         let mut all = vec![0.0; self.rows.len()];
         active.iter().zip(&forces).for_each(|(&i, &f)| all[i] = f);
         let [u1, u2] = self.displacements(&all);
-        let openings = self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
+        let mut openings: Vec<f64> =
+            self.rows.iter().map(|r| opening(&r.supports[0], &u1) + opening(&r.supports[1], &u2)).collect();
+        if let Some(x) = &self.correction {
+            for &j in active {
+                openings.iter_mut().zip(x.col(j).iter()).for_each(|(o, c)| *o += c * all[j]);
+            }
+        }
         Ok(Equality { forces, rotation, openings, stiffness })
     }
 

@@ -23,7 +23,9 @@ mod local;
 mod patch;
 mod points;
 mod pressure;
+mod slices;
 mod surface;
+mod tooth_layer;
 
 pub use candidates::{Candidates, FacePair};
 pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
@@ -36,7 +38,9 @@ pub use local::{LocalBody, LocalContact, LocalState, layer_constant, wedge_softe
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
 pub use pressure::nodal_pressures;
+pub use slices::{Slice, SliceFlank, slice};
 pub use surface::{Cylinder, Foot, Surface};
+pub use tooth_layer::ToothLayer;
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

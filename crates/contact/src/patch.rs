@@ -13,6 +13,7 @@ pub struct FlankPatch {
     faces: Vec<PatchFace>,
     nodes: Vec<PatchNode>,
     bins: Bins,
+    range: [[f64; 2]; 2],
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +101,8 @@ impl FlankPatch {
             })
             .collect();
         let bins = Bins::new(&faces, &nodes);
-        Ok(Self { tooth, surface, faces, nodes, bins })
+        let range = range(nodes.iter().map(|n| n.at));
+        Ok(Self { tooth, surface, faces, nodes, bins, range })
     }
 
     /// The smooth surface.
@@ -210,7 +212,7 @@ impl FlankPatch {
 
     /// Range of surface coordinates of the whole patch.
     pub fn range(&self) -> [[f64; 2]; 2] {
-        range(self.nodes.iter().map(|n| n.at))
+        self.range
     }
 
     /// Boundary nodes and the area each stands for, mm^2: the integral of |N_i|, every entry positive.
@@ -249,6 +251,21 @@ impl FlankPatch {
         self.bins.around(at)?.iter().find_map(|&face| {
             let xi = self.invert(face as usize, at)?;
             inside(self.faces[face as usize].kind, xi).then_some(FacePoint { face: face as usize, xi })
+        })
+    }
+
+    /// The face point with the given surface coordinates, or with the nearest ones that the faces reach: a smooth flank may be
+    /// a hair longer than the mesh of it.
+    pub fn nearest_face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
+        let [low, high] = self.range();
+        let inset = [0, 1].map(|k| 1e-9 * (high[k] - low[k]));
+        let clamped = [0, 1].map(|k| at[k].clamp(low[k] + inset[k], high[k] - inset[k]));
+        self.face_at(clamped).or_else(|| {
+            // Edges of the mesh are not quite lines of constant coordinates: step inwards until a face is met.
+            let middle = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
+            [1e-6, 1e-4, 1e-2]
+                .iter()
+                .find_map(|share| self.face_at([0, 1].map(|k| clamped[k] + share * (middle[k] - clamped[k]))))
         })
     }
 

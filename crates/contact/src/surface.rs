@@ -20,6 +20,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn normal(&self, at: [f64; 2]) -> Vec3;
     /// Derivative of the point by the first surface coordinate.
     fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
+    /// Curvature across the contact line, 1/mm; convex positive.
+    fn curvature(&self, at: [f64; 2]) -> f64;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
     /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal surface: their
@@ -43,6 +45,10 @@ impl Surface for geometry::Flank {
         self.tangents(u, z)[0]
     }
 
+    fn curvature(&self, [u, _]: [f64; 2]) -> f64 {
+        self.curvatures(u)[0]
+    }
+
     fn locate(&self, p: &Vec3) -> Option<Foot> {
         geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
     }
@@ -60,6 +66,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn profile_tangent(&self, [u, z]: [f64; 2]) -> Vec3 {
         self.tangents(u, z)[0]
+    }
+
+    fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
+        geometry::ModifiedFlank::curvature(self, u, z)
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
@@ -94,6 +104,10 @@ impl Surface for Cylinder {
     fn profile_tangent(&self, [angle, _]: [f64; 2]) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         self.radius * Vec3::new(-sin, cos, 0.0)
+    }
+
+    fn curvature(&self, _: [f64; 2]) -> f64 {
+        self.radius.recip()
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {

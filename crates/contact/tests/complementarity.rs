@@ -14,7 +14,7 @@ impl LinearContact for Dense {
         let s = Mat::from_fn(n, n, |a, b| c(a, b) + if a == b { p.compliance[active[a]] } else { 0.0 });
         let rhs = Mat::from_fn(n, 2, |a, k| if k == 0 { -p.gaps[active[a]] } else { p.levers[active[a]] });
         let x = s.llt(Side::Lower).map_err(|_| ContactError::NotPositiveDefinite { points: n })?.solve(&rhs);
-        let dot = |k: usize| (0..n).map(|a| p.levers[active[a]] * x[(a, k)]).sum::<f64>();
+        let dot = |k: usize| (0..n).map(|a| p.torque_levers[active[a]] * x[(a, k)]).sum::<f64>();
         let rotation = (dot(0) - p.moment) / dot(1);
         let forces: Vec<f64> = (0..n).map(|a| x[(a, 0)] - rotation * x[(a, 1)]).collect();
         let openings = (0..p.gaps.len()).map(|i| (0..n).map(|a| self.0[(i, active[a])] * forces[a]).sum()).collect();
@@ -30,8 +30,8 @@ impl LinearContact for Dense {
     }
 }
 
-fn row(gap: f64) -> ContactRow {
-    let support = Support { nodes: [0; 9], weights: [0.0; 9], count: 0, direction: Vec3::x() };
+fn row(gap: f64, lever: f64) -> ContactRow {
+    let support = Support { nodes: [0; 9], weights: [0.0; 9], count: 0, direction: Vec3::x(), load: Vec3::x() };
     ContactRow {
         patches: (0, 0),
         point: 0,
@@ -40,7 +40,9 @@ fn row(gap: f64) -> ContactRow {
         position: Vec3::zeros(),
         normal: Vec3::x(),
         coordinates: [0.0; 2],
-        levers: [0.0; 2],
+        levers: [lever; 2],
+        torque_levers: [lever; 2],
+        traction: Vec3::x(),
         supports: [support; 2],
     }
 }
@@ -57,10 +59,10 @@ fn compliance(n: usize, rank: usize, seed: &[f64]) -> Mat<f64> {
 
 fn check(c: &Mat<f64>, gaps: &[f64], moment: f64, law: Law) -> Result<(), TestCaseError> {
     let n = gaps.len();
-    let rows: Vec<ContactRow> = gaps.iter().map(|&g| row(g)).collect();
     let levers: Vec<f64> = (0..n).map(|i| -42.0 - 0.01 * i as f64).collect();
+    let rows: Vec<ContactRow> = gaps.iter().zip(&levers).map(|(&g, &l)| row(g, l)).collect();
     let mut bodies = Dense(c.clone());
-    let s = complementarity::solve(&mut bodies, &rows, &levers, moment, law, &vec![0.0; n])
+    let s = complementarity::solve(&mut bodies, &rows, 0, moment, law, &vec![0.0; n])
         .map_err(|e| TestCaseError::fail(e.to_string()))?;
     let carried: f64 = s.forces.iter().zip(&levers).map(|(f, l)| f * l).sum();
     prop_assert!((carried / moment - 1.0).abs() < 1e-9, "moment {carried}, not {moment}");
@@ -95,8 +97,8 @@ proptest! {
 #[test]
 fn two_points_share_by_their_compliance() {
     let c = Mat::from_fn(2, 2, |i, j| if i == j { [1e-5, 3e-5][i] } else { 0.0 });
-    let rows = [row(0.0), row(0.0)];
-    let s = complementarity::solve(&mut Dense(c), &rows, &[-1.0, -1.0], -4.0, Law::Exact, &[0.0; 2]).unwrap();
+    let rows = [row(0.0, -1.0), row(0.0, -1.0)];
+    let s = complementarity::solve(&mut Dense(c), &rows, 0, -4.0, Law::Exact, &[0.0; 2]).unwrap();
     assert!((s.forces[0] - 3.0).abs() < 1e-9 && (s.forces[1] - 1.0).abs() < 1e-9, "{:?}", s.forces);
     assert!((s.rotation - 3e-5).abs() < 1e-14, "{}", s.rotation);
 }
@@ -105,6 +107,6 @@ fn two_points_share_by_their_compliance() {
 #[test]
 fn no_lever_is_an_error() {
     let c = Mat::from_fn(1, 1, |_, _| 1e-5);
-    let refused = complementarity::solve(&mut Dense(c), &[row(0.0)], &[1.0], -4.0, Law::Exact, &[0.0]).unwrap_err();
+    let refused = complementarity::solve(&mut Dense(c), &[row(0.0, 1.0)], 0, -4.0, Law::Exact, &[0.0]).unwrap_err();
     assert!(matches!(refused, ContactError::NoLever { .. }), "{refused}");
 }

@@ -10,7 +10,7 @@ use contact::{
 use geometry::{Gear, GearPair, Side};
 use reduction::Window;
 
-use crate::{ElasticGear, StaticError, StaticOptions, full::FullContact};
+use crate::{ElasticGear, Method, StaticError, StaticOptions, full::FullContact, slice_set::SliceSet};
 
 /// Everything the contact of one window needs, in the frames of the window's matrices.
 #[derive(Debug)]
@@ -28,6 +28,7 @@ pub struct ContactSet {
     windows: Option<[Window; 2]>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
     pitch_errors: [bool; 2],
+    slices: Option<SliceSet>,
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -51,6 +52,16 @@ impl ContactSet {
         }
         let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
             <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
+        let slices = (options.method == Method::Slice)
+            .then(|| {
+                let named = |p: &[FlankPatch], s: &[Side]| -> Vec<(u32, Side)> {
+                    p.iter().zip(s).map(|(p, &s)| (p.tooth as u32, s)).collect()
+                };
+                let flanks = [named(&p1, &s1), named(&p2, &s2)];
+                let number = |i: usize, node: u32| boundary_number(&gears[i], [&w1, &w2][i].as_ref(), node);
+                SliceSet::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
+            })
+            .transpose()?;
         let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
         let stations = p1.first().map_or(0, |p| {
             let [low, high] = p.range();
@@ -61,7 +72,7 @@ impl ContactSet {
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
         let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
-        Ok(Self { patches, points, trees, stations, sides, first, windows, pitch_errors })
+        Ok(Self { patches, points, trees, stations, sides, first, windows, pitch_errors, slices })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -137,7 +148,7 @@ impl ContactSet {
     /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
     pub(crate) fn line_points(&self, options: &StaticOptions, poses: &[Pose; 2]) -> LinePoints {
         let mut line = LinePoints::new();
-        if options.law != Law::Exact || options.gap != GapSource::Smooth {
+        if options.method == Method::Slice || options.law != Law::Exact || options.gap != GapSource::Smooth {
             return line;
         }
         let pairs = self.patches[0].len() / self.kept_sides();
@@ -164,17 +175,32 @@ impl ContactSet {
         }
     }
 
+    /// Slices, when contact is made of them.
+    pub fn slices(&self) -> Option<&SliceSet> {
+        self.slices.as_ref()
+    }
+
+    /// Pairs of patches that are the two flanks of one pair.
+    pub(crate) fn pairs(&self) -> Vec<(usize, usize)> {
+        let partner = |p: usize| Some((p, self.patch_of(1, self.pair_of(p), self.sides[0][p])?));
+        (0..self.patches[0].len()).filter_map(partner).collect()
+    }
+
     /// The elastic model behind the rows.
     pub(crate) fn bodies<'a>(
         &'a self,
         gears: &'a [ElasticGear; 2],
         rows: &'a [ContactRow],
     ) -> Result<Box<dyn LinearContact + 'a>, ContactError> {
+        let correction = self.slices.as_ref().map(|s| s.correction(rows));
         match (&self.windows, gears) {
             (Some([a, b]), _) => {
-                Ok(Box::new(Condensed::new(rows, [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()])))
+                let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+                Ok(Box::new(Condensed::new(rows, compliance).corrected(correction)))
             }
-            (None, [ElasticGear::Full(a), ElasticGear::Full(b)]) => Ok(Box::new(FullContact::new(rows, [a, b]))),
+            (None, [ElasticGear::Full(a), ElasticGear::Full(b)]) => {
+                Ok(Box::new(FullContact::new(rows, [a, b], correction)))
+            }
             _ => Err(ContactError::Elastic("one gear is reduced, the other is not".into())),
         }
     }
@@ -205,14 +231,7 @@ fn flanks(
     };
     // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
     let shift = window.as_ref().map_or(0, |w| w.shift);
-    let number = |node: u32| -> u32 {
-        let position = match (&window, elastic) {
-            (Some(w), _) => w.reduced.position(node),
-            (None, ElasticGear::Full(f)) => f.dofs.position(node),
-            (None, ElasticGear::Reduced(_)) => None,
-        };
-        position.map_or(u32::MAX, |p| p as u32)
-    };
+    let number = |node: u32| boundary_number(elastic, window.as_ref(), node);
     let (mut patches, mut sides) = (Vec::new(), Vec::new());
     for &tooth in &teeth {
         for side in options.sides() {
@@ -236,4 +255,14 @@ fn flanks(
     }
     let first = teeth.first().copied().unwrap_or(0);
     Ok((patches, sides, first, window))
+}
+
+/// Number of a mesh node among the boundary nodes of a gear.
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, node: u32) -> u32 {
+    let position = match (window, elastic) {
+        (Some(w), _) => w.reduced.position(node),
+        (None, ElasticGear::Full(f)) => f.dofs.position(node),
+        (None, ElasticGear::Reduced(_)) => None,
+    };
+    position.map_or(u32::MAX, |p| p as u32)
 }

@@ -11,6 +11,8 @@ pub struct FullGear {
     pub gear: GearMesh,
     /// Its material.
     pub material: Material,
+    /// Element variants.
+    pub elements: ElementOptions,
     /// Free degrees of freedom.
     pub dofs: DofMap,
     /// K, N/mm.
@@ -25,7 +27,7 @@ impl FullGear {
     pub fn new(gear: GearMesh, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
         let stiffness = fem::assemble_stiffness(gear.mesh(), &material, &dofs, elements)?;
-        Ok(Self { gear, material, dofs, stiffness })
+        Ok(Self { gear, material, elements: *elements, dofs, stiffness })
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use contact::{ContactError, ContactRow, Pose, Solution, closest_points, complementarity};
+use contact::{ContactError, ContactRow, Pose, Slice, Solution, closest_points, complementarity};
 use geometry::GearPair;
 
-use crate::{StaticError, StaticOptions, kinematic::Unloaded, parts::Parts, pose};
+use crate::{StaticError, StaticOptions, friction, kinematic::Unloaded, parts::Parts, pose};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -36,6 +36,8 @@ pub struct Equilibrium {
     pub kinematic_transmission_error: f64,
     /// Candidate points.
     pub rows: Vec<ContactRow>,
+    /// The slice of each row; none where points touch.
+    pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
     /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames.
@@ -141,8 +143,15 @@ pub(crate) fn equilibrium(
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
         let poses = poses(parts, station, rotation);
-        let mut rows = closest_points(&scene, &poses, reach);
-        rows.retain(|r| set.partners(r.patches));
+        let (rows, slices) = match set.slices() {
+            Some(slices) => slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), &poses, reach),
+            None => {
+                let mut rows = closest_points(&scene, &poses, reach);
+                rows.retain(|r| set.partners(r.patches));
+                (rows, Vec::new())
+            }
+        };
+        let rows = friction::applied(pair, options, &poses, rows);
         if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
             if reach > pair.pinion.data().normal_module {
                 return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
@@ -150,15 +159,22 @@ pub(crate) fn equilibrium(
             reach = 4.0 * reach.max(1e-9);
             continue;
         }
-        let levers: Vec<f64> = rows.iter().map(|r| r.levers[driven]).collect();
         let start: Vec<f64> =
             rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
         let mut bodies = set.bodies(gears, &rows).map_err(fail)?;
-        let solution =
-            complementarity::solve(&mut *bodies, &rows, &levers, moment, options.law, &start).map_err(fail)?;
+        let solution = if set.slices().is_some() {
+            let local = |i: usize, force: f64| {
+                let state = slices[i].local.under(force / slices[i].length);
+                (state.approach, state.slope / slices[i].length)
+            };
+            complementarity::solve_slices(&mut *bodies, &rows, driven, moment, local, &start)
+        } else {
+            complementarity::solve(&mut *bodies, &rows, driven, moment, options.law, &start)
+        }
+        .map_err(fail)?;
         iterations += solution.iterations;
         // A row that the step can close must have been among the rows.
-        let farthest = levers.iter().fold(0.0f64, |m, l| m.max((l * solution.rotation).abs()));
+        let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * solution.rotation).abs()));
         if 1.05 * farthest > reach {
             reach = 1.5 * farthest;
             continue;
@@ -180,6 +196,7 @@ pub(crate) fn equilibrium(
                 transmission_error: error,
                 kinematic_transmission_error: kinematic,
                 rows,
+                slices,
                 solution,
                 displacements,
                 iterations,

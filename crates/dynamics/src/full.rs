@@ -14,17 +14,18 @@ use crate::FullGear;
 /// [-A   -D   -l ] [ F      ] = [ g0 ]
 /// [ 0   -l'   0 ] [ dtheta ]   [ -M ]
 /// ```
-/// K stiffness of both gears, A openings of the active rows, D their local compliance, l their levers.
+/// K stiffness of both gears, A openings of the active rows, D their own compliance and correction, l their levers.
 #[derive(Debug)]
 pub(crate) struct FullContact<'a> {
     rows: &'a [ContactRow],
     gears: [&'a FullGear; 2],
     displacements: [Vec<f64>; 2],
+    correction: Option<Mat<f64>>,
 }
 
 impl<'a> FullContact<'a> {
-    pub(crate) fn new(rows: &'a [ContactRow], gears: [&'a FullGear; 2]) -> Self {
-        Self { rows, gears, displacements: gears.map(|g| vec![0.0; g.dofs.free_count()]) }
+    pub(crate) fn new(rows: &'a [ContactRow], gears: [&'a FullGear; 2], correction: Option<Mat<f64>>) -> Self {
+        Self { rows, gears, displacements: gears.map(|g| vec![0.0; g.dofs.free_count()]), correction }
     }
 
     /// The saddle-point matrix and the dofs to be ordered last.
@@ -38,6 +39,9 @@ impl<'a> FullContact<'a> {
                 each_dof(&self.rows[i].supports[b], |dof, w| entries.push((n + k, offset + dof, -w)));
             }
             entries.push((n + k, n + k, -problem.compliance[i]));
+            if let Some(x) = &self.correction {
+                entries.extend(active[..=k].iter().enumerate().map(|(l, &j)| (n + k, n + l, -x[(i, j)])));
+            }
             entries.push((n + na, n + k, -problem.levers[i]));
         }
         // An entry of its own, so that the pattern has the diagonal.
@@ -76,8 +80,10 @@ impl LinearContact for FullContact<'_> {
         let openings = self
             .rows
             .iter()
-            .map(|row| {
-                let mut sum = 0.0;
+            .enumerate()
+            .map(|(i, row)| {
+                let corrected = |c: &Mat<f64>| active.iter().enumerate().map(|(k, &j)| c[(i, j)] * x[(n + k, 0)]).sum();
+                let mut sum = self.correction.as_ref().map_or(0.0, corrected);
                 for (support, u) in row.supports.iter().zip(&self.displacements) {
                     each_dof(support, |dof, w| sum += w * u[dof]);
                 }
@@ -94,8 +100,10 @@ impl LinearContact for FullContact<'_> {
 
     fn self_compliance(&mut self) -> Result<f64, ContactError> {
         // One row alone, without torque: u = K^-1 A' on a unit load.
-        let (matrix, last) =
-            self.tangent(&[], &Problem { gaps: vec![], levers: vec![], compliance: vec![], moment: 0.0 })?;
+        let (matrix, last) = self.tangent(
+            &[],
+            &Problem { gaps: vec![], levers: vec![], torque_levers: vec![], compliance: vec![], moment: 0.0 },
+        )?;
         let n = matrix.n() - 1;
         drop(last);
         let stiffness =

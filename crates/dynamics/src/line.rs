@@ -2,11 +2,11 @@
 
 use contact::{
     ContactPoint, ContactRow, FlankPatch, LinePoints, contact_intervals, contact_row, covered, hertz, least_gap,
-    opening,
+    opening, slice,
 };
 use geometry::GearPair;
 
-use crate::{Equilibrium, parts::Parts};
+use crate::{Equilibrium, SliceSet, parts::Parts};
 
 /// Axial stations at which the least gap of a pair is looked at.
 const LINE_SAMPLES: usize = 97;
@@ -14,6 +14,8 @@ const LINE_SAMPLES: usize = 97;
 /// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
 /// by as much within a few hundredths of a millimetre.
 const TOUCHING: f64 = 0.15;
+/// The same for slices, whose gaps close exactly: what the interpolation of the approach between stations may be off.
+const SLICE_TOUCHING: f64 = 0.01;
 /// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
 /// and only over more than an element do their forces add up to a line load.
 const BIN_ELEMENTS: f64 = 1.5;
@@ -75,9 +77,12 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();
     };
+    let half = 0.5 * pair.face_width();
+    if let Some(slices) = set.slices() {
+        return slice_line(parts, e, slices, (first, second), half);
+    }
     let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
     let [low, high] = patch.range();
-    let half = 0.5 * pair.face_width();
     let line = LinePoints::new();
     let scene = set.scene(options, &line);
     let gap = |z: f64| -> Option<f64> {
@@ -91,6 +96,35 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
     let inset = 1e-6 * (high[1] - low[1]);
     let range = [(low[1] + inset).max(-half), (high[1] - inset).min(half)];
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * e.approach(pair))
+}
+
+/// The same from slices: between stations the flanks' gap is taken anew and the approach of the stations interpolated.
+fn slice_line(parts: &Parts, e: &Equilibrium, slices: &SliceSet, pair: (usize, usize), half: f64) -> Vec<[f64; 2]> {
+    let set = parts.set;
+    let flanks = slices.flanks([&set.patches()[0], &set.patches()[1]], pair);
+    let mut openings = vec![None; slices.stations().len()];
+    for (row, &opening) in e.rows.iter().zip(&e.solution.openings).filter(|(row, _)| row.patches == pair) {
+        openings[row.point] = Some(opening);
+    }
+    let stations = slices.stations();
+    let step = stations.get(1).map_or(2.0 * half, |z| z - stations[0]);
+    let gap = |z: f64| -> Option<f64> {
+        let (row, _) = slice(flanks, &e.poses, pair, usize::MAX, z, 0.0)?;
+        let place = ((z - stations[0]) / step).clamp(0.0, (stations.len() - 1) as f64);
+        let (below, share) = (place.floor() as usize, place.fract());
+        // A station too far from contact to be a row has no approach of its own.
+        let at = |i: usize| openings.get(i).copied().flatten();
+        let opening = match (at(below), at(below + 1)) {
+            (Some(a), Some(b)) => a + share * (b - a),
+            (Some(a), None) | (None, Some(a)) => a,
+            (None, None) => return None,
+        };
+        Some(row.gap + opening)
+    };
+    let samples = 2 * stations.len() + 1;
+    let inset = 1e-9 * half;
+    let range = [inset - half, half - inset];
+    contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, samples, SLICE_TOUCHING * e.approach(parts.pair))
 }
 
 /// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.

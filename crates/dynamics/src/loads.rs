@@ -1,9 +1,9 @@
 //! From a solved contact to the quantities of a station.
 
-use contact::{ContactRow, Pose, Vec3, covered, hertz};
+use contact::{ContactRow, Pose, Slice, Vec3, covered, hertz};
 
 use crate::{
-    Certificate, Equilibrium, PairResult, StaticPosition, Wrench,
+    Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench, friction,
     line::{contact_line, line_pressure},
     parts::Parts,
 };
@@ -15,7 +15,7 @@ pub(crate) fn wrenches(poses: &[Pose; 2], rows: &[ContactRow], forces: &[f64]) -
         let sign = if i == 0 { 1.0 } else { -1.0 };
         let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
         for (row, &f) in rows.iter().zip(forces).filter(|(_, f)| **f != 0.0) {
-            let f = sign * f * row.normal;
+            let f = sign * f * row.traction;
             force += f;
             moment += (row.position - centres[i]).cross(&f);
         }
@@ -30,7 +30,7 @@ fn action_reaction(e: &Equilibrium) -> f64 {
         for (row, &f) in e.rows.iter().zip(&e.solution.forces) {
             let s = &row.supports[body];
             let weight: f64 = s.weights[..s.count].iter().sum();
-            sum += f * weight * (e.poses[body].rotation * s.direction);
+            sum += f * weight * (e.poses[body].rotation * s.load);
         }
         sum
     };
@@ -54,12 +54,15 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
     let moment = -side.sign() * options.torque;
     let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
+    let local: f64 = e.slices.iter().zip(&e.solution.forces).map(|(s, &f)| local_energy(s, f)).sum();
     let penalty: f64 = match options.law {
         contact::Law::Exact => 0.0,
         contact::Law::Penalty(k) => {
             e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
         }
     };
+    let friction_work =
+        e.rows.iter().zip(&e.solution.forces).map(|(row, f)| f * friction::work(pair, &e.poses, row)).sum();
     let theta1 = e.station.pinion_angle(pair, options);
     StaticPosition {
         pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
@@ -76,7 +79,9 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         geometric_line_length: pair.contact_line_length(side, theta1),
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
-        strain_energy: elastic + penalty,
+        root_stress: Default::default(),
+        friction_work,
+        strain_energy: elastic + local + penalty,
         tooth_changes,
         certificate: Certificate {
             torque_residual: if moment == 0.0 { 0.0 } else { (torque / moment - 1.0).abs() },
@@ -101,10 +106,22 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     let half = 0.5 * pair.face_width();
     let modulus =
         hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
-    let max_pressure = set.patch_of(0, k, options.side()).map_or(0.0, |p| {
-        let patch = &set.patches()[0][p];
-        line_pressure(pair, patch, &loaded, &line, modulus)
-    });
+    let slices: Vec<SliceResult> = e
+        .slices
+        .iter()
+        .zip(e.rows.iter().zip(&e.solution.forces))
+        .filter(|(_, (row, f))| **f > 0.0 && mine(row))
+        .map(|(s, (_, &f))| slice_result(s, f))
+        .collect();
+    let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
+    let max_pressure = if set.slices().is_some() {
+        pressed
+    } else {
+        set.patch_of(0, k, options.side()).map_or(0.0, |p| {
+            let patch = &set.patches()[0][p];
+            line_pressure(pair, patch, &loaded, &line, modulus)
+        })
+    };
     PairResult {
         pair: options.sense.sign() * running,
         pinion_tooth,
@@ -114,5 +131,31 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
         max_pressure,
         contact_line_length: along * covered(&line, [-half, half]),
         points_in_contact: loaded.len(),
+        slices,
     }
+}
+
+fn slice_result(slice: &Slice, force: f64) -> SliceResult {
+    let line_load = force / slice.length;
+    let state = slice.local.under(line_load);
+    SliceResult {
+        z: slice.z,
+        roll: [slice.at[0][0], slice.at[1][0]],
+        line_load,
+        half_width: state.half_width,
+        pressure: state.pressure,
+        off_line: slice.local.off_line,
+    }
+}
+
+/// What the local approach stores beyond half of force times approach, N mm: its slope falls as the load grows.
+///
+/// delta = q (b - c ln q) stores q delta / 2 + c q^2 / 4 per length of line, and c = delta / q - d delta/dq.
+fn local_energy(slice: &Slice, force: f64) -> f64 {
+    let q = force / slice.length;
+    if q <= 0.0 {
+        return 0.0;
+    }
+    let state = slice.local.under(q);
+    0.25 * slice.length * q * (state.approach - q * state.slope)
 }

@@ -15,6 +15,15 @@ pub enum Driver {
     Wheel,
 }
 
+/// How contact is made discrete.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// One line load an axial slice; bulk compliance from the mesh, local compliance in closed form.
+    Slice,
+    /// Points of the flank mesh.
+    Nodal,
+}
+
 /// Operation, contact and window of a quasi-static analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticOptions {
@@ -24,7 +33,13 @@ pub struct StaticOptions {
     pub sense: Sense,
     /// Torque on the driven gear, N mm, >= 0.
     pub torque: f64,
-    /// Contact law.
+    /// Slices or points.
+    pub method: Method,
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Contact law of points.
     pub law: Law,
     /// Gaps between smooth flanks or between the faces of the mesh.
     pub gap: GapSource,
@@ -34,6 +49,8 @@ pub struct StaticOptions {
     pub both_flanks: bool,
     /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
     pub window: Option<usize>,
+    /// Compute stress in the root fillets at every station.
+    pub root_stress: bool,
     /// How far a flank node may lie from the smooth nominal flank, mm.
     pub surface_tolerance: f64,
     /// Rigid displacement of pinion and wheel: misalignment.
@@ -47,11 +64,15 @@ impl StaticOptions {
             driver: Driver::Pinion,
             sense: Sense::Ccw,
             torque,
+            method: Method::Slice,
+            slices: 32,
+            friction: 0.0,
             law: Law::Exact,
             gap: GapSource::Smooth,
             points_per_face_edge: 6,
             both_flanks: false,
             window: None,
+            root_stress: false,
             surface_tolerance: 0.01 * pair.pinion.data().normal_module,
             offsets: [Offset::default(); 2],
         }

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::FilletStress;
+
 /// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
@@ -9,6 +11,23 @@ pub struct Wrench {
     pub force: [f64; 3],
     /// Moment, N mm; the second entry is the tilting moment.
     pub moment: [f64; 3],
+}
+
+/// One loaded slice of a contact line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SliceResult {
+    /// Height on the pinion, mm.
+    pub z: f64,
+    /// Roll angle of the contact on pinion and wheel, rad.
+    pub roll: [f64; 2],
+    /// Line load, N per mm of contact line.
+    pub line_load: f64,
+    /// Half-width of the band, mm.
+    pub half_width: f64,
+    /// Largest pressure across the band, MPa.
+    pub pressure: f64,
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
+    pub off_line: f64,
 }
 
 /// One tooth pair of the window at one position.
@@ -26,8 +45,10 @@ pub struct PairResult {
     pub max_pressure: f64,
     /// Length of this pair's contact line, mm.
     pub contact_line_length: f64,
-    /// Contact points (cells or quadrature points) that carry load.
+    /// Slices or quadrature points that carry load.
     pub points_in_contact: usize,
+    /// The loaded slices, ascending in z; none where points touch.
+    pub slices: Vec<SliceResult>,
 }
 
 /// How well a position is solved.
@@ -71,6 +92,11 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
+    /// asked for.
+    pub root_stress: [Vec<FilletStress>; 2],
+    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.

@@ -4,8 +4,8 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
-    equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose,
+    ContactSet, ElasticGear, Equilibrium, FilletStress, StaticError, StaticHistory, StaticOptions, StaticPosition,
+    Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose, root_stress::RootStress,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -27,6 +27,7 @@ pub struct StaticModel {
     options: StaticOptions,
     window: ToothWindow,
     set: ContactSet,
+    root: Option<RootStress>,
     last: Option<Equilibrium>,
     changes: u64,
 }
@@ -55,6 +56,12 @@ impl StaticModel {
             let value = options.torque;
             return Err(StaticError::OutOfRange { name: "torque [N mm]", value, expected: "0 or more" });
         }
+        let whole = gears.iter().any(|g| matches!(g, ElasticGear::Full(_)));
+        let limit = if whole { 0.0 } else { 1.0 };
+        if !(0.0..=limit).contains(&options.friction) {
+            let expected = if whole { "0 with all degrees of freedom kept" } else { "0 to 1" };
+            return Err(StaticError::OutOfRange { name: "friction coefficient", value: options.friction, expected });
+        }
         if let contact::Law::Penalty(value) = options.law
             && !(value.is_finite() && value > 0.0)
         {
@@ -63,7 +70,8 @@ impl StaticModel {
         pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
-        Ok(Self { pair, gears, options, window, set, last: None, changes: 0 })
+        let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
+        Ok(Self { pair, gears, options, window, set, root, last: None, changes: 0 })
     }
 
     fn parts(&self) -> Parts<'_> {
@@ -107,14 +115,27 @@ impl StaticModel {
     /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
         if self.options.torque == 0.0 {
-            return self.unloaded(station);
+            let root_stress = self.root_stress(None)?;
+            return Ok(StaticPosition { root_stress, ..self.unloaded(station)? });
         }
         let guess = self.last.take();
         let e = equilibrium(&self.parts(), station, guess.as_ref())?;
-        let result = loads::position(&self.parts(), &e, self.changes);
+        let result = self.position(&e)?;
         let starved = self.starved(&e);
         self.last = Some(e);
         starved.map_or(Ok(result), Err)
+    }
+
+    /// Everything the results hold of a solved station.
+    fn position(&self, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
+        let root_stress = self.root_stress(Some(e))?;
+        Ok(StaticPosition { root_stress, ..loads::position(&self.parts(), e, self.changes) })
+    }
+
+    /// Stress in the fillets of both windows, when it is asked for.
+    fn root_stress(&self, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let displacements = e.map(|e| &e.displacements);
+        self.root.as_ref().map_or(Ok(Default::default()), |root| root.of(&self.parts(), displacements))
     }
 
     /// A pair beside the window that overlaps at the loaded pose.
@@ -157,6 +178,7 @@ impl StaticModel {
                     max_pressure: 0.0,
                     contact_line_length: length,
                     points_in_contact: 0,
+                    slices: Vec::new(),
                 }
             })
             .collect();
@@ -172,7 +194,9 @@ impl StaticModel {
             geometric_line_length: lines.iter().map(|l| l.length).sum(),
             pairs,
             wrench: Default::default(),
+            root_stress: Default::default(),
             max_pressure: 0.0,
+            friction_work: 0.0,
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),
@@ -222,7 +246,7 @@ impl StaticModel {
                 Ok(position) => position.clone(),
                 // A pair that comes in early is what the change is for; the outgoing tooth decides.
                 Err(StaticError::Starved { .. }) => match &self.last {
-                    Some(e) => loads::position(&self.parts(), e, self.changes),
+                    Some(e) => self.position(e)?,
                     None => break,
                 },
                 Err(_) => break,

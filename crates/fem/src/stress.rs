@@ -68,8 +68,19 @@ pub fn von_mises(stress: &[f64; 6]) -> f64 {
 
 /// Largest principal stress, MPa (positive in tension).
 pub fn max_principal(stress: &[f64; 6]) -> f64 {
+    principal_range(stress)[1]
+}
+
+/// Smallest principal stress, MPa (negative in compression).
+pub fn min_principal(stress: &[f64; 6]) -> f64 {
+    principal_range(stress)[0]
+}
+
+/// Smallest and largest principal stress, MPa.
+fn principal_range(stress: &[f64; 6]) -> [f64; 2] {
     let [x, y, z, xy, yz, zx] = *stress;
-    nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z).symmetric_eigenvalues().max()
+    let values = nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z).symmetric_eigenvalues();
+    [values.min(), values.max()]
 }
 
 /// Stress at chosen nodes as a linear map of the free displacements: the stress modes' left factor.
@@ -149,6 +160,27 @@ impl StressOperator {
     /// Number of nodes asked for.
     pub fn node_count(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Rows of the nodes in `range` as columns, n x 6 nodes, MPa/mm: (S')_i, what the adjoint way starts from.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when the range goes past the last node.
+    pub fn transposed(&self, range: std::ops::Range<usize>) -> Result<Mat<f64>, FemError> {
+        let count = self.rows.len();
+        let rows = self.rows.get(range.clone());
+        let rows = rows.ok_or(FemError::Shape { what: "stress nodes", expected: count, found: range.end })?;
+        let mut columns = Mat::zeros(self.free_count, 6 * rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            for (position, block) in row {
+                for k in 0..6 {
+                    for axis in 0..3 {
+                        columns[(3 * position + axis, 6 * i + k)] = block[3 * k + axis];
+                    }
+                }
+            }
+        }
+        Ok(columns)
     }
 
     /// Stress for one or many columns of free displacements (n x k, mm): 6 x nodes rows, k columns, MPa.

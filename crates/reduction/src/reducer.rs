@@ -8,11 +8,11 @@ use std::{
 
 use faer::{Mat, Side as Triangle, linalg::solvers::DenseSolveCore};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
-use geometry::Side;
+use geometry::{Gear, Side};
 use mesh::GearMesh;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::{ReducedGear, ReductionError, Window, pitch_permutation};
+use crate::{HalfTooth, ReducedGear, ReductionError, Window, pitch_permutation};
 
 /// What to keep.
 #[derive(Debug, Clone)]
@@ -44,6 +44,7 @@ pub struct GearReducer {
     turn: Option<Vec<u32>>,
     base: Arc<ReducedGear>,
     others: Mutex<BTreeMap<u32, Arc<ReducedGear>>>,
+    halves: Mutex<BTreeMap<(u32, Side), Arc<HalfTooth>>>,
 }
 
 /// How far a node may be from the place of its image for a gear to count as cyclic, relative to its size.
@@ -71,7 +72,18 @@ impl GearReducer {
         let size = mesh.nodes.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let pitch = 2.0 * PI / f64::from(gear.tooth_count());
         let turn = if gear.is_whole_gear() { pitch_permutation(mesh, pitch, CYCLIC_TOLERANCE * size) } else { None };
-        Ok(Self { gear, material, options, dofs, stiffness, factor, turn, base, others: Mutex::default() })
+        Ok(Self {
+            gear,
+            material,
+            options,
+            dofs,
+            stiffness,
+            factor,
+            turn,
+            base,
+            others: Mutex::default(),
+            halves: Mutex::default(),
+        })
     }
 
     /// The meshed gear.
@@ -102,6 +114,11 @@ impl GearReducer {
     /// The factorisation.
     pub fn factor(&self) -> &BoundaryLastFactor {
         &self.factor
+    }
+
+    /// Matrices of the window that was reduced with the factorisation.
+    pub(crate) fn first_window(&self) -> &Arc<ReducedGear> {
+        &self.base
     }
 
     /// Whether the mesh is the same after a turn by one pitch.
@@ -136,6 +153,21 @@ impl GearReducer {
         Ok(Window { reduced, shift: 0 })
     }
 
+    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was meshed.
+    ///
+    /// # Errors
+    /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
+    pub fn half_tooth(&self, geometry: &Gear, tooth: u32, side: Side) -> Result<Arc<HalfTooth>, ReductionError> {
+        let mut halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(half) = halves.get(&(tooth, side)) {
+            return Ok(half.clone());
+        }
+        let half = HalfTooth::new(&self.gear, geometry, &self.material, &self.options.elements, tooth, side)?;
+        let half = Arc::new(half);
+        halves.insert((tooth, side), half.clone());
+        Ok(half)
+    }
+
     /// C = R K^-1 R' by solves with the factor, and K^ as its inverse.
     fn reduce_by_solves(&self, first: u32) -> Result<ReducedGear, ReductionError> {
         let teeth = window_teeth(&self.gear, first, self.options.window);
@@ -165,13 +197,15 @@ impl GearReducer {
 
     /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.
     pub fn material_nodes(&self, window: &Window) -> Vec<u32> {
-        let mut nodes = window.reduced.nodes.clone();
-        if let Some(turn) = &self.turn {
-            for _ in 0..window.shift {
-                nodes.iter_mut().for_each(|n| *n = turn[*n as usize]);
-            }
+        window.reduced.nodes.iter().map(|&n| self.material_node(window, n)).collect()
+    }
+
+    /// The mesh's own node at the place of `node` of the window's frame: turned on by the window's shift.
+    pub fn material_node(&self, window: &Window, node: u32) -> u32 {
+        match &self.turn {
+            Some(turn) => (0..window.shift).fold(node, |n, _| turn.get(n as usize).copied().unwrap_or(n)),
+            None => node,
         }
-        nodes
     }
 
     /// Displacement (mm) of every node in the gear's own frame when the window's coordinates are `u` and all else is free
@@ -276,6 +310,7 @@ fn boundary_nodes(gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<
     Ok(nodes)
 }
 
-fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
+/// Matrix rows of the nodes' free freedoms, x, y, z of each node in turn.
+pub(crate) fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
     nodes.iter().flat_map(|&n| (0..3).filter_map(move |axis| dofs.dof(n, axis))).collect()
 }

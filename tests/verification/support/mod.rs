@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use dynamics::{ElasticGear, FullGear, StaticModel, StaticOptions};
+use dynamics::{ElasticGear, FullGear, Method, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
 use mesh::{GearMesh, GroupNames, Mesh};
@@ -50,7 +50,13 @@ impl Case {
         Self { pair, meshes, elements, torque: 150e3 }
     }
 
+    /// Pressed points.
     pub fn options(&self) -> StaticOptions {
+        StaticOptions { method: Method::Nodal, ..self.slice_options() }
+    }
+
+    /// Slices.
+    pub fn slice_options(&self) -> StaticOptions {
         StaticOptions::new(self.torque, &self.pair)
     }
 

@@ -4,7 +4,7 @@ use dynamics::result::{StaticHistory, StaticPosition};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use crate::scene::Scene;
+use crate::scene::{Driver, Scene};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;
@@ -28,6 +28,8 @@ pub struct Headline {
     pub mean_wheel_force_n: [f64; 3],
     pub mean_pinion_tilting_moment_nmm: f64,
     pub mean_wheel_tilting_moment_nmm: f64,
+    pub mean_friction_power_loss_w: f64,
+    pub efficiency: f64,
     pub max_pair_force_n: f64,
     pub max_pressure_mpa: f64,
     pub tooth_changes: u64,
@@ -66,6 +68,8 @@ pub fn headline(scene: &Scene, history: &StaticHistory) -> Result<Headline, Stud
         mean_wheel_force_n: [0, 1, 2].map(|k| mean(&|p| p.wrench[1].force[k])),
         mean_pinion_tilting_moment_nmm: mean(&|p| p.wrench[0].moment[1]),
         mean_wheel_tilting_moment_nmm: mean(&|p| p.wrench[1].moment[1]),
+        mean_friction_power_loss_w: mean(&|p| 1e-3 * p.friction_work * scene.pinion_speed()),
+        efficiency: efficiency(scene, positions),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
         max_pressure_mpa: worst(&|p| p.max_pressure),
         tooth_changes: positions.last().map_or(0, |p| p.tooth_changes),
@@ -80,4 +84,16 @@ pub fn headline(scene: &Scene, history: &StaticHistory) -> Result<Headline, Stud
 /// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.
 fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
+}
+
+/// Share of the driver's work over the mesh cycles that friction leaves; 1 without torque.
+fn efficiency(scene: &Scene, positions: &[StaticPosition]) -> f64 {
+    let driver = match scene.operation.driver {
+        Driver::Pinion => 0,
+        Driver::Wheel => 1,
+    };
+    let ratio = [1.0, f64::from(scene.pinion.teeth) / f64::from(scene.wheel.teeth)][driver];
+    let lost: f64 = positions.iter().map(|p| p.friction_work).sum();
+    let put_in: f64 = positions.iter().map(|p| ratio * p.wrench[driver].moment[2].abs()).sum();
+    if put_in > 0.0 { 1.0 - lost / put_in } else { 1.0 }
 }

@@ -11,6 +11,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "bore_diameter_mm",
             "profile_shift",
             "tip_diameter_mm",
+            "tip_edge_radius_mm",
             "thickness_allowance_mm",
             "pitch_errors_um",
             "pitch_errors_file",
@@ -49,7 +50,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
     ),
     ("material", &["young_mpa", "poisson", "density_kg_m3"]),
     ("operation", &["driver", "rotation", "torque_nm", "speed_rpm"]),
-    ("contact", &["method", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
+    ("contact", &["method", "slices", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
     ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
     ("output", &["vtu", "fields", "vtu_every"]),
     (
@@ -79,10 +80,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "coast",
         ],
     ),
-    (
-        "pair.misalignment",
-        &["deviation_um", "inclination_um", "in_plane_of_action_um", "across_plane_of_action_um"],
-    ),
+    ("pair.misalignment", &["deviation_um", "inclination_um", "in_plane_of_action_um", "across_plane_of_action_um"]),
 ];
 
 /// The nearest of `known` if it is near enough to be meant.

@@ -7,6 +7,7 @@
 mod check;
 mod error;
 mod keys;
+mod micro;
 mod raw;
 mod source;
 
@@ -18,6 +19,7 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,8 +59,16 @@ pub struct GearScene {
     /// Tip diameter, mm; `None`: from addendum and profile shift.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_diameter_mm: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius_mm: f64,
     /// Thinning of the tooth in the normal section, mm.
     pub thickness_allowance_mm: f64,
+    /// Cumulative pitch deviation of each tooth, um; empty: none, or in a file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pitch_errors_um: Vec<f64>,
+    /// File of them, as written in the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pitch_errors_file: Option<PathBuf>,
     /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<PathBuf>,
@@ -69,6 +79,9 @@ pub struct GearScene {
     pub groups: GroupNames,
     /// What it is made of.
     pub material: Material,
+    /// Micro-geometry of the flanks.
+    #[serde(skip_serializing_if = "ModificationScene::is_none")]
+    pub modification: ModificationScene,
 }
 
 /// Options of the structured mesher.
@@ -119,6 +132,9 @@ pub struct PairScene {
     pub dedendum_coefficient: f64,
     /// Tip radius of the basic rack over the normal module.
     pub root_radius_coefficient: f64,
+    /// Deviation of the axes from each other.
+    #[serde(skip_serializing_if = "MisalignmentScene::is_none")]
+    pub misalignment: MisalignmentScene,
 }
 
 /// Load and motion.
@@ -159,13 +175,20 @@ pub enum Rotation {
 pub struct ContactScene {
     /// Where the contact unknowns sit.
     pub method: Method,
+    /// Slices over the face width; `None` for the method nodal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slices: Option<u32>,
+    /// Coefficient of friction.
+    pub friction: f64,
     /// Pressure a mm of penetration, MPa/mm; `None`: exact complementarity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty_mpa_per_mm: Option<f64>,
-    /// Which surface gives the gaps.
-    pub gap: Gap,
-    /// Contact points along each edge of a flank face.
-    pub points_per_face_edge: u32,
+    /// Which surface gives the gaps; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Gap>,
+    /// Contact points along each edge of a flank face; `None` for slices.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points_per_face_edge: Option<u32>,
     /// Which flanks may touch.
     pub flanks: Flanks,
 }
@@ -174,6 +197,8 @@ pub struct ContactScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
+    /// One line load an axial slice.
+    Slice,
     /// Quadrature points of the flank mesh.
     Nodal,
 }

@@ -43,6 +43,7 @@ pub(super) struct RawGear {
     pub bore_diameter_mm: Number,
     pub profile_shift: Number,
     pub tip_diameter_mm: Number,
+    pub tip_edge_radius_mm: Number,
     pub thickness_allowance_mm: Number,
     pub pitch_errors_um: Option<Spanned<Vec<Spanned<f64>>>>,
     pub pitch_errors_file: Word,
@@ -52,8 +53,7 @@ pub(super) struct RawGear {
     pub groups: RawGroups,
     #[serde(default)]
     pub material: RawMaterial,
-    #[serde(default)]
-    pub modification: RawModification,
+    pub modification: Option<Spanned<RawModification>>,
 }
 
 /// The keys of a flank's modification, once for both tables that they stand in: serde flattens no tables that refuse unknown keys.
@@ -151,8 +151,7 @@ pub(super) struct RawPair {
     pub addendum_coefficient: Number,
     pub dedendum_coefficient: Number,
     pub root_radius_coefficient: Number,
-    #[serde(default)]
-    pub misalignment: RawMisalignment,
+    pub misalignment: Option<Spanned<RawMisalignment>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -185,6 +184,7 @@ pub(super) struct RawOperation {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawContact {
     pub method: Word,
+    pub slices: Whole,
     pub penalty_mpa_per_mm: Number,
     pub gap: Word,
     pub points_per_face_edge: Whole,

@@ -1,0 +1,49 @@
+//! What stands behind a flank: the half of a tooth as a layer that rests on its centre surface.
+
+use std::f64::consts::FRAC_PI_2;
+
+use geometry::Flank;
+
+use crate::{LocalBody, layer_constant};
+
+/// The half tooth behind a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothLayer {
+    flank: Flank,
+    young: f64,
+    poisson: f64,
+    constant: f64,
+    overshoot: f64,
+    edge_radius: f64,
+}
+
+impl ToothLayer {
+    /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`, clamped
+    /// `overshoot` (mm) past the centre surface; its tip edge is rounded by an arc of radius `edge_radius` (mm).
+    pub fn new(flank: Flank, young: f64, poisson: f64, overshoot: f64, edge_radius: f64) -> Self {
+        Self { flank, young, poisson, constant: layer_constant(poisson), overshoot, edge_radius }
+    }
+
+    /// The layer at surface coordinates (roll angle, z).
+    ///
+    /// ```text
+    /// t = r sin(psi) cos(b_b),   psi = sigma - (u - atan u),   d = r_b (u_a^2 - u^2) / 2
+    /// ```
+    pub fn body(&self, [u, z]: [f64; 2]) -> LocalBody {
+        let f = &self.flank;
+        let half_angle = f.base_half_angle - (u - u.atan());
+        let radius = f.base_radius * (1.0 + u * u).sqrt();
+        let depth = (radius * half_angle.sin() + self.overshoot) * f.base_helix_angle.cos();
+        LocalBody {
+            young: self.young,
+            poisson: self.poisson,
+            layer: self.constant,
+            // A pointed tip has no depth.
+            depth: depth.max(1e-3 * f.base_radius),
+            tip_distance: (0.5 * f.base_radius * (f.roll_tip * f.roll_tip - u * u)).max(0.0),
+            tip_angle: FRAC_PI_2 + f.roll_tip.atan(),
+            edge_radius: self.edge_radius,
+            end_distance: (f.half_width - z.abs()).max(0.0),
+        }
+    }
+}
