@@ -31,6 +31,9 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     }
 }
 
+/// Half of a usual band of contact, mm.
+const BAND: f64 = 0.1;
+
 /// Surface coordinates of an involute flank are (roll angle, z).
 impl Surface for geometry::Flank {
     fn point(&self, [u, z]: [f64; 2]) -> Vec3 {
@@ -68,8 +71,17 @@ impl Surface for geometry::ModifiedFlank {
         self.tangents(u, z)[0]
     }
 
+    /// That of the nominal flank and that of the depth, as a band of [`BAND`] either way sees it: where a relief starts with a kink there
+    /// is none to be had at a point.
     fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
-        geometry::ModifiedFlank::curvature(self, u, z)
+        let nominal = self.nominal();
+        let arc = nominal.base_radius * u.max(f64::MIN_POSITIVE);
+        let step = BAND / arc;
+        let slope = |u: f64| geometry::ModifiedFlank::depth(self, u, z).by_roll;
+        let added = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
+        let curvature = nominal.curvatures(u)[0];
+        // A hollow is no Hertzian contact; a tenth of the convexity left keeps its band finite.
+        curvature + added.max(-0.9 * curvature)
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {

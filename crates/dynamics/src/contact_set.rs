@@ -26,9 +26,9 @@ pub struct ContactSet {
     first: [u32; 2],
     /// Reduced windows; `None` for full gears.
     windows: Option<[Window; 2]>,
+    slices: Option<SliceSet>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
     pitch_errors: [bool; 2],
-    slices: Option<SliceSet>,
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -72,7 +72,7 @@ impl ContactSet {
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
         let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
-        Ok(Self { patches, points, trees, stations, sides, first, windows, pitch_errors, slices })
+        Ok(Self { patches, points, trees, stations, sides, first, windows, slices, pitch_errors })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -229,9 +229,9 @@ fn flanks(
         Some(w) => w.reduced.teeth.clone(),
         None => (0..count as u32).map(|i| (first + i) % z).collect(),
     };
+    let number = |node: u32| boundary_number(elastic, window.as_ref(), node);
     // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
     let shift = window.as_ref().map_or(0, |w| w.shift);
-    let number = |node: u32| boundary_number(elastic, window.as_ref(), node);
     let (mut patches, mut sides) = (Vec::new(), Vec::new());
     for &tooth in &teeth {
         for side in options.sides() {

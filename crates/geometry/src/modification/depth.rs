@@ -14,8 +14,6 @@ pub struct Depth {
     pub by_roll: f64,
     /// Derivative by height, mm/mm.
     pub by_z: f64,
-    /// Second derivative by roll angle, mm; kinks (starts of linear reliefs) have none.
-    pub by_roll_twice: f64,
 }
 
 /// A [`FlankModification`] on a gear of known size.
@@ -146,7 +144,7 @@ impl DepthField {
         })
     }
 
-    /// Depth at roll angle `u` and height `z` (mm), with derivatives.
+    /// Depth at roll angle `u` and height `z` (mm), with first derivatives.
     ///
     /// ```text
     /// C_alpha p^2 + C_Halpha p / 2 + C_beta q^2 + C_Hbeta q / 2 + S_alpha p q / 4 + reliefs + grid
@@ -163,22 +161,19 @@ impl DepthField {
                 + 0.25 * self.bias * p * q,
             by_roll: dp * (2.0 * self.profile_crowning * p + 0.5 * self.profile_slope + 0.25 * self.bias * q),
             by_z: dq * (2.0 * self.lead_crowning * q + 0.5 * self.lead_slope + 0.25 * self.bias * p),
-            by_roll_twice: 2.0 * dp * dp * self.profile_crowning,
         };
         for ramp in self.along_profile.iter().flatten() {
-            let [value, slope, curvature] = ramp.at(u);
+            let (value, slope) = ramp.at(u);
             depth.value += value;
             depth.by_roll += slope;
-            depth.by_roll_twice += curvature;
         }
         for ramp in self.along_lead.iter().flatten() {
-            let [value, slope, _] = ramp.at(z);
+            let (value, slope) = ramp.at(z);
             depth.value += value;
             depth.by_z += slope;
         }
         if let Some(grid) = &self.grid {
-            let [value, by_roll, by_z, by_roll_twice] = grid.at(u, z);
-            depth.by_roll_twice += by_roll_twice;
+            let [value, by_roll, by_z] = grid.at(u, z);
             depth.value += value;
             depth.by_roll += by_roll;
             depth.by_z += by_z;

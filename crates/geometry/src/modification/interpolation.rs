@@ -33,17 +33,16 @@ impl Bicubic {
         Self { x, y, nodes }
     }
 
-    /// Value, derivatives by x and y, second derivative by x.
-    pub fn at(&self, x: f64, y: f64) -> [f64; 4] {
+    /// Value and derivatives by x and y.
+    pub fn at(&self, x: f64, y: f64) -> [f64; 3] {
         let (i, wx) = weights(&self.x, x);
         let (j, wy) = weights(&self.y, y);
-        let mut sum = [0.0; 4];
+        let mut sum = [0.0; 3];
         for (a, wx) in wx.iter().enumerate() {
             for (b, wy) in wy.iter().enumerate() {
                 let [f, fx, fy, fxy] = self.nodes[(i + a) * self.y.len() + j + b];
-                // wx: [value, slope] basis functions, then their first and second derivatives.
-                let wanted = [(wx[0], wy[0]), (wx[1], wy[0]), (wx[0], wy[1]), (wx[2], wy[0])];
-                for (s, ([cx, dx], [cy, dy])) in wanted.into_iter().enumerate() {
+                // wx: [value, slope] basis functions, then their derivatives.
+                for (s, [cx, dx], [cy, dy]) in [(0, wx[0], wy[0]), (1, wx[1], wy[0]), (2, wx[0], wy[1])] {
                     sum[s] += cx * (cy * f + dy * fy) + dx * (cy * fx + dy * fxy);
                 }
             }
@@ -70,32 +69,21 @@ fn slopes(x: &[f64], f: Vec<f64>) -> Vec<f64> {
         .collect()
 }
 
-/// Weights of a node's value and slope in the interpolated value and its first and second derivatives.
-type Weights = [[f64; 2]; 3];
-
-/// Cell of `at`, and the weights of either end of it.
-fn weights(x: &[f64], at: f64) -> (usize, [Weights; 2]) {
+/// Cell of `at`, and for either end of it [[value, slope] weights, their derivatives].
+fn weights(x: &[f64], at: f64) -> (usize, [[[f64; 2]; 2]; 2]) {
     let last = x.len() - 1;
     if at <= x[0] {
-        return (0, [[[1.0, at - x[0]], [0.0, 1.0], [0.0; 2]], [[0.0; 2]; 3]]);
+        return (0, [[[1.0, at - x[0]], [0.0, 1.0]], [[0.0; 2]; 2]]);
     }
     if at >= x[last] {
-        return (last - 1, [[[0.0; 2]; 3], [[1.0, at - x[last]], [0.0, 1.0], [0.0; 2]]]);
+        return (last - 1, [[[0.0; 2]; 2], [[1.0, at - x[last]], [0.0, 1.0]]]);
     }
     let i = x.partition_point(|v| *v <= at).clamp(1, last) - 1;
     let h = x[i + 1] - x[i];
     let t = (at - x[i]) / h;
     let s = 1.0 - t;
-    let first = [
-        [s * s * (1.0 + 2.0 * t), h * t * s * s],
-        [-6.0 * t * s / h, s * (1.0 - 3.0 * t)],
-        [6.0 * (t - s) / (h * h), (6.0 * t - 4.0) / h],
-    ];
-    let second = [
-        [t * t * (3.0 - 2.0 * t), -h * t * t * s],
-        [6.0 * t * s / h, t * (3.0 * t - 2.0)],
-        [6.0 * (s - t) / (h * h), (6.0 * t - 2.0) / h],
-    ];
+    let first = [[s * s * (1.0 + 2.0 * t), h * t * s * s], [-6.0 * t * s / h, s * (1.0 - 3.0 * t)]];
+    let second = [[t * t * (3.0 - 2.0 * t), -h * t * t * s], [6.0 * t * s / h, t * (3.0 * t - 2.0)]];
     (i, [first, second])
 }
 
@@ -115,7 +103,7 @@ mod tests {
         let f = |x: f64, y: f64| (1.0 + 2.0 * x - 3.0 * x * x) * (0.5 - y + 0.25 * y * y);
         let g = grid(f);
         for (x, y) in [(0.1, -1.95), (0.3, 0.5), (0.7, 2.9), (1.19, -0.7), (1.2, 3.0), (0.0, -2.0)] {
-            let [value, dx, dy, _] = g.at(x, y);
+            let [value, dx, dy] = g.at(x, y);
             let wanted =
                 [f(x, y), (2.0 - 6.0 * x) * (0.5 - y + 0.25 * y * y), (1.0 + 2.0 * x - 3.0 * x * x) * (-1.0 + 0.5 * y)];
             for (a, b) in [value, dx, dy].iter().zip(wanted) {

@@ -35,7 +35,7 @@ impl ModifiedFlank {
         &self.flank
     }
 
-    /// Depth at roll angle `u` and height `z` (mm), pitch error included, with derivatives.
+    /// Depth at roll angle `u` and height `z` (mm), pitch error included, with first derivatives.
     pub fn depth(&self, u: f64, z: f64) -> Depth {
         let mut depth = self.field.as_ref().map_or_else(Depth::default, |f| f.at(u, z));
         depth.value += self.pitch;
@@ -72,19 +72,6 @@ impl ModifiedFlank {
         let along = depth.by_roll / self.offset_radius(u, depth.value + self.pitch);
         let across = cos_b * (depth.by_z + s * self.flank.twist * depth.by_roll);
         (n + along * e_r + across * generator).normalize()
-    }
-
-    /// Curvature across the generator, 1/mm, convex positive: the nominal one and that of the depth.
-    ///
-    /// ```text
-    /// kappa = cos(b_b) / (r_b u) + (h_uu - h_u / u) / (r_b u)^2
-    /// ```
-    /// Kinks have none. Not less than a tenth of the nominal one: contact in hollows is no line contact of convex flanks.
-    pub fn curvature(&self, u: f64, z: f64) -> f64 {
-        let nominal = self.flank.curvatures(u)[0];
-        let Some(field) = &self.field else { return nominal };
-        let (depth, radius) = (field.at(u, z), self.flank.base_radius * u);
-        (nominal + (depth.by_roll_twice - depth.by_roll / u) / (radius * radius)).max(0.1 * nominal)
     }
 
     /// Derivatives of the surface point by roll angle (mm) and by z (1).

@@ -65,18 +65,15 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    /// Depth and its first two derivatives by x; at the start itself they are those of the flank before it.
-    pub fn at(&self, x: f64) -> [f64; 3] {
+    /// Depth and its derivative by x; at the start itself the slope is that of the flank before it.
+    pub fn at(&self, x: f64) -> (f64, f64) {
         let t = (x - self.start) / self.length;
         if t <= 0.0 {
-            return [0.0; 3];
+            return (0.0, 0.0);
         }
         match self.shape {
-            ReliefShape::Linear => [self.amount * t, self.amount / self.length, 0.0],
-            ReliefShape::Parabolic => {
-                let slope = 2.0 * self.amount / self.length;
-                [self.amount * t * t, slope * t, slope / self.length]
-            }
+            ReliefShape::Linear => (self.amount * t, self.amount / self.length),
+            ReliefShape::Parabolic => (self.amount * t * t, 2.0 * self.amount * t / self.length),
         }
     }
 }
