@@ -12,6 +12,9 @@ use mesh::{GearMesh, GroupNames, Mesh, RootFillets};
 use reduction::{GearReducer, ReductionOptions};
 use support::{Case, default_pair, generated, meshes_folder, steel};
 
+/// A scalar of a stress.
+type Measure = fn(&[f64; 6]) -> f64;
+
 const REDUCED: ElementOptions =
     ElementOptions { integration: Integration::Reduced, incompatible_modes: IncompatibleModes::Taylor };
 const C3D8I: ElementOptions =
