@@ -20,9 +20,6 @@ const REDUCED: ElementOptions =
 const C3D8I: ElementOptions =
     ElementOptions { integration: Integration::Full, incompatible_modes: IncompatibleModes::WithoutJacobianRatio };
 
-/// A stress measure of a tensor, MPa.
-type Measure = fn(&[f64; 6]) -> f64;
-
 /// Peaks of one fillet: maximum principal, minimum principal, von Mises (MPa), each with the tag of its node.
 type Peaks = [(f64, u64); 3];
 
