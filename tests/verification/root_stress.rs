@@ -12,6 +12,9 @@ use mesh::{GearMesh, GroupNames, Mesh, RootFillets};
 use reduction::{GearReducer, ReductionOptions};
 use support::{Case, default_pair, generated, meshes_folder, steel};
 
+/// A scalar of a stress.
+type Measure = fn(&[f64; 6]) -> f64;
+
 const REDUCED: ElementOptions =
     ElementOptions { integration: Integration::Reduced, incompatible_modes: IncompatibleModes::Taylor };
 const C3D8I: ElementOptions =
@@ -98,7 +101,7 @@ fn stress_modes_agree_with_calculix_under_the_same_forces() {
             let nodes = fillets.nodes(0, side);
             let stress = gear.stress_modes(&window, nodes).unwrap().stress(&u).unwrap();
             let scale = wanted[2].0;
-            let measures: [(&str, fn(&[f64; 6]) -> f64, f64); 3] = [
+            let measures: [(&str, Measure, f64); 3] = [
                 ("max principal", fem::max_principal, 1.0),
                 ("min principal", fem::min_principal, -1.0),
                 ("von Mises", fem::von_mises, 1.0),

@@ -27,6 +27,8 @@ pub struct LocalBody {
     pub tip_distance: f64,
     /// Angle between flank and tip land, inside the material, rad; PI where there is no edge.
     pub tip_angle: f64,
+    /// d/dx [c + (1 + eta) ln t] at the tip, x the distance from the edge, 1/mm: the band of an edge contact lies a little inside the edge.
+    pub tip_gradient: f64,
     /// Radius of the arc that rounds the tip edge, tangent to flank and tip land, mm; 0: sharp.
     pub edge_radius: f64,
     /// Distance to the nearer end face, mm.
@@ -64,11 +66,11 @@ impl LocalContact {
     /// State under a line load q (N/mm), per unit length of contact line.
     ///
     /// ```text
-    /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + eta ln(t / l)] + (K_1 + K_2) q P
+    /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + eta ln(t / l) + g (l - d)] + (K_1 + K_2) q P
     /// K_b = 2 (1 - nu^2) / (pi E) [1 + nu^2 / (1 - nu^2) exp(-d_end / t)]
     /// ```
     /// a: half-width after Hertz; c: [`LocalBody::layer`]; eta: [`wedge_softening`]; l: distance between load and tip edge, d where the band
-    /// is narrow; P: what is lost where the edge cuts the band off. All continuous with their slopes, from the
+    /// is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost where the edge cuts the band off. All continuous with their slopes, from the
     /// middle of the flank to an edge far off the line of action. Without load, all is 0 and the slope is that of a load small enough not
     /// to matter.
     pub fn under(&self, load: f64) -> LocalState {
@@ -98,11 +100,17 @@ impl LocalContact {
         let both = softness[0] + softness[1];
         let (mut value, mut growth) = (0.0, 0.0);
         for ((body, edge), k) in self.bodies.iter().zip(self.edges()).zip(softness) {
+            value += k * ((2.0 * body.depth / a).ln() + 0.5 + body.layer);
+            growth -= k;
             let eta = edge.softening();
-            let (cut, dcut) = edge.cut_off(a);
-            let (ln_l, dln_l) = edge.log_reach(a, eta * k / both);
-            value += k * ((2.0 * body.depth / a).ln() + 0.5 + body.layer + eta * (body.depth.ln() - ln_l)) + both * cut;
-            growth += k * (-1.0 - eta * dln_l) + both * dcut;
+            if eta > 0.0 {
+                let (cut, dcut) = edge.cut_off(a);
+                let (ln_l, dln_l) = edge.log_reach(a, eta * k / both);
+                let inside = ln_l.exp();
+                let moved = body.tip_gradient * (inside - body.tip_distance);
+                value += k * (eta * (body.depth.ln() - ln_l) + moved) + both * cut;
+                growth += k * dln_l * (body.tip_gradient * inside - eta) + both * dcut;
+            }
         }
         (value, growth)
     }

@@ -1,33 +1,40 @@
 //! What stands behind a flank: the half of a tooth as a layer that rests on its centre surface.
 
-use std::f64::consts::FRAC_PI_2;
-
 use geometry::Flank;
+use reduction::LayerProfile;
 
-use crate::{LocalBody, layer_constant};
+use crate::LocalBody;
 
 /// The half tooth behind a flank.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ToothLayer {
     flank: Flank,
     young: f64,
     poisson: f64,
-    constant: f64,
+    profile: LayerProfile,
     overshoot: f64,
     edge_radius: f64,
 }
 
 impl ToothLayer {
     /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`, clamped
-    /// `overshoot` (mm) past the centre surface; its tip edge is rounded by an arc of radius `edge_radius` (mm).
-    pub fn new(flank: Flank, young: f64, poisson: f64, overshoot: f64, edge_radius: f64) -> Self {
-        Self { flank, young, poisson, constant: layer_constant(poisson), overshoot, edge_radius }
+    /// `overshoot` (mm) past the centre surface; `profile` is the layer's constant for that. The tip edge is rounded by
+    /// `edge_radius` (mm), or sharp (0).
+    pub fn new(
+        flank: Flank,
+        young: f64,
+        poisson: f64,
+        overshoot: f64,
+        profile: LayerProfile,
+        edge_radius: f64,
+    ) -> Self {
+        Self { flank, young, poisson, profile, overshoot, edge_radius }
     }
 
     /// The layer at surface coordinates (roll angle, z).
     ///
     /// ```text
-    /// t = r sin(psi) cos(b_b),   psi = sigma - (u - atan u),   d = r_b (u_a^2 - u^2) / 2
+    /// t = (r sin(psi) + overshoot) cos(b_b),   psi = sigma - (u - atan u),   d = r_b (u_a^2 - u^2) / 2
     /// ```
     pub fn body(&self, [u, z]: [f64; 2]) -> LocalBody {
         let f = &self.flank;
@@ -37,11 +44,12 @@ impl ToothLayer {
         LocalBody {
             young: self.young,
             poisson: self.poisson,
-            layer: self.constant,
+            layer: self.profile.constant(u),
             // A pointed tip has no depth.
             depth: depth.max(1e-3 * f.base_radius),
             tip_distance: (0.5 * f.base_radius * (f.roll_tip * f.roll_tip - u * u)).max(0.0),
-            tip_angle: FRAC_PI_2 + f.roll_tip.atan(),
+            tip_angle: self.profile.tip_angle(),
+            tip_gradient: self.profile.tip_gradient(),
             edge_radius: self.edge_radius,
             end_distance: (f.half_width - z.abs()).max(0.0),
         }

@@ -144,13 +144,8 @@ fn half(
     };
     let material = gear.material();
     let flank = geometry.flank_of(side, i64::from(tooth));
-    let layer = ToothLayer::new(
-        flank,
-        material.young_mpa(),
-        material.poisson(),
-        half.overshoot,
-        geometry.data().tip_edge_radius,
-    );
+    let (profile, edge_radius) = (half.layer.clone(), geometry.data().tip_edge_radius);
+    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), half.overshoot, profile, edge_radius);
     let boundary = half.nodes.iter().map(|&n| number(n)).collect();
     Ok(Half { layer, tooth: half, boundary })
 }

@@ -162,6 +162,19 @@ impl StressOperator {
         self.rows.len()
     }
 
+    /// Degrees of freedom that the stress depends on, ascending, and the same map of these alone.
+    pub fn on_support(&self) -> (Vec<usize>, Self) {
+        let mut free: Vec<usize> = self.rows.iter().flatten().map(|(position, _)| *position).collect();
+        free.sort_unstable();
+        free.dedup();
+        let mut rows = self.rows.clone();
+        for (position, _) in rows.iter_mut().flatten() {
+            *position = free.partition_point(|p| p < position);
+        }
+        let free_count = 3 * free.len();
+        (free.into_iter().flat_map(|p| 3 * p..3 * p + 3).collect(), Self { rows, free_count })
+    }
+
     /// Rows of the nodes in `range` as columns, n x 6 nodes, MPa/mm: (S')_i, what the adjoint way starts from.
     ///
     /// # Errors
@@ -193,14 +206,16 @@ impl StressOperator {
         }
         let mut result = Mat::zeros(6 * self.rows.len(), displacement.ncols());
         result.as_mut().par_col_chunks_mut(1).zip(displacement.par_col_chunks(1)).for_each(|(mut stress, u)| {
+            let u: Vec<f64> = u.col(0).iter().copied().collect();
             for (i, row) in self.rows.iter().enumerate() {
+                let mut sum = [0.0; 6];
                 for (position, block) in row {
-                    for k in 0..6 {
-                        for axis in 0..3 {
-                            stress[(6 * i + k, 0)] += block[3 * k + axis] * u[(3 * position + axis, 0)];
-                        }
+                    let u = &u[3 * position..3 * position + 3];
+                    for (s, b) in sum.iter_mut().zip(block.chunks_exact(3)) {
+                        *s += b[0] * u[0] + b[1] * u[1] + b[2] * u[2];
                     }
                 }
+                sum.into_iter().enumerate().for_each(|(k, s)| stress[(6 * i + k, 0)] = s);
             }
         });
         Ok(result)

@@ -1,7 +1,7 @@
 //! Which nodes lie on the surface of the root fillets?
 //!
 //! No mesh names its fillets, so they are found by where they are: on the free surface between the teeth, from the
-//! root circle up to the root form circle, nodes of the flanks left out. That works on any mesh, structured or not, whole gear or sector.
+//! root circle up to a circle below the root form circle. That works on any mesh, structured or not, whole gear or sector.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +11,14 @@ use crate::{FaceTable, GearMesh};
 
 /// Nodes may lie this many modules below the root circle: mid-side nodes of straight edges across a hollow do.
 const BELOW_ROOT_MODULES: f64 = 0.02;
-/// Nodes may lie this many modules above the root form circle: round-off of whoever wrote the file.
-const ABOVE_FORM_MODULES: f64 = 1e-4;
+/// Nodes may lie this many modules above the upper circle: round-off of whoever wrote the file.
+const ABOVE_MODULES: f64 = 1e-4;
+/// The fillet is followed up to where its tangent makes this angle with the tooth's centre line, rad (20 deg).
+///
+/// Bending stress is greatest near 30 deg (the critical section of ISO 6336-3, clause 6.2). Farther up, next to the
+/// flank, a mesh coarser than the contact band smears the stress of contact over the nodes: with a tooth just coming into contact
+/// at its corner that is more than the bending of any tooth, and it grows with every refinement of the fillet.
+const STEEPEST_TANGENT: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// From this |n_z| on a face is an end face; the teeth of a 60 deg helix have 0.87.
 const END_FACE_NORMAL: f64 = 0.95;
 /// How far, in pitches, a node may be from the middle of a tooth space to count as lying on it.
@@ -20,8 +26,8 @@ const MIDDLE_PITCHES: f64 = 1e-6;
 
 /// Surface nodes of the root fillets, by tooth and side.
 ///
-/// The fillet on the left of tooth k reaches from the root form circle of its left flank to the middle of the tooth space
-/// between k and k + 1; half of the root land belongs to it. A node on that middle belongs to both fillets of the space.
+/// The fillet on the left of tooth k reaches from where its tangent makes 20 deg with the tooth's centre line (or from the root
+/// form circle, if the fillet ends before) to the middle of the tooth space between k and k + 1; half of the root land belongs to it. A node on that middle belongs to both fillets of the space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootFillets {
     nodes: BTreeMap<(u32, Side), Vec<u32>>,
@@ -31,13 +37,13 @@ impl RootFillets {
     /// Finds the fillets of all teeth that the mesh has.
     ///
     /// A node counts when it lies on a boundary face that is neither bore nor cut nor end face (|n_z| above 0.95), at a radius
-    /// from the root circle to the root form circle of `gear`, and on no flank: contact forces act on flank nodes, and a
-    /// mesh coarser than the contact band smears contact stress over them. The angle against the tooth's twisted centre
+    /// from the root circle of `gear` to the upper end of the fillet, and on no flank, where contact forces act. The angle against the tooth's twisted centre
     /// line says whose fillet it is on.
     pub fn new(mesh: &GearMesh, gear: &Gear) -> Self {
         let body = mesh.mesh();
         let module = gear.data().normal_module;
-        let radii = gear.root_radius() - BELOW_ROOT_MODULES * module..=gear.form_radius() + ABOVE_FORM_MODULES * module;
+        let upper = Self::upper_radius(gear) + ABOVE_MODULES * module;
+        let radii = gear.root_radius() - BELOW_ROOT_MODULES * module..=upper;
         let mut elsewhere: Vec<[u32; 4]> = mesh.bore().faces.iter().map(|f| f.corner_key()).collect();
         elsewhere.extend(mesh.cuts().into_iter().flatten().flat_map(|c| &c.faces).map(|f| f.corner_key()));
         elsewhere.sort_unstable();
@@ -87,6 +93,12 @@ impl RootFillets {
             }
         }
         Self { nodes }
+    }
+
+    /// Radius up to which the fillets of `gear` are followed, mm.
+    pub fn upper_radius(gear: &Gear) -> f64 {
+        let profile = gear.profile();
+        profile.fillet(profile.fillet_at_tangent(STEEPEST_TANGENT)).0
     }
 
     /// Nodes of the fillet on one side of a tooth (0 .. z-1), ascending. Empty where the mesh does not have it.

@@ -7,7 +7,7 @@ use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix}
 use geometry::{Gear, Side};
 use mesh::{ElementBlock, GearMesh, Mesh};
 
-use crate::{FlankGrid, ReductionError, grid::grid_compliance};
+use crate::{FlankGrid, LayerProfile, ReductionError, grid::grid_compliance};
 
 /// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface is
 /// clamped.
@@ -26,6 +26,8 @@ pub struct HalfTooth {
     /// How far the clamped nodes next to the free half lie past the centre surface on average, mm: 0 where the mesh has nodes
     /// on it. The layer is deeper by as much.
     pub overshoot: f64,
+    /// What a line load does to this half when its band is resolved.
+    pub layer: LayerProfile,
 }
 
 /// Distances below this count as on the surface, relative to the normal module.
@@ -65,7 +67,8 @@ impl HalfTooth {
                 }
             }
         }
-        Ok(Self { nodes, compliance, overshoot: half.overshoot })
+        let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
+        Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
     }
 
     /// The same for loads on the nodes of a grid; `nodes` are then the grid's.
@@ -83,7 +86,9 @@ impl HalfTooth {
         let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
         let factor = BoundaryLastFactor::new(&half.stiffness, &[])?;
         let compliance = grid_compliance(&factor, half.dofs.free_count(), &[grid], |n| half.position(n))?;
-        Ok(Self { nodes: (0..grid.positions.len() as u32).collect(), compliance, overshoot: half.overshoot })
+        let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
+        let nodes = (0..grid.positions.len() as u32).collect();
+        Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
     }
 }
 

@@ -23,6 +23,12 @@ pub(super) fn columns(history: &StaticHistory, pitch_angle: f64) -> Vec<i64> {
     all.into_iter().collect()
 }
 
+/// Pinion and wheel tooth of the pair of that column; `None` when it is not in the window.
+pub(super) fn teeth(position: &StaticPosition, column: i64, pitch_angle: f64) -> Option<[u32; 2]> {
+    let pair = position.pairs.iter().find(|p| in_cycle(position, p.pair, pitch_angle) == column)?;
+    Some([pair.pinion_tooth, pair.wheel_tooth])
+}
+
 /// Normal force of the pair of that column, N; 0 when it is not in the window.
 pub(super) fn force(position: &StaticPosition, column: i64, pitch_angle: f64) -> f64 {
     // 0.0 first: the sum of nothing is -0.0 otherwise.

@@ -53,10 +53,11 @@ impl BoundaryLastFactor {
 
     /// Solves for rows 0..`end` with the rows from `end` on given: x_top = L_top^-T (x_top - L_below' x_below).
     ///
-    /// With `end` = n this is L^-T x.
-    pub(super) fn backward(&self, mut x: MatMut<'_, f64>, end: usize) {
+    /// With `end` = n this is L^-T x. Supernodes that are not in `branches` keep what they hold.
+    pub(super) fn backward(&self, mut x: MatMut<'_, f64>, end: usize, branches: Option<&[bool]>) {
         let width = x.ncols();
-        for node in self.supernodes().rev().skip_while(|s| s.start >= end) {
+        let wanted = |s: &Supernode<'_>| s.start < end && branches.is_none_or(|b| b[s.index]);
+        for node in self.supernodes().rev().filter(wanted) {
             let columns = node.columns_before(end);
             let (top, below) = node.values.subcols(0, columns).split_at_row(columns);
             let mut x_below = Mat::<f64>::zeros(below.nrows(), width);
