@@ -2,7 +2,9 @@
 
 use std::io::Read;
 
-use ale_gear::output::{Encoding, Field, PvdEntry, write_pvd, write_vtu};
+use ale_gear::output::{Encoding, Field, PvdEntry, write_pattern_vtu, write_pvd, write_surface, write_vtu};
+use ale_gear::pattern::GearPattern;
+use geometry::{Flank, Side};
 use mesh::{ElementBlock, ElementKind};
 
 const KINDS: [ElementKind; 7] = [
@@ -91,6 +93,61 @@ fn nodes_are_renumbered_to_vtk() {
         }
         element.sort_unstable();
         assert_eq!(element, (0..kind.node_count() as i64).collect::<Vec<_>>(), "{kind:?}");
+    }
+}
+
+fn floats(bytes: &[u8]) -> Vec<f64> {
+    bytes.chunks_exact(8).map(|c| f64::from_le_bytes(c.try_into().unwrap())).collect()
+}
+
+/// A surface is made of quadrilaterals (VTK's type 9), and a field must fit it as well.
+#[test]
+fn a_surface_is_made_of_quads() {
+    let nodes: Vec<[f64; 3]> = (0..6).map(|k| [f64::from(k % 3), f64::from(k / 3), 0.0]).collect();
+    let quads = [[0, 1, 4, 3], [1, 2, 5, 4]];
+    let heights = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+    let mut out = Vec::new();
+    let field = Field { name: "height_mm", components: 1, values: &heights };
+    write_surface(&mut out, &nodes, &quads, &[field], Encoding::Zlib).unwrap();
+    let [height, points, connectivity, offsets, types] = <[Vec<u8>; 5]>::try_from(arrays(&out)).unwrap();
+    assert_eq!((floats(&height), floats(&points).len()), (heights.to_vec(), 18));
+    assert_eq!(integers(&connectivity), [0, 1, 4, 3, 1, 2, 5, 4]);
+    assert_eq!((integers(&offsets), types), (vec![4, 8], vec![9, 9]));
+    let short = Field { values: &heights[1..], ..field };
+    assert!(write_surface(&mut Vec::new(), &nodes, &quads, &[short], Encoding::Raw).is_err());
+}
+
+/// A pattern in space: every node at the diameter it says, from end face to end face; no quad folded or without area.
+#[test]
+fn a_pattern_covers_the_flank() {
+    let flank = Flank {
+        side: Side::Left,
+        base_radius: 45.0,
+        base_half_angle: 0.07,
+        twist: 0.007,
+        base_helix_angle: (0.007_f64 * 45.0).atan(),
+        centre_angle: 0.0,
+        roll_form: 0.2,
+        roll_tip: 0.5,
+        half_width: 10.0,
+    };
+    let grid = study::FlankPattern::new([0.2, 0.5], 8, vec![-7.5, -2.5, 2.5, 7.5]).unwrap();
+    let pattern = GearPattern { name: "wheel", flank, centre_x: 95.0, grid };
+    let mut out = Vec::new();
+    write_pattern_vtu(&pattern, &mut out).unwrap();
+    let arrays = arrays(&out);
+    let (diameter, points, connectivity) = (floats(&arrays[3]), floats(&arrays[4]), integers(&arrays[5]));
+    assert_eq!((diameter.len(), points.len(), connectivity.len()), (6 * 9, 3 * 6 * 9, 4 * 5 * 8));
+    let node = |k: usize| nalgebra::Vector3::from_column_slice(&points[3 * k..3 * k + 3]);
+    for (k, d) in diameter.iter().enumerate() {
+        let p = node(k);
+        assert!((2.0 * (p.x - 95.0).hypot(p.y) - d).abs() < 1e-9, "node {k} lies on another diameter than {d} mm");
+    }
+    assert_eq!((node(0).z, node(53).z), (-10.0, 10.0));
+    for quad in connectivity.chunks_exact(4) {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| node(quad[i] as usize));
+        let (one, other) = ((b - a).cross(&(d - a)), (d - c).cross(&(b - c)));
+        assert!(one.norm() > 0.1 && one.dot(&other) > 0.9 * one.norm() * other.norm(), "{quad:?}: {one} {other}");
     }
 }
 

@@ -12,6 +12,8 @@ const COLUMNS: usize = 96;
 const SHADES: usize = 64;
 /// Room for the words at tip and root, over the height of the flank.
 const ROOM: f64 = 0.08;
+/// Numbers and words at the axes.
+const LABELS: (&str, i32) = ("sans-serif", 12);
 /// A flank where nothing touched it; no colour of the map.
 const UNTOUCHED: RGBColor = RGBColor(232, 232, 228);
 
@@ -53,7 +55,9 @@ fn flank(area: &Area<'_>, pattern: &GearPattern, scale: f64) -> Result<(), Strin
         .y_label_area_size(58)
         .build_cartesian_2d(-half..half, root - room..tip + room)
         .map_err(text)?;
-    chart.configure_mesh().disable_mesh().x_labels(5).x_desc("z [mm]").y_desc("diameter [mm]").draw().map_err(text)?;
+    let mut axes = chart.configure_mesh();
+    axes.disable_mesh().label_style(LABELS).axis_desc_style(LABELS).x_labels(5);
+    axes.x_desc("z [mm]").y_desc("diameter [mm]").draw().map_err(text)?;
     chart.draw_series([Rectangle::new([(-half, root), (half, tip)], UNTOUCHED.filled())]).map_err(text)?;
 
     let cells = cells(pattern).into_iter().map(|([low, high], pressure)| {
@@ -61,7 +65,7 @@ fn flank(area: &Area<'_>, pattern: &GearPattern, scale: f64) -> Result<(), Strin
         Rectangle::new([low, high], colour.filled())
     });
     chart.draw_series(cells).map_err(text)?;
-    let style = ("sans-serif", 13).into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Center));
+    let style = LABELS.into_font().color(&BLACK).pos(Pos::new(HPos::Center, VPos::Center));
     let words = [(tip + 0.5 * room, "tip"), (root - 0.5 * room, "root")];
     chart.draw_series(words.map(|(d, word)| Text::new(word, (0.0, d), style.clone()))).map_err(text)?;
     Ok(())
@@ -92,13 +96,15 @@ fn cells(pattern: &GearPattern) -> Vec<([(f64, f64); 2], f64)> {
 
 fn colour_bar(area: &Area<'_>, scale: f64) -> Result<(), String> {
     let mut chart = ChartBuilder::on(area)
-        .caption("MPa", ("sans-serif", 16))
+        .caption("max. MPa", ("sans-serif", 16))
         .margin(8)
         .x_label_area_size(40)
         .y_label_area_size(58)
         .build_cartesian_2d(0.0..1.0, 0.0..scale)
         .map_err(text)?;
-    chart.configure_mesh().disable_mesh().disable_x_axis().y_desc("largest pressure").draw().map_err(text)?;
+    let mut axes = chart.configure_mesh();
+    axes.disable_mesh().disable_x_axis().label_style(LABELS).y_label_formatter(&|p| format!("{p:.0}"));
+    axes.draw().map_err(text)?;
     let step = scale / SHADES as f64;
     let shades = (0..SHADES).map(|k| {
         let colour: RGBColor = ViridisRGB.get_color((k as f32 + 0.5) / SHADES as f32);
