@@ -44,8 +44,10 @@ fn scatter(teeth: u32) -> Vec<f64> {
     (0..teeth).map(|k| (f64::from(k * k) * 0.7 + f64::from(k)).sin()).collect()
 }
 
+/// A mesh cycle, or one after the other at eight stations each.
 fn stations(count: usize) -> impl Iterator<Item = Station> {
-    (0..count).map(move |i| Station { cycle: (i / 16) as i64, phase: (i % 16) as f64 / 16.0 })
+    let each = if count == 16 { 16 } else { 8 };
+    (0..count).map(move |i| Station { cycle: (i / each) as i64, phase: (i % each) as f64 / each as f64 })
 }
 
 /// TE(phi) = min over all points of the contact lines of (h_1 + h_2 - R G^2 / 2) / cos b_b, in the plane of action alone.
@@ -108,11 +110,11 @@ fn deviations(pair: &GearPair, options: &StaticOptions, count: usize) -> [f64; 3
     [worst[0], worst[1], 1e3 * (high - low)]
 }
 
-/// Each kind of modification alone on top of a little tip relief, and all of them, mm for 1 um; none moves the place of first touch past the relief.
+/// Each kind of modification alone on top of a little tip relief, and all of them, mm, half a micrometre or less; none moves the place of first touch past the relief.
 fn kinds() -> Vec<(&'static str, FlankModification)> {
     use ReliefShape::{Linear, Parabolic};
     let none = FlankModification::default;
-    let um = 1e-3;
+    let um = 0.5e-3;
     let end = |amount: f64, shape| Some(EndRelief { amount: amount * um, length: 4.0, shape });
     let all = FlankModification {
         profile_crowning: 0.2 * um,
@@ -140,21 +142,22 @@ fn kinds() -> Vec<(&'static str, FlankModification)> {
 #[test]
 fn kinematic_te_is_the_geometric_one() {
     for beta in [0.0, 12.0, -20.0] {
-        for shape in [ReliefShape::Linear, ReliefShape::Parabolic] {
-            for (name, rest) in kinds() {
-                for pitch in [0.0, 0.15e-3] {
-                    let [a, b] = flanks(beta, 0.6, 1.2e-3, shape, &rest);
-                    let ground = |m, teeth| {
-                        let pitch_errors = scatter(teeth).iter().map(|e| pitch * e).collect();
-                        GearModifications { pitch_errors, ..GearModifications::both(m) }
-                    };
-                    let pair = pair(beta, [ground(a, 30), ground(b, 37)]);
-                    let count = if pitch == 0.0 { 16 } else { 24 };
-                    let [first, _, span] = deviations(&pair, &options(&pair), count);
-                    let at = format!("beta {beta}, {shape:?}, {name}, pitch errors {pitch} mm");
-                    println!("{at}: peak to peak {span:.4} um, off by {first:.6} um");
-                    assert!(first < 1e-3, "{at}: off by {first} um of {span} um");
-                }
+        for (k, (name, rest)) in kinds().into_iter().enumerate() {
+            let shape = [ReliefShape::Linear, ReliefShape::Parabolic][(k + beta.abs() as usize / 10) % 2];
+            // Pitch errors with the first and the last of them.
+            let pitches: &[f64] = if matches!(k, 0 | 7) { &[0.0, 0.08e-3] } else { &[0.0] };
+            for &pitch in pitches {
+                let [a, b] = flanks(beta, 0.6, 0.6e-3, shape, &rest);
+                let ground = |m, teeth| {
+                    let pitch_errors = scatter(teeth).iter().map(|e| pitch * e).collect();
+                    GearModifications { pitch_errors, ..GearModifications::both(m) }
+                };
+                let pair = pair(beta, [ground(a, 30), ground(b, 37)]);
+                let count = if pitch == 0.0 { 8 } else { 24 };
+                let [first, _, span] = deviations(&pair, &options(&pair), count);
+                let at = format!("beta {beta}, {shape:?}, {name}, pitch errors {pitch} mm");
+                println!("{at}: peak to peak {span:.4} um, off by {first:.6} um");
+                assert!(first < 1e-3, "{at}: off by {first} um of {span} um");
             }
         }
     }
@@ -179,15 +182,105 @@ fn the_closed_form_is_of_first_order() {
     }
 }
 
-/// Reliefs of production size that start high on the flank: first touch is on unrelieved flank, or where the slope is small.
+/// TE of a spur pair with the same profile at every height, by turning: each point of the pinion's profile asks for a turn of the
+/// wheel that brings the wheel's profile, at the point's own radius, to it; the first touch is the least of them. No
+/// normals and no feet, exact at any depth, tip corners included.
+fn by_turning(pair: &GearPair, options: &StaticOptions, station: Station) -> f64 {
+    let side = options.side();
+    let theta1 = pair.middle_angle(side) + (station.phase - 0.5) * pair.pinion.pitch_angle();
+    let theta2 = pair.wheel_angle(side, theta1);
+    let base = pair.wheel.base_radius();
+    let mut least = f64::INFINITY;
+    for tooth in -3i64..=3 {
+        let running = tooth - station.cycle;
+        let pinion = pair.pinion.modified_flank_at(side, tooth, running);
+        let wheel = pair.wheel.modified_flank_at(side, -tooth, -running);
+        let [v_form, v_tip] = [wheel.nominal().roll_form, wheel.nominal().roll_tip];
+        let radius = |v: f64| wheel.point(v, 0.0).xy().norm();
+        let turn = |u: f64| -> f64 {
+            let p = Rotation3::from_axis_angle(&Vector3::z_axis(), theta1) * pinion.point(u, 0.0);
+            let seen =
+                Rotation3::from_axis_angle(&Vector3::z_axis(), -theta2) * (p - Vector3::x() * pair.centre_distance());
+            let r = seen.xy().norm();
+            if r < radius(v_form) || r > radius(v_tip) {
+                return f64::INFINITY;
+            }
+            let (mut low, mut high) = (v_form, v_tip);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if radius(middle) < r { low = middle } else { high = middle }
+            }
+            let q = wheel.point(0.5 * (low + high), 0.0);
+            // Angle from the wheel's point to the pinion's, both at this radius.
+            side.sign() * base * (q.x * seen.y - q.y * seen.x).atan2(q.x * seen.x + q.y * seen.y)
+        };
+        let (form, tip) = (pinion.nominal().roll_form, pinion.nominal().roll_tip);
+        let n = 400;
+        let at = |i: usize| form + (tip - form) * i as f64 / n as f64;
+        let turns: Vec<f64> = (0..=n).map(|i| turn(at(i))).collect();
+        let best = (0..=n).min_by(|&a, &b| turns[a].total_cmp(&turns[b])).unwrap();
+        let (mut a, mut b) = (at(best.saturating_sub(1)), at((best + 1).min(n)));
+        for _ in 0..80 {
+            let (x, y) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+            if turn(x) <= turn(y) { b = y } else { a = x }
+        }
+        least = least.min(turns[best]).min(turn(0.5 * (a + b)));
+    }
+    least
+}
+
+/// Reliefs, crowning, slope and pitch errors of production size, kinks and corners among them: within 1e-3 um of turning the wheel until
+/// it touches. The closed form is half a micrometre off here.
 #[test]
-fn a_common_design_is_within_a_nanometre() {
-    let rest = FlankModification { lead_crowning: 6e-3, lead_slope: 4e-3, ..FlankModification::default() };
-    let flanks = flanks(-20.0, 0.85, 15e-3, ReliefShape::Parabolic, &rest);
-    let pair = pair(-20.0, flanks.map(GearModifications::both));
-    let [first, second, span] = deviations(&pair, &options(&pair), 16);
-    println!("peak to peak {span:.4} um, off by {first:.6} um, second order {second:.6} um");
-    assert!(first < 1e-3, "off by {first} um");
+fn real_depths_touch_where_turning_says() {
+    let none = FlankModification::default;
+    let roll = |f: f64| {
+        let profile = *pair(0.0, Default::default()).pinion.profile();
+        ProfilePlace::Roll(profile.roll_form() + f * (profile.roll_tip() - profile.roll_form()))
+    };
+    let root = |shape| Some(Relief { amount: 0.01, start: roll(0.3), shape });
+    let cases = [
+        (ReliefShape::Linear, 0.6, none(), 0.0),
+        (ReliefShape::Parabolic, 0.6, none(), 0.0),
+        (ReliefShape::Linear, 0.85, none(), 2e-3),
+        (ReliefShape::Parabolic, 0.7, FlankModification { profile_crowning: 8e-3, ..none() }, 3e-3),
+        (ReliefShape::Parabolic, 0.7, FlankModification { profile_slope: 6e-3, ..none() }, 3e-3),
+        (ReliefShape::Linear, 0.7, FlankModification { root_relief: root(ReliefShape::Parabolic), ..none() }, 1e-3),
+    ];
+    for (shape, from, rest, pitch) in cases {
+        let ground = |m, teeth| {
+            let pitch_errors = scatter(teeth).iter().map(|e| pitch * e).collect();
+            GearModifications { pitch_errors, ..GearModifications::both(m) }
+        };
+        let [a, b] = flanks(0.0, from, 0.02, shape, &rest);
+        let pair = pair(0.0, [ground(a, 30), ground(b, 37)]);
+        let options = options(&pair);
+        let (mut worst, mut first) = (0.0f64, 0.0f64);
+        for station in stations(32) {
+            let te = kinematic_transmission_error(&pair, &options, station).unwrap();
+            worst = worst.max(1e3 * (te - by_turning(&pair, &options, station)).abs());
+            first = first.max(1e3 * (te - closed_form(&pair, &options, station, false)).abs());
+        }
+        println!("{shape:?} from {from}, pitch errors {pitch} mm: off by {worst:.2e} um; closed form {first:.4} um");
+        assert!(worst < 1e-3, "{shape:?} from {from}, {rest:?}, pitch errors {pitch} mm: off by {worst} um");
+    }
+}
+
+/// Pitch errors without any relief: tips touch before and after their path of contact, where the closed form knows of no line.
+#[test]
+fn corners_touch_where_turning_says() {
+    let ground = |teeth| GearModifications {
+        pitch_errors: scatter(teeth).iter().map(|e| 6e-3 * e).collect(),
+        ..GearModifications::default()
+    };
+    let pair = pair(0.0, [ground(30), ground(37)]);
+    let options = options(&pair);
+    for i in 0..64 {
+        let station = Station { cycle: i / 16, phase: (i % 16) as f64 / 16.0 };
+        let te = kinematic_transmission_error(&pair, &options, station).unwrap();
+        let off = 1e3 * (te - by_turning(&pair, &options, station)).abs();
+        assert!(off < 1e-3, "{station:?}: off by {off} um of {te} mm");
+    }
 }
 
 /// Either driver, either sense: the same law, with the flanks that then carry.
@@ -212,10 +305,10 @@ fn either_driver_and_sense() {
 #[test]
 fn misaligned_flanks_touch_where_the_tilt_says() {
     for beta in [0.0, 12.0] {
-        let rest = FlankModification { lead_crowning: 1e-3, ..FlankModification::default() };
-        let flanks = flanks(beta, 0.6, 1.5e-3, ReliefShape::Parabolic, &rest);
+        let rest = FlankModification { lead_crowning: 0.5e-3, ..FlankModification::default() };
+        let flanks = flanks(beta, 0.6, 0.8e-3, ReliefShape::Parabolic, &rest);
         let pair = pair(beta, flanks.map(GearModifications::both));
-        let um = 1e-3;
+        let um = 0.5e-3;
         let cases = [
             Misalignment { deviation: um, ..Misalignment::default() },
             Misalignment { inclination: -um, ..Misalignment::default() },

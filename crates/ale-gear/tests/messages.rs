@@ -123,6 +123,91 @@ fn a_mesh_that_is_not_there_is_missed_before_any_work() {
 }
 
 #[test]
+fn keys_of_micro_geometry_are_checked_one_with_the_other() {
+    let check = says;
+    let says = |table: &str, line: usize, text: &str| {
+        check(&format!("{ISO_SCENE}{table}"), &format!("ale-gear: a.toml:{line}: {text}\n"));
+    };
+    says(
+        "[pinion.modification.drive]\ntip_releif_um = 3\n",
+        19,
+        "unknown key `tip_releif_um`\nhint: did you mean `tip_relief_um`?",
+    );
+    says(
+        "[wheel.modification]\nlead_crowning = 3\n",
+        19,
+        "unknown key `lead_crowning`\nhint: did you mean `lead_crowning_um`?",
+    );
+    says(
+        "[pair.misalignment]\nbias_um = 3\n",
+        19,
+        "unknown key `bias_um`\nhint: `bias_um` belongs to [pinion.modification]",
+    );
+    says(
+        "[pinion.modification]\ntip_relief_um = 3\n",
+        19,
+        "`tip_relief_um` has no start\nhint: a relief is `tip_relief_um` with `tip_relief_start_diameter_mm` or \
+         `tip_relief_start_roll_deg`",
+    );
+    says(
+        "[pinion.modification]\nroot_relief_shape = \"linear\"\n",
+        19,
+        "`root_relief_shape` has no `root_relief_um`\nhint: a relief is `root_relief_um` with \
+         `root_relief_start_diameter_mm` or `root_relief_start_roll_deg`",
+    );
+    says(
+        "[pinion.modification.coast]\nend_relief_upper_um = 4\n",
+        19,
+        "`end_relief_upper_um` has no `end_relief_upper_length_mm`\nhint: give both `end_relief_upper_um` and \
+         `end_relief_upper_length_mm`, or neither",
+    );
+    says(
+        "[pinion.modification]\ntopography = \"no.csv\"\n",
+        19,
+        "`topography` is \"no.csv\", but there is no file no.csv\nhint: paths are relative to the scene file",
+    );
+    says(
+        "[pinion.modification]\nlead_crowning_um = 2000\n",
+        19,
+        "`lead_crowning_um` is 2000, allowed is -1000 .. 1000",
+    );
+    says("[pair.misalignment]\ninclination_um = 500\n", 19, "`inclination_um` is 500, allowed is -200 .. 200");
+    for table in ["[pair.misalignment]\ninclination_um = 5\n", "[wheel.modification]\nlead_slope_um = 3\n"] {
+        let key = if table.contains("pair") { "misalignment" } else { "modification" };
+        says(
+            table,
+            18,
+            &format!(
+                "`{key}` means nothing to the model \"iso\", which takes nominal flanks on parallel axes\n\
+                 hint: leave it out, or use `model = \"reduced\"`"
+            ),
+        );
+    }
+    check(
+        &with("teeth = 30\nhelix", "teeth = 30\npitch_errors_um = [1, 2]\nhelix"),
+        "ale-gear: a.toml:3: `pitch_errors_um` has 2 values, but the gear has 30 teeth\n\
+         hint: give one value a tooth, tooth 0 first\n",
+    );
+}
+
+/// What only the geometry can judge names the gear, what only the file can the file and its line.
+#[test]
+fn micro_geometry_off_the_flank_names_the_range() {
+    let scene = with("model = \"iso\"", "model = \"reduced\"");
+    let off = format!("{scene}[pinion.modification]\ntip_relief_um = 5\ntip_relief_start_diameter_mm = 120\n");
+    let scratch = Scratch::new().file("a.toml", off);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.stderr.starts_with("ale-gear: a.toml: [pinion]: start of tip relief: 120.0000 mm"), "{}", run.stderr);
+    assert!(run.stderr.contains("\nhint: put the start of tip relief between "), "{}", run.stderr);
+    assert_eq!(run.code, Some(2));
+    let grid = format!("{scene}[wheel.modification]\ntopography = \"grid.csv\"\n");
+    let scratch = Scratch::new().file("a.toml", grid).file("grid.csv", "diameter_mm 0 1\n90 0 0\n91 0 zero\n");
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.stderr.starts_with("ale-gear: grid.csv:3: expected a number, found `zero`\nhint: "), "{}", run.stderr);
+    assert_eq!(run.code, Some(2));
+}
+
+#[test]
 fn broken_toml_names_the_line() {
     says(
         "[pair]\nface_width_mm = 1\nface_width_mm = 2\n",

@@ -56,3 +56,23 @@ fn driver_and_rotation_choose_the_flanks() {
         assert_eq!(scene.side(), side, "{driver:?} {rotation:?}");
     }
 }
+
+/// What stands in the table of one flank replaces what stands in that of both, key by key; a start is one key however it is given.
+#[test]
+fn flanks_take_what_both_share_and_what_is_their_own() {
+    let text = format!(
+        "{}[pinion.modification]\nlead_crowning_um = 5\nbias_um = 1\ntip_relief_um = 8\ntip_relief_start_roll_deg = 24\n\
+         [pinion.modification.drive]\nbias_um = -2\ntip_relief_start_diameter_mm = 98\n\
+         [pair.misalignment]\ndeviation_um = 3\n",
+        ISO_SCENE.replace("\"iso\"", "\"reduced\"")
+    );
+    let scene = Scene::parse(&text, Path::new("a.toml")).unwrap();
+    let ground = &scene.pinion.modification;
+    assert_eq!((ground.drive.bias_um, ground.coast.bias_um), (Some(-2.0), Some(1.0)));
+    assert_eq!((ground.drive.lead_crowning_um, ground.coast.lead_crowning_um), (Some(5.0), Some(5.0)));
+    assert_eq!((ground.drive.tip_relief_start_roll_deg, ground.drive.tip_relief_start_diameter_mm), (None, Some(98.0)));
+    assert_eq!((ground.coast.tip_relief_start_roll_deg, ground.coast.tip_relief_start_diameter_mm), (Some(24.0), None));
+    assert!(scene.wheel.modification.is_none());
+    assert_eq!(scene.pair.misalignment.deviation_um, 3.0);
+    assert_eq!(scene, Scene::parse(&scene.to_toml(), Path::new("a.toml")).unwrap());
+}

@@ -94,6 +94,8 @@ const FIRST_COMPLIANCE: f64 = 0.1;
 const COMPLIANCE_DECAY: f64 = 0.1;
 /// Smallest; below it rows of faces with more points than nodes are linearly dependent to round-off.
 const LAST_COMPLIANCE: f64 = 1e-6;
+/// Residual of a proximal step relative to the one before from which on it creeps.
+const SLOW: f64 = 0.5;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 60;
 /// Newton steps on the local compliance of slices before giving up; five or six do.
@@ -156,6 +158,7 @@ pub fn solve(
     let mut before = start.to_vec();
     let mut total = 0;
     let mut relative = FIRST_COMPLIANCE;
+    let mut residual = f64::INFINITY;
     for _ in 0..PROXIMAL_STEPS {
         problem.compliance.fill(relative * own);
         for (i, row) in rows.iter().enumerate() {
@@ -168,11 +171,29 @@ pub fn solve(
         if solution.residual < TOLERANCE {
             return Ok(solution);
         }
-        before.clone_from(&solution.forces);
+        let slow = relative <= LAST_COMPLIANCE && solution.residual > SLOW * residual;
+        let further = if slow { extrapolation(&before, &solution.forces, solution.residual / residual) } else { 0.0 };
+        for (b, f) in before.iter_mut().zip(&solution.forces) {
+            *b = (f + further * (f - *b)).max(0.0);
+        }
+        residual = solution.residual;
         active = settled;
         relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
     Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+}
+
+/// How many steps like the last one proximal continuation may go at once where it creeps.
+///
+/// Where more points press than the faces can tell apart, forces drift from one to the other at a rate that the proximal compliance sets,
+/// until one of them is free. As far as the residual would take to vanish at its `ratio` from step to step (Aitken), and not
+/// past the first force that becomes zero. Any forces are a fair start of the next proximal step.
+fn extrapolation(before: &[f64], now: &[f64], ratio: f64) -> f64 {
+    let to_zero = |(b, f): (&f64, &f64)| if f < b && *f > 0.0 { f / (b - f) } else { f64::INFINITY };
+    let first = before.iter().zip(now).map(to_zero).fold(f64::INFINITY, f64::min);
+    let vanishes = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
+    let steps = first.min(vanishes);
+    if steps.is_finite() { steps } else { 0.0 }
 }
 
 /// Solves the contact of slices: each row has a compliance of its own besides the bodies', not linear in its force.
