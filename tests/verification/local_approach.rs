@@ -11,7 +11,7 @@ mod plane;
 #[path = "support/plane_gear.rs"]
 mod plane_gear;
 
-use contact::{LocalBody, LocalContact, hertz, layer_constant};
+use contact::{EndFace, LocalBody, LocalContact, hertz, layer_constant};
 use geometry::{Gear, GearData};
 use half_section::HalfSection;
 use plane::{Lattice, even, graded, press, under_hertz};
@@ -47,7 +47,7 @@ fn body(gear: &Gear, profile: &LayerProfile, (young, poisson): (f64, f64), x: f6
         tip_angle: profile.tip_angle(),
         tip_gradient: profile.tip_gradient(),
         edge_radius,
-        end_distance: f64::INFINITY,
+        ends: [EndFace::FAR; 2],
     }
 }
 
@@ -95,7 +95,7 @@ fn cylinders_on_layers() {
                 tip_angle: std::f64::consts::PI,
                 tip_gradient: 0.0,
                 edge_radius: 0.0,
-                end_distance: f64::INFINITY,
+                ends: [EndFace::FAR; 2],
             }),
             radius,
             off_line: 0.0,
