@@ -22,31 +22,59 @@ const PAIR_FORCE_N: [[f64; 3]; 8] = [
     [1476.0, 2071.0, 0.0],
 ];
 
+/// hex20 with reduced integration, which bends as it should on coarse meshes.
 fn run(mesh: &str) -> StaticHistory {
-    let case =
-        Case::reference(mesh, ElementOptions { integration: fem::Integration::Reduced, ..ElementOptions::default() });
+    let elements = ElementOptions { integration: fem::Integration::Reduced, ..ElementOptions::default() };
+    let case = Case::reference(mesh, elements);
     let options = case.slice_options();
     case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
 }
 
+/// Prints the run beside the converged values; worst error of STE in per cent.
+fn compare(name: &str, history: &StaticHistory) -> f64 {
+    let mut worst = 0.0f64;
+    for (p, (ste, wanted)) in history.positions.iter().zip(STE_UM.iter().zip(&PAIR_FORCE_N)) {
+        let found: Vec<f64> = p.pairs.iter().map(|q| q.normal_force).collect();
+        let off = 100.0 * (1e3 * p.transmission_error / ste - 1.0);
+        let ste_um = 1e3 * p.transmission_error;
+        println!("{name}, s {:.3}: STE {ste_um:.3} ({ste}) {off:+.2} %, {found:.1?} ({wanted:?}) N", p.mesh_phase);
+        worst = worst.max(off.abs());
+    }
+    worst
+}
+
+/// 6 quadratic elements along the profile: STE within 0.7 % everywhere, mean within 0.5 %, peak to peak within 2 %, pair forces within
+/// 0.5 % of the total.
 #[test]
 fn hex20_reaches_the_converged_values() {
     let history = run("ref_qcoarse_hex20");
+    let worst = compare("hex20", &history);
     let (mean, swing) = summary(history.positions.iter().map(|p| 1e3 * p.transmission_error));
-    println!("mean {mean:.4} (10.77), p-p {swing:.4} (0.96)");
-    for (p, (ste, wanted)) in history.positions.iter().zip(STE_UM.iter().zip(&PAIR_FORCE_N)) {
-        let found: Vec<f64> = p.pairs.iter().map(|q| q.normal_force).collect();
-        println!(
-            "s {:.3}: STE {:.4} ({ste}) {:+.2} %, forces {found:.1?} ({wanted:?}), p {:.0}, L {:.3} ({:.3}), {:?}",
-            p.mesh_phase,
-            1e3 * p.transmission_error,
-            100.0 * (1e3 * p.transmission_error / ste - 1.0),
-            p.max_pressure,
-            p.contact_line_length,
-            p.geometric_line_length,
-            p.certificate
-        );
+    println!("hex20: mean {mean:.4} um (10.77), peak to peak {swing:.4} um (0.96), worst {worst:.2} %");
+    assert!(worst < 0.7, "STE off by {worst} %");
+    assert!((mean / 10.77 - 1.0).abs() < 0.005, "mean STE {mean} um");
+    // 11.18 - 10.21 = 0.97 from the table, 0.96 +- 0.03 as stated.
+    assert!((swing / 0.96 - 1.0).abs() < 0.02, "peak to peak {swing} um");
+    for (p, wanted) in history.positions.iter().zip(&PAIR_FORCE_N) {
+        let total: f64 = p.pairs.iter().map(|q| q.normal_force).sum();
+        for (q, wanted) in p.pairs.iter().zip(wanted) {
+            let off = (q.normal_force - wanted) / total;
+            assert!(
+                off.abs() < 0.005,
+                "s {}: pair {} carries {} N, not {wanted}",
+                p.mesh_phase,
+                q.pair,
+                q.normal_force
+            );
+        }
     }
+}
+
+/// Coarse hex8, 10 elements along the profile: within 3 %.
+#[test]
+fn hex8_comes_near_them() {
+    let worst = compare("hex8", &run("ref_coarse_hex8"));
+    assert!(worst < 3.0, "STE off by {worst} %");
 }
 
 /// All degrees of freedom kept, or reduced: the same slices, the same answer.

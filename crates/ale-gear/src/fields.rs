@@ -128,7 +128,10 @@ impl<'a> GearState<'a> {
             }
             (ElasticGear::Full(f), _) => {
                 let field = f.dofs.to_nodes(boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
-                (field, f.dofs.free_nodes().to_vec(), 0.0, &*PLAIN)
+                (field, f.dofs.free_nodes().to_vec(), 0.0, &f.elements)
+            }
+            (ElasticGear::Grid(_), _) => {
+                return Err(CommandError::failed("a gear reduced to grids has no displacement field", None));
             }
             (ElasticGear::Reduced(_), None) => return Err(CommandError::failed("the window is lost", None)),
         };

@@ -102,7 +102,6 @@ fn position(
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
         pairs.push(PairResult {
-            slices: Vec::new(),
             pair: number,
             pinion_tooth: wrap(line.tooth, scene.pinion.teeth),
             wheel_tooth: wrap(-line.tooth, scene.wheel.teeth),
@@ -110,15 +109,16 @@ fn position(
             max_pressure: pressure(scene, pair, turned, line, normal_force / length),
             contact_line_length: line.length,
             points_in_contact: 1,
+            slices: Vec::new(),
         });
     }
     pairs.sort_by_key(|p| p.pair);
     let transmission_error = base_force / stiffness;
     StaticPosition {
-        friction_work: 0.0,
         pinion_angle,
         mesh_phase: phase,
         transmission_error,
+        kinematic_transmission_error: 0.0, // unmodified flanks
         secant_stiffness: stiffness,
         tangent_stiffness: stiffness,
         contact_line_length: length,
@@ -126,6 +126,8 @@ fn position(
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         pairs,
         wrench,
+        root_stress: Default::default(),
+        friction_work: 0.0,
         strain_energy: 0.5 * base_force * transmission_error,
         tooth_changes: 0, // there is no window that could slide
         certificate: certificate(scene, &wrench),

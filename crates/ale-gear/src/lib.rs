@@ -5,6 +5,7 @@
 //! | [`scene`] | reads and checks what the user wrote |
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
+//! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`command`] | the subcommands |
 
@@ -14,6 +15,7 @@ pub mod facts;
 mod fields;
 pub mod memory;
 pub mod output;
+pub mod pattern;
 pub mod phases;
 pub mod run;
 pub mod scene;

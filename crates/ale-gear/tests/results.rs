@@ -37,7 +37,7 @@ fn history_has_the_documented_columns() {
     let csv = scratch.read("deep/er/o/history.csv");
     assert_eq!(
         csv.lines().next().unwrap(),
-        "time_s,pinion_angle_deg,mesh_phase,ste_um,mesh_stiffness_n_per_um,mesh_stiffness_tangent_n_per_um,\
+        "time_s,pinion_angle_deg,mesh_phase,ste_um,kinematic_te_um,mesh_stiffness_n_per_um,mesh_stiffness_tangent_n_per_um,\
          contact_line_length_mm,geometric_line_length_mm,pairs_in_contact,\
          pinion_force_x_n,pinion_force_y_n,pinion_force_z_n,\
          pinion_moment_x_nmm,pinion_moment_y_nmm,pinion_moment_z_nmm,\

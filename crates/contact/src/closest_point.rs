@@ -71,7 +71,8 @@ pub struct ContactRow {
     pub normal: Vec3,
     /// Surface coordinates on body 1.
     pub coordinates: [f64; 2],
-    /// d gap / d angle of each body about its own z axis, mm; a unit normal force turns the body with just this moment.
+    /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns the body with
+    /// just this moment.
     pub levers: [f64; 2],
     /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no friction.
     pub torque_levers: [f64; 2],
@@ -138,7 +139,11 @@ pub fn contact_row(
     let normal_2 = other.surface().normal(foot.at);
     let gap = match scene.source {
         GapSource::Smooth => foot.distance,
-        GapSource::Facet => (seen - other.facet_point(at)).dot(&normal_2),
+        // Facets are those of the nominal flanks: what is ground off either of them opens the gap.
+        GapSource::Facet => {
+            let ground_off = patch.surface().depth(p.coordinates) + other.surface().depth(foot.at);
+            (seen - other.facet_point(at)).dot(&normal_2) + ground_off
+        }
     };
     let normal = poses[1].rotation * normal_2;
     Some(ContactRow {

@@ -32,7 +32,7 @@ pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, close
 pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
-pub use least_gap::least_gap;
+pub use least_gap::{SurfacePair, least_gap};
 pub use line_length::{contact_intervals, covered};
 pub use local::{EndFace, LocalBody, LocalContact, LocalState, layer_constant, wedge_softening};
 pub use patch::{FacePoint, FlankPatch};

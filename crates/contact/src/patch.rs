@@ -59,7 +59,7 @@ struct Bins {
 
 impl FlankPatch {
     /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` (mm) is how far
-    /// a node may lie from the smooth surface.
+    /// a node may lie from the nominal smooth surface: micro-geometry ([`Surface::depth`]) is in the gaps and not in the mesh.
     ///
     /// # Errors
     /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank.
@@ -84,8 +84,9 @@ impl FlankPatch {
         for &node in &numbers {
             let position = Vec3::from(mesh_nodes[node as usize]);
             let foot = surface.locate(&position).ok_or_else(|| off(node, f64::INFINITY))?;
-            if foot.distance.abs() > tolerance || foot.distance.is_nan() {
-                return Err(off(node, foot.distance));
+            let nominal = foot.distance - surface.depth(foot.at);
+            if nominal.abs() > tolerance || nominal.is_nan() {
+                return Err(off(node, nominal));
             }
             nodes.push(PatchNode { position, at: foot.at, boundary: boundary(node) });
         }
@@ -135,6 +136,12 @@ impl FlankPatch {
             *slot = self.nodes[n as usize].boundary;
         }
         Interpolation { nodes, weights, count }
+    }
+
+    /// Boundary nodes at a face point and their shape functions.
+    pub fn node_weights(&self, at: FacePoint) -> Vec<(u32, f64)> {
+        let i = self.interpolation(at);
+        i.nodes[..i.count].iter().copied().zip(i.weights).collect()
     }
 
     /// Surface coordinates at a face point, interpolated from the nodes'.

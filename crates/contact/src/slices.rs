@@ -32,6 +32,9 @@ const SCAN: usize = 16;
 /// Steps of the bisection on the slope; the bracket shrinks to round-off.
 const STEPS: usize = 60;
 
+/// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
+const BEYOND: f64 = 1e-3;
+
 /// Which end of the feasible part of the profile stops the search for the least gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Place {
@@ -43,7 +46,7 @@ enum Place {
     OtherEnd(f64),
 }
 
-/// The slice at height `z` (mm, both bodies' own frames) standing for `length` mm of contact line, and its gap row; `None` where the
+/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None` where the
 /// flanks do not face each other.
 ///
 /// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip, the
@@ -58,6 +61,14 @@ pub fn slice(
 ) -> Option<(ContactRow, Slice)> {
     let [a, b] = flanks;
     let place = nearest([a.patch, b.patch], [&poses[0], &poses[1]], z)?;
+    let (Place::Inside(u) | Place::OwnEnd(u) | Place::OtherEnd(u)) = place;
+    let faced = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?.at[1];
+    // Gears displaced along their axes face each other on a part of their width only.
+    let [[_, low], [_, high]] = b.patch.range();
+    let slack = BEYOND * (high - low);
+    if faced < low - slack || faced > high + slack {
+        return None;
+    }
     match place {
         Place::Inside(u) | Place::OwnEnd(u) => {
             let foot = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?;
@@ -75,8 +86,8 @@ pub fn slice(
         Place::OtherEnd(_) => {
             // Seen from the other body the same place is its own end.
             let u = b.patch.range()[1][0];
-            let foot = a.patch.surface().locate(&carried([&poses[1], &poses[0]], b.patch, [u, z]))?;
-            let at = [foot.at, [u, z]];
+            let foot = a.patch.surface().locate(&carried([&poses[1], &poses[0]], b.patch, [u, faced]))?;
+            let at = [foot.at, [u, faced]];
             let off = off_line([b.patch, a.patch], [&poses[1], &poses[0]], [at[1], at[0]]);
             let mut row = edge_row([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
             let local = local(flanks, at, off);

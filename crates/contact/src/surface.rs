@@ -7,7 +7,8 @@ use crate::Vec3;
 pub struct Foot {
     /// Surface coordinates of the foot.
     pub at: [f64; 2],
-    /// Signed distance of the point, mm; positive outside the material.
+    /// Signed distance of the point, mm; positive outside the material. Of a surface with [`Surface::depth`]: distance from the
+    /// nominal surface plus the depth at the foot, zero exactly on the surface itself.
     pub distance: f64,
 }
 
@@ -23,7 +24,15 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn curvature(&self, at: [f64; 2]) -> f64;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
+    /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal surface: their
+    /// nodes lie on it and not on this one.
+    fn depth(&self, _at: [f64; 2]) -> f64 {
+        0.0
+    }
 }
+
+/// Half of a usual band of contact, mm.
+const BAND: f64 = 0.1;
 
 /// Surface coordinates of an involute flank are (roll angle, z).
 impl Surface for geometry::Flank {
@@ -45,6 +54,42 @@ impl Surface for geometry::Flank {
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
         geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+}
+
+/// Surface coordinates are those of the nominal flank.
+impl Surface for geometry::ModifiedFlank {
+    fn point(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::ModifiedFlank::point(self, u, z)
+    }
+
+    fn normal(&self, [u, z]: [f64; 2]) -> Vec3 {
+        geometry::ModifiedFlank::normal(self, u, z)
+    }
+
+    fn profile_tangent(&self, [u, z]: [f64; 2]) -> Vec3 {
+        self.tangents(u, z)[0]
+    }
+
+    /// That of the nominal flank and that of the depth, as a band of [`BAND`] either way sees it: where a relief starts with a kink there
+    /// is none to be had at a point.
+    fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
+        let nominal = self.nominal();
+        let arc = nominal.base_radius * u.max(f64::MIN_POSITIVE);
+        let step = BAND / arc;
+        let slope = |u: f64| geometry::ModifiedFlank::depth(self, u, z).by_roll;
+        let added = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
+        let curvature = nominal.curvatures(u)[0];
+        // A hollow is no Hertzian contact; a tenth of the convexity left keeps its band finite.
+        curvature + added.max(-0.9 * curvature)
+    }
+
+    fn locate(&self, p: &Vec3) -> Option<Foot> {
+        geometry::ModifiedFlank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+
+    fn depth(&self, [u, z]: [f64; 2]) -> f64 {
+        geometry::ModifiedFlank::depth(self, u, z).value
     }
 }
 

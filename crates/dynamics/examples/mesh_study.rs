@@ -28,15 +28,19 @@ fn main() {
         .map(|g| GearMesh::from_groups(generate(g, &o).unwrap(), &GroupNames::default(), g.teeth()).unwrap());
     let mut so = StaticOptions::new(150e3, &pair);
     so.slices = slices;
-    if args.len() > 7 {
-        so.method = Method::Nodal;
-    }
     let elements = ElementOptions {
         integration: if reduced { Integration::Reduced } else { Integration::Full },
         ..ElementOptions::default()
     };
     let t = std::time::Instant::now();
     let first = StaticModel::first_teeth(&pair, &so).unwrap();
+    let grid: Option<[usize; 2]> = args.get(7).filter(|a| a.contains('x')).map(|a| {
+        let v: Vec<usize> = a.split('x').map(|x| x.parse().unwrap()).collect();
+        [v[0], v[1]]
+    });
+    if args.len() > 7 && grid.is_none() {
+        so.method = Method::Nodal;
+    }
     let gears = [0, 1].map(|i| {
         let ro = ReductionOptions {
             sides: so.sides(),
@@ -44,9 +48,18 @@ fn main() {
             first: first[i],
             elements,
         };
-        ElasticGear::Reduced(
-            GearReducer::new(meshes[i].clone(), Material::new(2.06e5, 0.3, 7.85e-9).unwrap(), ro).unwrap(),
-        )
+        let mat = Material::new(2.06e5, 0.3, 7.85e-9).unwrap();
+        let g = meshes[i].clone();
+        match grid {
+            Some(c) => {
+                let geo = [&pair.pinion, &pair.wheel][i];
+                let z = g.tooth_count();
+                let teeth_: Vec<u32> = (0..ro.window as u32).map(|k| (ro.first + k) % z).collect();
+                let gr = flank_grids(&g, geo, &teeth_, &so.sides(), c, so.surface_tolerance).unwrap();
+                ElasticGear::Grid(GridReducer::new(g, mat, ro, gr).unwrap())
+            }
+            None => ElasticGear::Reduced(GearReducer::new(g, mat, ro).unwrap()),
+        }
     });
     let mut m = StaticModel::new(pair, gears, so).unwrap();
     let t1 = t.elapsed();

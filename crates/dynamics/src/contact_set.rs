@@ -27,6 +27,8 @@ pub struct ContactSet {
     /// Reduced windows; `None` for full gears.
     windows: Option<[Window; 2]>,
     slices: Option<SliceSet>,
+    /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
+    pitch_errors: [bool; 2],
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -56,7 +58,7 @@ impl ContactSet {
                     p.iter().zip(s).map(|(p, &s)| (p.tooth as u32, s)).collect()
                 };
                 let flanks = [named(&p1, &s1), named(&p2, &s2)];
-                let number = |i: usize, node: u32| boundary_number(&gears[i], [&w1, &w2][i].as_ref(), node);
+                let number = |i: usize, flank, node| boundary_number(&gears[i], [&w1, &w2][i].as_ref(), flank, node);
                 SliceSet::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
             })
             .transpose()?;
@@ -68,7 +70,9 @@ impl ContactSet {
         });
         let trees = [Candidates::new(&p1), Candidates::new(&p2)];
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        Ok(Self { patches: [p1, p2], points, trees, stations, sides: [s1, s2], first: [f1, f2], windows, slices })
+        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
+        Ok(Self { patches, points, trees, stations, sides, first, windows, slices, pitch_errors })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -77,9 +81,10 @@ impl ContactSet {
         let first = window.first_teeth();
         let mut next = Vec::with_capacity(2);
         for i in 0..2 {
-            let ElasticGear::Reduced(gear) = &gears[i] else { return Ok(false) };
-            let w = gear.window(first[i]).map_err(|source| StaticError::Reduction { gear: NAMES[i], source })?;
-            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() {
+            let w = gears[i].window(first[i]).map_err(|source| StaticError::Reduction { gear: NAMES[i], source })?;
+            let Some(w) = w else { return Ok(false) };
+            let other_flanks = w.shift != mine[i].shift && self.pitch_errors[i];
+            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() || other_flanks {
                 return Ok(false);
             }
             next.push(w);
@@ -214,34 +219,24 @@ fn flanks(
 ) -> Result<Flanks, StaticError> {
     let gear = elastic.gear();
     let z = gear.tooth_count();
-    let window = match elastic {
-        ElasticGear::Reduced(r) => {
-            Some(r.window(first).map_err(|source| StaticError::Reduction { gear: name, source })?)
-        }
-        ElasticGear::Full(_) => None,
-    };
+    let window = elastic.window(first).map_err(|source| StaticError::Reduction { gear: name, source })?;
     let teeth: Vec<u32> = match &window {
         Some(w) => w.reduced.teeth.clone(),
         None => (0..count as u32).map(|i| (first + i) % z).collect(),
     };
-    let number = |node: u32| boundary_number(elastic, window.as_ref(), node);
+    // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
+    let shift = window.as_ref().map_or(0, |w| w.shift);
     let (mut patches, mut sides) = (Vec::new(), Vec::new());
     for &tooth in &teeth {
         for side in options.sides() {
-            let faces = gear.flank(tooth, side).ok_or_else(|| StaticError::Reduction {
+            let (nodes, faces) = flank_mesh(elastic, tooth, side).ok_or_else(|| StaticError::Reduction {
                 gear: name,
                 source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
             })?;
-            let surface = Box::new(geometry.flank_of(side, i64::from(tooth)));
-            let patch = FlankPatch::new(
-                i64::from(tooth),
-                surface,
-                &gear.mesh().nodes,
-                faces,
-                number,
-                options.surface_tolerance,
-            )
-            .map_err(|source| StaticError::Surface { gear: name, source })?;
+            let number = |node: u32| boundary_number(elastic, window.as_ref(), (tooth, side), node);
+            let surface = Box::new(geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift)));
+            let patch = FlankPatch::new(i64::from(tooth), surface, nodes, faces, number, options.surface_tolerance)
+                .map_err(|source| StaticError::Surface { gear: name, source })?;
             patches.push(patch);
             sides.push(side);
         }
@@ -250,12 +245,21 @@ fn flanks(
     Ok((patches, sides, first, window))
 }
 
-/// Number of a mesh node among the boundary nodes of a gear.
-fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, node: u32) -> u32 {
+/// Nodes and faces that carry the load of a flank: the mesh's own, or those of the grid over it.
+fn flank_mesh(elastic: &ElasticGear, tooth: u32, side: Side) -> Option<(&[[f64; 3]], &[mesh::Face])> {
+    match elastic {
+        ElasticGear::Grid(g) => g.grid(tooth, side).map(|grid| (&grid.positions[..], &grid.faces[..])),
+        _ => elastic.gear().flank(tooth, side).map(|faces| (&elastic.gear().mesh().nodes[..], faces)),
+    }
+}
+
+/// Number that a node of a flank has among the boundary nodes of a gear.
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, (tooth, side): (u32, Side), node: u32) -> u32 {
     let position = match (window, elastic) {
+        (Some(w), ElasticGear::Grid(g)) => g.first_node(w, tooth, side).map(|first| first + node as usize),
         (Some(w), _) => w.reduced.position(node),
         (None, ElasticGear::Full(f)) => f.dofs.position(node),
-        (None, ElasticGear::Reduced(_)) => None,
+        (None, _) => None,
     };
     position.map_or(u32::MAX, |p| p as u32)
 }

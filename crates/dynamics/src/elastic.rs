@@ -2,7 +2,7 @@
 
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::GearMesh;
-use reduction::{GearReducer, ReductionError};
+use reduction::{GearReducer, GridReducer, ReductionError, Window};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
@@ -37,15 +37,30 @@ impl FullGear {
 pub enum ElasticGear {
     /// Known from its flanks.
     Reduced(GearReducer),
+    /// Known from coarse grids over its flanks.
+    Grid(GridReducer),
     /// All degrees of freedom.
     Full(FullGear),
 }
 
 impl ElasticGear {
+    /// The reduced window whose first tooth is `first`; `None` for a gear with all its degrees of freedom.
+    ///
+    /// # Errors
+    /// [`ReductionError`].
+    pub fn window(&self, first: u32) -> Result<Option<Window>, ReductionError> {
+        match self {
+            Self::Reduced(r) => r.window(first).map(Some),
+            Self::Grid(r) => r.window(first).map(Some),
+            Self::Full(_) => Ok(None),
+        }
+    }
+
     /// The meshed gear.
     pub fn gear(&self) -> &GearMesh {
         match self {
             Self::Reduced(r) => r.gear(),
+            Self::Grid(r) => r.gear(),
             Self::Full(f) => &f.gear,
         }
     }
@@ -54,6 +69,7 @@ impl ElasticGear {
     pub fn material(&self) -> &Material {
         match self {
             Self::Reduced(r) => r.material(),
+            Self::Grid(r) => r.material(),
             Self::Full(f) => &f.material,
         }
     }

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use contact::{ContactError, ContactRow, Pose, Slice, Solution, Vec3, closest_points, complementarity};
+use contact::{ContactError, ContactRow, Pose, Slice, Solution, closest_points, complementarity};
 use geometry::GearPair;
-use nalgebra::{Translation3, UnitQuaternion};
 
-use crate::{StaticError, StaticOptions, friction, parts::Parts};
+use crate::{StaticError, StaticOptions, friction, kinematic::Unloaded, parts::Parts, pose};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -29,8 +28,12 @@ pub struct Equilibrium {
     pub poses: [Pose; 2],
     /// Rotation of the driven gear from the unloaded position, rad, about +z.
     pub rotation: f64,
+    /// The same without load: where the flanks just touch.
+    pub unloaded_rotation: f64,
     /// Transmission error, mm; positive when the driven gear lags.
     pub transmission_error: f64,
+    /// Transmission error without load, mm.
+    pub kinematic_transmission_error: f64,
     /// Candidate points.
     pub rows: Vec<ContactRow>,
     /// The slice of each row; none where points touch.
@@ -73,7 +76,7 @@ impl Station {
 pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2] {
     let Parts { pair, set, window, options, .. } = *parts;
     let theta1 = station.pinion_angle(pair, options);
-    let mut angles = [theta1, pair.wheel_angle(options.side(), theta1)];
+    let mut angles = [theta1, pose::reference_angle(pair, options, theta1)];
     angles[options.driven()] += rotation;
     // Teeth counted from the middle pair of the cycle stand at these angles; the matrices count from their first tooth.
     let first_pair = window.first() - station.middle_pair(options);
@@ -83,13 +86,7 @@ pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2]
         (first_pair - i64::from(f1)).rem_euclid(i64::from(pair.pinion.teeth())) as f64 * pair.pinion.pitch_angle(),
         (-last_pair - i64::from(f2)).rem_euclid(i64::from(pair.wheel.teeth())) as f64 * pair.wheel.pitch_angle(),
     ];
-    let centre = [0.0, pair.centre_distance()];
-    [0, 1].map(|i| {
-        Pose::from_parts(
-            Translation3::new(centre[i], 0.0, 0.0),
-            UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angles[i] + turn[i]),
-        )
-    })
+    [0, 1].map(|i| pose::pose(pair, options, i, angles[i] + turn[i]))
 }
 
 /// Forces by (pair of patches counted by running number, point): what a next solve starts from.
@@ -103,9 +100,14 @@ impl Equilibrium {
             .collect()
     }
 
+    /// Transmission error that is due to load, mm.
+    pub fn elastic_error(&self) -> f64 {
+        self.transmission_error - self.kinematic_transmission_error
+    }
+
     /// Opening of the gaps at the rows' normal approach, largest, mm.
     pub fn approach(&self, pair: &GearPair) -> f64 {
-        self.transmission_error.abs() * pair.base_helix_angle().cos()
+        self.elastic_error().abs() * pair.base_helix_angle().cos()
     }
 }
 
@@ -124,10 +126,14 @@ pub(crate) fn equilibrium(
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let moment = -side.sign() * options.torque;
-    let line = set.line_points(options, &poses(parts, station, 0.0));
+    let unloaded = Unloaded::new(pair, options, station)?;
+    let kinematic = unloaded.transmission_error();
+    let line = set.line_points(options, &poses(parts, station, unloaded.rotation));
     let scene = set.scene(options, &line);
     let force = options.torque / base_radius;
-    let mut rotation = guess.map_or(0.0, |g| g.rotation);
+    // From the flanks' touch on by the deflection of the station before.
+    let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
+    let mut rotation = unloaded.rotation + deflection;
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
     // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
     let facets = if options.gap == contact::GapSource::Facet { options.surface_tolerance } else { 0.0 };
@@ -176,16 +182,19 @@ pub(crate) fn equilibrium(
         rotation += solution.rotation;
         step_mm = (solution.rotation * base_radius).abs();
         let error = side.sign() * base_radius * rotation;
+        let elastic = (error - kinematic).abs();
         // An angle of a few radians resolves no smaller steps.
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
-        if step_mm <= (POSE_TOLERANCE * error.abs()).max(round_off) {
+        if step_mm <= (POSE_TOLERANCE * elastic).max(round_off) {
             let displacements = bodies.displacements(&solution.forces);
             drop(bodies);
             return Ok(Equilibrium {
                 station,
                 poses,
                 rotation,
+                unloaded_rotation: unloaded.rotation,
                 transmission_error: error,
+                kinematic_transmission_error: kinematic,
                 rows,
                 slices,
                 solution,
@@ -196,7 +205,7 @@ pub(crate) fn equilibrium(
         drop(bodies);
         let active = solution.active.iter();
         memory = active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect();
-        reach = facets + (0.25 * error.abs()).max(2.0 * step_mm);
+        reach = facets + (0.25 * elastic).max(2.0 * step_mm);
     }
     Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })
 }

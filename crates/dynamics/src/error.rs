@@ -62,6 +62,16 @@ pub enum StaticError {
         /// Torque, N m.
         torque_nm: f64,
     },
+    /// No flanks face each other.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: without load no flanks touch, wherever the driven gear is turned"
+    )]
+    Apart {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+    },
     /// Tooth window.
     #[error(transparent)]
     Window(#[from] ale::AleError),
@@ -88,6 +98,7 @@ impl StaticError {
                 "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
                 window + 1
             )),
+            Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
             Self::Window(e) => e.hint(),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
         }

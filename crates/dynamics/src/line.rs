@@ -133,14 +133,15 @@ pub(crate) fn outside_gap(parts: &Parts, e: &Equilibrium, running: i64) -> f64 {
     let side = options.side();
     let [f1, f2] = set.first_teeth();
     let last = window.first() + window.count() as i64 - 1;
-    let flank1 = pair.pinion.flank_of(side, i64::from(f1) + running - window.first());
-    let flank2 = pair.wheel.flank_of(side, i64::from(f2) + last - running);
+    // Places count in the matrices' frames, which the poses belong to; pitch errors belong to the gears' own teeth.
+    let flank1 = pair.pinion.modified_flank_at(side, i64::from(f1) + running - window.first(), running);
+    let flank2 = pair.wheel.modified_flank_at(side, i64::from(f2) + last - running, -running);
     let base_radius = pair.pinion.base_radius();
     let [start, end] = pair.path_of_contact();
     let theta1 = e.station.pinion_angle(pair, options);
     let tooth = running - e.station.middle_pair(options);
     let half = 0.5 * pair.face_width();
-    let (w_low, w_high) = (flank2.roll_form, flank2.roll_tip);
+    let (w_low, w_high) = (flank2.nominal().roll_form, flank2.nominal().roll_tip);
     (0..=32)
         .map(|i| {
             let z = half * (f64::from(i) / 16.0 - 1.0);

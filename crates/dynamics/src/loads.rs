@@ -1,7 +1,7 @@
 //! From a solved contact to the quantities of a station.
 
-use contact::{ContactRow, Slice, Vec3, covered, hertz};
-use geometry::GearPair;
+use contact::{ContactRow, Pose, Slice, Vec3, covered, hertz};
+use geometry::Side;
 
 use crate::{
     Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench, friction,
@@ -10,8 +10,8 @@ use crate::{
 };
 
 /// Forces and moments on both gears, about their own centres, common axes.
-pub(crate) fn wrenches(pair: &GearPair, rows: &[ContactRow], forces: &[f64]) -> [Wrench; 2] {
-    let centres = [Vec3::zeros(), Vec3::new(pair.centre_distance(), 0.0, 0.0)];
+pub(crate) fn wrenches(poses: &[Pose; 2], rows: &[ContactRow], forces: &[f64]) -> [Wrench; 2] {
+    let centres = poses.map(|p| p.translation.vector);
     [0, 1].map(|i| {
         let sign = if i == 0 { 1.0 } else { -1.0 };
         let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
@@ -45,7 +45,9 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
     let side = options.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
-    let wrench = wrenches(pair, &e.rows, &e.solution.forces);
+    let wrench = wrenches(&e.poses, &e.rows, &e.solution.forces);
+    // Torque is about the gear's own axis, which may be tilted.
+    let torque = Vec3::from(wrench[driven].moment).dot(&(e.poses[driven].rotation * Vec3::z()));
     let mut pairs: Vec<PairResult> = (0..window.count()).map(|k| pair_result(parts, e, k)).collect();
     // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
     pairs.sort_by_key(|p| p.pair);
@@ -67,21 +69,23 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
         mesh_phase: e.station.phase,
         transmission_error: e.transmission_error,
+        kinematic_transmission_error: e.kinematic_transmission_error,
         secant_stiffness: if options.torque == 0.0 {
             f64::NAN
         } else {
-            options.torque / base_radius / e.transmission_error
+            options.torque / base_radius / e.elastic_error()
         },
         tangent_stiffness: e.solution.stiffness / (base_radius * base_radius),
         contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
         geometric_line_length: pair.contact_line_length(side, theta1),
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
+        root_stress: Default::default(),
         friction_work,
         strain_energy: elastic + local + penalty,
         tooth_changes,
         certificate: Certificate {
-            torque_residual: if moment == 0.0 { 0.0 } else { (wrench[driven].moment[2] / moment - 1.0).abs() },
+            torque_residual: if moment == 0.0 { 0.0 } else { (torque / moment - 1.0).abs() },
             complementarity_residual: e.solution.residual,
             action_reaction_residual: action_reaction(e),
             iterations: e.iterations,
@@ -108,7 +112,7 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
         .iter()
         .zip(e.rows.iter().zip(&e.solution.forces))
         .filter(|(_, (row, f))| **f > 0.0 && mine(row))
-        .map(|(s, (_, &f))| slice_result(s, f))
+        .map(|(s, (row, &f))| slice_result(s, set.side(row.patches.0), f))
         .collect();
     let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
     let max_pressure = if set.slices().is_some() {
@@ -132,11 +136,13 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     }
 }
 
-fn slice_result(slice: &Slice, force: f64) -> SliceResult {
+fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     let line_load = force / slice.length;
     let state = slice.local.under(line_load);
     SliceResult {
         z: slice.z,
+        wheel_z: slice.at[1][1],
+        side,
         roll: [slice.at[0][0], slice.at[1][0]],
         line_load,
         half_width: state.half_width,

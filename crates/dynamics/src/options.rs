@@ -4,6 +4,8 @@ use ale::Sense;
 use contact::{GapSource, Law};
 use geometry::{GearPair, Side};
 
+use crate::Offset;
+
 /// Which gear drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Driver {
@@ -47,8 +49,12 @@ pub struct StaticOptions {
     pub both_flanks: bool,
     /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
     pub window: Option<usize>,
-    /// How far a flank node may lie from the smooth flank, mm.
+    /// Compute stress in the root fillets at every station.
+    pub root_stress: bool,
+    /// How far a flank node may lie from the smooth nominal flank, mm.
     pub surface_tolerance: f64,
+    /// Rigid displacement of pinion and wheel: misalignment.
+    pub offsets: [Offset; 2],
 }
 
 impl StaticOptions {
@@ -66,7 +72,9 @@ impl StaticOptions {
             points_per_face_edge: 6,
             both_flanks: false,
             window: None,
+            root_stress: false,
             surface_tolerance: 0.01 * pair.pinion.data().normal_module,
+            offsets: [Offset::default(); 2],
         }
     }
 

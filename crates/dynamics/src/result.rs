@@ -1,8 +1,11 @@
 //! What a quasi-static analysis hands on, position by position.
 
+use geometry::Side;
 use serde::Serialize;
 
-/// Force and moment of the mesh on one gear, about its own centre, global axes.
+use crate::FilletStress;
+
+/// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Wrench {
     /// Force, N.
@@ -16,6 +19,10 @@ pub struct Wrench {
 pub struct SliceResult {
     /// Height on the pinion, mm.
     pub z: f64,
+    /// Height on the wheel, mm: another one where the wheel is displaced along its axis.
+    pub wheel_z: f64,
+    /// Side of the teeth that touches, the same on both gears.
+    pub side: Side,
     /// Roll angle of the contact on pinion and wheel, rad.
     pub roll: [f64; 2],
     /// Line load, N per mm of contact line.
@@ -24,7 +31,7 @@ pub struct SliceResult {
     pub half_width: f64,
     /// Largest pressure across the band, MPa.
     pub pressure: f64,
-    /// How far off the line of action a tip edge presses, mm; 0 for flank on flank.
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
     pub off_line: f64,
 }
 
@@ -73,7 +80,10 @@ pub struct StaticPosition {
     pub mesh_phase: f64,
     /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
     pub transmission_error: f64,
-    /// F_bt / te, N/mm; NaN without load.
+    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the transmission
+    /// error does, from where the unmodified flanks would touch with the axes parallel through the gears' centres.
+    pub kinematic_transmission_error: f64,
+    /// F_bt / (te - kinematic te), N/mm; NaN without load.
     pub secant_stiffness: f64,
     /// d F_bt / d te, N/mm.
     pub tangent_stiffness: f64,
@@ -87,6 +97,9 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
+    /// asked for.
+    pub root_stress: [Vec<FilletStress>; 2],
     /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
     pub friction_work: f64,
     /// Elastic energy of both gears and the contact, N mm.

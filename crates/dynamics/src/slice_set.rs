@@ -36,7 +36,7 @@ impl SliceSet {
         pair: &GearPair,
         gears: &[ElasticGear; 2],
         flanks: [&[(u32, Side)]; 2],
-        number: impl Fn(usize, u32) -> u32,
+        number: impl Fn(usize, (u32, Side), u32) -> u32,
         options: &StaticOptions,
     ) -> Result<Self, StaticError> {
         let count = options.slices.max(1);
@@ -46,7 +46,7 @@ impl SliceSet {
         let mut halves = [Vec::new(), Vec::new()];
         for (i, of_gear) in halves.iter_mut().enumerate() {
             for &(tooth, side) in flanks[i] {
-                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, node), i)?);
+                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, (tooth, side), node), i)?);
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
@@ -137,14 +137,15 @@ fn half(
     let fail = |source| StaticError::Reduction { gear: ["pinion", "wheel"][which], source };
     let half = match gear {
         ElasticGear::Reduced(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
+        ElasticGear::Grid(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
         ElasticGear::Full(f) => {
             Arc::new(HalfTooth::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
         }
     };
     let material = gear.material();
     let flank = geometry.flank_of(side, i64::from(tooth));
-    let profile = half.layer.clone();
-    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), half.overshoot, profile, 0.0);
+    let (profile, edge_radius) = (half.layer.clone(), geometry.data().tip_edge_radius);
+    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), half.overshoot, profile, edge_radius);
     let boundary = half.nodes.iter().map(|&n| number(n)).collect();
     Ok(Half { layer, tooth: half, boundary })
 }

@@ -4,8 +4,8 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
-    equilibrium::equilibrium, line, loads, parts::Parts,
+    ContactSet, ElasticGear, Equilibrium, FilletStress, StaticError, StaticHistory, StaticOptions, StaticPosition,
+    Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose, root_stress::RootStress,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -27,6 +27,7 @@ pub struct StaticModel {
     options: StaticOptions,
     window: ToothWindow,
     set: ContactSet,
+    root: Option<RootStress>,
     last: Option<Equilibrium>,
     changes: u64,
 }
@@ -66,9 +67,11 @@ impl StaticModel {
         {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
+        pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
-        Ok(Self { pair, gears, options, window, set, last: None, changes: 0 })
+        let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
+        Ok(Self { pair, gears, options, window, set, root, last: None, changes: 0 })
     }
 
     fn parts(&self) -> Parts<'_> {
@@ -112,20 +115,33 @@ impl StaticModel {
     /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
         if self.options.torque == 0.0 {
-            return Ok(self.unloaded(station));
+            let root_stress = self.root_stress(None)?;
+            return Ok(StaticPosition { root_stress, ..self.unloaded(station)? });
         }
         let guess = self.last.take();
         let e = equilibrium(&self.parts(), station, guess.as_ref())?;
-        let result = loads::position(&self.parts(), &e, self.changes);
+        let result = self.position(&e)?;
         let starved = self.starved(&e);
         self.last = Some(e);
         starved.map_or(Ok(result), Err)
     }
 
+    /// Everything the results hold of a solved station.
+    fn position(&self, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
+        let root_stress = self.root_stress(Some(e))?;
+        Ok(StaticPosition { root_stress, ..loads::position(&self.parts(), e, self.changes) })
+    }
+
+    /// Stress in the fillets of both windows, when it is asked for.
+    fn root_stress(&self, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let displacements = e.map(|e| &e.displacements);
+        self.root.as_ref().map_or(Ok(Default::default()), |root| root.of(&self.parts(), displacements))
+    }
+
     /// A pair beside the window that overlaps at the loaded pose.
     fn starved(&self, e: &Equilibrium) -> Option<StaticError> {
         let pairs = self.window.pairs();
-        let least = 1e-3 * e.transmission_error.abs();
+        let least = 1e-3 * e.elastic_error().abs();
         [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
             let gap = line::outside_gap(&self.parts(), e, running);
             (gap < -least).then(|| StaticError::Starved {
@@ -139,8 +155,11 @@ impl StaticModel {
         })
     }
 
-    /// Without torque the flanks just touch along the analytic lines; the unmodified pair has no transmission error.
-    fn unloaded(&self, station: Station) -> StaticPosition {
+    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
+    /// their least gap is.
+    fn unloaded(&self, station: Station) -> Result<StaticPosition, StaticError> {
+        let touch = Unloaded::new(&self.pair, &self.options, station)?;
+        let error = touch.transmission_error();
         let theta1 = station.pinion_angle(&self.pair, &self.options);
         let lines = self.pair.contact_lines(self.options.side(), theta1);
         let middle = station.middle_pair(&self.options);
@@ -148,7 +167,8 @@ impl StaticModel {
             .window
             .pairs()
             .map(|running| {
-                let line = lines.iter().find(|l| l.tooth == running - middle);
+                let nominal = lines.iter().find(|l| l.tooth == running - middle).map_or(0.0, |l| l.length);
+                let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
                 let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
                 crate::PairResult {
                     pair: self.options.sense.sign() * running,
@@ -156,29 +176,31 @@ impl StaticModel {
                     wheel_tooth,
                     normal_force: 0.0,
                     max_pressure: 0.0,
-                    contact_line_length: line.map_or(0.0, |l| l.length),
+                    contact_line_length: length,
                     points_in_contact: 0,
                     slices: Vec::new(),
                 }
             })
             .collect();
         pairs.sort_by_key(|p| p.pair);
-        StaticPosition {
+        Ok(StaticPosition {
             pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
             mesh_phase: station.phase,
-            transmission_error: 0.0,
+            transmission_error: error,
+            kinematic_transmission_error: error,
             secant_stiffness: f64::NAN,
             tangent_stiffness: 0.0,
             contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
             geometric_line_length: lines.iter().map(|l| l.length).sum(),
             pairs,
             wrench: Default::default(),
+            root_stress: Default::default(),
             max_pressure: 0.0,
             friction_work: 0.0,
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),
-        }
+        })
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
@@ -224,7 +246,7 @@ impl StaticModel {
                 Ok(position) => position.clone(),
                 // A pair that comes in early is what the change is for; the outgoing tooth decides.
                 Err(StaticError::Starved { .. }) => match &self.last {
-                    Some(e) => loads::position(&self.parts(), e, self.changes),
+                    Some(e) => self.position(e)?,
                     None => break,
                 },
                 Err(_) => break,

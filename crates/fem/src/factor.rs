@@ -148,8 +148,31 @@ impl BoundaryLastFactor {
             |(mut result, boundary)| {
                 let mut x = Mat::zeros(self.n(), boundary.ncols());
                 x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
-                self.backward(x.as_mut(), interior);
+                self.backward(x.as_mut(), interior, None);
                 self.unpermute(x.as_ref(), result.as_mut());
+            },
+        );
+        Ok(result)
+    }
+
+    /// Rows `wanted` of [`BoundaryLastFactor::expand`], in that order.
+    ///
+    /// Back substitution passes over all branches of the elimination tree that hold none of them: for one region of a gear
+    /// that is most of the factor.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] as for [`BoundaryLastFactor::expand`]; [`FemError::BadDof`] for a degree of freedom that does not exist.
+    pub fn expand_rows(&self, boundary: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
+        let interior = self.ordering.interior;
+        check_rows(self.boundary.len(), boundary.nrows())?;
+        let near = self.near(wanted)?;
+        let mut result = Mat::zeros(wanted.len(), boundary.ncols());
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK)).for_each(
+            |(mut result, boundary)| {
+                let mut x = Mat::zeros(self.n(), boundary.ncols());
+                x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
+                self.backward(x.as_mut(), interior, Some(&near.branches));
+                near.pick(x.as_ref(), result.as_mut());
             },
         );
         Ok(result)
@@ -188,10 +211,59 @@ impl BoundaryLastFactor {
         rhs.par_col_chunks_mut(COLUMN_BLOCK).for_each(|mut rhs| {
             let mut x = self.permute(rhs.as_ref());
             self.forward(x.as_mut(), self.n());
-            self.backward(x.as_mut(), self.n());
+            self.backward(x.as_mut(), self.n(), None);
             self.unpermute(x.as_ref(), rhs.as_mut());
         });
         Ok(())
+    }
+
+    /// Rows `wanted` of K^-1 b, in that order; `rhs`: n x k, b (N).
+    ///
+    /// Forward substitution passes over what meets zeros only, back substitution over branches without a wanted row.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`], [`FemError::BadDof`] as for [`BoundaryLastFactor::expand_rows`].
+    pub fn solve_rows(&self, rhs: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
+        check_rows(self.n(), rhs.nrows())?;
+        let near = self.near(wanted)?;
+        let mut result = Mat::zeros(wanted.len(), rhs.ncols());
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(rhs.par_col_chunks(COLUMN_BLOCK)).for_each(
+            |(mut result, rhs)| {
+                let mut x = self.permute(rhs);
+                self.forward(x.as_mut(), self.n());
+                self.backward(x.as_mut(), self.n(), Some(&near.branches));
+                near.pick(x.as_ref(), result.as_mut());
+            },
+        );
+        Ok(result)
+    }
+
+    /// Where the freedoms `wanted` are, and which supernodes back substitution needs for them: those that hold one, and all
+    /// their ancestors.
+    fn near(&self, wanted: &[usize]) -> Result<Near, FemError> {
+        let mut owner = vec![0; self.n()];
+        let mut needed = Vec::new();
+        for node in self.supernodes() {
+            owner[node.start..node.start + node.columns].fill(node.index);
+            needed.push(false);
+        }
+        let places: Vec<usize> = wanted
+            .iter()
+            .map(|&dof| {
+                let place = self.ordering.inverse.get(dof).copied();
+                place.ok_or(FemError::BadDof { dof, count: self.n() })
+            })
+            .collect::<Result<_, _>>()?;
+        for &place in &places {
+            needed[owner[place]] = true;
+        }
+        for node in self.supernodes() {
+            // The rows below a supernode all belong to ancestors, the first of them to its parent.
+            if let (true, Some(&row)) = (needed[node.index], node.pattern.first()) {
+                needed[owner[row]] = true;
+            }
+        }
+        Ok(Near { places, branches: needed })
     }
 
     /// L_BB as a full lower triangle.
@@ -221,14 +293,35 @@ impl BoundaryLastFactor {
             (0..structure.n_supernodes()).map(move |k| {
                 let node = factor.supernode(k);
                 let values = node.val();
-                Supernode { start: node.start(), columns: values.ncols(), pattern: node.pattern(), values }
+                Supernode { index: k, start: node.start(), columns: values.ncols(), pattern: node.pattern(), values }
             })
         })
     }
 }
 
+/// Some freedoms and the part of the factor that they depend on.
+struct Near {
+    /// Their places in the order of elimination.
+    places: Vec<usize>,
+    /// For each supernode whether back substitution has to go through it.
+    branches: Vec<bool>,
+}
+
+impl Near {
+    /// Their rows of `x` (in the order of elimination) into `result`.
+    fn pick(&self, x: MatRef<'_, f64>, mut result: MatMut<'_, f64>) {
+        for c in 0..x.ncols() {
+            for (i, &place) in self.places.iter().enumerate() {
+                result[(i, c)] = x[(place, c)];
+            }
+        }
+    }
+}
+
 /// A run of columns of L with one structure: a dense lower triangle on top of a dense block.
 struct Supernode<'a> {
+    /// Number in order of elimination.
+    index: usize,
     /// First column.
     start: usize,
     /// Number of columns.

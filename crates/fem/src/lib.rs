@@ -31,5 +31,5 @@ pub use factor::BoundaryLastFactor;
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;
-pub use stress::{StressOperator, max_principal, nodal_stress, von_mises};
+pub use stress::{StressOperator, max_principal, min_principal, nodal_stress, von_mises};
 pub use symmetric::SymmetricMatrix;

@@ -68,8 +68,19 @@ pub fn von_mises(stress: &[f64; 6]) -> f64 {
 
 /// Largest principal stress, MPa (positive in tension).
 pub fn max_principal(stress: &[f64; 6]) -> f64 {
+    principal_range(stress)[1]
+}
+
+/// Smallest principal stress, MPa (negative in compression).
+pub fn min_principal(stress: &[f64; 6]) -> f64 {
+    principal_range(stress)[0]
+}
+
+/// Smallest and largest principal stress, MPa.
+fn principal_range(stress: &[f64; 6]) -> [f64; 2] {
     let [x, y, z, xy, yz, zx] = *stress;
-    nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z).symmetric_eigenvalues().max()
+    let values = nalgebra::Matrix3::new(x, xy, zx, xy, y, yz, zx, yz, z).symmetric_eigenvalues();
+    [values.min(), values.max()]
 }
 
 /// Stress at chosen nodes as a linear map of the free displacements: the stress modes' left factor.
@@ -151,6 +162,40 @@ impl StressOperator {
         self.rows.len()
     }
 
+    /// Degrees of freedom that the stress depends on, ascending, and the same map of these alone.
+    pub fn on_support(&self) -> (Vec<usize>, Self) {
+        let mut free: Vec<usize> = self.rows.iter().flatten().map(|(position, _)| *position).collect();
+        free.sort_unstable();
+        free.dedup();
+        let mut rows = self.rows.clone();
+        for (position, _) in rows.iter_mut().flatten() {
+            *position = free.partition_point(|p| p < position);
+        }
+        let free_count = 3 * free.len();
+        (free.into_iter().flat_map(|p| 3 * p..3 * p + 3).collect(), Self { rows, free_count })
+    }
+
+    /// Rows of the nodes in `range` as columns, n x 6 nodes, MPa/mm: (S')_i, what the adjoint way starts from.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when the range goes past the last node.
+    pub fn transposed(&self, range: std::ops::Range<usize>) -> Result<Mat<f64>, FemError> {
+        let count = self.rows.len();
+        let rows = self.rows.get(range.clone());
+        let rows = rows.ok_or(FemError::Shape { what: "stress nodes", expected: count, found: range.end })?;
+        let mut columns = Mat::zeros(self.free_count, 6 * rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            for (position, block) in row {
+                for k in 0..6 {
+                    for axis in 0..3 {
+                        columns[(3 * position + axis, 6 * i + k)] = block[3 * k + axis];
+                    }
+                }
+            }
+        }
+        Ok(columns)
+    }
+
     /// Stress for one or many columns of free displacements (n x k, mm): 6 x nodes rows, k columns, MPa.
     ///
     /// # Errors
@@ -161,14 +206,16 @@ impl StressOperator {
         }
         let mut result = Mat::zeros(6 * self.rows.len(), displacement.ncols());
         result.as_mut().par_col_chunks_mut(1).zip(displacement.par_col_chunks(1)).for_each(|(mut stress, u)| {
+            let u: Vec<f64> = u.col(0).iter().copied().collect();
             for (i, row) in self.rows.iter().enumerate() {
+                let mut sum = [0.0; 6];
                 for (position, block) in row {
-                    for k in 0..6 {
-                        for axis in 0..3 {
-                            stress[(6 * i + k, 0)] += block[3 * k + axis] * u[(3 * position + axis, 0)];
-                        }
+                    let u = &u[3 * position..3 * position + 3];
+                    for (s, b) in sum.iter_mut().zip(block.chunks_exact(3)) {
+                        *s += b[0] * u[0] + b[1] * u[1] + b[2] * u[2];
                     }
                 }
+                sum.into_iter().enumerate().for_each(|(k, s)| stress[(6 * i + k, 0)] = s);
             }
         });
         Ok(result)

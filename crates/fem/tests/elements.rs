@@ -14,8 +14,9 @@ use mesh::{ElementKind, Mesh};
 
 const STEEL: Material = Material::STEEL;
 
+/// Every element by itself: hex20 without the zero modes of its default integration.
 fn options() -> ElementOptions {
-    ElementOptions::default()
+    ElementOptions { integration: Integration::Full, ..ElementOptions::default() }
 }
 
 /// A linear displacement field without symmetry.

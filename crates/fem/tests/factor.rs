@@ -251,3 +251,28 @@ fn a_constraint_given_twice_is_refused() {
     .unwrap();
     assert!(matches!(IndefiniteFactor::new(&a, &[2, 3]), Err(FemError::Singular { .. })));
 }
+
+/// Passing over branches of the factor changes nothing where the answer is asked for, and not a bit of it.
+#[test]
+fn answers_near_some_freedoms_are_those_of_the_whole() {
+    let (mesh, dofs, k) = clamped(ElementKind::Hex8, [14, 5, 4]);
+    let boundary = top_rows(&mesh, &dofs, 3.7);
+    let factor = BoundaryLastFactor::new(&k, &boundary).unwrap();
+    let wanted: Vec<usize> =
+        nodes_where(&mesh, |x| x[0] > 12.7 && x[2] < 0.3).iter().filter_map(|&n| dofs.dof(n, 1)).collect();
+    assert!(wanted.len() > 5);
+    let given = wavy(boundary.len(), 70);
+    let (all, near) = (factor.expand(given.as_ref()).unwrap(), factor.expand_rows(given.as_ref(), &wanted).unwrap());
+    // A load in one place: most supernodes meet zeros only.
+    let mut force = Mat::<f64>::zeros(k.n(), 3);
+    (0..3).for_each(|j| force[(7 * j + 1, j)] = 1.0);
+    let solved_near = factor.solve_rows(force.as_ref(), &wanted).unwrap();
+    factor.solve(force.as_mut()).unwrap();
+    assert_eq!((near.nrows(), solved_near.nrows()), (wanted.len(), wanted.len()));
+    for (i, &dof) in wanted.iter().enumerate() {
+        assert!((0..70).all(|j| all[(dof, j)] == near[(i, j)]), "row {dof} of the expansion");
+        assert!((0..3).all(|j| force[(dof, j)] == solved_near[(i, j)]), "row {dof} of the solution");
+    }
+    assert!(matches!(factor.expand_rows(given.as_ref(), &[k.n()]), Err(FemError::BadDof { .. })));
+    assert!(matches!(factor.solve_rows(given.as_ref(), &wanted), Err(FemError::Shape { .. })));
+}

@@ -27,6 +27,8 @@ pub struct GearData {
     pub root_radius_coefficient: f64,
     /// Tip diameter, mm; without it d + 2 m_n (h_a + x).
     pub tip_diameter: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius: f64,
     /// Bore diameter, mm.
     pub bore_diameter: f64,
 }
@@ -46,6 +48,7 @@ impl Default for GearData {
             dedendum_coefficient: 1.25,
             root_radius_coefficient: 0.38,
             tip_diameter: None,
+            tip_edge_radius: 0.0,
             bore_diameter: 60.0,
         }
     }

@@ -86,6 +86,34 @@ pub enum GeometryError {
         /// eps_gamma.
         contact_ratio: f64,
     },
+    /// A place along the profile where there is no flank.
+    #[error("{name}: {value:.4} {unit} is not on the flank, which reaches from {low:.4} to {high:.4}")]
+    OffFlank {
+        /// What was to be there.
+        name: &'static str,
+        /// Where it was to be.
+        value: f64,
+        /// Unit of the three values.
+        unit: &'static str,
+        /// Root form circle.
+        low: f64,
+        /// Tip circle.
+        high: f64,
+    },
+    /// A topography that describes another flank.
+    #[error("the topography covers less than half of the flank {direction}")]
+    GridOffFlank {
+        /// `along the profile` or `across the face`.
+        direction: &'static str,
+    },
+    /// A list of pitch errors of another gear.
+    #[error("{given} pitch errors for {teeth} teeth")]
+    PitchErrors {
+        /// Values given.
+        given: usize,
+        /// Teeth of the gear.
+        teeth: u32,
+    },
 }
 
 impl GeometryError {
@@ -110,6 +138,11 @@ impl GeometryError {
             Self::ContactRatio { .. } => {
                 "lower the centre distance, or raise addendum, helix angle or face width".into()
             }
+            Self::OffFlank { name, low, high, .. } => format!("put the {name} between {low:.4} and {high:.4}"),
+            Self::GridOffFlank { .. } => {
+                "rows are diameters (not radii) in mm or roll angles in deg, columns heights in mm from mid-face".into()
+            }
+            Self::PitchErrors { teeth, .. } => format!("give {teeth} values, tooth 0 first"),
         })
     }
 }

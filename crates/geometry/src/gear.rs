@@ -1,9 +1,10 @@
 //! One gear: derived quantities, flanks and section.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use serde::Serialize;
 
+use crate::modification::{Depth, DepthField, FlankSize, GearModifications, ModifiedFlank};
 use crate::{Flank, GearData, GeometryError, Side, TransverseProfile};
 
 /// One external gear with everything ISO 21771 derives from its data.
@@ -11,10 +12,14 @@ use crate::{Flank, GearData, GeometryError, Side, TransverseProfile};
 pub struct Gear {
     data: GearData,
     profile: TransverseProfile,
+    modifications: GearModifications,
+    /// Depths of left and right flanks; `None` where the flank is nominal.
+    #[serde(skip)]
+    fields: [Option<Arc<DepthField>>; 2],
 }
 
 impl Gear {
-    /// A gear from its data.
+    /// A gear without modifications from its data.
     ///
     /// # Errors
     /// [`GeometryError`] when a value has no meaning, the teeth are pointed, the fillet or the bore does not fit.
@@ -44,7 +49,7 @@ impl Gear {
             "above 0, below the dedendum coefficient",
         )?;
         let profile = TransverseProfile::new(&data)?;
-        let gear = Self { data, profile };
+        let gear = Self { data, profile, modifications: GearModifications::default(), fields: [None, None] };
         if 0.5 * gear.data.bore_diameter >= gear.root_radius() {
             return Err(GeometryError::Bore {
                 bore_diameter_mm: gear.data.bore_diameter,
@@ -52,6 +57,82 @@ impl Gear {
             });
         }
         Ok(gear)
+    }
+
+    /// The same gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness) stays
+    /// nominal.
+    ///
+    /// # Errors
+    /// [`GeometryError`] when an amount is no micro-geometry, a relief starts off the flank, a grid misses it, or the
+    /// pitch errors are not one a tooth.
+    pub fn with_modifications(self, modifications: GearModifications) -> Result<Self, GeometryError> {
+        let given = modifications.pitch_errors.len();
+        if given != 0 && given != self.data.teeth as usize {
+            return Err(GeometryError::PitchErrors { given, teeth: self.data.teeth });
+        }
+        for &value in &modifications.pitch_errors {
+            check("pitch error [mm]", value, value.abs() <= 1.0, "-1 mm to 1 mm")?;
+        }
+        let size = FlankSize {
+            roll: [self.profile.roll_form(), self.profile.roll_tip()],
+            half_width: 0.5 * self.data.face_width,
+            base_radius: self.base_radius(),
+        };
+        let mut fields = [None, None];
+        for (field, side) in fields.iter_mut().zip([Side::Left, Side::Right]) {
+            let on_side = modifications.on(side);
+            if !on_side.is_none() {
+                *field = Some(Arc::new(DepthField::new(on_side, size)?));
+            }
+        }
+        Ok(Self { modifications, fields, ..self })
+    }
+
+    /// Micro-geometry.
+    pub fn modifications(&self) -> &GearModifications {
+        &self.modifications
+    }
+
+    /// Whether flanks on `side` are other than nominal.
+    pub fn is_modified(&self, side: Side) -> bool {
+        self.field(side).is_some() || self.modifications.has_pitch_errors()
+    }
+
+    fn field(&self, side: Side) -> &Option<Arc<DepthField>> {
+        match side {
+            Side::Left => &self.fields[0],
+            Side::Right => &self.fields[1],
+        }
+    }
+
+    /// Depth by which the pitch error of `tooth` (any integer) sets its flank on `side` back, mm.
+    ///
+    /// ```text
+    /// h = -s e cos(a_t) cos(b_b)     s = +1 left, -1 right; e arc on the reference circle, counter-clockwise positive
+    /// ```
+    pub fn pitch_depth(&self, side: Side, tooth: i64) -> f64 {
+        let index = tooth.rem_euclid(i64::from(self.data.teeth)) as usize;
+        match self.modifications.pitch_errors.get(index) {
+            None => 0.0,
+            Some(e) => -side.sign() * e * self.transverse_pressure_angle().cos() * self.base_helix_angle().cos(),
+        }
+    }
+
+    /// Depth at roll angle `u` and height `z` (mm) of `tooth` (any integer), pitch error included.
+    pub fn depth(&self, side: Side, tooth: i64, u: f64, z: f64) -> Depth {
+        let mut depth = self.field(side).as_ref().map_or_else(Depth::default, |f| f.at(u, z));
+        depth.value += self.pitch_depth(side, tooth);
+        depth
+    }
+
+    /// The flank of `tooth` (any integer) as it is made.
+    pub fn modified_flank(&self, side: Side, tooth: i64) -> ModifiedFlank {
+        self.modified_flank_at(side, tooth, tooth)
+    }
+
+    /// The flank of `tooth` at the place of tooth `place`: what a frame sees that is turned against the gear by whole pitches.
+    pub fn modified_flank_at(&self, side: Side, place: i64, tooth: i64) -> ModifiedFlank {
+        ModifiedFlank::new(self.flank_of(side, place), self.field(side).clone(), self.pitch_depth(side, tooth))
     }
 
     /// What the gear was made from.

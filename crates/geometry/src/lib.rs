@@ -2,7 +2,7 @@
 //!
 //! External involute gears after ISO 21771: spur and helical, either hand, profile shift, working centre
 //! distance, thinning and backlash, rack-generated root fillet; flanks as exact surfaces; contact lines in the
-//! plane of action. Lengths in mm, angles in rad.
+//! plane of action; micro-geometry. Lengths in mm, angles in rad.
 //!
 //! * A gear's own frame has its axis on +z, mid-face at z = 0 and the centre line of tooth 0 at mid-face on +x.
 //! * Teeth are numbered counter-clockwise seen from +z; the *left* flank is the counter-clockwise side of a tooth.
@@ -13,6 +13,7 @@ mod data;
 mod error;
 mod flank;
 mod gear;
+pub mod modification;
 mod pair;
 mod profile;
 
@@ -21,6 +22,7 @@ pub use data::GearData;
 pub use error::GeometryError;
 pub use flank::{Flank, FlankPoint, Side};
 pub use gear::Gear;
+pub use modification::{FlankModification, GearModifications, ModifiedFlank};
 pub use pair::GearPair;
 pub use profile::TransverseProfile;
 

@@ -171,11 +171,19 @@ impl GearPair {
     ///
     /// s (theta_2 - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
     pub fn wheel_angle(&self, side: Side, pinion_angle: f64) -> f64 {
+        self.wheel_angle_at(side, pinion_angle, [self.centre_distance, 0.0])
+    }
+
+    /// [`Self::wheel_angle`] with the wheel's centre at `centre` (mm, from the pinion's), axes parallel: the formula with the
+    /// distance that is there, both angles counted from the line of centres. NaN where the base circles overlap.
+    pub fn wheel_angle_at(&self, side: Side, pinion_angle: f64, centre: [f64; 2]) -> f64 {
         let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());
         let (s1, s2) = (self.pinion.profile().base_half_angle(), self.wheel.profile().base_half_angle());
-        let (s, a_wt) = (side.sign(), self.working_pressure_angle());
-        let rest = self.tangent_length() - rb1 * (s * pinion_angle + s1 + a_wt) - rb2 * (s2 + a_wt);
-        PI + s * rest / rb2
+        let (distance, turned) = (centre[0].hypot(centre[1]), centre[1].atan2(centre[0]));
+        let (s, a_wt) = (side.sign(), ((rb1 + rb2) / distance).acos());
+        let tangents = distance * a_wt.sin();
+        let rest = tangents - rb1 * (s * (pinion_angle - turned) + s1 + a_wt) - rb2 * (s2 + a_wt);
+        turned + (PI + s * rest / rb2)
     }
 }
 

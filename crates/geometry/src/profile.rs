@@ -49,6 +49,17 @@ impl RackTip {
     }
 }
 
+impl RackTip {
+    /// Angle (rad) of the fillet's tangent at `theta` against the middle of the tooth space: the rack's own,
+    /// atan(cos theta / (cos beta sin theta)), less the gear's turn (x_f - x)/r.
+    fn tangent(&self, theta: f64, reference_radius: f64) -> f64 {
+        let (sin, cos) = theta.sin_cos();
+        let x = (self.centre[0] + self.radius * sin) / self.cos_helix;
+        let touch = -(self.centre[1] - self.radius * cos) * sin * self.cos_helix / cos;
+        cos.atan2(self.cos_helix * sin) - (touch - x) / reference_radius
+    }
+}
+
 impl TransverseProfile {
     /// The section of a gear.
     ///
@@ -183,6 +194,16 @@ impl TransverseProfile {
     pub fn fillet(&self, t: f64) -> (f64, f64) {
         let (r, space) = self.rack.generated(t * self.fillet_end, self.reference_radius);
         (r, self.half_pitch - space)
+    }
+
+    /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; falls from nearly pi/2 at the root land.
+    pub fn fillet_tangent(&self, t: f64) -> f64 {
+        self.rack.tangent(t * self.fillet_end, self.reference_radius) - self.half_pitch
+    }
+
+    /// Where on the fillet, 0 .. 1, the tangent makes `angle` (rad) with the tooth's centre line; 1 when it is steeper everywhere.
+    pub fn fillet_at_tangent(&self, angle: f64) -> f64 {
+        if self.fillet_tangent(1.0) >= angle { 1.0 } else { bisect(0.0, 1.0, |t| self.fillet_tangent(t) - angle) }
     }
 
     /// Angle between the tooth's centre line and the start of the root land, rad; the land ends at pi/z.

@@ -1,5 +1,7 @@
 //! Reference cases and laws of gear geometry.
 
+use std::f64::consts::PI;
+
 use geometry::{Gear, GearData, GearPair, GeometryError, Side, Vec3};
 
 fn pair(z: [u32; 2], m: f64, beta_deg: f64, b: f64, x: [f64; 2], a: Option<f64>) -> GearPair {
@@ -210,4 +212,32 @@ fn impossible_gears_are_refused() {
         GearPair::new(gear(0.3), gear(-0.3), Some(101.0)),
         Err(GeometryError::NoContact { .. } | GeometryError::ContactRatio { .. })
     ));
+}
+
+/// The fillet's tangent is the derivative of its points, from the root land (square to the centre line of the space) to the form
+/// circle, for helical, spur and undercut gears.
+#[test]
+fn fillet_tangent_is_the_derivative_of_the_fillet() {
+    let data = GearData::default();
+    for data in [
+        data.clone(),
+        GearData { helix_angle: 0.0, ..data.clone() },
+        GearData { teeth: 10, helix_angle: 0.0, bore_diameter: 10.0, ..data.clone() },
+        GearData { helix_angle: -0.5, profile_shift: 0.4, ..data },
+    ] {
+        let (z, profile) = (data.teeth, *Gear::new(data).unwrap().profile());
+        let point = |t: f64| {
+            let (r, angle) = profile.fillet(t);
+            [r * angle.cos(), r * angle.sin()]
+        };
+        assert!((profile.fillet_tangent(0.0) - (0.5 * PI - profile.fillet(0.0).1)).abs() < 1e-12);
+        for t in [0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
+            let ([x0, y0], [x1, y1]) = (point(t - 1e-6), point(t + 1e-6));
+            let by_difference = (y0 - y1).atan2(x1 - x0);
+            let angle = profile.fillet_tangent(t);
+            assert!((angle - by_difference).abs() < 1e-6, "z {z}, t = {t}: {angle} rad, not {by_difference}");
+            assert!((profile.fillet_at_tangent(angle) - t).abs() < 1e-9, "z {z}, t = {t}");
+        }
+        assert_eq!(profile.fillet_at_tangent(-1.0), 1.0);
+    }
 }

@@ -14,6 +14,7 @@ pub mod model;
 pub mod msh;
 mod periodic;
 mod quality;
+mod root_fillets;
 mod sector;
 pub mod structured;
 
@@ -28,4 +29,5 @@ pub use info::{GroupInfo, LikelyGear, MeshInfo};
 pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};
 pub use msh::{MshError, MshFormat};
 pub use quality::{element_volume, min_det_j, scaled_jacobian};
+pub use root_fillets::RootFillets;
 pub use structured::{Extent, StructuredError, StructuredOptions, generate};

@@ -19,6 +19,14 @@ pub enum ReductionError {
         /// Teeth of which the mesh has flanks.
         available: Vec<u32>,
     },
+    /// No node of the mesh lies on this fillet.
+    #[error("the mesh has no node on the {} root fillet of tooth {tooth}, between root circle and root form circle", side.name())]
+    MissingFillet {
+        /// Tooth.
+        tooth: u32,
+        /// Side.
+        side: Side,
+    },
     /// Bore and flank meet.
     #[error("node {node} belongs to both the bore and the {} flank of tooth {tooth}", side.name())]
     BoreOnFlank {
@@ -37,6 +45,9 @@ pub enum ReductionError {
         /// Coordinates of the window.
         wanted: usize,
     },
+    /// Stress asked of a gear that only knows means of its flanks' displacements.
+    #[error("a gear reduced to grids over its flanks has no stress modes")]
+    NoStressModes,
     /// A condensed matrix is not positive definite.
     #[error("the compliance of the window from tooth {first} on is not positive definite")]
     NotPositiveDefinite {
@@ -54,8 +65,14 @@ impl ReductionError {
                 "the window slides over {} teeth of the mesh: mesh the whole gear, or run fewer cycles or a narrower window",
                 available.len()
             )),
+            Self::MissingFillet { .. } => Some(
+                "root and tip of the mesh must be those of the gear data (dedendum, root radius, tooth 0 on +x); or leave \
+                 root stress out"
+                    .into(),
+            ),
             Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
             Self::WrongLength { .. } => None,
+            Self::NoStressModes => Some("reduce the gear to its flank nodes".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }
     }

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use faer::Mat;
-use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material};
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
 use geometry::{Gear, Side};
 use mesh::{ElementBlock, GearMesh, Mesh};
 
-use crate::{LayerProfile, ReductionError};
+use crate::{FlankGrid, LayerProfile, ReductionError, grid::grid_compliance};
 
 /// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface is
 /// clamped.
@@ -54,18 +54,11 @@ impl HalfTooth {
         let mut nodes: Vec<u32> = faces.iter().flat_map(|f| f.nodes()).copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let place = Place::new(geometry, tooth, side);
-        let mesh = gear.mesh();
-        let free: Vec<bool> = mesh.nodes.iter().map(|p| place.is_free(p)).collect();
-        let (part, number) = elements_with(mesh, &free);
-        let fixed: Vec<u32> = number.iter().filter(|(n, _)| !free[**n as usize]).map(|(_, &p)| p).collect();
-        let dofs = DofMap::new(part.nodes.len(), &fixed);
-        let stiffness = fem::assemble_stiffness(&part, material, &dofs, elements)?;
-        let local = |node: &u32| number.get(node).and_then(|&p| dofs.position(p));
-        let kept: Vec<usize> = nodes.iter().filter_map(local).flat_map(|p| 3 * p..3 * p + 3).collect();
-        let small = BoundaryLastFactor::new(&stiffness, &kept)?.compliance();
+        let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
+        let kept: Vec<usize> = nodes.iter().filter_map(|n| half.position(*n)).flat_map(|p| 3 * p..3 * p + 3).collect();
+        let small = BoundaryLastFactor::new(&half.stiffness, &kept)?.compliance();
         // Rows of nodes that are clamped (a pointed tip) stay zero.
-        let at: Vec<usize> = (0..nodes.len()).filter(|&i| local(&nodes[i]).is_some()).collect();
+        let at: Vec<usize> = (0..nodes.len()).filter(|&i| half.position(nodes[i]).is_some()).collect();
         let mut compliance = Mat::zeros(3 * nodes.len(), 3 * nodes.len());
         for (b, &j) in at.iter().enumerate() {
             for (a, &i) in at.iter().enumerate() {
@@ -74,10 +67,64 @@ impl HalfTooth {
                 }
             }
         }
+        let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
+        Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
+    }
+
+    /// The same for loads on the nodes of a grid; `nodes` are then the grid's.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fem`].
+    pub fn on_grid(
+        gear: &GearMesh,
+        geometry: &Gear,
+        material: &Material,
+        elements: &ElementOptions,
+        (tooth, side): (u32, Side),
+        grid: &FlankGrid,
+    ) -> Result<Self, ReductionError> {
+        let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
+        let factor = BoundaryLastFactor::new(&half.stiffness, &[])?;
+        let compliance = grid_compliance(&factor, half.dofs.free_count(), &[grid], |n| half.position(n))?;
+        let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
+        let nodes = (0..grid.positions.len() as u32).collect();
+        Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
+    }
+}
+
+/// The free half of a tooth as a structure of its own.
+struct FreeHalf {
+    /// Number of each of its nodes in the part, by number of the mesh.
+    number: BTreeMap<u32, u32>,
+    dofs: DofMap,
+    stiffness: SymmetricMatrix,
+    overshoot: f64,
+}
+
+impl FreeHalf {
+    fn new(
+        gear: &GearMesh,
+        geometry: &Gear,
+        material: &Material,
+        elements: &ElementOptions,
+        tooth: u32,
+        side: Side,
+    ) -> Result<Self, ReductionError> {
+        let place = Place::new(geometry, tooth, side);
+        let mesh = gear.mesh();
+        let free: Vec<bool> = mesh.nodes.iter().map(|p| place.is_free(p)).collect();
+        let (part, number) = elements_with(mesh, &free);
+        let fixed: Vec<u32> = number.iter().filter(|(n, _)| !free[**n as usize]).map(|(_, &p)| p).collect();
+        let dofs = DofMap::new(part.nodes.len(), &fixed);
+        let stiffness = fem::assemble_stiffness(&part, material, &dofs, elements)?;
         let past: Vec<f64> = fixed.iter().filter_map(|&p| place.past_centre(&part.nodes[p as usize])).collect();
         let overshoot = if past.is_empty() { 0.0 } else { past.iter().sum::<f64>() / past.len() as f64 };
-        let layer = LayerProfile::new(geometry, material.poisson(), overshoot)?;
-        Ok(Self { nodes, compliance, overshoot, layer })
+        Ok(Self { number, dofs, stiffness, overshoot })
+    }
+
+    /// Place of a node of the mesh among the free ones.
+    fn position(&self, node: u32) -> Option<usize> {
+        self.dofs.position(*self.number.get(&node)?)
     }
 }
 

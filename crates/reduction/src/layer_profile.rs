@@ -190,7 +190,7 @@ impl Section {
     fn node(&self, row: usize, column: usize) -> usize {
         let whole = self.columns.len();
         let pair = whole + whole.div_ceil(2);
-        row / 2 * pair + if row % 2 == 0 { column } else { whole + column / 2 }
+        row / 2 * pair + if row.is_multiple_of(2) { column } else { whole + column / 2 }
     }
 
     fn point(&self, row: usize, column: usize) -> Vec2 {

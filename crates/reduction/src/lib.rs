@@ -6,20 +6,24 @@
 //! ```text
 //! Phi_IC = -K_II^-1 K_IB,  T = [I; Phi_IC],  K^ = T' K T,  M^ = T' M T,  C = K^^-1
 //! ```
-//! One sparse factorisation a gear, boundary last, gives all of it. Coordinates are three displacements a
+//! One sparse factorisation a gear, boundary last, gives all of it, and stress modes S = D B T with it. Coordinates are three displacements a
 //! boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
 mod error;
+mod grid;
 mod half_tooth;
 mod layer_profile;
 mod plane_strain;
 mod reducer;
+mod stress_modes;
 mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
+pub use grid::{FlankGrid, GridReducer};
 pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;
 pub use reducer::{GearReducer, ReductionOptions};
+pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

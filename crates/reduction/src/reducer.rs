@@ -48,7 +48,7 @@ pub struct GearReducer {
 }
 
 /// How far a node may be from the place of its image for a gear to count as cyclic, relative to its size.
-const CYCLIC_TOLERANCE: f64 = 1e-9;
+pub(crate) const CYCLIC_TOLERANCE: f64 = 1e-9;
 
 impl GearReducer {
     /// Assembles, factors and reduces the first window.
@@ -114,6 +114,11 @@ impl GearReducer {
     /// The factorisation.
     pub fn factor(&self) -> &BoundaryLastFactor {
         &self.factor
+    }
+
+    /// Matrices of the window that was reduced with the factorisation.
+    pub(crate) fn first_window(&self) -> &Arc<ReducedGear> {
+        &self.base
     }
 
     /// Whether the mesh is the same after a turn by one pitch.
@@ -192,13 +197,15 @@ impl GearReducer {
 
     /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.
     pub fn material_nodes(&self, window: &Window) -> Vec<u32> {
-        let mut nodes = window.reduced.nodes.clone();
-        if let Some(turn) = &self.turn {
-            for _ in 0..window.shift {
-                nodes.iter_mut().for_each(|n| *n = turn[*n as usize]);
-            }
+        window.reduced.nodes.iter().map(|&n| self.material_node(window, n)).collect()
+    }
+
+    /// The mesh's own node at the place of `node` of the window's frame: turned on by the window's shift.
+    pub fn material_node(&self, window: &Window, node: u32) -> u32 {
+        match &self.turn {
+            Some(turn) => (0..window.shift).fold(node, |n, _| turn.get(n as usize).copied().unwrap_or(n)),
+            None => node,
         }
-        nodes
     }
 
     /// Displacement (mm) of every node in the gear's own frame when the window's coordinates are `u` and all else is free
@@ -275,7 +282,7 @@ impl GearReducer {
 }
 
 /// Teeth first, first + 1, ... counter-clockwise.
-fn window_teeth(gear: &GearMesh, first: u32, count: usize) -> Vec<u32> {
+pub(crate) fn window_teeth(gear: &GearMesh, first: u32, count: usize) -> Vec<u32> {
     (0..count as u32).map(|i| (first + i) % gear.tooth_count()).collect()
 }
 
@@ -303,6 +310,7 @@ fn boundary_nodes(gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<
     Ok(nodes)
 }
 
-fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
+/// Matrix rows of the nodes' free freedoms, x, y, z of each node in turn.
+pub(crate) fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
     nodes.iter().flat_map(|&n| (0..3).filter_map(move |axis| dofs.dof(n, axis))).collect()
 }

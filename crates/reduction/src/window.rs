@@ -14,7 +14,7 @@ pub struct ReducedGear {
     pub sides: Vec<Side>,
     /// Boundary nodes, numbers of the mesh, ascending; coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
-    /// K^, N/mm, 3 n x 3 n.
+    /// K^, N/mm, 3 n x 3 n; empty for a gear reduced to grids, which may have more nodes than the mesh can tell apart.
     pub stiffness: Mat<f64>,
     /// C = K^^-1, mm/N.
     pub compliance: Mat<f64>,
@@ -31,9 +31,12 @@ impl ReducedGear {
         self.nodes.binary_search(&node).ok()
     }
 
-    /// Strain energy u' K^ u / 2, N mm.
+    /// Strain energy u' K^ u / 2, N mm; NaN where there is no K^.
     pub fn strain_energy(&self, u: &[f64]) -> f64 {
         let k = &self.stiffness;
+        if k.ncols() != u.len() {
+            return f64::NAN;
+        }
         let mut sum = 0.0;
         for j in 0..u.len() {
             let column = k.col(j);

@@ -20,6 +20,18 @@ pub enum StudyError {
         /// What stands there.
         value: f64,
     },
+    /// No grid can be laid over a flank.
+    #[error("no grid of {steps} steps from roll angle {low} to {high} rad at {stations} stations")]
+    NoGrid {
+        /// Where it begins, rad.
+        low: f64,
+        /// Where it ends, rad.
+        high: f64,
+        /// Steps along the profile.
+        steps: usize,
+        /// Axial stations.
+        stations: usize,
+    },
 }
 
 impl StudyError {
@@ -30,6 +42,7 @@ impl StudyError {
                 Some("sample every cycle at the same number of evenly spaced positions".into())
             }
             Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
+            Self::NoGrid { .. } => Some("give a rising, finite range, at least one step and one station".into()),
         }
     }
 }

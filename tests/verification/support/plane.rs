@@ -4,7 +4,7 @@
 //! between the nodes, gap and pressure complementary in the mean with the pressure's own shape functions.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use faer::{Mat, Side as Triangle, linalg::solvers::Solve};
+use faer::{Mat, linalg::solvers::Solve};
 use fem::{BoundaryLastFactor, SymmetricMatrix};
 use mesh::FaceKind;
 
@@ -24,7 +24,7 @@ pub struct Lattice<'a> {
 
 impl Lattice<'_> {
     fn carries(row: usize, column: usize) -> bool {
-        row % 2 == 0 || column % 2 == 0
+        row.is_multiple_of(2) || column.is_multiple_of(2)
     }
 
     /// Compliance (mm^2/N) of the surface nodes in rows `first..=last` along the directions `inward`.

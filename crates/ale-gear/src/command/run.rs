@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
-use crate::output::{ResultDirectory, closing_table, headline, write_history, write_report, write_summary};
+use crate::output::{
+    ResultDirectory, closing_table, headline, write_contact, write_history, write_report, write_summary,
+};
 use crate::phases::Phases;
 use crate::run;
 use crate::scene::{Model, Scene};
@@ -75,14 +77,17 @@ impl RunArgs {
         let Solved { history, facts } = run::solve(&scene, &mut phases, &results)?;
         let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
-        phases.run("write", || results.write("history.csv", write_history(&scene, &history).as_bytes()))?;
+        let picture = phases.run("write", || {
+            results.write("history.csv", write_history(&scene, &history).as_bytes())?;
+            write_contact(&scene, &history, &results)
+        })?;
         let cost = Cost {
             threads: rayon::current_num_threads(),
             wall_s: phases.total_wall_s(),
             peak_memory_mb: phases.peak_memory_mb(),
             phases: phases.rows().to_vec(),
         };
-        let report = write_report(&scene, &history, &facts, &cost, &headline)?;
+        let report = write_report(&scene, &history, &facts, &cost, &headline, picture.as_deref())?;
         results.write("report.html", report.as_bytes())?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;

@@ -142,7 +142,11 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 /// The first entry of the folder that no run of this program writes.
 fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
     let ours = |name: &String| {
-        matches!(name.as_str(), "summary.json" | "history.csv" | "report.html")
+        matches!(name.as_str(), "summary.json" | "history.csv" | "report.html" | "contact_lines.csv")
+            || matches!(
+                name.as_str(),
+                "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
+            )
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };

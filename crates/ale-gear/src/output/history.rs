@@ -5,7 +5,10 @@ use std::fmt::Write;
 
 use dynamics::result::StaticHistory;
 
-use super::pairs;
+use super::{
+    pairs,
+    root_stress::{MAX_PRINCIPAL, MEASURES, Measure, VON_MISES},
+};
 use crate::scene::Scene;
 
 const LEADING: &[&str] = &[
@@ -13,6 +16,7 @@ const LEADING: &[&str] = &[
     "pinion_angle_deg",
     "mesh_phase",
     "ste_um",
+    "kinematic_te_um",
     "mesh_stiffness_n_per_um",
     "mesh_stiffness_tangent_n_per_um",
     "contact_line_length_mm",
@@ -32,6 +36,10 @@ const TRAILING: &[&str] = &[
     "iterations",
 ];
 
+const GEARS: [&str; 2] = ["pinion", "wheel"];
+/// Root stresses that have a column for every pair.
+const BY_PAIR: [Measure; 2] = [MAX_PRINCIPAL, VON_MISES];
+
 /// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits.
 ///
 /// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
@@ -39,11 +47,19 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let columns = pairs::columns(history, pitch);
     let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-    for gear in ["pinion", "wheel"] {
+    for gear in GEARS {
         names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
     }
     names.extend(columns.iter().map(|k| format!("normal_force_pair_{k}_n")));
     names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    if scene.output.root_stress {
+        for gear in GEARS {
+            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
+        }
+        for (gear, k) in GEARS.iter().flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
+            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
+        }
+    }
 
     let mut csv = names.join(",");
     csv.push('\n');
@@ -54,6 +70,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
             p.pinion_angle.to_degrees(),
             p.mesh_phase,
             p.transmission_error * 1e3,
+            p.kinematic_transmission_error * 1e3,
             p.secant_stiffness * 1e-3,
             p.tangent_stiffness * 1e-3,
             p.contact_line_length,
@@ -77,15 +94,27 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
             c.window_edge_load,
             c.iterations as f64,
         ]);
-        for (k, value) in row.into_iter().enumerate() {
-            if k > 0 {
-                csv.push(',');
+        if scene.output.root_stress {
+            row.extend((0..2).flat_map(|gear| MEASURES.map(|m| m.stress(p, gear, None))));
+            for (gear, &k) in (0..2).flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
+                let tooth = pairs::teeth(p, k, pitch).map(|teeth| teeth[gear]);
+                row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
             }
-            push_number(&mut csv, value);
         }
-        csv.push('\n');
+        push_row(&mut csv, row);
     }
     csv
+}
+
+/// One line of numbers with commas between them.
+pub(super) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
+    for (k, value) in row.into_iter().enumerate() {
+        if k > 0 {
+            csv.push(',');
+        }
+        push_number(csv, value);
+    }
+    csv.push('\n');
 }
 
 /// The shortest text that reads back to the same number.

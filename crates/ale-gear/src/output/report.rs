@@ -6,14 +6,14 @@ use dynamics::result::{StaticHistory, StaticPosition};
 use minijinja::{Environment, context, value::Serde};
 
 use super::charts::{Curve, line_chart};
-use super::{Headline, pairs, table::model_name};
+use super::{Headline, pairs, root_stress::MAX_PRINCIPAL, table::model_name};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
 
 const TEMPLATE: &str = include_str!("report.html");
 
-/// The report as HTML, charts inlined as SVG.
+/// The report as HTML, charts inlined as SVG; `pattern` is the picture of the contact pattern, where there is one.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
@@ -23,6 +23,7 @@ pub fn write_report(
     facts: &Facts,
     cost: &Cost,
     headline: &Headline,
+    pattern: Option<&str>,
 ) -> Result<String, CommandError> {
     let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
     let mut environment = Environment::new();
@@ -43,6 +44,7 @@ pub fn write_report(
         facts => Serde(facts),
         cost => Serde(cost),
         charts => charts(scene, history),
+        pattern => pattern,
         warnings => &history.warnings,
     })
     .map_err(failed)
@@ -74,6 +76,18 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
         [curve("under load", &|p| p.contact_line_length), curve("unloaded, analytic", &|p| p.geometric_line_length)];
     let stiffness =
         [curve("secant", &|p| p.secant_stiffness * 1e-3), curve("tangent", &|p| p.tangent_stiffness * 1e-3)];
+    // A pair's bending on either gear: the tension below the loaded flank of its teeth.
+    let bending = |gear: usize| -> Vec<Curve> {
+        let asked = if scene.output.root_stress { pairs::columns(history, pitch) } else { Vec::new() };
+        asked
+            .into_iter()
+            .map(|k| {
+                curve(&format!("pair {k}"), &|p| {
+                    pairs::teeth(p, k, pitch).map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(p, gear, Some(teeth[gear])))
+                })
+            })
+            .collect()
+    };
     let angle = "pinion angle [deg]";
     let ste = [curve("STE", &|p| p.transmission_error * 1e3)];
     [
@@ -82,6 +96,8 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
         line_chart("Total contact-line length", angle, "length [mm]", &length, false),
         line_chart("Mesh stiffness", angle, "stiffness [N/um]", &stiffness, false),
         line_chart("Mesh force on the wheel", angle, "force [N]", &forces, true),
+        line_chart("Largest principal root stress, pinion", angle, "stress [MPa]", &bending(0), true),
+        line_chart("Largest principal root stress, wheel", angle, "stress [MPa]", &bending(1), true),
     ]
     .into_iter()
     .flatten()

@@ -31,6 +31,13 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     line("mean tilting moment on the pinion", format!("{:.0}", h.mean_pinion_tilting_moment_nmm), "N mm");
     line("largest force of one pair", format!("{:.1}", h.max_pair_force_n), "N");
     line("maximum pressure", format!("{:.0}", h.max_pressure_mpa), "MPa");
+    if let Some(root) = &h.root_stress {
+        for (name, gear) in [("pinion", &root.pinion), ("wheel", &root.wheel)] {
+            let at = gear.max_principal;
+            line(&format!("largest root tension, {name}"), format!("{:.1}", at.stress_mpa), &place(&at));
+            line(&format!("largest root von Mises, {name}"), format!("{:.1}", gear.von_mises.stress_mpa), "MPa");
+        }
+    }
     line("tooth changes", h.tooth_changes.to_string(), "");
     line("worst torque residual", format!("{:.1e}", h.worst_torque_residual), "");
     line("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
@@ -47,6 +54,11 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
         let _ = writeln!(all, "\nwarning: {warning}");
     }
     all
+}
+
+/// Unit, tooth and place of a root stress.
+fn place(at: &super::Place) -> String {
+    format!("MPa (tooth {}, {} fillet, r {:.3} mm, z {:.2} mm)", at.tooth, at.side.name(), at.radius_mm, at.z_mm)
 }
 
 fn sum([pinion, wheel]: [usize; 2]) -> String {

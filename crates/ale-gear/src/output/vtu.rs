@@ -1,4 +1,4 @@
-//! `.vtu`: a mesh with fields for ParaView, appended binary data, raw or zlib.
+//! `.vtu`: a mesh or a surface with fields for ParaView, appended binary data, raw or zlib.
 
 use std::io::{self, Write};
 
@@ -54,6 +54,17 @@ fn cell_type(kind: ElementKind) -> u8 {
     }
 }
 
+/// VTK's number of the quadrilateral.
+const QUAD: u8 = 9;
+
+/// Cells as VTK lists them.
+#[derive(Default)]
+struct Cells {
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
+    types: Vec<u8>,
+}
+
 struct Array {
     attributes: String,
     bytes: Vec<u8>,
@@ -82,7 +93,32 @@ pub fn write_vtu(
     cell_fields: &[Field<'_>],
     encoding: Encoding,
 ) -> io::Result<()> {
-    let cells: usize = blocks.iter().map(ElementBlock::len).sum();
+    write_grid(out, nodes, &Cells::of_blocks(blocks), point_fields, cell_fields, encoding)
+}
+
+/// Writes a surface of quads, each with its corners in turn; `nodes` in mm, `point_fields` as in [`write_vtu`].
+///
+/// # Errors
+/// As [`write_vtu`].
+pub fn write_surface(
+    out: &mut impl Write,
+    nodes: &[[f64; 3]],
+    quads: &[[u32; 4]],
+    point_fields: &[Field<'_>],
+    encoding: Encoding,
+) -> io::Result<()> {
+    write_grid(out, nodes, &Cells::of_quads(quads), point_fields, &[], encoding)
+}
+
+fn write_grid(
+    out: &mut impl Write,
+    nodes: &[[f64; 3]],
+    grid: &Cells,
+    point_fields: &[Field<'_>],
+    cell_fields: &[Field<'_>],
+    encoding: Encoding,
+) -> io::Result<()> {
+    let cells = grid.types.len();
     for (fields, count) in [(point_fields, nodes.len()), (cell_fields, cells)] {
         if let Some(f) = fields.iter().find(|f| f.values.len() != count * f.components) {
             let message = format!("field {}: {} values for {count} x {}", f.name, f.values.len(), f.components);
@@ -96,7 +132,7 @@ pub fn write_vtu(
         ("PointData", point_fields.iter().map(field).collect()),
         ("CellData", cell_fields.iter().map(field).collect()),
         ("Points", vec![floats("NumberOfComponents=\"3\"".into(), nodes.iter().flatten().copied())]),
-        ("Cells", cell_arrays(blocks)),
+        ("Cells", grid.arrays()),
     ];
 
     let compressor = match encoding {
@@ -124,26 +160,40 @@ pub fn write_vtu(
     write!(out, "\n</AppendedData>\n</VTKFile>\n")
 }
 
-fn cell_arrays(blocks: &[ElementBlock]) -> Vec<Array> {
-    let mut connectivity = Vec::new();
-    let mut offsets = Vec::new();
-    let mut types = Vec::new();
-    for block in blocks {
-        let order = permutation(block.kind);
-        for element in block.elements() {
-            match order {
-                None => connectivity.extend(element.iter().map(|&n| i64::from(n))),
-                Some(order) => connectivity.extend(order.iter().map(|&k| i64::from(element[k]))),
+impl Cells {
+    fn of_blocks(blocks: &[ElementBlock]) -> Self {
+        let mut cells = Self::default();
+        for block in blocks {
+            let order = permutation(block.kind);
+            for element in block.elements() {
+                match order {
+                    None => cells.push(cell_type(block.kind), element.iter().copied()),
+                    Some(order) => cells.push(cell_type(block.kind), order.iter().map(|&k| element[k])),
+                }
             }
-            offsets.push(connectivity.len() as i64);
-            types.push(cell_type(block.kind));
         }
+        cells
     }
-    vec![
-        integers("connectivity", connectivity.into_iter()),
-        integers("offsets", offsets.into_iter()),
-        Array { attributes: "type=\"UInt8\" Name=\"types\"".into(), bytes: types },
-    ]
+
+    fn of_quads(quads: &[[u32; 4]]) -> Self {
+        let mut cells = Self::default();
+        quads.iter().for_each(|&quad| cells.push(QUAD, quad));
+        cells
+    }
+
+    fn push(&mut self, kind: u8, nodes: impl IntoIterator<Item = u32>) {
+        self.connectivity.extend(nodes.into_iter().map(i64::from));
+        self.offsets.push(self.connectivity.len() as i64);
+        self.types.push(kind);
+    }
+
+    fn arrays(&self) -> Vec<Array> {
+        vec![
+            integers("connectivity", self.connectivity.iter().copied()),
+            integers("offsets", self.offsets.iter().copied()),
+            Array { attributes: "type=\"UInt8\" Name=\"types\"".into(), bytes: self.types.clone() },
+        ]
+    }
 }
 
 /// One array: its header of 64-bit numbers, then its bytes.

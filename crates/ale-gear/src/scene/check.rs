@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use mesh::{GroupNames, StructuredOptions};
 
+use super::micro;
 use super::raw::{
     RawAnalysis, RawContact, RawGear, RawGroups, RawMaterial, RawMesher, RawOperation, RawOutput, RawPair, RawScene,
     Word,
@@ -68,6 +69,7 @@ fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Mat
 }
 
 fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
+    let face_width_mm = s.number("face_width_mm", &raw.face_width_mm, 0.0, 0.01, 1e4)?;
     let number = |key, value, default, low, high| s.number(key, value, default, low, high);
     Ok(PairScene {
         normal_module_mm: number("normal_module_mm", &raw.normal_module_mm, 0.0, 0.01, 200.0)?,
@@ -78,7 +80,7 @@ fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
             5.0,
             40.0,
         )?,
-        face_width_mm: number("face_width_mm", &raw.face_width_mm, 0.0, 0.01, 1e4)?,
+        face_width_mm,
         centre_distance_mm: match raw.centre_distance_mm {
             None => None,
             Some(_) => Some(number("centre_distance_mm", &raw.centre_distance_mm, 0.0, 0.01, 1e5)?),
@@ -86,6 +88,10 @@ fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
         addendum_coefficient: number("addendum_coefficient", &raw.addendum_coefficient, 1.0, 0.1, 2.0)?,
         dedendum_coefficient: number("dedendum_coefficient", &raw.dedendum_coefficient, 1.25, 0.1, 2.5)?,
         root_radius_coefficient: number("root_radius_coefficient", &raw.root_radius_coefficient, 0.38, 0.0, 1.0)?,
+        misalignment: match &raw.misalignment {
+            None => Default::default(),
+            Some(table) => micro::misalignment(s, table.get_ref(), face_width_mm)?,
+        },
     })
 }
 
@@ -102,8 +108,10 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
         Hand::Against(other) => against(s, raw, other)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
     let (mesh, mesher) = mesh_source(s, raw, teeth)?;
+    let (pitch_errors_um, pitch_errors_file) = micro::pitch_errors(s, raw, teeth)?;
     Ok(GearScene {
         teeth,
         helix_angle_deg,
@@ -115,6 +123,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             bore_limit,
         )?,
         profile_shift: s.number("profile_shift", &raw.profile_shift, 0.0, -1.5, 2.0)?,
+        tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,
             Some(_) => {
@@ -128,10 +137,16 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             0.0,
             0.5 * pair.normal_module_mm,
         )?,
+        pitch_errors_um,
+        pitch_errors_file,
         mesh,
         mesher,
         groups: groups(s, &raw.groups)?,
         material: material(s, &raw.material, shared)?,
+        modification: match &raw.modification {
+            None => Default::default(),
+            Some(table) => micro::modification(s, table.get_ref(), pair.face_width_mm)?,
+        },
     })
 }
 
@@ -292,6 +307,8 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
         }
     }
     Ok(OutputScene {
+        root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
+        contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
         vtu: raw.vtu.unwrap_or(false),
         fields,
         vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
@@ -300,6 +317,9 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
 
 /// What can only be judged with the whole scene in view.
 fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if scene.analysis.model == Model::Iso {
+        nominal_flanks(s, raw)?;
+    }
     if let (Some(window), Some(word)) = (scene.analysis.window_teeth, &raw.analysis.window_teeth) {
         let teeth = scene.pinion.teeth.min(scene.wheel.teeth);
         if window > teeth {
@@ -330,12 +350,27 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             advice: "leave it out, or use `method = \"slice\"`".into(),
         });
     }
+    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !crate::pattern::has_slices(scene))
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: "`contact_lines` lists slices, and this scene has none".into(),
+            advice: "leave it out, or use the method \"slice\" and the model \"reduced\" or \"full\"".into(),
+        });
+    }
     if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)
         && scene.contact.friction != 0.0
     {
         return Err(SceneError::Conflict {
             place: s.place(&friction.span()),
             what: "only the model \"reduced\" has friction".into(),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
+    }
+    if let (Some(asked), true, Model::Iso) = (&raw.output.root_stress, scene.output.root_stress, scene.analysis.model) {
+        return Err(SceneError::Conflict {
+            place: s.place(&asked.span()),
+            what: "`root_stress` needs a mesh, and the model \"iso\" has none".into(),
             advice: "leave it out, or use `model = \"reduced\"`".into(),
         });
     }
@@ -347,4 +382,23 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
         });
     }
     Ok(())
+}
+
+/// The model "iso" knows nominal flanks on parallel axes only.
+fn nominal_flanks(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let tables = [("modification", &raw.pinion.modification), ("modification", &raw.wheel.modification)];
+    let tables = tables.into_iter().filter_map(|(key, table)| table.as_ref().map(|t| (key, t.span())));
+    let misaligned = raw.pair.misalignment.iter().map(|t| ("misalignment", t.span()));
+    let lists = [&raw.pinion, &raw.wheel].into_iter().filter_map(|g| g.pitch_errors_um.as_ref());
+    let files = [&raw.pinion, &raw.wheel].into_iter().filter_map(|g| g.pitch_errors_file.as_ref());
+    let lists = lists.map(|l| ("pitch_errors_um", l.span()));
+    let files = files.map(|f| ("pitch_errors_file", f.span()));
+    match tables.chain(misaligned).chain(lists).chain(files).next() {
+        None => Ok(()),
+        Some((key, span)) => Err(SceneError::Conflict {
+            place: s.place(&span),
+            what: format!("`{key}` means nothing to the model \"iso\", which takes nominal flanks on parallel axes"),
+            advice: "leave it out, or use `model = \"reduced\"`".into(),
+        }),
+    }
 }

@@ -7,6 +7,7 @@
 mod check;
 mod error;
 mod keys;
+mod micro;
 mod raw;
 mod source;
 
@@ -18,6 +19,7 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,8 +59,16 @@ pub struct GearScene {
     /// Tip diameter, mm; `None`: from addendum and profile shift.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_diameter_mm: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius_mm: f64,
     /// Thinning of the tooth in the normal section, mm.
     pub thickness_allowance_mm: f64,
+    /// Cumulative pitch deviation of each tooth, um; empty: none, or in a file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pitch_errors_um: Vec<f64>,
+    /// File of them, as written in the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pitch_errors_file: Option<PathBuf>,
     /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<PathBuf>,
@@ -69,6 +79,9 @@ pub struct GearScene {
     pub groups: GroupNames,
     /// What it is made of.
     pub material: Material,
+    /// Micro-geometry of the flanks.
+    #[serde(skip_serializing_if = "ModificationScene::is_none")]
+    pub modification: ModificationScene,
 }
 
 /// Options of the structured mesher.
@@ -119,6 +132,9 @@ pub struct PairScene {
     pub dedendum_coefficient: f64,
     /// Tip radius of the basic rack over the normal module.
     pub root_radius_coefficient: f64,
+    /// Deviation of the axes from each other.
+    #[serde(skip_serializing_if = "MisalignmentScene::is_none")]
+    pub misalignment: MisalignmentScene,
 }
 
 /// Load and motion.
@@ -243,9 +259,13 @@ pub enum Model {
     Full,
 }
 
-/// Which files are written beside `summary.json`, `history.csv` and `report.html`.
+/// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct OutputScene {
+    /// Stress in the root fillets at every position.
+    pub root_stress: bool,
+    /// The contact lines slice by slice.
+    pub contact_lines: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

@@ -43,13 +43,80 @@ pub(super) struct RawGear {
     pub bore_diameter_mm: Number,
     pub profile_shift: Number,
     pub tip_diameter_mm: Number,
+    pub tip_edge_radius_mm: Number,
     pub thickness_allowance_mm: Number,
+    pub pitch_errors_um: Option<Spanned<Vec<Spanned<f64>>>>,
+    pub pitch_errors_file: Word,
     pub mesh: Word,
     pub mesher: Option<Spanned<RawMesher>>,
     #[serde(default)]
     pub groups: RawGroups,
     #[serde(default)]
     pub material: RawMaterial,
+    pub modification: Option<Spanned<RawModification>>,
+}
+
+/// The keys of a flank's modification, once for both tables that they stand in: serde flattens no tables that refuse unknown keys.
+macro_rules! flank_tables {
+    ($($key:ident: $kind:ty,)*) => {
+        /// Keys of both flanks, and the tables of either that replace them.
+        #[derive(Debug, Default, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct RawModification {
+            $(pub $key: $kind,)*
+            #[serde(default)]
+            pub drive: RawFlank,
+            #[serde(default)]
+            pub coast: RawFlank,
+        }
+
+        /// Modification of one flank.
+        #[derive(Debug, Default, Clone, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct RawFlank {
+            $(pub $key: $kind,)*
+        }
+
+        impl RawModification {
+            /// Keys of one flank: its own, and where it has none those of both.
+            pub fn over(&self, own: &RawFlank) -> RawFlank {
+                let mut all = RawFlank { $($key: own.$key.clone().or_else(|| self.$key.clone()),)* };
+                // A start is one thing, whichever way it is given.
+                if own.tip_relief_start_diameter_mm.is_some() || own.tip_relief_start_roll_deg.is_some() {
+                    all.tip_relief_start_diameter_mm = own.tip_relief_start_diameter_mm.clone();
+                    all.tip_relief_start_roll_deg = own.tip_relief_start_roll_deg.clone();
+                }
+                if own.root_relief_start_diameter_mm.is_some() || own.root_relief_start_roll_deg.is_some() {
+                    all.root_relief_start_diameter_mm = own.root_relief_start_diameter_mm.clone();
+                    all.root_relief_start_roll_deg = own.root_relief_start_roll_deg.clone();
+                }
+                all
+            }
+        }
+    };
+}
+
+flank_tables! {
+    tip_relief_um: Number,
+    tip_relief_start_diameter_mm: Number,
+    tip_relief_start_roll_deg: Number,
+    tip_relief_shape: Word,
+    root_relief_um: Number,
+    root_relief_start_diameter_mm: Number,
+    root_relief_start_roll_deg: Number,
+    root_relief_shape: Word,
+    profile_crowning_um: Number,
+    profile_slope_um: Number,
+    lead_crowning_um: Number,
+    lead_slope_um: Number,
+    end_relief_lower_um: Number,
+    end_relief_lower_length_mm: Number,
+    end_relief_upper_um: Number,
+    end_relief_upper_length_mm: Number,
+    end_relief_shape: Word,
+    bias_um: Number,
+    topography: Word,
+    evaluation_start_diameter_mm: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -84,6 +151,16 @@ pub(super) struct RawPair {
     pub addendum_coefficient: Number,
     pub dedendum_coefficient: Number,
     pub root_radius_coefficient: Number,
+    pub misalignment: Option<Spanned<RawMisalignment>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawMisalignment {
+    pub deviation_um: Number,
+    pub inclination_um: Number,
+    pub in_plane_of_action_um: Number,
+    pub across_plane_of_action_um: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -128,6 +205,8 @@ pub(super) struct RawAnalysis {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawOutput {
+    pub root_stress: Option<Spanned<bool>>,
+    pub contact_lines: Option<Spanned<bool>>,
     pub vtu: Option<bool>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,

@@ -28,12 +28,18 @@ impl BoundaryLastFactor {
     /// Eliminates columns 0..`end`: x_top = L_top^-1 x_top, then x_below -= L_below x_top.
     ///
     /// With `end` = n this is L^-1 x; with `end` = interior the boundary rows become f_B - L_BI L_II^-1 f_I.
+    ///
+    /// Supernodes that only meet zeros are passed over: columns with few entries near each other (one fillet's stress, one
+    /// tooth's load) touch their own branch of the elimination tree and nothing else.
     pub(super) fn forward(&self, mut x: MatMut<'_, f64>, end: usize) {
         let width = x.ncols();
         for node in self.supernodes().take_while(|s| s.start < end) {
             let columns = node.columns_before(end);
             let (top, below) = node.values.subcols(0, columns).split_at_row(columns);
             let mut x_top = x.rb_mut().subrows_mut(node.start, columns);
+            if x_top.rb().col_iter().all(|c| c.iter().all(|&v| v == 0.0)) {
+                continue;
+            }
             solve_lower_triangular_in_place(top, x_top.rb_mut(), Par::Seq);
             let mut update = Mat::<f64>::zeros(below.nrows(), width);
             matmul(update.as_mut(), Accum::Replace, below, x_top.rb(), 1.0, Par::Seq);
@@ -47,10 +53,11 @@ impl BoundaryLastFactor {
 
     /// Solves for rows 0..`end` with the rows from `end` on given: x_top = L_top^-T (x_top - L_below' x_below).
     ///
-    /// With `end` = n this is L^-T x.
-    pub(super) fn backward(&self, mut x: MatMut<'_, f64>, end: usize) {
+    /// With `end` = n this is L^-T x. Supernodes that are not in `branches` keep what they hold.
+    pub(super) fn backward(&self, mut x: MatMut<'_, f64>, end: usize, branches: Option<&[bool]>) {
         let width = x.ncols();
-        for node in self.supernodes().rev().skip_while(|s| s.start >= end) {
+        let wanted = |s: &Supernode<'_>| s.start < end && branches.is_none_or(|b| b[s.index]);
+        for node in self.supernodes().rev().filter(wanted) {
             let columns = node.columns_before(end);
             let (top, below) = node.values.subcols(0, columns).split_at_row(columns);
             let mut x_below = Mat::<f64>::zeros(below.nrows(), width);

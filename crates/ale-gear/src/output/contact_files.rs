@@ -1,0 +1,43 @@
+//! The files on contact lines and pattern, which only a run with slices has.
+
+use dynamics::result::StaticHistory;
+
+use super::{ResultDirectory, contact_pattern_svg, write_contact_lines, write_contact_pattern, write_pattern_vtu};
+use crate::error::CommandError;
+use crate::gears;
+use crate::pattern::{has_slices, patterns};
+use crate::scene::Scene;
+
+/// Writes what the scene asks for of the contact; the picture of the pattern comes back for the report.
+///
+/// # Errors
+/// Exit status 1 when the system refuses, or a result is no number.
+pub fn write_contact(
+    scene: &Scene,
+    history: &StaticHistory,
+    results: &ResultDirectory,
+) -> Result<Option<String>, CommandError> {
+    if !has_slices(scene) {
+        return Ok(None);
+    }
+    let pair = gears::pair(scene)?;
+    if scene.output.contact_lines {
+        results.write("contact_lines.csv", write_contact_lines(scene, &pair, history).as_bytes())?;
+    }
+    let patterns = patterns(scene, &pair, history).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    for pattern in &patterns {
+        let file = format!("contact_pattern_{}", pattern.name);
+        results.write(&format!("{file}.csv"), write_contact_pattern(pattern).as_bytes())?;
+        if scene.output.vtu {
+            let file = format!("{file}.vtu");
+            let mut content = Vec::new();
+            write_pattern_vtu(pattern, &mut content).map_err(|e| CommandError::write(&results.path(&file), &e))?;
+            results.write(&file, &content)?;
+        }
+    }
+    let picture = contact_pattern_svg(&patterns);
+    if let Some(svg) = &picture {
+        results.write("contact_pattern.svg", svg.as_bytes())?;
+    }
+    Ok(picture)
+}

@@ -1,0 +1,99 @@
+//! Root stress in the result files: what is the largest, of which tooth, and where.
+
+use dynamics::{
+    FilletStress, ROOT_STRESS_AVERAGING, StressPeak,
+    result::{StaticHistory, StaticPosition},
+};
+use geometry::Side;
+use serde::Serialize;
+
+/// Largest root stresses of a run; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct RootStressHeadline {
+    pub averaging: &'static str,
+    pub pinion: GearRootStress,
+    pub wheel: GearRootStress,
+}
+
+/// Largest root stresses of one gear over all positions.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct GearRootStress {
+    pub max_principal: Place,
+    pub min_principal: Place,
+    pub von_mises: Place,
+}
+
+/// A stress with the place and the position where it is found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct Place {
+    pub stress_mpa: f64,
+    pub tooth: u32,
+    pub side: Side,
+    pub radius_mm: f64,
+    pub z_mm: f64,
+    pub node: u64,
+    pub pinion_angle_deg: f64,
+    pub mesh_phase: f64,
+}
+
+/// A measure of stress in a fillet; the sign says which end of it is the worst.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measure {
+    /// As in column names.
+    pub name: &'static str,
+    sign: f64,
+    peak: fn(&FilletStress) -> &StressPeak,
+}
+
+pub(super) const MAX_PRINCIPAL: Measure = Measure { name: "max_principal", sign: 1.0, peak: |f| &f.max_principal };
+pub(super) const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, peak: |f| &f.min_principal };
+pub(super) const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
+/// In the order of the columns.
+pub(super) const MEASURES: [Measure; 3] = [MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES];
+
+impl Measure {
+    /// The worst of some fillets.
+    fn worst<'a>(&self, fillets: impl Iterator<Item = &'a FilletStress>) -> Option<&'a FilletStress> {
+        let value = |f: &FilletStress| self.sign * (self.peak)(f).stress;
+        fillets.reduce(|best, f| if value(f) > value(best) { f } else { best })
+    }
+
+    /// The worst of one gear's fillets at a position, MPa; of one tooth when it is given. NaN where there is none.
+    pub(super) fn stress(&self, position: &StaticPosition, gear: usize, tooth: Option<u32>) -> f64 {
+        let fillets = position.root_stress[gear].iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
+        self.worst(fillets).map_or(f64::NAN, |f| (self.peak)(f).stress)
+    }
+
+    fn place(&self, history: &StaticHistory, gear: usize) -> Option<Place> {
+        let worst_of = |p: &'_ StaticPosition| self.worst(p.root_stress[gear].iter()).copied();
+        let all = history.positions.iter().filter_map(|p| Some((p, worst_of(p)?)));
+        let value = |f: &FilletStress| self.sign * (self.peak)(f).stress;
+        let (position, fillet) = all.reduce(|best, now| if value(&now.1) > value(&best.1) { now } else { best })?;
+        let peak = (self.peak)(&fillet);
+        Some(Place {
+            stress_mpa: peak.stress,
+            tooth: fillet.tooth,
+            side: fillet.side,
+            radius_mm: peak.radius,
+            z_mm: peak.z,
+            node: peak.node,
+            pinion_angle_deg: position.pinion_angle.to_degrees(),
+            mesh_phase: position.mesh_phase,
+        })
+    }
+}
+
+/// Largest root stresses of a run that computed them.
+pub(super) fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
+    let gear = |i| {
+        Some(GearRootStress {
+            max_principal: MAX_PRINCIPAL.place(history, i)?,
+            min_principal: MIN_PRINCIPAL.place(history, i)?,
+            von_mises: VON_MISES.place(history, i)?,
+        })
+    };
+    Some(RootStressHeadline { averaging: ROOT_STRESS_AVERAGING, pinion: gear(0)?, wheel: gear(1)? })
+}

@@ -1,0 +1,93 @@
+//! The pressure pattern that a run leaves on the driving flank of one tooth of each gear.
+
+use std::f64::consts::PI;
+
+use dynamics::result::{SliceResult, StaticHistory, StaticPosition};
+use geometry::{Flank, GearPair, Side};
+use study::{FlankPattern, StudyError, Touch};
+
+use crate::output::pair_in_cycle;
+use crate::scene::{Method, Model, Scene};
+
+/// Steps of the pattern along the profile: less than the half-width of a usual band each.
+const PROFILE_STEPS: usize = 40;
+
+/// Who was pressed how hard, on one gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearPattern {
+    /// `pinion` or `wheel`.
+    pub name: &'static str,
+    /// The driving flank of tooth 0, nominal: micro-geometry is too small to be seen.
+    pub flank: Flank,
+    /// x of the gear's centre, mm; y and z are 0.
+    pub centre_x: f64,
+    /// Largest pressure and line load over roll angle and height.
+    pub grid: FlankPattern,
+}
+
+impl GearPattern {
+    /// Diameter at roll angle `roll` (rad), mm: d = 2 r_b sqrt(1 + u^2).
+    pub fn diameter(&self, roll: f64) -> f64 {
+        diameter(self.flank.base_radius, roll)
+    }
+
+    /// Largest pressure of all, MPa.
+    pub fn largest_pressure(&self) -> f64 {
+        self.grid.max_pressure().iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// d = 2 r_b sqrt(1 + u^2), mm.
+pub(crate) fn diameter(base_radius: f64, roll: f64) -> f64 {
+    2.0 * base_radius * roll.hypot(1.0)
+}
+
+/// Whether a scene's contact is made of slices, which a pattern needs.
+pub fn has_slices(scene: &Scene) -> bool {
+    scene.analysis.model != Model::Iso && scene.contact.method == Method::Slice
+}
+
+/// Patterns of pinion and wheel.
+///
+/// All pairs of a mesh cycle together are one whole engagement of one tooth: pair k at phase s is where a tooth gets to k + s
+/// cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest values count.
+///
+/// # Errors
+/// [`StudyError`] when the flank has no height, or a result is no number.
+pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<[GearPattern; 2], StudyError> {
+    Ok([pattern(scene, pair, history, 0)?, pattern(scene, pair, history, 1)?])
+}
+
+fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize) -> Result<GearPattern, StudyError> {
+    let side = scene.side();
+    let flank = [&pair.pinion, &pair.wheel][gear].flank(side);
+    let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
+    let mut grid = FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)?;
+    let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
+    let per_cycle = (scene.analysis.positions_per_cycle as usize).max(1);
+    for cycle in history.positions.chunks(per_cycle) {
+        let touches: Vec<Touch> = cycle.iter().flat_map(|p| touches(p, side, gear, pitch)).collect();
+        // One and a half distances of two positions: neighbours are joined, others never.
+        grid.press(&touches, 1.5 / per_cycle as f64)?;
+    }
+    Ok(GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid })
+}
+
+/// Mid-heights of `count` slices over the face width, mm.
+fn stations(width: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect()
+}
+
+/// The loaded slices of a position on `side` as touches of one tooth of a gear.
+fn touches(position: &StaticPosition, side: Side, gear: usize, pitch: f64) -> impl Iterator<Item = Touch> + '_ {
+    position.pairs.iter().flat_map(move |pair| {
+        let engagement = pair_in_cycle(position, pair.pair, pitch) as f64 + position.mesh_phase;
+        pair.slices.iter().filter(move |s| s.side == side).map(move |s: &SliceResult| Touch {
+            z: [s.z, s.wheel_z][gear],
+            engagement,
+            roll: s.roll[gear],
+            pressure: s.pressure,
+            line_load: s.line_load,
+        })
+    })
+}

@@ -1,0 +1,109 @@
+//! Tables of numbers in plain text: what the topography and the pitch files have in common.
+
+use std::path::{Path, PathBuf};
+
+/// A file of measured values that cannot be read or understood.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DataFileError {
+    /// The file cannot be opened or read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// A word that is none of those that may stand there.
+    #[error("{}:{line}: expected {expected}, found `{found}`", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What may stand there.
+        expected: &'static str,
+        /// What does.
+        found: String,
+    },
+    /// A row of another length than the others.
+    #[error("{}:{line}: {found} values in this row, not {wanted}", path.display())]
+    RowLength {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Values found.
+        found: usize,
+        /// Values wanted.
+        wanted: usize,
+    },
+    /// Grid lines out of order.
+    #[error("{}:{line}: {name} must rise from value to value: {before} is followed by {value}", path.display())]
+    Order {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Which axis.
+        name: &'static str,
+        /// The value before.
+        before: f64,
+        /// The value that does not rise.
+        value: f64,
+    },
+    /// Too few values.
+    #[error("{}: {found} {what}, at least {wanted} are needed", path.display())]
+    TooFew {
+        /// The file.
+        path: PathBuf,
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many are needed.
+        wanted: usize,
+    },
+}
+
+impl DataFileError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Read { .. } => "paths are relative to the scene file".into(),
+            Self::Syntax { .. } | Self::RowLength { .. } => {
+                "numbers are separated by commas, semicolons or blanks, with a decimal point; `#` begins a comment"
+                    .into()
+            }
+            Self::Order { .. } => "sort rows by diameter or roll angle and columns by z, both ascending".into(),
+            Self::TooFew { .. } => "is the file complete?".into(),
+        })
+    }
+}
+
+/// The text of a file.
+pub(super) fn text(path: &Path) -> Result<String, DataFileError> {
+    std::fs::read_to_string(path).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
+}
+
+/// Lines with anything on them: number from 1, words.
+///
+/// `#` begins a comment; words are separated by commas, semicolons, tabs or blanks.
+pub(super) fn rows(text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
+    text.trim_start_matches('\u{feff}').lines().enumerate().filter_map(|(i, line)| {
+        let content = line.split('#').next().unwrap_or_default();
+        let words: Vec<&str> =
+            content.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|w| !w.is_empty()).collect();
+        (!words.is_empty()).then_some((i + 1, words))
+    })
+}
+
+/// A finite number.
+pub(super) fn number(path: &Path, line: usize, word: &str) -> Result<f64, DataFileError> {
+    word.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| DataFileError::Syntax {
+        path: path.to_owned(),
+        line,
+        expected: "a number",
+        found: word.to_owned(),
+    })
+}

@@ -1,0 +1,31 @@
+//! Pitch errors from a file.
+
+use std::path::Path;
+
+use super::data_file::{DataFileError, number, rows, text};
+
+/// Reads cumulative pitch deviations, um, tooth 0 first; see [`parse_pitch_errors`].
+///
+/// # Errors
+/// [`DataFileError`] with file and line.
+pub fn read_pitch_errors(path: &Path) -> Result<Vec<f64>, DataFileError> {
+    parse_pitch_errors(&text(path)?, path)
+}
+
+/// Cumulative pitch deviations (um) from plain text, returned in mm: one number a tooth, tooth 0 first, in any number of lines,
+/// separated by commas, semicolons or blanks; `#` begins a comment.
+///
+/// # Errors
+/// [`DataFileError`] with file and line.
+pub fn parse_pitch_errors(text: &str, path: &Path) -> Result<Vec<f64>, DataFileError> {
+    let mut errors = Vec::new();
+    for (line, words) in rows(text) {
+        for word in words {
+            errors.push(1e-3 * number(path, line, word)?);
+        }
+    }
+    if errors.is_empty() {
+        return Err(DataFileError::TooFew { path: path.to_owned(), what: "pitch errors", found: 0, wanted: 1 });
+    }
+    Ok(errors)
+}
