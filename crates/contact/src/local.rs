@@ -1,6 +1,7 @@
 //! Local compliance of a line contact: what the mesh of a gear is too coarse to know.
 
 mod edge;
+mod end_face;
 mod layer;
 
 use std::f64::consts::PI;
@@ -8,6 +9,7 @@ use std::f64::consts::PI;
 use crate::hertz;
 use edge::Edge;
 pub use edge::wedge_softening;
+pub use end_face::EndFace;
 pub use layer::layer_constant;
 
 /// One of the two flanks where they touch.
@@ -31,8 +33,8 @@ pub struct LocalBody {
     pub tip_gradient: f64,
     /// Radius of the arc that rounds the tip edge, tangent to flank and tip land, mm; 0: sharp.
     pub edge_radius: f64,
-    /// Distance to the nearer end face, mm.
-    pub end_distance: f64,
+    /// The two end faces of the gear.
+    pub ends: [EndFace; 2],
 }
 
 /// Line contact of two flanks at one axial station.
@@ -66,10 +68,10 @@ impl LocalContact {
     /// State under a line load q (N/mm), per unit length of contact line.
     ///
     /// ```text
-    /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + eta ln(t / l) + g (l - d)] + (K_1 + K_2) q P
-    /// K_b = 2 (1 - nu^2) / (pi E) [1 + nu^2 / (1 - nu^2) exp(-d_end / t)]
+    /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + E + eta ln(t / l) + g (l - d)] + (K_1 + K_2) q P
+    /// K_b = 2 (1 - nu^2) / (pi E)
     /// ```
-    /// a: half-width after Hertz; c: [`LocalBody::layer`]; eta: [`wedge_softening`]; l: distance between load and tip edge, d where the band
+    /// a: half-width after Hertz; c: [`LocalBody::layer`]; E: softening by the end faces; eta: [`wedge_softening`]; l: distance between load and tip edge, d where the band
     /// is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost where the edge cuts the band off. All continuous with their slopes, from the
     /// middle of the flank to an edge far off the line of action. Without load, all is 0 and the slope is that of a load small enough not
     /// to matter.
@@ -102,6 +104,11 @@ impl LocalContact {
         for ((body, edge), k) in self.bodies.iter().zip(self.edges()).zip(softness) {
             value += k * ((2.0 * body.depth / a).ln() + 0.5 + body.layer);
             growth -= k;
+            for face in &body.ends {
+                let (soft, dsoft) = end_face::softening(face, body.poisson, body.depth, a);
+                value += k * soft;
+                growth += k * dsoft;
+            }
             let eta = edge.softening();
             if eta > 0.0 {
                 let (cut, dcut) = edge.cut_off(a);
@@ -131,10 +138,8 @@ impl LocalContact {
 }
 
 impl LocalBody {
-    /// K of this body, mm^2/N, end faces included.
+    /// K of this body, mm^2/N.
     fn softness(&self) -> f64 {
-        let nu2 = self.poisson * self.poisson;
-        let end = 1.0 + nu2 / (1.0 - nu2) * (-self.end_distance / self.depth).exp();
-        2.0 * (1.0 - nu2) / (PI * self.young) * end
+        2.0 * (1.0 - self.poisson * self.poisson) / (PI * self.young)
     }
 }

@@ -3,7 +3,7 @@
 use geometry::Flank;
 use reduction::LayerProfile;
 
-use crate::LocalBody;
+use crate::{EndFace, LocalBody};
 
 /// The half tooth behind a flank.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,11 @@ impl ToothLayer {
             tip_angle: self.profile.tip_angle(),
             tip_gradient: self.profile.tip_gradient(),
             edge_radius: self.edge_radius,
-            end_distance: (f.half_width - z.abs()).max(0.0),
+            ends: [1.0, -1.0].map(|end| EndFace {
+                distance: (f.half_width - end * z).max(0.0) / f.base_helix_angle.cos(),
+                // The flank's outward normal has -s sin(b_b) along z: it turns away from one face and towards the other.
+                lean: end * f.side.sign() * f.base_helix_angle,
+            }),
         }
     }
 }

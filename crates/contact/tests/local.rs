@@ -1,0 +1,115 @@
+//! Laws of the local compliance of a line contact.
+
+use contact::{EndFace, LocalBody, LocalContact, layer_constant, wedge_softening};
+
+const RADIUS: f64 = 5.0;
+
+/// Two steel teeth, the first one touching `distance` mm from its tip edge (negative: the edge presses past the line of action).
+fn contact(distance: f64, edge_radius: f64) -> LocalContact {
+    let steel = |tip_distance: f64, depth: f64| {
+        let omega = 118f64.to_radians();
+        LocalBody {
+            young: 2.06e5,
+            poisson: 0.3,
+            // As a tooth's: the layer's constant less what the edge adds half a depth away.
+            layer: layer_constant(0.3) - 0.3 * wedge_softening(omega),
+            depth,
+            tip_distance,
+            tip_angle: omega,
+            tip_gradient: 2.0,
+            edge_radius,
+            ends: [EndFace { distance: 0.7, lean: 0.3 }, EndFace { distance: 19.0, lean: -0.3 }],
+        }
+    };
+    LocalContact {
+        bodies: [steel(distance.max(0.0), 1.2 + 0.5 * distance.max(0.0)), steel(4.0, 2.2)],
+        radius: RADIUS,
+        off_line: (-distance).max(0.0),
+    }
+}
+
+/// The slope is the derivative over five decades of load, on the flank, at the edge and past it.
+#[test]
+fn slope_is_derivative_of_approach() {
+    for edge_radius in [0.0, 0.1] {
+        for distance in [-0.5, -0.05, 0.0, 0.05, 0.3, 3.0] {
+            let c = contact(distance, edge_radius);
+            for load in [0.05, 1.0, 10.0, 100.0, 1000.0] {
+                let h = 1e-5 * load;
+                let wanted = (c.under(load + h).approach - c.under(load - h).approach) / (2.0 * h);
+                let slope = c.under(load).slope;
+                assert!(slope > 0.0);
+                assert!(
+                    (slope - wanted).abs() <= 1e-6 * slope,
+                    "F' = {load} N/mm, {distance} mm from the edge: {slope:e}, not {wanted:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Nothing jumps as the contact runs over the edge: approach, and its rate along the flank less the geometric d^2/(2 R) that the least gap
+/// takes over past the edge.
+#[test]
+fn smooth_over_the_edge() {
+    for edge_radius in [0.0, 0.05, 0.3] {
+        for load in [1.0, 50.0, 300.0] {
+            let at = |d: f64| contact(d, edge_radius).under(load).approach;
+            let (mut last, mut rate_before) = (at(-0.6), None::<f64>);
+            let h = 2e-4;
+            for i in 1..=6000 {
+                let d = -0.6 + h * f64::from(i);
+                let now = at(d);
+                let rate = (now - last) / h;
+                if let Some(before) = rate_before {
+                    // 1/R is the change of rate that the change of reference at d = 0 brings; the rest is curvature.
+                    let jump = (rate - before).abs();
+                    assert!(
+                        jump < 1e-3 + 2.0 * h / RADIUS,
+                        "r {edge_radius}, F' {load}, d {d}: rate jumps by {jump:e} from {before:e}"
+                    );
+                }
+                (last, rate_before) = (now, Some(rate));
+            }
+        }
+    }
+}
+
+/// An edge radius of nothing is a sharp edge.
+#[test]
+fn small_radius_is_sharp() {
+    for distance in [-0.2, -0.02, 0.0, 0.04, 0.2] {
+        let [sharp, rounded] = [0.0, 1e-7].map(|r| contact(distance, r).under(100.0).approach);
+        assert!((sharp / rounded - 1.0).abs() < 2e-3, "{distance}: {sharp:e}, {rounded:e}");
+    }
+}
+
+/// Only the ratio of lengths counts: geometry times s and F' times s give the approach times s.
+#[test]
+fn scales_as_elasticity_does() {
+    for distance in [-0.1, 0.05, 2.0] {
+        let (small, s) = (contact(distance, 0.1), 8.0);
+        let mut large = small;
+        large.radius *= s;
+        large.off_line *= s;
+        for b in &mut large.bodies {
+            b.depth *= s;
+            b.tip_distance *= s;
+            b.tip_gradient /= s;
+            b.edge_radius *= s;
+            b.ends.iter_mut().for_each(|e| e.distance *= s);
+        }
+        let (a, b) = (small.under(80.0).approach, large.under(80.0 * s).approach / s);
+        assert!((a / b - 1.0).abs() < 1e-12, "{distance}: {a:e}, {b:e}");
+    }
+}
+
+/// A rounded edge lies behind the sharp corner: the gap is wider near it, the same away from it.
+#[test]
+fn rounding_opens_the_gap() {
+    assert_eq!(contact(1.0, 0.1).edge_opening(), 0.0);
+    assert_eq!(contact(0.0, 0.0).edge_opening(), 0.0);
+    assert!(
+        contact(0.0, 0.1).edge_opening() > 1e-4 && contact(-0.1, 0.1).edge_opening() > contact(0.0, 0.1).edge_opening()
+    );
+}
