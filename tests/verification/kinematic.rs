@@ -141,7 +141,7 @@ fn kinds() -> Vec<(&'static str, FlankModification)> {
 /// 1e-3 um.
 #[test]
 fn kinematic_te_is_the_geometric_one() {
-    for beta in [0.0, 12.0, -20.0] {
+    for beta in [0.0f64, 12.0, -20.0] {
         for (k, (name, rest)) in kinds().into_iter().enumerate() {
             let shape = [ReliefShape::Linear, ReliefShape::Parabolic][(k + beta.abs() as usize / 10) % 2];
             // Pitch errors with the first and the last of them.

@@ -155,6 +155,7 @@ fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
             Method::Nodal => dynamics::Method::Nodal,
         },
         slices: scene.contact.slices.map_or(defaults.slices, |n| n as usize),
+        corner_contact: scene.contact.corner_contact.unwrap_or(defaults.corner_contact),
         friction: scene.contact.friction,
         law: scene.contact.penalty_mpa_per_mm.map_or(Law::Exact, Law::Penalty),
         gap: match scene.contact.gap {

@@ -1,4 +1,5 @@
 //! Two-stage search = brute force; supports carry what they must.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use contact::{
     Candidates, FlankPatch, GapSource, LinePoints, Pose, Scene, Vec3, closest_points, contact_points, contact_row,
@@ -7,6 +8,10 @@ use geometry::{Gear, GearData, GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
 use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;
+use rayon::prelude::*;
+
+mod random;
+use random::Random;
 
 struct Flanks {
     pair: GearPair,
@@ -14,13 +19,17 @@ struct Flanks {
 }
 
 fn flanks(order: u32) -> Flanks {
+    flanks_of(order, [3, 5])
+}
+
+fn flanks_of(order: u32, [profile, face]: [u32; 2]) -> Flanks {
     let data = GearData::default();
     let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
     let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
     let options = StructuredOptions {
         order,
-        elements_profile: 3,
-        elements_face: 5,
+        elements_profile: profile,
+        elements_face: face,
         extent: Extent::Sector(3),
         ..StructuredOptions::default()
     };
@@ -82,6 +91,64 @@ proptest! {
             let twin = found.iter().find(|r| key(r) == key(row));
             prop_assert!(twin == Some(row), "missed {:?} with gap {}", key(row), row.gap);
         }
+    }
+}
+
+/// 10^5 poses, misaligned and with edges and corners at the very limit of reach among them: no contact missed.
+///
+/// Few points on few faces, so that brute force stays affordable; the middle tooth of the pinion against all three of the wheel.
+#[test]
+fn a_hundred_thousand_poses() {
+    const POSES: u64 = 100_000;
+    for order in [1, 2] {
+        let set = flanks_of(order, [2, 2]);
+        let first = &set.patches[0][1..2];
+        let points: Vec<_> = first.iter().map(|p| contact_points(p, 2, GapSource::Smooth)).collect();
+        let trees = [Candidates::new(first), Candidates::new(&set.patches[1])];
+        let line = LinePoints::new();
+        let scene = Scene {
+            first,
+            points: &points,
+            second: &set.patches[1],
+            first_tree: &trees[0],
+            second_tree: &trees[1],
+            source: GapSource::Smooth,
+            line: &line,
+        };
+        let check = |seed: u64| -> (usize, usize) {
+            let mut random = Random::new(seed);
+            let (turn, lag) = (random.between(-0.3, 0.3), random.between(-2e-3, 2e-3));
+            let shift = [0.0; 3].map(|_: f64| random.between(-0.3, 0.3));
+            // Every other pose is misaligned, every tenth by far more than teeth bear.
+            let most = [0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-2][(seed % 10) as usize];
+            let tilt = [0.0; 2].map(|_: f64| random.between(-1.0, 1.0) * most);
+            let poses = poses(&set.pair, turn, lag, shift, tilt);
+            let mut all = Vec::new();
+            for second in 0..set.patches[1].len() {
+                all.extend(
+                    points[0].iter().enumerate().filter_map(|(i, p)| contact_row(&scene, &poses, (0, second), i, p)),
+                );
+            }
+            let mut reach = random.between(0.0, 0.2);
+            if seed.is_multiple_of(3) {
+                // At the very distance of one of the points: a box that is a hair too small would lose it.
+                let near = all.iter().map(|r| r.gap.abs()).filter(|g| *g < 1.0).fold(f64::INFINITY, f64::min);
+                reach = if near.is_finite() { near } else { reach };
+            }
+            all.retain(|r| r.gap.abs() <= reach);
+            let found = closest_points(&scene, &poses, reach);
+            let missed = all.iter().filter(|row| !found.contains(row)).count();
+            assert!(
+                missed == 0,
+                "order {order}, pose {seed}: {missed} of {} contacts missed within {reach} mm",
+                all.len()
+            );
+            (usize::from(!all.is_empty()), all.len())
+        };
+        let count = |a: (usize, usize), b: (usize, usize)| (a.0 + b.0, a.1 + b.1);
+        let (touching, contacts) = (0..POSES / 2).into_par_iter().map(check).reduce(|| (0, 0), count);
+        println!("order {order}: {} poses, {touching} with contacts, {contacts} contacts, none missed", POSES / 2);
+        assert!(touching > 5_000, "only {touching} poses touch");
     }
 }
 

@@ -37,6 +37,9 @@ pub struct StaticOptions {
     pub method: Method,
     /// Slices over the face width.
     pub slices: usize,
+    /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only: slices end where
+    /// the undeflected flanks end, and the transmission error steps whenever a pair comes or goes under load.
+    pub corner_contact: bool,
     /// Coefficient of friction.
     pub friction: f64,
     /// Contact law of points.
@@ -66,6 +69,7 @@ impl StaticOptions {
             torque,
             method: Method::Slice,
             slices: 32,
+            corner_contact: true,
             friction: 0.0,
             law: Law::Exact,
             gap: GapSource::Smooth,

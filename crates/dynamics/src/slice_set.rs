@@ -16,6 +16,8 @@ pub struct SliceSet {
     /// Length of contact line of one slice, mm.
     length: f64,
     halves: [Vec<Half>; 2],
+    /// Whether edges may press off the line of action.
+    corner_contact: bool,
 }
 
 /// The half tooth behind one patch.
@@ -50,7 +52,7 @@ impl SliceSet {
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
-        Ok(Self { stations, length, halves })
+        Ok(Self { stations, length, halves, corner_contact: options.corner_contact })
     }
 
     /// Heights of the stations, mm, ascending.
@@ -77,7 +79,8 @@ impl SliceSet {
             let stations = self.stations.iter().enumerate();
             stations.filter_map(move |(i, &z)| slice(flanks, poses, pair, i, z, self.length))
         };
-        pairs.iter().flat_map(of_pair).filter(|(row, _)| row.gap <= reach).unzip()
+        let may_touch = |s: &Slice| self.corner_contact || s.local.off_line == 0.0;
+        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && may_touch(s)).unzip()
     }
 
     /// X = - sum over both bodies of A W_c A' between rows on the same tooth, mm/N.

@@ -4,8 +4,9 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, FilletStress, StaticError, StaticHistory, StaticOptions, StaticPosition,
-    Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose, root_stress::RootStress,
+    ContactSet, ElasticGear, Equilibrium, FilletStress, Method, StaticError, StaticHistory, StaticOptions,
+    StaticPosition, Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose,
+    root_stress::RootStress,
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -67,6 +68,10 @@ impl StaticModel {
         {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
+        if !options.corner_contact && options.method == Method::Nodal {
+            let expected = "1 (on): points cannot tell an edge from a flank";
+            return Err(StaticError::OutOfRange { name: "corner contact", value: 0.0, expected });
+        }
         pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
@@ -87,6 +92,11 @@ impl StaticModel {
     /// The elastic gears.
     pub fn gears(&self) -> &[ElasticGear; 2] {
         &self.gears
+    }
+
+    /// The gears back, reduced as they are: for a model of the same meshes with another torque or micro-geometry.
+    pub fn into_gears(self) -> [ElasticGear; 2] {
+        self.gears
     }
 
     /// The options.

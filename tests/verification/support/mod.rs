@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use dynamics::{ElasticGear, FullGear, Method, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
-use geometry::{Gear, GearData, GearPair};
+use geometry::{Gear, GearData, GearModifications, GearPair};
 use mesh::{GearMesh, GroupNames, Mesh};
 use reduction::{GearReducer, ReductionOptions};
 
@@ -61,17 +61,21 @@ impl Case {
     }
 
     pub fn reduced(&self, options: StaticOptions) -> StaticModel {
-        let first = StaticModel::first_teeth(&self.pair, &options).unwrap();
-        let gears = [0, 1].map(|i| {
+        let gears = self.reduced_gears(&options);
+        StaticModel::new(self.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    pub fn reduced_gears(&self, options: &StaticOptions) -> [ElasticGear; 2] {
+        let first = StaticModel::first_teeth(&self.pair, options).unwrap();
+        [0, 1].map(|i| {
             let o = ReductionOptions {
                 sides: options.sides(),
-                window: StaticModel::window_teeth(&self.pair, &options),
+                window: StaticModel::window_teeth(&self.pair, options),
                 first: first[i],
                 elements: self.elements,
             };
             ElasticGear::Reduced(GearReducer::new(self.meshes[i].clone(), steel(), o).unwrap())
-        });
-        StaticModel::new(self.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"))
+        })
     }
 
     pub fn full(&self, options: StaticOptions) -> StaticModel {
@@ -111,6 +115,46 @@ pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
         GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
     });
     Case { pair, meshes, elements: ElementOptions::default(), torque: 150e3 }
+}
+
+/// Any pair on quadratic meshes of the built-in mesher; `wheel` bears its own helix angle, `counts` as in [`generated`].
+pub fn quadratic(
+    [pinion, wheel]: [GearData; 2],
+    centre_distance: Option<f64>,
+    torque: f64,
+    counts: [u32; 5],
+    extent: mesh::Extent,
+) -> Case {
+    let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), centre_distance).unwrap();
+    let [profile, fillet, thickness, face, rim] = counts;
+    let options = mesh::StructuredOptions {
+        order: 2,
+        elements_profile: profile,
+        elements_fillet: fillet,
+        elements_thickness: thickness,
+        elements_face: face,
+        elements_rim: rim,
+        extent,
+    };
+    let meshes = [&pair.pinion, &pair.wheel].map(|gear| {
+        let mesh = mesh::generate(gear, &options).unwrap_or_else(|e| panic!("{e}"));
+        GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
+    });
+    Case { pair, meshes, elements: ElementOptions::default(), torque }
+}
+
+/// The default pair at another helix angle, degrees.
+pub fn default_data(beta_deg: f64) -> [GearData; 2] {
+    let data = GearData { helix_angle: beta_deg.to_radians(), ..GearData::default() };
+    [data.clone(), GearData { helix_angle: -data.helix_angle, ..data }]
+}
+
+/// The same pair with micro-geometry.
+pub fn modified(pair: &GearPair, modifications: [GearModifications; 2]) -> GearPair {
+    let [a, b] = modifications;
+    let pinion = pair.pinion.clone().with_modifications(a).unwrap();
+    let wheel = pair.wheel.clone().with_modifications(b).unwrap();
+    GearPair::new(pinion, wheel, Some(pair.centre_distance())).unwrap()
 }
 
 /// The same mesh, larger.

@@ -246,6 +246,7 @@ fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
     Ok(ContactScene {
         method,
         slices: sliced.then_some(slices),
+        corner_contact: sliced.then_some(raw.corner_contact.as_ref().is_none_or(|c| *c.get_ref())),
         friction: s.number("friction", &raw.friction, 0.0, 0.0, 1.0)?,
         penalty_mpa_per_mm: match raw.penalty_mpa_per_mm {
             None => None,
@@ -356,6 +357,15 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             place: s.place(&word.span()),
             what: "`contact_lines` lists slices, and this scene has none".into(),
             advice: "leave it out, or use the method \"slice\" and the model \"reduced\" or \"full\"".into(),
+        });
+    }
+    if let (Method::Nodal, Some(corner)) = (scene.contact.method, &raw.contact.corner_contact) {
+        return Err(SceneError::Conflict {
+            place: s.place(&corner.span()),
+            what:
+                "`corner_contact` means nothing to the method \"nodal\", whose points press wherever the flanks touch"
+                    .into(),
+            advice: "leave it out, or use `method = \"slice\"`".into(),
         });
     }
     if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)

@@ -50,7 +50,19 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
     ),
     ("material", &["young_mpa", "poisson", "density_kg_m3"]),
     ("operation", &["driver", "rotation", "torque_nm", "speed_rpm"]),
-    ("contact", &["method", "slices", "penalty_mpa_per_mm", "gap", "points_per_face_edge", "flanks", "friction"]),
+    (
+        "contact",
+        &[
+            "method",
+            "slices",
+            "penalty_mpa_per_mm",
+            "gap",
+            "points_per_face_edge",
+            "flanks",
+            "friction",
+            "corner_contact",
+        ],
+    ),
     ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
     ("output", &["contact_lines", "root_stress", "vtu", "fields", "vtu_every"]),
     (

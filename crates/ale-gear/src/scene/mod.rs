@@ -178,6 +178,9 @@ pub struct ContactScene {
     /// Slices over the face width; `None` for the method nodal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slices: Option<u32>,
+    /// Whether tip edges may press off the line of action; `None` for the method nodal, where they always may.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_contact: Option<bool>,
     /// Coefficient of friction.
     pub friction: f64,
     /// Pressure a mm of penetration, MPa/mm; `None`: exact complementarity.

@@ -190,6 +190,7 @@ pub(super) struct RawContact {
     pub points_per_face_edge: Whole,
     pub flanks: Word,
     pub friction: Number,
+    pub corner_contact: Option<toml::Spanned<bool>>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -1,0 +1,90 @@
+//! Any total contact ratio: from a spur pair with 1.2 to one with more than 5, the window sized by the program.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+mod support;
+
+use std::time::Instant;
+
+use dynamics::StaticModel;
+use geometry::GearData;
+use mesh::Extent;
+use support::{Case, quadratic};
+
+/// A spur pair of stubbed teeth.
+fn low() -> Case {
+    let data = GearData {
+        teeth: 18,
+        helix_angle: 0.0,
+        addendum_coefficient: 0.75,
+        face_width: 20.0,
+        bore_diameter: 30.0,
+        ..GearData::default()
+    };
+    quadratic([data.clone(), data], None, 60e3, [2, 2, 2, 3, 1], Extent::Whole)
+}
+
+/// The pair of seed 003: z 86/82, m_n 1.5057, alpha_n 15 deg, beta 30.25 deg; `face` mm wide.
+fn seed_003(face: f64, torque: f64) -> Case {
+    let data = GearData {
+        teeth: 86,
+        normal_module: 1.5057,
+        normal_pressure_angle: 15f64.to_radians(),
+        helix_angle: 30.25f64.to_radians(),
+        face_width: face,
+        thickness_allowance: 0.02,
+        bore_diameter: 110.0,
+        ..GearData::default()
+    };
+    let wheel = GearData { teeth: 82, helix_angle: -data.helix_angle, bore_diameter: 105.0, ..data.clone() };
+    quadratic([data, wheel], None, torque, [2, 2, 2, 4, 1], Extent::Whole)
+}
+
+/// Runs three mesh cycles; every one like the first, steps of STE bounded.
+fn runs(name: &str, case: &Case, positions: usize) {
+    let eps = case.pair.total_contact_ratio();
+    let started = Instant::now();
+    let mut model = case.reduced(case.slice_options());
+    let reduced = started.elapsed().as_secs_f64();
+    let started = Instant::now();
+    let history = model.run(positions, 3, |_, _, _| ()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let each = started.elapsed().as_secs_f64() / (3 * positions) as f64;
+    let te: Vec<f64> = history.positions.iter().map(|p| 1e3 * p.transmission_error).collect();
+    let (mean, swing) = support::summary(te.iter().copied());
+    let drift = (positions..3 * positions).map(|i| (te[i] / te[i % positions] - 1.0).abs()).fold(0.0, f64::max);
+    let step = te.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+    let most = history.positions.iter().map(|p| p.pairs.iter().filter(|q| q.normal_force > 0.0).count()).max().unwrap();
+    let changes = history.positions.last().unwrap().tooth_changes;
+    println!(
+        "{name}: eps_gamma {eps:.3}, window {}, up to {most} pairs loaded, {changes} tooth changes; STE {mean:.3} um, p-p {swing:.4}, largest \
+         step {step:.4}, cycles equal within {drift:.1e}; reduction {reduced:.1} s, {:.0} ms a position",
+        StaticModel::window_teeth(&case.pair, model.options()),
+        1e3 * each
+    );
+    assert!(changes >= 2, "{name}: {changes} tooth changes");
+    assert!(drift < 1e-8, "{name}: cycles differ by {drift:e}");
+    assert!(history.positions.iter().all(|p| p.certificate.torque_residual < 1e-8), "{name}: torque");
+    // Bounded slope: no step is larger than the swing of a cycle spread over an eighth of it.
+    assert!(step < swing.mul_add(8.0 / positions as f64, 1e-6), "{name}: STE steps by {step} um, p-p {swing} um");
+}
+
+#[test]
+fn spur_pair_of_1_2() {
+    let case = low();
+    let eps = case.pair.total_contact_ratio();
+    assert!((1.15..1.3).contains(&eps), "{eps}");
+    runs("spur", &case, 24);
+}
+
+#[test]
+fn seed_003_of_4_9() {
+    let case = seed_003(27.09, 100e3);
+    assert!((4.8..5.0).contains(&case.pair.total_contact_ratio()));
+    runs("seed 003", &case, 16);
+}
+
+#[test]
+fn seed_003_made_wider_of_5_2() {
+    let case = seed_003(30.0, 100e3);
+    assert!((5.1..5.4).contains(&case.pair.total_contact_ratio()));
+    runs("seed 003, b 30", &case, 16);
+}

@@ -1,0 +1,203 @@
+//! Contact patch test: two blocks with meshes that do not match, pressed together by a uniform pressure (failure mode F12).
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+//!
+//! Exact answer: sigma_z = -p everywhere, u_z linear, both faces sinking evenly. Pressing body 1's quadrature points loads body 2 by
+//! the integrals of its shape functions, whose kinks along its element edges run through the faces of body 1: what Gauss points
+//! miss of them is the error, and it has to vanish with the number of points along a face's edge.
+
+use contact::{
+    Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface, Vec3,
+    closest_points, complementarity, contact_points,
+};
+use faer::Mat;
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
+use mesh::{ElementBlock, ElementKind, Face, FaceKind, Mesh};
+
+const SIZE: [f64; 3] = [2.0, 2.0, 1.0];
+const PRESSURE: f64 = 100.0;
+const YOUNG: f64 = 206e3;
+
+/// The plane z = 0, material below (`up` = 1) or above it.
+#[derive(Debug)]
+struct Plane {
+    up: f64,
+}
+
+impl Surface for Plane {
+    fn point(&self, [x, y]: [f64; 2]) -> Vec3 {
+        Vec3::new(x, y, 0.0)
+    }
+    fn normal(&self, _: [f64; 2]) -> Vec3 {
+        Vec3::new(0.0, 0.0, self.up)
+    }
+    fn profile_tangent(&self, _: [f64; 2]) -> Vec3 {
+        Vec3::x()
+    }
+    fn curvature(&self, _: [f64; 2]) -> f64 {
+        0.0
+    }
+    fn locate(&self, p: &Vec3) -> Option<Foot> {
+        Some(Foot { at: [p.x, p.y], distance: self.up * p.z })
+    }
+}
+
+struct Body {
+    mesh: Mesh,
+    top: Vec<Face>,
+}
+
+/// A block of n[0] x n[1] x n[2] elements from the plane away; inner lattice lines are moved so that no two meshes share one.
+fn block(kind: ElementKind, n: [usize; 3], up: f64, skew: f64) -> Body {
+    let order = if kind == ElementKind::Hex8 { 1 } else { 2 };
+    let counts = n.map(|k| k * order + 1);
+    let mut number = vec![u32::MAX; counts.iter().product()];
+    let index = |[i, j, k]: [usize; 3]| (k * counts[1] + j) * counts[0] + i;
+    let mut nodes = Vec::new();
+    for k in 0..counts[2] {
+        for j in 0..counts[1] {
+            for i in 0..counts[0] {
+                let odd = [i, j, k].iter().filter(|&&c| order == 2 && c % 2 == 1).count();
+                if odd > 1 {
+                    continue;
+                }
+                number[index([i, j, k])] = nodes.len() as u32;
+                let part = |c: usize, axis: usize| c as f64 / (counts[axis] - 1) as f64;
+                // Corners move with x (1 - x); quadratic edges bend a little with them.
+                let shift = |p: f64| p + skew * p * (1.0 - p);
+                nodes.push([SIZE[0] * shift(part(i, 0)), SIZE[1] * shift(part(j, 1)), -up * SIZE[2] * part(k, 2)]);
+            }
+        }
+    }
+    let (mut connectivity, mut top) = (Vec::new(), Vec::new());
+    for k in 0..n[2] {
+        for j in 0..n[1] {
+            for i in 0..n[0] {
+                let local: Vec<u32> = kind
+                    .reference_nodes()
+                    .iter()
+                    .map(|xi| {
+                        let step = [0, 1, 2].map(|a| ((xi[a] + 1.0) * 0.5 * order as f64).round() as usize);
+                        // Depth runs along -z below the plane: turn the element over there.
+                        let w = if up > 0.0 { order - step[2] } else { step[2] };
+                        number[index([i * order + step[0], j * order + step[1], k * order + w])]
+                    })
+                    .collect();
+                if k == 0 {
+                    let end = if up > 0.0 { 1.0 } else { -1.0 };
+                    let reference = kind.reference_nodes();
+                    let (face, corner) =
+                        kind.faces().iter().find(|(_, f)| f.iter().all(|&l| reference[l][2] == end)).unwrap();
+                    let of: Vec<u32> = corner.iter().map(|&l| local[l]).collect();
+                    assert!(matches!(face, FaceKind::Quad4 | FaceKind::Quad8));
+                    top.push(Face::new(*face, &of));
+                }
+                connectivity.extend(local);
+            }
+        }
+    }
+    let tags = (1..=(connectivity.len() / kind.node_count()) as u64).collect();
+    let node_tags = (1..=nodes.len() as u64).collect();
+    let blocks = vec![ElementBlock { kind, connectivity, tags }];
+    Body { mesh: Mesh { nodes, node_tags, blocks, ..Mesh::default() }, top }
+}
+
+/// Compliance of the top nodes, the block on rollers: far face in z, faces x = 0 and y = 0 across. Uniform pressure is then an
+/// exact solution for any Poisson's ratio.
+fn compliance(body: &Body, nodes: &[u32]) -> Mat<f64> {
+    let dofs = DofMap::new(body.mesh.nodes.len(), &[]);
+    let steel = Material::new(YOUNG, 0.3, 7.85e-9).unwrap();
+    let k = fem::assemble_stiffness(&body.mesh, &steel, &dofs, &ElementOptions::default()).unwrap();
+    let mut number = vec![None; k.n()];
+    let mut count = 0;
+    for (node, at) in body.mesh.nodes.iter().enumerate() {
+        let held = [at[0].abs() < 1e-9, at[1].abs() < 1e-9, (at[2].abs() - SIZE[2]).abs() < 1e-9];
+        for axis in (0..3).filter(|&a| !held[a]) {
+            number[dofs.dof(node as u32, axis).unwrap()] = Some(count);
+            count += 1;
+        }
+    }
+    let kept: Vec<_> = k.entries().filter_map(|(i, j, v)| Some((number[i]?, number[j]?, v))).collect();
+    let matrix = SymmetricMatrix::from_triplets(count, &kept).unwrap();
+    let of = |i: usize| number[dofs.dof(nodes[i / 3], i % 3).unwrap()];
+    let boundary: Vec<usize> = (0..3 * nodes.len()).filter_map(of).collect();
+    let c = BoundaryLastFactor::new(&matrix, &boundary).unwrap().compliance();
+    let place: Vec<Option<usize>> =
+        (0..3 * nodes.len()).map(|i| of(i).and_then(|d| boundary.iter().position(|&b| b == d))).collect();
+    Mat::from_fn(3 * nodes.len(), 3 * nodes.len(), |i, j| match (place[i], place[j]) {
+        (Some(a), Some(b)) => c[(a, b)],
+        _ => 0.0,
+    })
+}
+
+/// Largest deviation of the faces' normal displacement from the uniform one, relative to it, on either body.
+fn deviation(kind: ElementKind, per_edge: usize, law: Law) -> [f64; 2] {
+    let bodies = [block(kind, [3, 2, 2], 1.0, 0.2), block(kind, [2, 3, 2], -1.0, -0.3)];
+    let (mut patches, mut compliances, mut all) = (Vec::new(), Vec::new(), Vec::new());
+    for (body, up) in bodies.iter().zip([1.0, -1.0]) {
+        let mut nodes: Vec<u32> = body.top.iter().flat_map(|f| f.nodes().to_vec()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let number = |node: u32| nodes.binary_search(&node).map_or(u32::MAX, |i| i as u32);
+        patches.push(FlankPatch::new(0, Box::new(Plane { up }), &body.mesh.nodes, &body.top, number, 1e-9).unwrap());
+        compliances.push(compliance(body, &nodes));
+        all.push(nodes);
+    }
+    let points = [contact_points(&patches[0], per_edge, GapSource::Smooth)];
+    let trees = [Candidates::new(&patches[..1]), Candidates::new(&patches[1..])];
+    let scene = Scene {
+        first: &patches[..1],
+        points: &points,
+        second: &patches[1..],
+        first_tree: &trees[0],
+        second_tree: &trees[1],
+        source: GapSource::Smooth,
+        line: &LinePoints::new(),
+    };
+    let mut rows = closest_points(&scene, &[Pose::identity(), Pose::identity()], 1.0);
+    assert_eq!(rows.len(), points[0].len(), "every point faces the other block");
+    for row in &mut rows {
+        row.levers[0] = row.normal.z;
+        row.torque_levers[0] = row.normal.z;
+    }
+    let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
+    let load = -PRESSURE * SIZE[0] * SIZE[1];
+    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()]).unwrap();
+    let displacements = elastic.displacements(&solution.forces);
+    let even = PRESSURE * SIZE[2] / YOUNG;
+    [0, 1].map(|b| {
+        let sign = [-1.0, 1.0][b];
+        let z = displacements[b].iter().skip(2).step_by(3);
+        z.map(|u| (u * sign / even - 1.0).abs()).fold(0.0, f64::max)
+    })
+}
+
+#[test]
+fn uniform_pressure_passes_between_meshes_that_do_not_match() {
+    for kind in [ElementKind::Hex8, ElementKind::Hex20] {
+        let mut worst = Vec::new();
+        let counts = [2, 3, 4, 6, 8, 12, 16, 24];
+        for per_edge in counts {
+            let [a, b] = deviation(kind, per_edge, Law::Penalty(1e7));
+            println!(
+                "{kind:?}, {per_edge:>2} points an edge: displacement of the faces {:.4} % and {:.4} % off uniform",
+                100.0 * a,
+                100.0 * b
+            );
+            worst.push(a.max(b));
+        }
+        let order = (worst[3] / worst[7]).ln() / (24.0f64 / 6.0).ln();
+        println!("{kind:?}: observed order in the number of points {order:.2}");
+        assert!(worst[3] < 0.01, "{kind:?}: 6 points an edge leave {:.3} %", 100.0 * worst[3]);
+        assert!(worst[7] < 0.2 * worst[3], "{kind:?}: {worst:?} does not vanish");
+    }
+}
+
+/// Meshes that do match pass to round-off with as few points as the faces need.
+#[test]
+fn exact_contact_agrees() {
+    for kind in [ElementKind::Hex8, ElementKind::Hex20] {
+        let [a, b] = deviation(kind, 6, Law::Exact);
+        println!("{kind:?}, exact contact, 6 points an edge: {:.4} % and {:.4} % off uniform", 100.0 * a, 100.0 * b);
+        assert!(a.max(b) < 0.02, "{kind:?}: {a} {b}");
+    }
+}
