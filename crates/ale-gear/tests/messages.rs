@@ -130,53 +130,53 @@ fn keys_of_micro_geometry_are_checked_one_with_the_other() {
     };
     says(
         "[pinion.modification.drive]\ntip_releif_um = 3\n",
-        19,
+        18,
         "unknown key `tip_releif_um`\nhint: did you mean `tip_relief_um`?",
     );
     says(
         "[wheel.modification]\nlead_crowning = 3\n",
-        19,
+        18,
         "unknown key `lead_crowning`\nhint: did you mean `lead_crowning_um`?",
     );
     says(
         "[pair.misalignment]\nbias_um = 3\n",
-        19,
+        18,
         "unknown key `bias_um`\nhint: `bias_um` belongs to [pinion.modification]",
     );
     says(
         "[pinion.modification]\ntip_relief_um = 3\n",
-        19,
+        18,
         "`tip_relief_um` has no start\nhint: a relief is `tip_relief_um` with `tip_relief_start_diameter_mm` or \
          `tip_relief_start_roll_deg`",
     );
     says(
         "[pinion.modification]\nroot_relief_shape = \"linear\"\n",
-        19,
+        18,
         "`root_relief_shape` has no `root_relief_um`\nhint: a relief is `root_relief_um` with \
          `root_relief_start_diameter_mm` or `root_relief_start_roll_deg`",
     );
     says(
         "[pinion.modification.coast]\nend_relief_upper_um = 4\n",
-        19,
+        18,
         "`end_relief_upper_um` has no `end_relief_upper_length_mm`\nhint: give both `end_relief_upper_um` and \
          `end_relief_upper_length_mm`, or neither",
     );
     says(
         "[pinion.modification]\ntopography = \"no.csv\"\n",
-        19,
+        18,
         "`topography` is \"no.csv\", but there is no file no.csv\nhint: paths are relative to the scene file",
     );
     says(
         "[pinion.modification]\nlead_crowning_um = 2000\n",
-        19,
+        18,
         "`lead_crowning_um` is 2000, allowed is -1000 .. 1000",
     );
-    says("[pair.misalignment]\ninclination_um = 500\n", 19, "`inclination_um` is 500, allowed is -200 .. 200");
+    says("[pair.misalignment]\ninclination_um = 500\n", 18, "`inclination_um` is 500, allowed is -200 .. 200");
     for table in ["[pair.misalignment]\ninclination_um = 5\n", "[wheel.modification]\nlead_slope_um = 3\n"] {
         let key = if table.contains("pair") { "misalignment" } else { "modification" };
         says(
             table,
-            18,
+            17,
             &format!(
                 "`{key}` means nothing to the model \"iso\", which takes nominal flanks on parallel axes\n\
                  hint: leave it out, or use `model = \"reduced\"`"

@@ -42,7 +42,9 @@ fn root_stress_is_written_when_asked_for() {
             assert!(column.iter().all(|v| sign * v > 10.0), "{gear} {measure}: {column:?}");
             let worst = column.iter().fold(0.0f64, |m, v| m.max(sign * v));
             let place = &root[gear][measure];
-            assert_eq!(sign * place["stress_mpa"].as_f64().unwrap(), worst, "{gear} {measure}");
+            // Written with all digits; read back to the last one but round-off.
+            let off = sign * place["stress_mpa"].as_f64().unwrap() / worst - 1.0;
+            assert!(off.abs() < 1e-14, "{gear} {measure}: {place}, {worst} in the history");
             let r = place["radius_mm"].as_f64().unwrap();
             assert!((44.0..45.6).contains(&r) && place["tooth"].as_u64().unwrap() < 30, "{place}");
         }
@@ -55,7 +57,7 @@ fn root_stress_is_written_when_asked_for() {
         }
     }
     let page = scratch.read("o/report.html");
-    assert_eq!(page.matches("<svg").count(), 7);
+    assert_eq!(page.matches("<svg").count(), 8);
     assert!(page.contains("Largest principal root stress, wheel"));
 }
 
@@ -66,7 +68,7 @@ fn root_stress_is_left_out_by_default() {
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(!scratch.read("o/history.csv").contains("root_stress") && !run.stdout.contains("root tension"));
-    assert_eq!(scratch.read("o/report.html").matches("<svg").count(), 5);
+    assert_eq!(scratch.read("o/report.html").matches("<svg").count(), 6);
 }
 
 /// The model without a mesh has no fillets.

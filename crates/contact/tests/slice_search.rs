@@ -12,7 +12,7 @@ mod random;
 use random::Random;
 
 /// Poses drawn.
-const POSES: u64 = 20_000;
+const POSES: u64 = 50_000;
 /// Places of the scan that the search is held against.
 const SCAN: usize = 400;
 
@@ -96,7 +96,8 @@ fn brute_force(first: &FlankPatch, second: &FlankPatch, poses: [&Pose; 2], z: f6
     let at = |i: usize| if i == SCAN { high } else { low + (high - low) * i as f64 / SCAN as f64 };
     let of = |u: f64| gap(u).unwrap_or(f64::INFINITY);
     let all: Vec<f64> = (0..=SCAN).map(|i| of(at(i))).collect();
-    let mut least = f64::INFINITY;
+    let mut least = (f64::INFINITY, low);
+    let nearer = |least: (f64, f64), u: f64| if of(u) < least.0 { (of(u), u) } else { least };
     for i in 0..=SCAN {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(SCAN));
         if all[i].is_infinite() || all[before] < all[i] || all[after] < all[i] {
@@ -114,20 +115,26 @@ fn brute_force(first: &FlankPatch, second: &FlankPatch, poses: [&Pose; 2], z: f6
                 *end = inside;
             }
         }
-        least = least.min(of(a)).min(of(b)).min(all[i]);
+        least = [a, b, at(i)].into_iter().fold(least, nearer);
         const GOLDEN: f64 = 0.381_966_011_250_105;
         for _ in 0..60 {
             let (x, y) = (a + GOLDEN * (b - a), b - GOLDEN * (b - a));
             let (f, g) = (of(x), of(y));
-            least = least.min(f).min(g);
+            least = nearer(nearer(least, x), y);
             if f < g { b = y } else { a = x }
         }
     }
-    least.is_finite().then_some(least)
+    // On the width of the second flank, or as near to it as the search lets feet wander.
+    let point = poses[0].transform_point(&first.surface().point([least.1, z]).into());
+    let foot = second.surface().locate(&poses[1].inverse_transform_point(&point).coords)?;
+    let [[_, below], [_, above]] = second.range();
+    let slack = 1e-3 * (above - below);
+    let faces = foot.at[1] >= below - slack && foot.at[1] <= above + slack;
+    (least.0.is_finite() && faces).then_some(least.0)
 }
 
 /// 0: missed, 1: found with another gap, else fine; and what the two say.
-fn compare(set: &Flanks, seed: u64) -> (Option<String>, bool, bool) {
+fn compare(set: &Flanks, seed: u64, share: f64) -> (Option<String>, bool, bool) {
     let mut random = Random::new(seed);
     let poses = poses(&set.pair, &mut random);
     let z = random.between(-10.0, 10.0);
@@ -135,15 +142,15 @@ fn compare(set: &Flanks, seed: u64) -> (Option<String>, bool, bool) {
     let flanks = [0, 1].map(|i| SliceFlank { patch: &set.patches[i], layer: &set.layers[i] });
     let found = slice(flanks, &poses, (0, 0), 0, z, 1.0);
     let direct = brute_force(a, b, [&poses[0], &poses[1]], z);
-    let edge_of_second = |s: &Slice| s.at[1] == [b.range()[1][0], z];
+    let edge_of_second = |s: &Slice| s.at[1][0] == b.range()[1][0];
     let wanted = match &found {
         // The edge of body 2 on body 1: the same question asked of body 2.
-        Some((_, s)) if edge_of_second(s) => brute_force(b, a, [&poses[1], &poses[0]], z),
+        Some((_, s)) if edge_of_second(s) => brute_force(b, a, [&poses[1], &poses[0]], s.at[1][1]),
         _ => direct,
     };
     let edge = found.as_ref().is_some_and(|(_, s)| s.local.off_line > 0.0);
     let complaint = match (&found, wanted) {
-        (Some((row, _)), Some(gap)) => ((row.gap - gap).abs() > 1e-9)
+        (Some((row, _)), Some(gap)) => ((row.gap - gap).abs() > 1e-9 + share * gap.abs())
             .then(|| format!("pose {seed}, z {z}: gap {} mm, {gap} by brute force", row.gap)),
         (None, Some(gap)) => Some(format!("pose {seed}, z {z}: missed a gap of {gap} mm")),
         (Some((row, _)), None) => {
@@ -158,7 +165,10 @@ fn compare(set: &Flanks, seed: u64) -> (Option<String>, bool, bool) {
 fn slices_find_what_brute_force_finds() {
     for modified in [false, true] {
         let set = flanks(modified);
-        let all: Vec<_> = (0..POSES).into_par_iter().map(|seed| compare(&set, seed)).collect();
+        // Distances from a modified flank are taken along its nominal normal:
+        // the place of the least is off by the product of gap and slope.
+        let share = if modified { 4e-6 } else { 0.0 };
+        let all: Vec<_> = (0..POSES).into_par_iter().map(|seed| compare(&set, seed, share)).collect();
         let complaints: Vec<&String> = all.iter().filter_map(|c| c.0.as_ref()).collect();
         let (faced, edges) = (all.iter().filter(|c| c.1).count(), all.iter().filter(|c| c.2).count());
         println!(
