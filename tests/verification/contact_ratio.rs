@@ -5,7 +5,7 @@ mod support;
 
 use std::time::Instant;
 
-use dynamics::StaticModel;
+use dynamics::{StaticError, StaticModel};
 use geometry::GearData;
 use mesh::Extent;
 use support::{Case, quadratic};
@@ -30,6 +30,9 @@ fn seed_003(face: f64, torque: f64) -> Case {
         normal_module: 1.5057,
         normal_pressure_angle: 15f64.to_radians(),
         helix_angle: 30.25f64.to_radians(),
+        // eps_alpha 2.00, as the published contact-line lengths ask for.
+        addendum_coefficient: 1.15,
+        dedendum_coefficient: 1.4,
         face_width: face,
         thickness_allowance: 0.02,
         bore_diameter: 110.0,
@@ -39,14 +42,28 @@ fn seed_003(face: f64, torque: f64) -> Case {
     quadratic([data, wheel], None, torque, [2, 2, 2, 4, 1], Extent::Whole)
 }
 
-/// Runs three mesh cycles; every one like the first, steps of STE bounded.
-fn runs(name: &str, case: &Case, positions: usize) {
+/// Runs three mesh cycles; every one like the first, no step of STE over `steepest(mean, p-p)` (um).
+fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -> f64) {
     let eps = case.pair.total_contact_ratio();
     let started = Instant::now();
-    let mut model = case.reduced(case.slice_options());
-    let reduced = started.elapsed().as_secs_f64();
-    let started = Instant::now();
-    let history = model.run(positions, 3, |_, _, _| ()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mut options = case.slice_options();
+    let mut model = case.reduced(options.clone());
+    let mut reduced = started.elapsed().as_secs_f64();
+    let mut started = Instant::now();
+    // Corner contact may reach past floor(eps_gamma) + 1 teeth: one more, as the command does.
+    let history = loop {
+        match model.run(positions, 3, |_, _, _| ()) {
+            Ok(history) => break history,
+            Err(StaticError::Starved { .. }) if options.window.is_none() => {
+                options.window = Some(StaticModel::window_teeth(&case.pair, &options) + 1);
+                started = Instant::now();
+                model = case.reduced(options.clone());
+                reduced = started.elapsed().as_secs_f64();
+                started = Instant::now();
+            }
+            Err(e) => panic!("{name}: {e}"),
+        }
+    };
     let each = started.elapsed().as_secs_f64() / (3 * positions) as f64;
     let te: Vec<f64> = history.positions.iter().map(|p| 1e3 * p.transmission_error).collect();
     let (mean, swing) = support::summary(te.iter().copied());
@@ -63,8 +80,7 @@ fn runs(name: &str, case: &Case, positions: usize) {
     assert!(changes >= 2, "{name}: {changes} tooth changes");
     assert!(drift < 1e-8, "{name}: cycles differ by {drift:e}");
     assert!(history.positions.iter().all(|p| p.certificate.torque_residual < 1e-8), "{name}: torque");
-    // Bounded slope: no step is larger than the swing of a cycle spread over an eighth of it.
-    assert!(step < swing.mul_add(8.0 / positions as f64, 1e-6), "{name}: STE steps by {step} um, p-p {swing} um");
+    assert!(step < steepest(mean, swing), "{name}: STE steps by {step} um, p-p {swing} um");
 }
 
 #[test]
@@ -72,19 +88,21 @@ fn spur_pair_of_1_2() {
     let case = low();
     let eps = case.pair.total_contact_ratio();
     assert!((1.15..1.3).contains(&eps), "{eps}");
-    runs("spur", &case, 24);
+    // A second pair takes over within a fraction of a step; `corner_contact` shows that STE has no jump there.
+    runs("spur", &case, 24, |_, swing| 0.7 * swing);
 }
 
 #[test]
 fn seed_003_of_4_9() {
     let case = seed_003(27.09, 100e3);
-    assert!((4.8..5.0).contains(&case.pair.total_contact_ratio()));
-    runs("seed 003", &case, 16);
+    let eps = case.pair.total_contact_ratio();
+    assert!((4.8..5.0).contains(&eps), "{eps}");
+    runs("seed 003", &case, 16, |mean, _| 0.01 * mean);
 }
 
 #[test]
 fn seed_003_made_wider_of_5_2() {
     let case = seed_003(30.0, 100e3);
     assert!((5.1..5.4).contains(&case.pair.total_contact_ratio()));
-    runs("seed 003, b 30", &case, 16);
+    runs("seed 003, b 30", &case, 16, |mean, _| 0.01 * mean);
 }

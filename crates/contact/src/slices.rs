@@ -32,6 +32,8 @@ const SCAN: usize = 16;
 /// Steps of the bisection on the slope; the bracket shrinks to round-off.
 const STEPS: usize = 60;
 
+/// Turn of the normal within the last bracket that is a kink, rad.
+const KINK: f64 = 1e-7;
 /// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
 const BEYOND: f64 = 1e-3;
 
@@ -44,6 +46,8 @@ enum Place {
     OwnEnd(f64),
     /// The other flank ends here: its edge presses on the searched body.
     OtherEnd(f64),
+    /// A kink of the other flank, where a linear relief begins: it presses as an edge does.
+    OtherKink(f64),
 }
 
 /// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None` where the
@@ -51,6 +55,7 @@ enum Place {
 ///
 /// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip, the
 /// tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of its own.
+/// So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
 pub fn slice(
     flanks: [SliceFlank; 2],
     poses: &[Pose; 2],
@@ -61,7 +66,7 @@ pub fn slice(
 ) -> Option<(ContactRow, Slice)> {
     let [a, b] = flanks;
     let place = nearest([a.patch, b.patch], [&poses[0], &poses[1]], z)?;
-    let (Place::Inside(u) | Place::OwnEnd(u) | Place::OtherEnd(u)) = place;
+    let (Place::Inside(u) | Place::OwnEnd(u) | Place::OtherEnd(u) | Place::OtherKink(u)) = place;
     let faced = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?.at[1];
     // Gears displaced along their axes face each other on a part of their width only.
     let [[_, low], [_, high]] = b.patch.range();
@@ -82,6 +87,12 @@ pub fn slice(
             let local = local(flanks, at, off);
             row.gap += local.edge_opening();
             Some((row, Slice { z, at, length, local }))
+        }
+        Place::OtherKink(u) => {
+            let foot = b.patch.surface().locate(&carried([&poses[0], &poses[1]], a.patch, [u, z]))?;
+            let at = [[u, z], foot.at];
+            let row = edge_row([a.patch, b.patch], poses, patches, point, at, foot.distance)?;
+            Some((row, Slice { z, at, length, local: local(flanks, at, 0.0) }))
         }
         Place::OtherEnd(_) => {
             // Seen from the other body the same place is its own end.
@@ -152,7 +163,13 @@ fn nearest(patches: [&FlankPatch; 2], poses: [&Pose; 2], z: f64) -> Option<Place
         let middle = 0.5 * (a + b);
         if slope(middle) < 0.0 { a = middle } else { b = middle }
     }
-    Some(Place::Inside(0.5 * (a + b)))
+    let normal = |u: f64| {
+        let foot = patches[1].surface().locate(&carried(poses, patches[0], [u, z]))?;
+        Some(patches[1].surface().normal(foot.at))
+    };
+    let turn = normal(b)? - normal(a)?;
+    let middle = 0.5 * (a + b);
+    Some(if turn.norm() > KINK { Place::OtherKink(middle) } else { Place::Inside(middle) })
 }
 
 /// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
