@@ -17,11 +17,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     };
     line("contact ratio eps_gamma", format!("{:.4}", g.eps_gamma), "");
     line("mean STE", fixed(h.mean_ste_um, 4), "um");
-    line(
-        &format!("peak-to-peak STE ({} positions)", h.samples_per_cycle),
-        fixed(h.peak_to_peak_ste_um, 4),
-        "um",
-    );
+    line(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), fixed(h.peak_to_peak_ste_um, 4), "um");
     line("mean mesh stiffness, secant", fixed(h.mean_mesh_stiffness_n_per_um, 2), "N/um");
     line("mean mesh stiffness, tangent", fixed(h.mean_mesh_stiffness_tangent_n_per_um, 2), "N/um");
     line("mean contact-line length", fixed(h.mean_contact_line_length_mm, 3), "mm");
@@ -60,10 +56,17 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     all
 }
 
-/// With `decimals` places, or with four digits where those would show fewer than two.
+/// With `decimals` places, or with as many as show four digits where those would show fewer than two.
 fn fixed(value: f64, decimals: usize) -> String {
-    let least = 10f64.powi(1 - decimals as i32);
-    if value == 0.0 || value.abs() >= least { format!("{value:.decimals$}") } else { format!("{value:.3e}") }
+    let size = value.abs();
+    if size == 0.0 || size >= 10f64.powi(1 - decimals as i32) {
+        return format!("{value:.decimals$}");
+    }
+    if size < 1e-3 {
+        return format!("{value:.3e}");
+    }
+    let places = (3.0 - size.log10().floor()) as usize;
+    format!("{value:.places$}")
 }
 
 /// Unit, tooth and place of a root stress.
