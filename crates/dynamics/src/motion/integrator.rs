@@ -263,7 +263,7 @@ impl Integrator {
         Ok((to, error, book))
     }
 
-    /// A step of the generalised-alpha family; work is integrated by the trapezoidal rule from the powers at both ends.
+    /// A step of the generalised-alpha family; work is integrated by the trapezoidal rule.
     fn booked_by_trapezoid<M: Mechanism>(
         &mut self,
         system: &mut M,
@@ -274,12 +274,16 @@ impl Integrator {
     ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
         let (mut to, error) = coefficients.step(system, from, h, &self.scale, &mut self.forces)?;
         to.powers = self.forces.powers();
-        let work = [0, 1, 2].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
+        let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
         book.supplied += work[0];
-        book.parametric += work[1];
-        book.dissipated += work[2];
-        let time = to.time;
-        book.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
+        book.dissipated += work[1];
+        let mut potential =
+            |time: f64, q| system.potential(time, q).map_err(|source| MotionError::Mechanism { time, source });
+        let known = book.potential;
+        book.potential = potential(to.time, &to.q)?;
+        // What V changes by with the coordinates held, at either end of the step.
+        let held = [potential(to.time, &from.q)? - known, book.potential - potential(from.time, &to.q)?];
+        book.parametric += 0.5 * (held[0] + held[1]);
         Ok((to, error, book))
     }
 

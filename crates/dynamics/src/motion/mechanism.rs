@@ -67,7 +67,7 @@ pub struct Forces {
     pub tangents: bool,
     /// Power of drives and loads into the system.
     pub supplied: f64,
-    /// Explicit change of the potential with time at fixed coordinates, dV/dt.
+    /// Explicit change of the potential with time at fixed coordinates, dV/dt; asked for together with no tangents only.
     pub parametric: f64,
     /// Power that dampers and friction take.
     pub dissipated: f64,
@@ -97,9 +97,9 @@ impl Forces {
         (self.supplied, self.parametric, self.dissipated) = (0.0, 0.0, 0.0);
     }
 
-    /// Powers supplied, parametric and dissipated.
-    pub(super) fn powers(&self) -> [f64; 3] {
-        [self.supplied, self.parametric, self.dissipated]
+    /// Powers supplied and dissipated.
+    pub(super) fn powers(&self) -> [f64; 2] {
+        [self.supplied, self.dissipated]
     }
 
     /// f, coordinate `i`.

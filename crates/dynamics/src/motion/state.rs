@@ -16,8 +16,8 @@ pub struct State {
     pub a: DVector<f64>,
     /// The integrator's own acceleration (generalised-alpha); equal to `a` at a start.
     pub averaged: DVector<f64>,
-    /// Powers of drives and loads, of V's own change, of dampers: at this state, where the integrator books work by them.
-    pub powers: [f64; 3],
+    /// Powers of drives and loads, and of dampers: at this state, where the integrator books work by them.
+    pub powers: [f64; 2],
     /// Step that the step control would take next; 0 at a start.
     pub next_step: f64,
 }
@@ -26,6 +26,6 @@ impl State {
     /// At rest or moving, accelerations still to be found by the integrator.
     pub fn new(time: f64, q: DVector<f64>, v: DVector<f64>) -> Self {
         let n = q.len();
-        Self { time, q, v, a: DVector::zeros(n), averaged: DVector::zeros(n), powers: [0.0; 3], next_step: 0.0 }
+        Self { time, q, v, a: DVector::zeros(n), averaged: DVector::zeros(n), powers: [0.0; 2], next_step: 0.0 }
     }
 }
