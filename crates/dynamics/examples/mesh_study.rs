@@ -55,8 +55,9 @@ fn main() {
                 let geo = [&pair.pinion, &pair.wheel][i];
                 let z = g.tooth_count();
                 let teeth_: Vec<u32> = (0..ro.window as u32).map(|k| (ro.first + k) % z).collect();
-                let gr = flank_grids(&g, geo, &teeth_, &so.sides(), c, so.surface_tolerance).unwrap();
-                ElasticGear::Grid(GridReducer::new(g, mat, ro, gr).unwrap())
+                let (sides, tolerance) = (so.sides(), so.surface_tolerance);
+                let grids = |mesh: &GearMesh| flank_grids(mesh, geo, &teeth_, &sides, c, tolerance);
+                ElasticGear::Reduced(GearReducer::on_grids(g, mat, ro, false, grids).unwrap())
             }
             None => ElasticGear::Reduced(GearReducer::new(g, mat, ro).unwrap()),
         }

@@ -165,7 +165,6 @@ impl WindowRoots {
                 let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
                 StressMap::Operator(StressOperator::new(mesh, gear.material(), gear.elements(), dofs, &nodes)?)
             }
-            (ElasticGear::Grid(_), _) => return Err(ReductionError::NoStressModes),
             (ElasticGear::Full(gear), _) => {
                 let (mesh, dofs) = (gear.gear.mesh(), &gear.dofs);
                 StressMap::Operator(StressOperator::new(mesh, &gear.material, &gear.elements, dofs, &nodes)?)
