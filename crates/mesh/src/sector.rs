@@ -30,6 +30,8 @@ pub struct Copies {
     pub gear: GearMesh,
     /// Where each of its nodes comes from.
     pub origins: Vec<Origin>,
+    /// Which node of the sector's first cut falls on which one of the second when it is turned by one pitch, ascending.
+    pub cuts: Vec<[u32; 2]>,
     /// Whether the sector has nodes on the axis, which belong to all copies.
     pub on_axis: bool,
 }
@@ -128,18 +130,9 @@ impl GearMesh {
         let origins = numbers.origins().iter().map(|o| Origin { copy: o.copy, node: o.node }).collect();
         let on_axis = !numbers.shared.is_empty();
         let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts);
-        Ok(Copies { gear, origins, on_axis })
-    }
-
-    /// Which node of the first cut falls on which one of the second when it is turned by one pitch, ascending.
-    ///
-    /// # Errors
-    /// Those of [`GearMesh::replicate`] but [`MeshError::TooLarge`].
-    pub fn cut_pairs(&self) -> Result<Vec<[u32; 2]>, MeshError> {
-        let Some([from, to]) = &self.cuts else { return Err(MeshError::NoCuts) };
-        let partner = partners(&self.mesh, from, to, self.teeth.max(1))?;
         let pairs = (0_u32..).zip(&partner).filter(|(_, there)| **there != NO_PARTNER);
-        Ok(pairs.map(|(here, &there)| [here, there]).collect())
+        let cuts = pairs.map(|(here, &there)| [here, there]).collect();
+        Ok(Copies { gear, origins, cuts, on_axis })
     }
 
     /// Groups that are neither bore, flank nor cut, without the faces that the cuts share: these come to lie inside.

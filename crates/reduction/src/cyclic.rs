@@ -88,18 +88,40 @@ impl CyclicGear {
         let mut through = self.forces_on_cuts(None);
         dense::solve_lower(self.ring.as_ref(), through.as_mut());
         let mut compliance = dense::gram(through.as_ref());
-        for (i, &(copy, load)) in self.coordinates.iter().enumerate() {
-            let turn = self.turn(copy);
-            for (j, _) in self.coordinates.iter().enumerate().filter(|(_, c)| c.0 == copy) {
-                let other = self.coordinates[j].1;
-                let own = |a: usize, b: usize| self.sector.own[(3 * load + a, 3 * other + b)];
-                for (a, b) in (0..3).flat_map(|a| (0..3).map(move |b| (a, b))) {
-                    let turned: f64 = (0..9).map(|k| turn[a][k / 3] * own(k / 3, k % 3) * turn[b][k % 3]).sum();
-                    compliance[(3 * i + a, 3 * j + b)] += turned;
+        for copy in (0..self.count).map(|j| (self.first + j) % self.part.teeth) {
+            let own = self.own_turned(copy);
+            let here: Vec<(usize, usize)> = (0..self.coordinates.len())
+                .filter(|&i| self.coordinates[i].0 == copy)
+                .map(|i| (3 * i, 3 * self.coordinates[i].1))
+                .collect();
+            for &(j, from_j) in &here {
+                for &(i, from_i) in &here {
+                    for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
+                        compliance[(i + a, j + b)] += own[(from_i + a, from_j + b)];
+                    }
                 }
             }
         }
-        Mat::from_fn(compliance.nrows(), compliance.ncols(), |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)]))
+        let n = compliance.nrows();
+        Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)]))
+    }
+
+    /// A with every 3 x 3 block turned from the frame of a copy into that of copy 0.
+    fn own_turned(&self, copy: u32) -> Mat<f64> {
+        let (sin, cos) = self.angle(copy).sin_cos();
+        let mut own = self.sector.own.clone();
+        for _ in 0..2 {
+            for column in own.col_iter_mut() {
+                let mut column = column;
+                for i in (0..column.nrows()).step_by(3) {
+                    let (x, y) = (column[i], column[i + 1]);
+                    column[i] = cos * x - sin * y;
+                    column[i + 1] = sin * x + cos * y;
+                }
+            }
+            own = own.transpose().to_owned();
+        }
+        own
     }
 
     /// Turn from the frame of a copy into that of copy 0.

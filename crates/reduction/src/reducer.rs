@@ -497,5 +497,5 @@ fn sectors(
     let from = (i64::from(options.first) - high - 1).rem_euclid(z) as u32;
     let count = (options.window as i64 + high - low + 2).min(z) as u32;
     let copies = gear.copies(from, count)?;
-    Ok(SectorMesh::of_sector(gear, &copies)?.map(|part| (part, Some(copies.gear))))
+    Ok(SectorMesh::of_sector(gear, &copies).map(|part| (part, Some(copies.gear))))
 }

@@ -7,7 +7,6 @@ use mesh::{Copies, ElementBlock, GearMesh, Mesh, Origin};
 use nalgebra::{DMatrix, DVector};
 
 use super::turn::{PitchTurn, face_nodes};
-use crate::ReductionError;
 
 /// A sector and the mesh whose nodes lie in its copies.
 ///
@@ -36,19 +35,19 @@ const TIE: f64 = 1e-6;
 
 impl SectorMesh {
     /// Of a periodic one-tooth sector; `None` when its copies share the axis.
-    pub(crate) fn of_sector(sector: &GearMesh, copies: &Copies) -> Result<Option<Self>, ReductionError> {
+    pub(crate) fn of_sector(sector: &GearMesh, copies: &Copies) -> Option<Self> {
         let teeth = sector.tooth_count();
         if copies.on_axis || teeth < FEWEST_TEETH {
-            return Ok(None);
+            return None;
         }
-        let cuts = sector.cut_pairs()?;
+        let cuts = copies.cuts.clone();
         // Whoever is held in one copy is held where it is a node of the next one.
         let mut held = sector.bore_nodes().to_vec();
         let is_held = |n: &u32| sector.bore_nodes().binary_search(n).is_ok();
         held.extend(cuts.iter().filter(|pair| pair.iter().any(is_held)).flatten());
         held.sort_unstable();
         held.dedup();
-        Ok(Some(Self::new(teeth, sector.mesh().clone(), held, cuts, copies.origins.clone())))
+        Some(Self::new(teeth, sector.mesh().clone(), held, cuts, copies.origins.clone()))
     }
 
     /// Of a whole gear that is cyclic: the elements about tooth 0.
