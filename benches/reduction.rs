@@ -15,7 +15,9 @@ const LARGEST_GENERAL: usize = 400_000;
 
 fn main() {
     println!("Reduction of one gear to one flank each of 3 teeth, hex20; wall s, fastest of {REPEATS} runs.");
-    println!("`sector`: periodic sector; `found`: whole mesh, recognised as cyclic; `general`: one factor of the whole gear.");
+    println!(
+        "`sector`: periodic sector; `found`: whole mesh, recognised as cyclic; `general`: one factor of the whole gear."
+    );
     let density = [4, 2, 3, 5, 3];
     let over_teeth: Vec<Row> = [15, 30, 60, 120].map(|z| row(&format!("z {z}"), z, density)).into();
     print(&over_teeth);
@@ -84,7 +86,10 @@ fn fastest(mesh: &GearMesh, reduce: Way) -> (f64, ReductionWay) {
 }
 
 fn print(rows: &[Row]) {
-    println!("\n{:<24} {:>9} {:>9} {:>9} {:>9} {:>16}", "gear", "DOF", "sector", "found", "general", "general / sector");
+    println!(
+        "\n{:<24} {:>9} {:>9} {:>9} {:>9} {:>16}",
+        "gear", "DOF", "sector", "found", "general", "general / sector"
+    );
     for r in rows {
         let general = r.general.map_or_else(|| "-".into(), |g| format!("{g:.3}"));
         let ratio = r.general.map_or_else(|| "-".into(), |g| format!("{:.1}", g / r.sector));
@@ -97,8 +102,7 @@ fn slopes<'a>(x: &str, rows: impl Iterator<Item = (f64, &'a Row)> + Clone) {
     let times: [(&str, fn(&Row) -> Option<f64>); 3] =
         [("sector", |r| Some(r.sector)), ("found", |r| Some(r.found)), ("general", |r| r.general)];
     for (name, time) in times {
-        let points: Vec<(f64, f64)> =
-            rows.clone().filter_map(|(x, r)| Some((x.ln(), time(r)?.ln()))).collect();
+        let points: Vec<(f64, f64)> = rows.clone().filter_map(|(x, r)| Some((x.ln(), time(r)?.ln()))).collect();
         let n = points.len() as f64;
         let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / n;
         let (mx, my) = (mean(|p| p.0), mean(|p| p.1));

@@ -87,17 +87,10 @@ fn options_of(gear: &GearScene) -> StructuredOptions {
 
 /// Whether one sector tells all: nobody asks for the mesh of the whole gear.
 fn sector_is_enough(scene: &Scene) -> bool {
-    scene.analysis.model == Model::Reduced
-        && scene.analysis.reduction != Some(Reduction::General)
-        && !scene.output.vtu
+    scene.analysis.model == Model::Reduced && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
 }
 
-fn generated_with(
-    scene: &Scene,
-    whose: &str,
-    exact: &Gear,
-    options: &StructuredOptions,
-) -> Result<Mesh, CommandError> {
+fn generated_with(scene: &Scene, whose: &str, exact: &Gear, options: &StructuredOptions) -> Result<Mesh, CommandError> {
     generate(exact, options)
         .map_err(|e| CommandError::input(format_args!("{}: [{whose}.mesher]: {e}", scene.file.display()), e.hint()))
 }

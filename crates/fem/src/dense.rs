@@ -25,8 +25,8 @@ pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
     let n = a.nrows();
     let mut l = Mat::from_fn(n, n, |i, j| if i < j { 0.0 } else { a[(i, j)] });
     let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default());
-    let mut memory = MemBuffer::try_new(scratch)
-        .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+    let mut memory =
+        MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
     let stack = MemStack::new(&mut memory);
     match cholesky_in_place(l.as_mut(), Default::default(), Par::Seq, stack, Spec::default()) {
         Err(LltError::NonPositivePivot { index }) => {

@@ -159,7 +159,8 @@ impl CyclicGear {
         match forces {
             Some(f) => {
                 for j in 0..self.count {
-                    let ends = dense::product(self.sector.transfer.as_ref(), self.forces_in(self.first + j, f).as_ref());
+                    let ends =
+                        dense::product(self.sector.transfer.as_ref(), self.forces_in(self.first + j, f).as_ref());
                     add(on_cuts.as_mut(), j as usize, ends.as_ref());
                 }
             }
@@ -343,10 +344,7 @@ impl CyclicGear {
             let unit = Mat::<f64>::identity(2 * c, 2 * c);
             let unloaded = Mat::<f64>::zeros(self.sector.loads(), 2 * c);
             let free = congruent(&own, &self.sector.basis(unloaded.as_ref(), unit.as_ref()));
-            let ends = stacked(
-                ring.subrows(self.cut_row(self.count as usize), c),
-                ring.subrows(self.cut_row(0), c),
-            );
+            let ends = stacked(ring.subrows(self.cut_row(self.count as usize), c), ring.subrows(self.cut_row(0), c));
             mass += congruent(&chain.mass(&free), &ends);
         }
         Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])))

@@ -142,13 +142,25 @@ fn whole_gears_by_gmsh_go_the_cyclic_way() {
 /// A periodic sector shows the sectors about its window only; its matrices are those of the gear that it unrolls to.
 #[test]
 fn a_periodic_sector_is_not_unrolled() {
-    for (teeth, beta, order, window, first) in [(11, 25.0, 1, 2, 10), (30, 20.0, 1, 3, 28), (17, -15.0, 2, 1, 4)] {
+    for (teeth, beta, order, window, first, cut_through_teeth) in [
+        (11, 25.0, 1, 2, 10, false),
+        (11, 25.0, 1, 3, 9, true),
+        (30, 20.0, 1, 3, 28, false),
+        (17, -15.0, 2, 1, 4, false),
+    ] {
         let exact = gear(teeth, beta);
-        let sector = meshed(&exact, order, Extent::Periodic);
+        let mut sector = meshed(&exact, order, Extent::Periodic);
+        if cut_through_teeth {
+            // The right flank of the next tooth in place of the sector's own: half of a window's flanks are in other copies.
+            let mut mesh = sector.mesh().clone();
+            mesh.surfaces.iter_mut().for_each(|g| g.name = g.name.replace("right_0", "right_1"));
+            sector = GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap();
+        }
         let options = options(&[Side::Right, Side::Left], window, first);
         let cyclic = GearReducer::new(sector.clone(), Material::STEEL, options.clone()).unwrap();
         let general = GearReducer::general(sector, Material::STEEL, options).unwrap();
-        assert_eq!(cyclic.gear().teeth().len(), window + 2, "z {teeth}");
+        // One more sector on either side; a tooth that is cut has its flanks in two.
+        assert_eq!(cyclic.gear().teeth().len(), window + 2 + 2 * usize::from(cut_through_teeth), "z {teeth}");
         assert_eq!(cyclic.way(), ReductionWay::CyclicSector, "z {teeth}");
         assert_eq!(cyclic.free_count(), general.free_count(), "z {teeth}");
         let windows = [&cyclic, &general].map(|r| r.window(first).unwrap());
@@ -224,12 +236,13 @@ fn grids_go_both_ways() {
         let u = pressed(&b.reduced.compliance);
         let field = field_off(&cyclic.expand(&a, &u).unwrap(), &general.expand(&b, &u).unwrap());
         let nodes = fillet_nodes(&cyclic, &exact, first, window as u32);
-        let s = off(
-            cyclic.stress_modes(&a, &nodes).unwrap().matrix(),
-            general.stress_modes(&b, &nodes).unwrap().matrix(),
-        );
+        let s =
+            off(cyclic.stress_modes(&a, &nodes).unwrap().matrix(), general.stress_modes(&b, &nodes).unwrap().matrix());
         println!("grids, z {teeth}: C {c:.1e}, K {k:.1e}, M {m:.1e}, field {field:.1e}, stress {s:.1e}");
-        assert!(c < 1e-9 && k < 1e-9 && m < 1e-9 && field < 1e-9 && s < 1e-9, "z {teeth}: {c:e} {k:e} {m:e} {field:e} {s:e}");
+        assert!(
+            c < 1e-9 && k < 1e-9 && m < 1e-9 && field < 1e-9 && s < 1e-9,
+            "z {teeth}: {c:e} {k:e} {m:e} {field:e} {s:e}"
+        );
     }
 }
 

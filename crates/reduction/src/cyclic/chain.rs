@@ -150,11 +150,7 @@ pub(super) fn congruent(m: &Mat<f64>, t: &Mat<f64>) -> Mat<f64> {
 }
 
 /// The row of two rows.
-fn join(
-    links: &[Link],
-    [left, right]: [usize; 2],
-    [a, b]: [MatRef<'_, f64>; 2],
-) -> Result<(Link, Mat<f64>), FemError> {
+fn join(links: &[Link], [left, right]: [usize; 2], [a, b]: [MatRef<'_, f64>; 2]) -> Result<(Link, Mat<f64>), FemError> {
     let c = a.nrows() / 2;
     let factor = dense::cholesky((a.get(c.., c..) + b.get(..c, ..c)).as_ref())?;
     let mut ends = Mat::zeros(c, 2 * c);

@@ -30,8 +30,7 @@ impl PitchTurn {
         let same_bore = image(gear.bore_nodes()) == gear.bore_nodes();
         let mut flanks = gear.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]);
         let nodes = |tooth, side| gear.flank(tooth, side).map(face_nodes);
-        let same_flanks =
-            flanks.all(|(tooth, side)| nodes(tooth, side).map(|n| image(&n)) == nodes(tooth + 1, side));
+        let same_flanks = flanks.all(|(tooth, side)| nodes(tooth, side).map(|n| image(&n)) == nodes(tooth + 1, side));
         (same_bore && same_flanks).then_some(turn)
     }
 
