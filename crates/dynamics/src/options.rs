@@ -24,6 +24,22 @@ pub enum Method {
     Nodal,
 }
 
+/// How the bulk compliance behind slices is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bulk {
+    /// The mesh's own matrices, entry by entry.
+    Exact,
+    /// As few modes as leave no self-compliance of a flank node off by more than this share of the largest: [`contact::BulkModes`].
+    Modes(f64),
+}
+
+impl Default for Bulk {
+    /// A ten thousandth: the transmission error is then off by less than that of itself.
+    fn default() -> Self {
+        Self::Modes(1e-4)
+    }
+}
+
 /// Operation, contact and window of a quasi-static analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticOptions {
@@ -37,6 +53,8 @@ pub struct StaticOptions {
     pub method: Method,
     /// Slices over the face width.
     pub slices: usize,
+    /// How the bulk compliance behind slices is held, for reduced gears.
+    pub bulk: Bulk,
     /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only: slices end where
     /// the undeflected flanks end, and the transmission error steps whenever a pair comes or goes under load.
     pub corner_contact: bool,
@@ -69,6 +87,7 @@ impl StaticOptions {
             torque,
             method: Method::Slice,
             slices: 32,
+            bulk: Bulk::default(),
             corner_contact: true,
             friction: 0.0,
             law: Law::Exact,

@@ -2,12 +2,15 @@
 
 use std::sync::Arc;
 
-use contact::{ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, opening, slice};
+use contact::{
+    BulkCompliance, BulkModes, ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, Vec3,
+    opening, slice,
+};
 use faer::Mat;
 use geometry::{Gear, GearPair, Side};
-use reduction::HalfTooth;
+use reduction::{HalfTooth, Window};
 
-use crate::{ElasticGear, StaticError, StaticOptions};
+use crate::{Bulk, ElasticGear, StaticError, StaticOptions};
 
 /// What slice contact needs beside the flank patches, patch by patch of both gears.
 #[derive(Debug)]
@@ -18,7 +21,13 @@ pub struct SliceSet {
     halves: [Vec<Half>; 2],
     /// Whether edges may press off the line of action.
     corner_contact: bool,
+    /// Bulk compliance of both gears in modes, unless it is to be exact.
+    bulk: Option<[BulkModes; 2]>,
 }
+
+/// Least tangential share of a force that modes are made for: normals turn by as much between the nodes of a flank, and edges press
+/// that far off the normal of their own flank.
+const TANGENTIAL: f64 = 0.2;
 
 /// The half tooth behind one patch.
 #[derive(Debug)]
@@ -52,7 +61,44 @@ impl SliceSet {
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
-        Ok(Self { stations, length, halves, corner_contact: options.corner_contact })
+        Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
+    }
+
+    /// With the bulk compliance of the given windows in modes, if that is asked for.
+    pub(crate) fn with_modes(
+        mut self,
+        patches: [&[FlankPatch]; 2],
+        windows: Option<&[Window; 2]>,
+        options: &StaticOptions,
+    ) -> Self {
+        if let (Bulk::Modes(tolerance), Some(windows)) = (options.bulk, windows) {
+            let tangential = options.friction.max(TANGENTIAL);
+            self.bulk = Some([0, 1].map(|i| {
+                let bulk = BulkCompliance {
+                    whole: windows[i].reduced.compliance.as_ref(),
+                    halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
+                    normals: normals(patches[i], &self.halves[i], windows[i].reduced.compliance.nrows() / 3),
+                    tangential,
+                };
+                BulkModes::new(&bulk, tolerance)
+            }));
+        }
+        self
+    }
+
+    /// Bulk compliance of both gears in modes; `None` where it is exact.
+    pub fn bulk(&self) -> Option<&[BulkModes; 2]> {
+        self.bulk.as_ref()
+    }
+
+    /// Length of contact line of one slice, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether a slice may press.
+    pub(crate) fn may_touch(&self, slice: &Slice) -> bool {
+        self.corner_contact || slice.local.off_line == 0.0
     }
 
     /// Heights of the stations, mm, ascending.
@@ -79,8 +125,7 @@ impl SliceSet {
             let stations = self.stations.iter().enumerate();
             stations.filter_map(move |(i, &z)| slice(flanks, poses, pair, i, z, self.length))
         };
-        let may_touch = |s: &Slice| self.corner_contact || s.local.off_line == 0.0;
-        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && may_touch(s)).unzip()
+        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && self.may_touch(s)).unzip()
     }
 
     /// X = - sum over both bodies of A W_c A' between rows on the same tooth, mm/N.
@@ -127,6 +172,19 @@ impl Half {
         }
         u
     }
+}
+
+/// Flank normals at the nodes of a gear's matrices; zero where no flank of the window is.
+fn normals(patches: &[FlankPatch], halves: &[Half], count: usize) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::zeros(); count];
+    for (patch, half) in patches.iter().zip(halves) {
+        for &node in &half.boundary {
+            if let (Some(normal), Some(at)) = (normals.get_mut(node as usize), patch.node_coordinates(node)) {
+                *normal = patch.surface().normal(at);
+            }
+        }
+    }
+    normals
 }
 
 fn half(

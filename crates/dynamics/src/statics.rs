@@ -4,7 +4,7 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, FilletStress, Method, StaticError, StaticHistory, StaticOptions,
+    ContactSet, ElasticGear, Equilibrium, FilletStress, MeshContact, Method, StaticError, StaticHistory, StaticOptions,
     StaticPosition, Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose,
     root_stress::RootStress,
 };
@@ -28,6 +28,8 @@ pub struct StaticModel {
     options: StaticOptions,
     window: ToothWindow,
     set: ContactSet,
+    /// Solver of slices on reduced gears.
+    mesh: Option<MeshContact>,
     root: Option<RootStress>,
     last: Option<Equilibrium>,
     changes: u64,
@@ -75,8 +77,9 @@ impl StaticModel {
         pose::check_offsets(&pair, &options)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
+        let mesh = mesh_contact(&pair, &set, &options)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
-        Ok(Self { pair, gears, options, window, set, root, last: None, changes: 0 })
+        Ok(Self { pair, gears, options, window, set, mesh, root, last: None, changes: 0 })
     }
 
     fn parts(&self) -> Parts<'_> {
@@ -129,7 +132,9 @@ impl StaticModel {
             return Ok(StaticPosition { root_stress, ..self.unloaded(station)? });
         }
         let guess = self.last.take();
-        let e = equilibrium(&self.parts(), station, guess.as_ref())?;
+        let Self { pair, gears, set, window, options, mesh, .. } = self;
+        let parts = Parts { pair, gears, set, window, options };
+        let e = equilibrium(&parts, mesh.as_mut(), station, guess.as_ref())?;
         let result = self.position(&e)?;
         let starved = self.starved(&e);
         self.last = Some(e);
@@ -144,8 +149,8 @@ impl StaticModel {
 
     /// Stress in the fillets of both windows, when it is asked for.
     fn root_stress(&self, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
-        let displacements = e.map(|e| &e.displacements);
-        self.root.as_ref().map_or(Ok(Default::default()), |root| root.of(&self.parts(), displacements))
+        let Some(root) = &self.root else { return Ok(Default::default()) };
+        root.of(&self.parts(), e.map(|e| self.set.displacements(e)).as_ref())
     }
 
     /// A pair beside the window that overlaps at the loaded pose.
@@ -236,8 +241,13 @@ impl StaticModel {
     }
 
     fn enter(&mut self, window: ToothWindow) -> Result<(), StaticError> {
-        if !self.set.move_to(&self.gears, &window)? {
+        if self.set.move_to(&self.gears, &window)? {
+            if let Some(mesh) = &mut self.mesh {
+                mesh.enter(self.set.clone());
+            }
+        } else {
             self.set = ContactSet::new(&self.pair, &self.gears, &window, &self.options)?;
+            self.mesh = mesh_contact(&self.pair, &self.set, &self.options)?;
         }
         self.window = window;
         Ok(())
@@ -290,6 +300,15 @@ impl StaticModel {
         }
         Ok(history)
     }
+}
+
+fn mesh_contact(
+    pair: &GearPair,
+    set: &ContactSet,
+    options: &StaticOptions,
+) -> Result<Option<MeshContact>, StaticError> {
+    let sliced = set.slices().is_some() && set.windows().is_some();
+    sliced.then(|| MeshContact::new(pair, set.clone(), options)).transpose()
 }
 
 fn first_window(pair: &GearPair, options: &StaticOptions) -> Result<ToothWindow, StaticError> {
