@@ -208,7 +208,7 @@ pub(crate) fn row_at(
 /// Loading of a body at surface coordinates; those past the edge of the faces load the edge.
 ///
 /// `face`: a face point found for coordinates nearby, and the one found now.
-fn support_at(
+pub(crate) fn support_at(
     patch: &FlankPatch,
     at: [f64; 2],
     direction: Vec3,

@@ -11,7 +11,8 @@
 //! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
-mod bulk_modes;
+mod bulk_grid;
+mod bulk_table;
 mod candidates;
 mod closest_point;
 pub mod complementarity;
@@ -29,7 +30,7 @@ mod slices;
 mod surface;
 mod tooth_layer;
 
-pub use bulk_modes::{BulkCompliance, BulkModes};
+pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
 pub use candidates::{Candidates, FacePair};
 pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
 pub use complementarity::{Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, Solution};

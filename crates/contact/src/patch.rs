@@ -212,7 +212,7 @@ impl FlankPatch {
     }
 
     /// Range of surface coordinates of a face.
-    fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
+    pub(crate) fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
         range(self.corners(face).map(|n| n.at))
     }
 

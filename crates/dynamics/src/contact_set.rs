@@ -71,7 +71,7 @@ impl ContactSet {
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        let slices = slices.map(|s| s.with_modes([&p1, &p2], windows.as_ref(), options));
+        let slices = slices.map(|s| s.with_tables([&p1, &p2], windows.as_ref(), options));
         let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
         let stations = p1.first().map_or(0, |p| {
             let [low, high] = p.range();

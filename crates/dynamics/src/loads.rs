@@ -97,8 +97,8 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
 }
 
 fn bulk_error(parts: &Parts) -> f64 {
-    let modes = parts.set.slices().and_then(|s| s.bulk());
-    modes.map_or(0.0, |both| both.iter().map(contact::BulkModes::error).fold(0.0, f64::max))
+    let tables = parts.set.slices().and_then(|s| s.bulk());
+    tables.map_or(0.0, |both| both.iter().map(contact::BulkTable::error).fold(0.0, f64::max))
 }
 
 fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {

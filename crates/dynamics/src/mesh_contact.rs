@@ -2,15 +2,9 @@
 
 use contact::{
     Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalState, Pose, Slice, SliceHint,
-    SlicePlace,
+    SlicePlace, TablePlace, TableWork,
 };
-use faer::{
-    Accum, MatMut, MatRef, Par,
-    linalg::matmul::{
-        matmul,
-        triangular::{self, BlockStructure},
-    },
-};
+use faer::MatRef;
 use geometry::GearPair;
 
 use crate::{ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches};
@@ -59,9 +53,10 @@ pub struct MeshContact {
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
-    /// What rows see of the modes, row by row; and what loads do to them where friction makes that another thing.
-    openings: Vec<f64>,
-    loads: Vec<f64>,
+    /// Where the rows' openings stand in the table of a gear, and their loads where friction makes these another thing.
+    openings: Vec<TablePlace>,
+    loads: Vec<TablePlace>,
+    work: [TableWork; 2],
     compliance: Vec<f64>,
     solver: DenseSolver,
     force: MeshForce,
@@ -79,7 +74,7 @@ impl MeshContact {
         };
         let pairs = set.pairs();
         let most = pairs.len() * slices.stations().len();
-        let rank: usize = slices.bulk().map_or(0, |b| b.iter().map(contact::BulkModes::rank).sum());
+        let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
         let friction = Friction::new(pair, options);
         let force = MeshForce {
             wrench: Default::default(),
@@ -100,8 +95,9 @@ impl MeshContact {
             gaps: Vec::with_capacity(most),
             levers: Vec::with_capacity(most),
             torque_levers: Vec::with_capacity(most),
-            openings: Vec::with_capacity(most * rank),
-            loads: Vec::with_capacity(if friction.is_some() { most * rank } else { 0 }),
+            openings: Vec::with_capacity(most),
+            loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
+            work,
             compliance: Vec::with_capacity(most * most),
             solver: DenseSolver::new(most),
             force,
@@ -204,44 +200,40 @@ impl MeshContact {
         self.compliance();
     }
 
-    /// S = sum over both gears of Phi Phi', Phi what the rows see of the modes.
+    /// S between the rows, from both gears' tables or matrices.
     fn compliance(&mut self) {
-        let Self { set, rows, openings, loads, compliance, friction, .. } = self;
+        let Self { set, rows, slices, openings, loads, work, compliance, friction, .. } = self;
         let n = rows.len();
-        let Some(modes) = set.slices().and_then(|s| s.bulk()) else {
+        let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
             set.exact_compliance(rows, compliance);
             return;
         };
-        let ranks = [modes[0].rank(), modes[1].rank()];
-        let rank = ranks[0] + ranks[1];
-        let project = |out: &mut Vec<f64>, load: bool| {
-            out.clear();
-            out.resize(n * rank, 0.0);
-            for (row, phi) in rows.iter().zip(out.chunks_mut(rank.max(1))) {
-                let (first, second) = phi.split_at_mut(ranks[0]);
-                for (b, phi) in [first, second].into_iter().enumerate() {
-                    let support = &row.supports[b];
-                    let direction = if load { support.load } else { support.direction };
-                    modes[b].project(support, &direction, phi);
-                }
-            }
-        };
-        project(openings, false);
+        let symmetric = friction.is_none();
         compliance.clear();
         compliance.resize(n * n, 0.0);
-        let phi = MatRef::from_column_major_slice(&openings[..], rank, n);
-        let mut s = MatMut::from_column_major_slice_mut(&mut compliance[..], n, n);
-        if friction.is_some() {
-            project(loads, true);
-            let psi = MatRef::from_column_major_slice(&loads[..], rank, n);
-            matmul(s, Accum::Replace, phi.transpose(), psi, 1.0, Par::Seq);
-            return;
+        for (b, table) in tables.iter().enumerate() {
+            let places = |out: &mut Vec<TablePlace>, load: bool| {
+                out.clear();
+                out.extend(rows.iter().zip(slices.iter()).filter_map(|(row, slice)| {
+                    let patch = [row.patches.0, row.patches.1][b];
+                    let support = &row.supports[b];
+                    let direction = if load { &support.load } else { &support.direction };
+                    table.place(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
+                }));
+            };
+            places(openings, false);
+            if symmetric {
+                table.add(openings, openings, true, &mut work[b], compliance);
+            } else {
+                places(loads, true);
+                table.add(openings, loads, false, &mut work[b], compliance);
+            }
         }
-        let (lower, whole) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-        triangular::matmul(s.as_mut(), lower, Accum::Replace, phi.transpose(), whole, phi, whole, 1.0, Par::Seq);
-        for j in 0..n {
-            for i in j + 1..n {
-                compliance[i * n + j] = compliance[j * n + i];
+        if symmetric {
+            for j in 0..n {
+                for i in j + 1..n {
+                    compliance[i * n + j] = compliance[j * n + i];
+                }
             }
         }
     }

@@ -29,14 +29,14 @@ pub enum Method {
 pub enum Bulk {
     /// The mesh's own matrices, entry by entry.
     Exact,
-    /// As few modes as leave no self-compliance of a flank node off by more than this share of the largest: [`contact::BulkModes`].
-    Modes(f64),
+    /// Interpolated in a table ([`contact::BulkTable`]) that is off by at most this share of the largest self-compliance of a slice.
+    Table(f64),
 }
 
 impl Default for Bulk {
-    /// A ten thousandth: the transmission error is then off by less than that of itself.
+    /// A table good to a thousandth: the transmission error is off by less than a ten thousandth then.
     fn default() -> Self {
-        Self::Modes(1e-4)
+        Self::Table(1e-3)
     }
 }
 

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use contact::{
-    BulkCompliance, BulkModes, ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, Vec3,
-    opening, slice,
+    BulkCompliance, BulkTable, ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, opening, slice,
 };
 use faer::Mat;
 use geometry::{Gear, GearPair, Side};
@@ -21,13 +20,9 @@ pub struct SliceSet {
     halves: [Vec<Half>; 2],
     /// Whether edges may press off the line of action.
     corner_contact: bool,
-    /// Bulk compliance of both gears in modes, unless it is to be exact.
-    bulk: Option<[BulkModes; 2]>,
+    /// Bulk compliance of both gears in tables, unless it is to be exact.
+    bulk: Option<[BulkTable; 2]>,
 }
-
-/// Least tangential share of a force that modes are made for: normals turn by as much between the nodes of a flank, and edges press
-/// that far off the normal of their own flank.
-const TANGENTIAL: f64 = 0.2;
 
 /// The half tooth behind one patch.
 #[derive(Debug)]
@@ -64,30 +59,28 @@ impl SliceSet {
         Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// With the bulk compliance of the given windows in modes, if that is asked for.
-    pub(crate) fn with_modes(
+    /// With the bulk compliance of the given windows in tables, if that is asked for.
+    pub(crate) fn with_tables(
         mut self,
         patches: [&[FlankPatch]; 2],
         windows: Option<&[Window; 2]>,
         options: &StaticOptions,
     ) -> Self {
-        if let (Bulk::Modes(tolerance), Some(windows)) = (options.bulk, windows) {
-            let tangential = options.friction.max(TANGENTIAL);
+        if let (Bulk::Table(tolerance), Some(windows)) = (options.bulk, windows) {
             self.bulk = Some([0, 1].map(|i| {
                 let bulk = BulkCompliance {
                     whole: windows[i].reduced.compliance.as_ref(),
                     halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
-                    normals: normals(patches[i], &self.halves[i], windows[i].reduced.compliance.nrows() / 3),
-                    tangential,
+                    patches: patches[i],
                 };
-                BulkModes::new(&bulk, tolerance)
+                BulkTable::new(&bulk, tolerance)
             }));
         }
         self
     }
 
-    /// Bulk compliance of both gears in modes; `None` where it is exact.
-    pub fn bulk(&self) -> Option<&[BulkModes; 2]> {
+    /// Bulk compliance of both gears in tables; `None` where it is exact.
+    pub fn bulk(&self) -> Option<&[BulkTable; 2]> {
         self.bulk.as_ref()
     }
 
@@ -172,19 +165,6 @@ impl Half {
         }
         u
     }
-}
-
-/// Flank normals at the nodes of a gear's matrices; zero where no flank of the window is.
-fn normals(patches: &[FlankPatch], halves: &[Half], count: usize) -> Vec<Vec3> {
-    let mut normals = vec![Vec3::zeros(); count];
-    for (patch, half) in patches.iter().zip(halves) {
-        for &node in &half.boundary {
-            if let (Some(normal), Some(at)) = (normals.get_mut(node as usize), patch.node_coordinates(node)) {
-                *normal = patch.surface().normal(at);
-            }
-        }
-    }
-    normals
 }
 
 fn half(
