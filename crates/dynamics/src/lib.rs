@@ -4,6 +4,7 @@
 //! torque. Station by station over mesh cycles, with tooth changes in between.
 
 mod contact_set;
+mod cycle;
 mod elastic;
 mod equilibrium;
 mod error;
@@ -21,6 +22,7 @@ pub mod result;
 mod root_stress;
 mod slice_set;
 mod statics;
+mod walk;
 
 pub use contact_set::ContactSet;
 pub use elastic::{ElasticGear, FullGear};
