@@ -242,6 +242,11 @@ impl BulkTable {
 }
 
 impl TablePlace {
+    /// Number of points that it stands on: 12, and 12 more where it is loaded along the profile.
+    pub fn points(&self) -> usize {
+        self.count
+    }
+
     fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         self.points[..self.count].iter().copied().zip(self.weights[..self.count].iter().copied())
     }
@@ -267,6 +272,11 @@ impl TableWork {
             part: Vec::with_capacity(most * most),
             column: Vec::with_capacity(most),
         }
+    }
+
+    /// Points of the table that the rows of the last call touched.
+    pub fn touched(&self) -> usize {
+        self.used.len()
     }
 
     fn collect<'a>(&mut self, points: usize, places: impl Iterator<Item = &'a TablePlace>) {

@@ -30,7 +30,7 @@ pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
 pub use flank_grid::flank_grids;
 pub use kinematic::kinematic_transmission_error;
-pub use mesh_contact::{MeshContact, MeshForce};
+pub use mesh_contact::{ContactWork, MeshContact, MeshForce};
 pub use options::{Bulk, Driver, Method, StaticOptions};
 pub use pose::{Misalignment, Offset};
 pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
