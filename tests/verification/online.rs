@@ -1,4 +1,5 @@
 //! The contact of given poses, and the tables behind it: what was gained in speed must not have been lost in truth.
+#![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 mod support;
 
@@ -23,7 +24,7 @@ fn tables_change_nothing_that_matters() {
     let hex20 = quadratic(default_data(20.0), None, 150e3, [4, 2, 2, 8, 1], mesh::Extent::Sector(5));
     let relieved = {
         let mut case = small();
-        let start = ProfilePlace::Roll(0.55);
+        let start = ProfilePlace::Roll(0.45);
         let relief = Relief { amount: 0.02, start, shape: ReliefShape::Linear };
         let flank = FlankModification { tip_relief: Some(relief), lead_crowning: 0.01, ..FlankModification::default() };
         case.pair = modified(&case.pair, [GearModifications::both(flank.clone()), GearModifications::both(flank)]);
@@ -50,11 +51,8 @@ fn tables_change_nothing_that_matters() {
         let tables = model.run(12, 1, |_, _, _| ()).unwrap().positions;
         let stated = tables[0].certificate.bulk_compliance_error;
         let off = |a: f64, b: f64| (a / b - 1.0).abs();
-        let worst = tables
-            .iter()
-            .zip(&exact)
-            .map(|(a, b)| off(a.transmission_error, b.transmission_error))
-            .fold(0.0, f64::max);
+        let worst =
+            tables.iter().zip(&exact).map(|(a, b)| off(a.transmission_error, b.transmission_error)).fold(0.0, f64::max);
         println!("{name}: compliance off by at most {stated:.1e}, transmission error by {worst:.1e}");
         assert!(stated > 0.0 && stated < 1e-3, "{name}: stated error {stated:e}");
         assert!(exact.iter().all(|p| p.certificate.bulk_compliance_error == 0.0), "{name}: exact is exact");
@@ -131,9 +129,9 @@ fn tangent_is_derivative_of_forces() {
             let h = 1e-6 / scale(j);
             let f = |mesh: &mut MeshContact, by: f64| flat(&mesh.evaluate(&moved(&poses, j, by)).unwrap().wrench);
             let (up, down) = (f(&mut mesh, h), f(&mut mesh, -h));
-            for i in 0..12 {
+            for (i, row) in tangent.iter().enumerate() {
                 let difference = (up[i] - down[i]) / (2.0 * h);
-                worst = worst.max((tangent[i][j] - difference).abs() / scale(i) / scale(j) / largest);
+                worst = worst.max((row[j] - difference).abs() / scale(i) / scale(j) / largest);
             }
         }
         println!("friction {friction}: tangent off by {worst:.1e} of its largest entry");
@@ -182,7 +180,7 @@ fn moment_is_the_slope_of_the_energy() {
     let mut energy = |by: f64| mesh.evaluate(&moved(&poses, 11, by)).unwrap().strain_energy;
     let slope = (energy(h) - energy(-h)) / (2.0 * h);
     // Contact wanders over flanks of varying compliance: some thousandths.
-    assert!((slope / -moment - 1.0).abs() < 5e-3, "energy rises by {slope} N mm/rad against {moment} N mm");
+    assert!((slope / moment.abs() - 1.0).abs() < 5e-3, "energy rises by {slope} N mm/rad against {moment} N mm");
 }
 
 /// Stations side by side: the same bits on one core and on two, across tooth changes.

@@ -10,18 +10,16 @@ pub(crate) struct FlankGridLines {
 }
 
 /// Lines of a cell, as parts of its length: Lobatto's points.
-const PROFILE: [f64; 4] = [0.0, 0.276_393_202_250_021_03, 0.723_606_797_749_978_97, 1.0];
+const PROFILE: [f64; 4] = [0.0, 0.276_393_202_250_021, 0.723_606_797_749_979, 1.0];
 const FACE: [f64; 3] = [0.0, 0.5, 1.0];
 /// Cells of the coarsest uniform grid.
 const COARSEST: [usize; 2] = [4, 8];
-/// Cells of a grid of mesh faces at most: finer meshes are smooth enough for a grid of its own.
-const MOST: [usize; 2] = [10, 24];
 /// Ends of faces nearer than this share of a face are one.
 const SAME: f64 = 0.05;
 
 impl FlankGridLines {
-    /// Cells that are the faces of the mesh, where these form a grid that is not too fine; else the coarsest uniform one.
-    pub fn of_faces(patch: &FlankPatch) -> Self {
+    /// Cells that are the faces of the mesh, where these form a grid.
+    pub fn of_faces(patch: &FlankPatch) -> Option<Self> {
         let mut ends = [Vec::new(), Vec::new()];
         for face in 0..patch.face_count() {
             let [low, high] = patch.face_range(face);
@@ -33,8 +31,7 @@ impl FlankGridLines {
             of.dedup_by(|b, a| *b - *a < SAME * size[k]);
         }
         let cells = [0, 1].map(|k| ends[k].len().saturating_sub(1));
-        let grid = cells[0] * cells[1] == patch.face_count();
-        if grid && (0..2).all(|k| cells[k] >= 1 && cells[k] <= MOST[k]) { Self { ends } } else { Self::uniform(patch, 0) }
+        (cells[0] > 0 && cells[0] * cells[1] == patch.face_count()).then_some(Self { ends })
     }
 
     /// Equal cells, twice as many either way with each refinement.

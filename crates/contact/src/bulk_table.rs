@@ -49,7 +49,7 @@ const CELL: usize = 12;
 const NORMAL_ONLY: f64 = 1e-6;
 /// Points of a table at most, both directions: 128 MiB.
 const MOST_POINTS: usize = 4096;
-/// Doublings of the grid at most.
+/// Uniform grids to try, each twice as fine as the one before.
 const REFINEMENTS: usize = 3;
 /// Places of each patch at which a table is held against the matrices, either way.
 const CHECKS: usize = 9;
@@ -90,23 +90,15 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; 2] {
 }
 
 impl BulkTable {
-    /// The table whose error is at most `tolerance`, relative to the largest self-compliance; the finest within reason where none is.
-    pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Self {
-        let mut best = Self::on(bulk, bulk.patches.iter().map(FlankGridLines::of_faces).collect());
-        for refinement in 0..REFINEMENTS {
-            if best.error <= tolerance {
-                break;
-            }
-            let lines: Vec<_> = bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
-            if 2 * lines.iter().map(FlankGridLines::count).sum::<usize>() > MOST_POINTS {
-                break;
-            }
-            let finer = Self::on(bulk, lines);
-            if finer.error < best.error {
-                best = finer;
-            }
-        }
-        best
+    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the mesh, else on uniform
+    /// grids that grow finer; `None` where none within reason is good enough.
+    pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+        let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
+        let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
+        let small =
+            |lines: &Vec<FlankGridLines>| 2 * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS;
+        let candidates = of_faces.into_iter().chain((0..REFINEMENTS).map(uniform));
+        candidates.filter(small).map(|lines| Self::on(bulk, lines)).find(|table| table.error <= tolerance)
     }
 
     fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
@@ -220,22 +212,24 @@ impl BulkTable {
         let n = openings.len();
         work.collect(self.points(), openings.iter().chain(if symmetric { &[] } else { loads }));
         let m = work.used.len();
+        work.renumber(openings, loads);
         // The part of the table that these rows touch, side by side.
         work.part.clear();
         for &q in &work.used {
             let column = &self.table[q as usize * self.points()..][..self.points()];
             work.part.extend(work.used.iter().map(|&p| column[p as usize]));
         }
+        let TableWork { part, column, places: [openings, loads], .. } = work;
         for (j, load) in loads.iter().enumerate() {
-            work.column.clear();
-            work.column.resize(m, 0.0);
+            column.clear();
+            column.resize(m, 0.0);
             for (q, w) in load.each() {
-                let from = &work.part[m * work.rank[q as usize] as usize..][..m];
-                work.column.iter_mut().zip(from).for_each(|(c, t)| *c += w * t);
+                let from = &part[m * q as usize..][..m];
+                column.iter_mut().zip(from).for_each(|(c, t)| *c += w * t);
             }
             let start = if symmetric { j } else { 0 };
             for (place, entry) in openings[start..].iter().zip(&mut out[j * n + start..(j + 1) * n]) {
-                *entry += place.each().map(|(p, w)| w * work.column[work.rank[p as usize] as usize]).sum::<f64>();
+                *entry += place.each().map(|(p, w)| w * column[p as usize]).sum::<f64>();
             }
         }
     }
@@ -260,6 +254,8 @@ pub struct TableWork {
     rank: Vec<u32>,
     part: Vec<f64>,
     column: Vec<f64>,
+    /// Openings and loads, their points counted among those used.
+    places: [Vec<TablePlace>; 2],
 }
 
 impl TableWork {
@@ -271,12 +267,24 @@ impl TableWork {
             rank: Vec::with_capacity(table.points()),
             part: Vec::with_capacity(most * most),
             column: Vec::with_capacity(most),
+            places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],
         }
     }
 
     /// Points of the table that the rows of the last call touched.
     pub fn touched(&self) -> usize {
         self.used.len()
+    }
+
+    fn renumber(&mut self, openings: &[TablePlace], loads: &[TablePlace]) {
+        for (to, from) in self.places.iter_mut().zip([openings, loads]) {
+            to.clear();
+            to.extend(from.iter().map(|place| {
+                let mut own = *place;
+                own.points[..own.count].iter_mut().for_each(|p| *p = self.rank[*p as usize]);
+                own
+            }));
+        }
     }
 
     fn collect<'a>(&mut self, points: usize, places: impl Iterator<Item = &'a TablePlace>) {

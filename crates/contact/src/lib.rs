@@ -38,7 +38,7 @@ pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use least_gap::{SurfacePair, least_gap};
 pub use line_length::{contact_intervals, covered};
-pub use local::{EndFace, LocalBody, LocalContact, LocalState, layer_constant, wedge_softening};
+pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
 pub use pressure::nodal_pressures;

@@ -108,7 +108,11 @@ impl<'a> Facing<'a> {
         let mut found = None;
         for _ in 0..NEWTON_STEPS {
             let look = self.look([u, z]).ok_or(())?;
-            if look.slope < 0.0 { below = Some(u) } else { above = Some(u) }
+            if look.slope < 0.0 {
+                below = Some(u)
+            } else {
+                above = Some(u)
+            }
             let at_end = (look.slope < 0.0 && u >= high) || (look.slope > 0.0 && u <= low);
             if at_end {
                 found = Some((u, look.foot[0], true));
@@ -184,8 +188,7 @@ impl<'a> Facing<'a> {
         let step = (high - low) / (SCAN - 1) as f64;
         let at = |i: usize| (low + step * i as f64).min(high);
         let of = |i: usize| self.patches[1].surface().locate(&self.carried([at(i), z])).filter(|f| faces(f.at[0]));
-        let (_, nearest) =
-            (0..SCAN).filter_map(|i| Some((of(i)?.distance, i))).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (_, nearest) = (0..SCAN).filter_map(|i| Some((of(i)?.distance, i))).min_by(|a, b| a.0.total_cmp(&b.0))?;
         // Bracket: the neighbours, or where the facing part of the profile ends before them.
         let end = |neighbour: f64| {
             if facing(neighbour) {
@@ -225,7 +228,7 @@ impl<'a> Facing<'a> {
 ///
 /// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that it is safe,
 /// bisection otherwise.
-fn bracket_zero(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], [fa, fb]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn bracket_zero(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], [fa, fb]: [f64; 2]) -> [f64; 2] {
     if fa == 0.0 {
         return [a, a];
     }
@@ -269,7 +272,8 @@ mod tests {
     /// Smooth, flat, steep and broken functions: the bracket holds the place and is round-off wide.
     #[test]
     fn brackets_close_on_zeros_and_jumps() {
-        let functions: [(&str, fn(f64) -> f64, f64); 5] = [
+        type Case = (&'static str, fn(f64) -> f64, f64);
+        let functions: [Case; 5] = [
             ("line", |x| x - 0.3, 0.3),
             ("cubic", |x| (x - 0.3).powi(3), 0.3),
             ("exponential", |x| (20.0 * x).exp() - 7.0, 7f64.ln() / 20.0),

@@ -133,7 +133,9 @@ impl ContactSet {
         let count = self.shared.patches[gear].len() / self.kept_sides();
         // The wheel's teeth run against the pair numbers.
         let tooth = if gear == 0 { pair } else { count.checked_sub(pair + 1)? };
-        (0..self.kept_sides()).map(|s| tooth * self.kept_sides() + s).find(|&p| self.shared.sides[gear].get(p) == Some(&side))
+        (0..self.kept_sides())
+            .map(|s| tooth * self.kept_sides() + s)
+            .find(|&p| self.shared.sides[gear].get(p) == Some(&side))
     }
 
     /// Window pair of a patch of the pinion, counted from 0.
@@ -165,7 +167,12 @@ impl ContactSet {
         for pair in 0..pairs {
             for side in [Side::Left, Side::Right] {
                 if let (Some(a), Some(b)) = (self.patch_of(0, pair, side), self.patch_of(1, pair, side)) {
-                    let points = line_points(&self.shared.patches[0][a], &self.shared.patches[1][b], poses, self.shared.stations);
+                    let points = line_points(
+                        &self.shared.patches[0][a],
+                        &self.shared.patches[1][b],
+                        poses,
+                        self.shared.stations,
+                    );
                     line.insert((a, b), points);
                 }
             }

@@ -125,7 +125,8 @@ impl Start {
     fn new(fixed: &Fixed<'_>, walk: &Walk, before: &Station) -> Option<Self> {
         let count = walk.window.count();
         let teeth = [fixed.pair.pinion.teeth(), fixed.pair.wheel.teeth()];
-        let window = ToothWindow::new(ToothWindow::nominal_first(before.centre(fixed.options), count), count, teeth).ok()?;
+        let window =
+            ToothWindow::new(ToothWindow::nominal_first(before.centre(fixed.options), count), count, teeth).ok()?;
         let mut set = walk.set.clone();
         set.move_to(fixed.gears, &window).ok()?.then_some(Self { window, set })
     }

@@ -1,11 +1,15 @@
 //! Torque equilibrium at one station.
 
-use std::collections::BTreeMap;
-
-use contact::{Balance, ContactError, ContactRow, LinePoints, Pose, Slice, Solution, closest_points, complementarity};
+use contact::{ContactError, ContactRow, Pose, Slice, Solution};
 use geometry::GearPair;
 
-use crate::{MeshContact, StaticError, StaticOptions, friction::Friction, kinematic::Unloaded, parts::Parts, pose};
+use crate::{
+    MeshContact, StaticError, StaticOptions,
+    kinematic::Unloaded,
+    parts::Parts,
+    pose,
+    pose_solver::{Memory, Solver, Step, Touched, remembered},
+};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -53,6 +57,8 @@ const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
+/// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
+const POSE_ROUND_OFF: f64 = 1e-9;
 
 impl Station {
     /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle.
@@ -90,9 +96,6 @@ pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2]
     [0, 1].map(|i| pose::pose(pair, options, i, angles[i] + turn[i]))
 }
 
-/// Forces by (pair of patches counted by running number, point): what a next solve starts from.
-pub(crate) type Memory = BTreeMap<(usize, usize, usize), f64>;
-
 impl Equilibrium {
     pub(crate) fn memory(&self) -> Memory {
         remembered(&self.rows, &self.solution)
@@ -107,137 +110,6 @@ impl Equilibrium {
     pub fn approach(&self, pair: &GearPair) -> f64 {
         self.elastic_error().abs() * pair.base_helix_angle().cos()
     }
-}
-
-/// The contact of one pose with the driven gear's turn as an unknown.
-struct Touched {
-    rows: Vec<ContactRow>,
-    slices: Vec<Slice>,
-    solution: Solution,
-    displacements: [Vec<f64>; 2],
-}
-
-/// Who solves the contact of a pose.
-enum Solver<'a> {
-    /// Slices on reduced gears.
-    Mesh(&'a mut MeshContact),
-    /// Points, and gears with all their degrees of freedom: what was touched last is kept.
-    General { line: LinePoints, memory: Memory, touched: Option<Touched> },
-}
-
-/// What a pose came to.
-enum Step {
-    /// Turn of the driven gear, rad, and iterations.
-    Turn(f64, usize),
-    /// No row that could carry the torque is within reach.
-    OutOfReach,
-    /// Rows beyond the reach could close: the farthest way of a row, mm.
-    TooShort(f64),
-}
-
-impl Solver<'_> {
-    fn step(&mut self, parts: &Parts, poses: &[Pose; 2], reach: f64) -> Result<Step, ContactError> {
-        let Parts { pair, options, .. } = *parts;
-        let driven = options.driven();
-        let moment = -options.side().sign() * options.torque;
-        let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
-        let short = |rows: &[ContactRow], turn: f64| {
-            // A row that the step can close must have been among the rows.
-            let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));
-            (1.05 * farthest > reach).then_some(Step::TooShort(farthest))
-        };
-        match self {
-            Self::Mesh(mesh) => {
-                mesh.prepare(poses, Some(reach));
-                if !carries(mesh.rows()) {
-                    return Ok(Step::OutOfReach);
-                }
-                mesh.solve(Balance::Moment(moment), driven)?;
-                let (turn, iterations) = (mesh.solver().rotation(), mesh.solver().iterations());
-                Ok(short(mesh.rows(), turn).unwrap_or(Step::Turn(turn, iterations)))
-            }
-            Self::General { line, memory, touched } => {
-                let (rows, slices) = candidates(parts, line, poses, reach);
-                let rows: Vec<ContactRow> = match Friction::new(pair, options) {
-                    Some(friction) => rows.into_iter().map(|row| friction.on(poses, row)).collect(),
-                    None => rows,
-                };
-                if !carries(&rows) {
-                    return Ok(Step::OutOfReach);
-                }
-                let (solution, displacements) = general(parts, &rows, &slices, moment, memory)?;
-                if let Some(short) = short(&rows, solution.rotation) {
-                    return Ok(short);
-                }
-                *memory = remembered(&rows, &solution);
-                let step = Step::Turn(solution.rotation, solution.iterations);
-                *touched = Some(Touched { rows, slices, solution, displacements });
-                Ok(step)
-            }
-        }
-    }
-
-    fn touched(&mut self) -> Option<Touched> {
-        match self {
-            Self::General { touched, .. } => touched.take(),
-            Self::Mesh(mesh) => {
-                let solver = mesh.solver();
-                let solution = Solution {
-                    forces: solver.forces().to_vec(),
-                    active: solver.active().to_vec(),
-                    rotation: solver.rotation(),
-                    openings: solver.openings().to_vec(),
-                    stiffness: solver.stiffness(),
-                    iterations: solver.iterations(),
-                    residual: solver.residual(),
-                };
-                let (rows, slices) = (mesh.rows().to_vec(), mesh.slices().to_vec());
-                Some(Touched { rows, slices, solution, displacements: Default::default() })
-            }
-        }
-    }
-}
-
-/// Rows within `reach` (mm), and their slices.
-fn candidates(parts: &Parts, line: &LinePoints, poses: &[Pose; 2], reach: f64) -> (Vec<ContactRow>, Vec<Slice>) {
-    let Parts { set, options, .. } = *parts;
-    if let Some(slices) = set.slices() {
-        return slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), poses, reach);
-    }
-    let mut rows = closest_points(&set.scene(options, line), poses, reach);
-    rows.retain(|r| set.partners(r.patches));
-    (rows, Vec::new())
-}
-
-/// Solution on any elastic model, and the displacements of its boundary coordinates.
-fn general(
-    parts: &Parts,
-    rows: &[ContactRow],
-    slices: &[Slice],
-    moment: f64,
-    memory: &Memory,
-) -> Result<(Solution, [Vec<f64>; 2]), ContactError> {
-    let Parts { gears, set, options, .. } = *parts;
-    let driven = options.driven();
-    let start: Vec<f64> =
-        rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
-    let mut bodies = set.bodies(gears, rows)?;
-    let solution = if set.slices().is_some() {
-        let local = |i: usize, force: f64| {
-            let state = slices[i].local.under(force / slices[i].length);
-            (state.approach, state.slope / slices[i].length)
-        };
-        complementarity::solve_slices(&mut *bodies, rows, driven, moment, local, &start)?
-    } else {
-        complementarity::solve(&mut *bodies, rows, driven, moment, options.law, &start)?
-    };
-    let displacements = bodies.displacements(&solution.forces);
-    Ok((solution, displacements))
-}
-
-fn remembered(rows: &[ContactRow], solution: &Solution) -> Memory {
-    let active = solution.active.iter();
-    active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect()
 }
 
 /// Turns the driven gear until contact balances its torque.
@@ -293,14 +165,17 @@ pub(crate) fn equilibrium(
         };
         iterations += steps;
         rotation += turn;
+        let before = step_mm;
         step_mm = (turn * base_radius).abs();
         let error = side.sign() * base_radius * rotation;
         let elastic = (error - kinematic).abs();
         // An angle of a few radians resolves no smaller steps.
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
-        if step_mm <= (POSE_TOLERANCE * elastic).max(round_off)
-            && let Some(Touched { rows, slices, solution, displacements }) = solver.touched()
+        let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
+        if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
+            && let Some(touched) = solver.touched()
         {
+            let Touched { rows, slices, solution, displacements } = *touched;
             return Ok(Equilibrium {
                 station,
                 poses,

@@ -18,6 +18,7 @@ mod mesh_contact;
 mod options;
 mod parts;
 mod pose;
+mod pose_solver;
 pub mod result;
 mod root_stress;
 mod slice_set;

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use contact::{
-    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, SliceHint, contact_intervals, contact_row, covered, hertz,
-    least_gap, opening,
+    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, SliceHint, contact_intervals, contact_row, covered,
+    hertz, least_gap, opening,
 };
 use geometry::GearPair;
 

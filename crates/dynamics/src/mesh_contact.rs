@@ -1,8 +1,8 @@
 //! Contact of two gears that stand where they are told: forces and their tangent.
 
 use contact::{
-    Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalState, Pose, Slice, SliceHint,
-    SlicePlace, TablePlace, TableWork,
+    Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalLaw, LocalState, Pose, Slice,
+    SliceHint, SlicePlace, TablePlace, TableWork,
 };
 use faer::MatRef;
 use geometry::GearPair;
@@ -59,6 +59,7 @@ pub struct MeshContact {
     keys: Vec<usize>,
     rows: Vec<ContactRow>,
     slices: Vec<Slice>,
+    laws: Vec<LocalLaw>,
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
@@ -101,6 +102,7 @@ impl MeshContact {
             keys: Vec::with_capacity(most),
             rows: Vec::with_capacity(most),
             slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
             gaps: Vec::with_capacity(most),
             levers: Vec::with_capacity(most),
             torque_levers: Vec::with_capacity(most),
@@ -168,11 +170,10 @@ impl MeshContact {
 
     /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks overlap.
     ///
-    /// Compliance being positive definite, no row opens another by more than the larger of what both open themselves: rows that gape by more than the deepest
-    /// overlap stay open when nothing turns.
+    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by some per cent of it at most, so rows that gape by
+    /// more stay open.
     pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
-        [&mut self.gaps, &mut self.levers, &mut self.torque_levers].into_iter().for_each(Vec::clear);
         places.clear();
         keys.clear();
         rows.clear();
@@ -205,7 +206,10 @@ impl MeshContact {
                 slices.push(slice);
             }
         }
+        self.gaps.clear();
         self.gaps.extend(self.rows.iter().map(|r| r.gap));
+        self.laws.clear();
+        self.laws.extend(self.slices.iter().map(|s| s.local.law()));
         self.compliance();
     }
 
@@ -249,8 +253,10 @@ impl MeshContact {
 
     /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
     pub(crate) fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
-        let Self { rows, slices, gaps, levers, torque_levers, compliance, keys, memory, solver, .. } = self;
+        let Self { rows, slices, laws, gaps, levers, torque_levers, compliance, keys, memory, solver, .. } = self;
         let n = rows.len();
+        levers.clear();
+        torque_levers.clear();
         levers.extend(rows.iter().map(|r| r.levers[body]));
         torque_levers.extend(rows.iter().map(|r| r.torque_levers[body]));
         let problem = DenseProblem {
@@ -262,7 +268,7 @@ impl MeshContact {
             balance,
         };
         let local = |i: usize, force: f64| {
-            let LocalState { approach, slope, .. } = slices[i].local.under(force / slices[i].length);
+            let LocalState { approach, slope, .. } = laws[i].under(force / slices[i].length);
             (approach, slope / slices[i].length)
         };
         solver.solve(&problem, local, |i| memory[keys[i]])?;

@@ -29,7 +29,8 @@ pub enum Method {
 pub enum Bulk {
     /// The mesh's own matrices, entry by entry.
     Exact,
-    /// Interpolated in a table ([`contact::BulkTable`]) that is off by at most this share of the largest self-compliance of a slice.
+    /// Interpolated in a table ([`contact::BulkTable`]) that is off by at most this share of the largest self-compliance of a slice;
+    /// exact where no table of reasonable size is.
     Table(f64),
 }
 

@@ -59,7 +59,7 @@ impl SliceSet {
         Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// With the bulk compliance of the given windows in tables, if that is asked for.
+    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as asked.
     pub(crate) fn with_tables(
         mut self,
         patches: [&[FlankPatch]; 2],
@@ -67,14 +67,16 @@ impl SliceSet {
         options: &StaticOptions,
     ) -> Self {
         if let (Bulk::Table(tolerance), Some(windows)) = (options.bulk, windows) {
-            self.bulk = Some([0, 1].map(|i| {
+            let table = |i: usize| {
                 let bulk = BulkCompliance {
                     whole: windows[i].reduced.compliance.as_ref(),
                     halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
                     patches: patches[i],
                 };
                 BulkTable::new(&bulk, tolerance)
-            }));
+            };
+            let (first, second) = rayon::join(|| table(0), || table(1));
+            self.bulk = first.zip(second).map(|(a, b)| [a, b]);
         }
         self
     }

@@ -4,8 +4,9 @@ use ale::ToothWindow;
 use geometry::GearPair;
 
 use crate::{
-    Change, ContactSet, ElasticGear, Equilibrium, FilletStress, MeshContact, StaticError, StaticOptions, StaticPosition,
-    Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, root_stress::RootStress,
+    Change, ContactSet, ElasticGear, Equilibrium, FilletStress, MeshContact, StaticError, StaticOptions,
+    StaticPosition, Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts,
+    root_stress::RootStress,
 };
 
 /// What stays the same from station to station.
@@ -141,7 +142,12 @@ impl Walk {
     ///
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
-    pub fn change(&mut self, fixed: &Fixed<'_>, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
+    pub fn change(
+        &mut self,
+        fixed: &Fixed<'_>,
+        before: &StaticPosition,
+        station: Station,
+    ) -> Result<StaticPosition, StaticError> {
         let forces: Vec<f64> = self.window.pairs().map(|running| self.force_of(fixed, before, running)).collect();
         let next = self.window.change(fixed.options.sense, &forces)?;
         self.enter(fixed, next)?;

@@ -7,11 +7,7 @@ use faer::{
     perm::PermRef,
 };
 
-use super::{
-    Equality, LinearContact, Problem, TOLERANCE,
-    pivots::PIVOT_TOLERANCE,
-    slices::{Rows, newton},
-};
+use super::{TOLERANCE, pivots::PIVOT_TOLERANCE, tangent::RIGID};
 use crate::ContactError;
 
 /// What stands against the contact forces.
@@ -46,27 +42,25 @@ pub struct DenseProblem<'a> {
 
 /// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps do not settle.
 pub struct DenseSolver {
-    forces: Vec<f64>,
-    openings: Vec<f64>,
-    approach: Vec<f64>,
-    slopes: Vec<f64>,
-    active: Vec<usize>,
-    order: Vec<usize>,
-    factor: Vec<f64>,
-    x: Vec<f64>,
-    permutation: [Vec<usize>; 2],
-    scratch: MemBuffer,
-    symmetric: bool,
-    rotation: f64,
-    stiffness: f64,
-    iterations: usize,
-    residual: f64,
+    pub(super) forces: Vec<f64>,
+    pub(super) openings: Vec<f64>,
+    pub(super) approach: Vec<f64>,
+    pub(super) slopes: Vec<f64>,
+    pub(super) active: Vec<usize>,
+    pub(super) order: Vec<usize>,
+    pub(super) factor: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) permutation: [Vec<usize>; 2],
+    pub(super) scratch: MemBuffer,
+    pub(super) symmetric: bool,
+    pub(super) rotation: f64,
+    pub(super) stiffness: f64,
+    pub(super) iterations: usize,
+    pub(super) residual: f64,
 }
 
 /// Newton steps in which the active set may change as a whole; three to eight do.
 const BLOCK_STEPS: usize = 24;
-/// Coordinates of two rigid bodies.
-pub const RIGID: usize = 12;
 
 impl std::fmt::Debug for DenseSolver {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -226,9 +220,14 @@ impl DenseSolver {
     }
 
     /// Forces, rotation and bulk openings of the linear problem on the active rows.
-    fn step(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
+    pub(super) fn step(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         self.iterations += 1;
         let m = self.active.len();
+        if m == 0 {
+            (self.rotation, self.stiffness) = (0.0, 0.0);
+            [&mut self.forces, &mut self.openings].into_iter().for_each(|list| list.fill(0.0));
+            return Ok(());
+        }
         self.factor(problem)?;
         self.x.clear();
         for &i in &self.active {
@@ -255,7 +254,7 @@ impl DenseSolver {
     }
 
     /// Factor of S + diag(slopes) on the active rows.
-    fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
+    pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
         self.factor.clear();
         for &j in &self.active {
@@ -282,7 +281,7 @@ impl DenseSolver {
     }
 
     /// Solves with the factor for the first `columns` columns of `x`, m rows each.
-    fn back_substitute(&mut self, m: usize, columns: usize) {
+    pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
         let factor = MatRef::from_column_major_slice(&self.factor, m, m);
         let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
         if self.symmetric {
@@ -348,117 +347,5 @@ impl DenseSolver {
                 self.openings[i] += self.approach[i];
             }
         }
-    }
-
-    /// The same with the set found for tangents that are held.
-    fn carefully(
-        &mut self,
-        problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
-    ) -> Result<(), ContactError> {
-        let before = self.iterations;
-        let rows = Rows {
-            gaps: problem.gaps,
-            levers: problem.levers,
-            torque_levers: problem.torque_levers,
-            balance: problem.balance,
-        };
-        let active = self.active.clone();
-        let mut bodies = Bodies { problem: *problem, solver: Self::new(problem.gaps.len()) };
-        let solution = newton(&mut bodies, &rows, local, self.forces.clone(), active)?;
-        self.forces.copy_from_slice(&solution.forces);
-        self.openings.copy_from_slice(&solution.openings);
-        self.active = solution.active;
-        (self.rotation, self.stiffness, self.residual) = (solution.rotation, solution.stiffness, solution.residual);
-        self.iterations = before + solution.iterations;
-        // The factor of the last tangents, for the tangent of the whole.
-        let inner = bodies.solver;
-        for &i in &self.active {
-            self.slopes[i] = inner.slopes[i];
-        }
-        self.factor(problem)
-    }
-
-    /// How forces and moments on two rigid bodies follow their motion, active rows alone.
-    ///
-    /// ```text
-    /// T = -J_t' (S + diag delta')^-1 J
-    /// ```
-    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal without friction).
-    pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
-        let m = self.active.len();
-        let mut tangent = [[0.0; RIGID]; RIGID];
-        if m == 0 {
-            return tangent;
-        }
-        self.x.clear();
-        self.x.resize(RIGID * m, 0.0);
-        for (a, &i) in self.active.iter().enumerate() {
-            let [opening, _] = row(i);
-            opening.iter().enumerate().for_each(|(c, v)| self.x[c * m + a] = *v);
-        }
-        if self.symmetric {
-            let factor = MatRef::from_column_major_slice(&self.factor, m, m);
-            let x = MatMut::from_column_major_slice_mut(&mut self.x, m, RIGID);
-            triangular_solve::solve_lower_triangular_in_place(factor, x, Par::Seq);
-            for a in 0..RIGID {
-                for b in 0..=a {
-                    let (p, q) = (&self.x[a * m..(a + 1) * m], &self.x[b * m..(b + 1) * m]);
-                    let sum: f64 = p.iter().zip(q).map(|(p, q)| p * q).sum();
-                    (tangent[a][b], tangent[b][a]) = (-sum, -sum);
-                }
-            }
-        } else {
-            self.back_substitute(m, RIGID);
-            for (a, &i) in self.active.iter().enumerate() {
-                let [_, traction] = row(i);
-                for (p, of_force) in tangent.iter_mut().zip(&traction) {
-                    p.iter_mut().enumerate().for_each(|(c, t)| *t -= of_force * self.x[c * m + a]);
-                }
-            }
-        }
-        tangent
-    }
-}
-
-/// The dense compliance as elastic bodies, for the pivots.
-struct Bodies<'a> {
-    problem: DenseProblem<'a>,
-    solver: DenseSolver,
-}
-
-impl LinearContact for Bodies<'_> {
-    fn solve(&mut self, active: &[usize], p: &Problem) -> Result<Equality, ContactError> {
-        let n = p.gaps.len();
-        let solver = &mut self.solver;
-        let linear = DenseProblem { gaps: &p.gaps, ..self.problem };
-        for list in [&mut solver.forces, &mut solver.openings, &mut solver.approach] {
-            list.clear();
-            list.resize(n, 0.0);
-        }
-        solver.symmetric = self.problem.symmetric;
-        solver.slopes.clone_from(&p.compliance);
-        solver.active.clear();
-        solver.active.extend(active);
-        if active.is_empty() {
-            (solver.rotation, solver.stiffness) = (0.0, 0.0);
-        } else {
-            solver.step(&linear)?;
-        }
-        Ok(Equality {
-            forces: active.iter().map(|&i| solver.forces[i]).collect(),
-            rotation: solver.rotation,
-            openings: solver.openings.clone(),
-            stiffness: solver.stiffness,
-        })
-    }
-
-    fn self_compliance(&mut self) -> Result<f64, ContactError> {
-        let s = self.problem.compliance;
-        Ok((0..s.nrows()).map(|i| s[(i, i)]).sum::<f64>() / s.nrows().max(1) as f64)
-    }
-
-    fn displacements(&self, _: &[f64]) -> [Vec<f64>; 2] {
-        Default::default()
     }
 }

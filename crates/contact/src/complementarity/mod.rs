@@ -9,10 +9,12 @@
 //! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
 //! for the rotation and the gaps is unique.
 
+mod careful;
 mod dense;
 mod pivots;
 mod proximal;
 mod slices;
+mod tangent;
 
 use crate::{ContactError, ContactRow};
 

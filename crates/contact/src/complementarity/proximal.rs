@@ -1,6 +1,8 @@
 //! Points that press on a mesh: forces that need not be unique, by proximal continuation.
 
-use super::{Law, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot};
+use super::{
+    Law, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
+};
 use crate::{ContactError, ContactRow};
 
 /// Row compliance of exact contact in the first proximal step, relative to a point's own compliance: large enough that
@@ -45,7 +47,8 @@ pub fn solve(
         Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
         Law::Exact => vec![0.0; rows.len()],
     };
-    let mut problem = Problem { gaps: gaps.clone(), levers: levers.clone(), torque_levers, compliance, moment, held: false };
+    let mut problem =
+        Problem { gaps: gaps.clone(), levers: levers.clone(), torque_levers, compliance, moment, held: false };
     let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
     if active.is_empty() {
         active = first_guess(rows, &levers, driving);

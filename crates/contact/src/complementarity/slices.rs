@@ -1,6 +1,8 @@
 //! Slices: rows with a compliance of their own, not linear in the force.
 
-use super::{Balance, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot};
+use super::{
+    Balance, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
+};
 use crate::{ContactError, ContactRow};
 
 /// Newton steps on the local compliance of slices before giving up; five or six do.
@@ -76,10 +78,10 @@ pub(super) fn newton(
     };
     let mut total = 0;
     for _ in 0..SLICE_STEPS {
-        for i in 0..n {
-            let (approach, slope) = local(i, forces[i]);
+        for (i, &force) in forces.iter().enumerate() {
+            let (approach, slope) = local(i, force);
             problem.compliance[i] = slope;
-            problem.gaps[i] = rows.gaps[i] + approach - slope * forces[i];
+            problem.gaps[i] = rows.gaps[i] + approach - slope * force;
         }
         let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
         total += iterations;
