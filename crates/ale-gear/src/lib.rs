@@ -7,8 +7,10 @@
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
+//! | [`chart`] | accuracy against cost of every model |
 //! | [`command`] | the subcommands |
 
+pub mod chart;
 pub mod command;
 pub mod error;
 pub mod facts;

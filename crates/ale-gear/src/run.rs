@@ -14,7 +14,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
-use crate::scene::{Driver, Flanks, Gap, Method, Model, Rotation, Scene};
+use crate::scene::{Analysis, Driver, Flanks, Gap, Method, Model, Rotation, Scene};
 use crate::{gears, iso_model, meshes};
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way.
@@ -22,9 +22,21 @@ use crate::{gears, iso_model, meshes};
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no solution is found.
 pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> Result<Solved, CommandError> {
+    Ok(solve_and_keep(scene, phases, results)?.0)
+}
+
+/// As [`solve`]; the model comes back too, its gears reduced: for more of the same. `None` for a model without meshes.
+///
+/// # Errors
+/// Those of [`solve`].
+pub(crate) fn solve_and_keep(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+) -> Result<(Solved, Option<StaticModel>), CommandError> {
     let pair = phases.run("geometry", || gears::pair(scene))?;
     if scene.analysis.model == Model::Iso {
-        return phases.run("solve", || iso_model::solve(scene, &pair));
+        return Ok((phases.run("solve", || iso_model::solve(scene, &pair))?, None));
     }
     let meshes = phases.run("mesh", || {
         let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
@@ -61,7 +73,22 @@ pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> R
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     history.warnings.extend(warnings);
-    Ok(Solved { history, facts })
+    Ok((Solved { history, facts }, Some(model)))
+}
+
+/// Wall time (s) of the scene's positions once more on gears that are reduced already.
+///
+/// # Errors
+/// Those of [`solve`].
+pub(crate) fn time_again(scene: &Scene, model: StaticModel) -> Result<f64, CommandError> {
+    let (pair, options) = (model.pair().clone(), model.options().clone());
+    let complain = |e: StaticError| complaint(scene, &e);
+    // The window stands where the last run left it; a new model begins at the start again.
+    let mut again = StaticModel::new(pair, model.into_gears(), options).map_err(complain)?;
+    let start = std::time::Instant::now();
+    let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
+    again.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ()).map_err(complain)?;
+    Ok(start.elapsed().as_secs_f64())
 }
 
 /// Why an attempt with one width of the window failed.
@@ -109,7 +136,7 @@ fn attempt(
 ) -> Result<(StaticModel, StaticHistory), Failure> {
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let elastic = phases.run(name, || elastic_gears(scene, pair, options, meshes))?;
-    let mut model = StaticModel::new(pair.clone(), elastic, options.clone())?;
+    let mut model = phases.run("contact", || StaticModel::new(pair.clone(), elastic, options.clone()))?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let steps = per_cycle * scene.analysis.cycles as usize;
     let mut fields = FieldWriter::new(scene, results);
@@ -131,7 +158,8 @@ fn attempt(
     Ok((model, history))
 }
 
-fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
+/// What a scene asks of the analysis.
+pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     let defaults = StaticOptions::new(scene.operation.torque(), pair);
     let m = scene.pair.misalignment;
     let misalignment = Misalignment {
@@ -181,10 +209,7 @@ fn elastic_gears(
     let window = StaticModel::window_teeth(pair, options);
     let build = |i: usize, mesh: &SceneMesh| -> Result<ElasticGear, CommandError> {
         let whose = ["pinion", "wheel"][i];
-        let m = scene.gears()[i].material;
-        let material = Material::new(m.young_mpa, m.poisson, m.density()).map_err(|e| {
-            CommandError::input(format_args!("{}: {whose}'s material: {e}", scene.file.display()), e.hint())
-        })?;
+        let material = material(scene, i)?;
         let elements = ElementOptions::default();
         let gear = if scene.analysis.model == Model::Full {
             FullGear::new(mesh.gear.clone(), material, &elements).map(ElasticGear::Full)
@@ -201,6 +226,16 @@ fn elastic_gears(
     let [pinion, wheel] = meshes;
     let (pinion, wheel) = rayon::join(|| build(0, pinion), || build(1, wheel));
     Ok([pinion?, wheel?])
+}
+
+/// Material of pinion (0) or wheel (1).
+///
+/// # Errors
+/// Exit status 2 when it is none.
+pub(crate) fn material(scene: &Scene, i: usize) -> Result<Material, CommandError> {
+    let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
+    Material::new(m.young_mpa, m.poisson, m.density())
+        .map_err(|e| CommandError::input(format_args!("{}: {whose}'s material: {e}", scene.file.display()), e.hint()))
 }
 
 fn free_dofs(gear: &ElasticGear) -> usize {

@@ -69,10 +69,7 @@ impl RunArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
-        if let Some(threads) = self.threads {
-            // Fails only when a pool is there already, which nobody has made before this line.
-            let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-        }
+        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         let Solved { history, facts } = run::solve(&scene, &mut phases, &results)?;
         let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;

@@ -147,6 +147,7 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
                 name.as_str(),
                 "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
             )
+            || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };
