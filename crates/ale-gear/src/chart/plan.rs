@@ -25,7 +25,7 @@ impl Density {
             // Even, so that nodes lie on the tooth's centre surface, where slice contact cuts it.
             elements_thickness: 2 * p.div_ceil(3),
             elements_face: p.max(2),
-            elements_rim: (p / 2).max(1),
+            elements_rim: (p / 2).max(2),
             sector_teeth: own.map_or(0, |m| m.sector_teeth),
         }
     }
