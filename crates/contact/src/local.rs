@@ -78,7 +78,7 @@ impl LocalContact {
     pub fn under(&self, load: f64) -> LocalState {
         let modulus = hertz::effective_modulus(self.bodies.map(|b| (b.young, b.poisson)));
         // The compliance of a vanishing load is infinite, if only as a logarithm.
-        let least = 1e-9 * modulus * self.radius;
+        let least = 1e-15 * modulus * self.radius;
         let q = load.max(least);
         let half_width = hertz::half_width(q, self.radius, modulus);
         let (bracket, growth) = self.bracket(half_width);
