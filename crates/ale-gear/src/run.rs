@@ -58,7 +58,7 @@ pub(crate) fn solve_and_keep(
             },
         }
     };
-    let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
+    let dof_before = [0, 1].map(|i| model.gears()[i].dofs().free_count());
     let mut facts = Facts {
         geometry: gears::geometry_facts(&pair),
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
@@ -68,7 +68,7 @@ pub(crate) fn solve_and_keep(
         contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
         ..Facts::default()
     };
-    let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
+    let cyclic = model.gears().iter().all(ElasticGear::is_cyclic);
     facts.model.insert("cyclic_gears".into(), cyclic.into());
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
@@ -236,14 +236,6 @@ pub(crate) fn material(scene: &Scene, i: usize) -> Result<Material, CommandError
     let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
     Material::new(m.young_mpa, m.poisson, m.density())
         .map_err(|e| CommandError::input(format_args!("{}: {whose}'s material: {e}", scene.file.display()), e.hint()))
-}
-
-fn free_dofs(gear: &ElasticGear) -> usize {
-    match gear {
-        ElasticGear::Reduced(r) => r.dofs().free_count(),
-        ElasticGear::Grid(r) => r.dofs().free_count(),
-        ElasticGear::Full(f) => f.dofs.free_count(),
-    }
 }
 
 fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {

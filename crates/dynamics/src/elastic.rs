@@ -2,7 +2,7 @@
 
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::GearMesh;
-use reduction::{GearReducer, GridReducer, ReductionError, Window};
+use reduction::{GearReducer, GridReducer, ReductionError, ReductionRecord, StoredGear, Window};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
@@ -37,6 +37,8 @@ impl FullGear {
 pub enum ElasticGear {
     /// Known from its flanks.
     Reduced(GearReducer),
+    /// The same from a record.
+    Stored(StoredGear),
     /// Known from coarse grids over its flanks.
     Grid(GridReducer),
     /// All degrees of freedom.
@@ -51,6 +53,7 @@ impl ElasticGear {
     pub fn window(&self, first: u32) -> Result<Option<Window>, ReductionError> {
         match self {
             Self::Reduced(r) => r.window(first).map(Some),
+            Self::Stored(r) => r.window(first).map(Some),
             Self::Grid(r) => r.window(first).map(Some),
             Self::Full(_) => Ok(None),
         }
@@ -60,6 +63,7 @@ impl ElasticGear {
     pub fn gear(&self) -> &GearMesh {
         match self {
             Self::Reduced(r) => r.gear(),
+            Self::Stored(r) => r.gear(),
             Self::Grid(r) => r.gear(),
             Self::Full(f) => &f.gear,
         }
@@ -69,8 +73,37 @@ impl ElasticGear {
     pub fn material(&self) -> &Material {
         match self {
             Self::Reduced(r) => r.material(),
+            Self::Stored(r) => r.material(),
             Self::Grid(r) => r.material(),
             Self::Full(f) => &f.material,
+        }
+    }
+
+    /// Free degrees of freedom of the whole mesh.
+    pub fn dofs(&self) -> &DofMap {
+        match self {
+            Self::Reduced(r) => r.dofs(),
+            Self::Stored(r) => r.dofs(),
+            Self::Grid(r) => r.dofs(),
+            Self::Full(f) => &f.dofs,
+        }
+    }
+
+    /// Whether the gear is reduced and all its windows are alike.
+    pub fn is_cyclic(&self) -> bool {
+        match self {
+            Self::Reduced(r) => r.is_cyclic(),
+            Self::Stored(r) => r.is_cyclic(),
+            Self::Grid(r) => r.is_cyclic(),
+            Self::Full(_) => false,
+        }
+    }
+
+    /// What a later run of the same gear needs; `None` for a gear that came from a record, or has none.
+    pub fn record(&self) -> Option<ReductionRecord> {
+        match self {
+            Self::Reduced(r) => Some(r.record()),
+            Self::Stored(_) | Self::Grid(_) | Self::Full(_) => None,
         }
     }
 }

@@ -160,6 +160,14 @@ impl WindowRoots {
                 let modes = gear.stress_modes(&windows[i], &nodes)?;
                 StressMap::Modes(windows[i].reduced.clone(), modes)
             }
+            (ElasticGear::Stored(gear), Some(windows)) => {
+                let modes = gear.stress_modes(&windows[i], &nodes)?;
+                StressMap::Modes(windows[i].reduced.clone(), modes)
+            }
+            (ElasticGear::Stored(gear), None) => {
+                let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
+                StressMap::Operator(StressOperator::new(mesh, gear.material(), gear.elements(), dofs, &nodes)?)
+            }
             (ElasticGear::Reduced(gear), None) => {
                 // No set of a reduced gear is without its window; the operator would serve all the same.
                 let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
@@ -212,6 +220,7 @@ impl WindowRoots {
             let [x, y, z] = mesh.nodes[node as usize];
             let own = match (elastic, window) {
                 (ElasticGear::Reduced(gear), Some(window)) => gear.material_node(window, node),
+                (ElasticGear::Stored(gear), Some(window)) => gear.material_node(window, node),
                 _ => node,
             };
             Some(StressPeak { stress, node: mesh.node_tags[own as usize], radius: x.hypot(y), z })

@@ -15,7 +15,9 @@ mod grid;
 mod half_tooth;
 mod layer_profile;
 mod plane_strain;
+mod record;
 mod reducer;
+mod stored;
 mod stress_modes;
 mod window;
 
@@ -24,6 +26,8 @@ pub use error::ReductionError;
 pub use grid::{FlankGrid, GridReducer};
 pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;
+pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
 pub use reducer::{GearReducer, ReductionOptions};
+pub use stored::StoredGear;
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

@@ -121,6 +121,18 @@ impl GearReducer {
         &self.base
     }
 
+    /// Windows reduced so far, the first one first.
+    pub(crate) fn reduced_windows(&self) -> Vec<Arc<ReducedGear>> {
+        let others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        std::iter::once(&self.base).chain(others.values()).cloned().collect()
+    }
+
+    /// Half teeth condensed so far.
+    pub(crate) fn condensed_halves(&self) -> Vec<((u32, Side), Arc<HalfTooth>)> {
+        let halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
+        halves.iter().map(|(&flank, half)| (flank, half.clone())).collect()
+    }
+
     /// Whether the mesh is the same after a turn by one pitch.
     pub fn is_cyclic(&self) -> bool {
         self.turn.is_some()

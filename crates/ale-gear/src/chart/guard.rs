@@ -20,7 +20,9 @@ pub(super) fn refusal(smaller: &Work, dof: usize, limit_s: f64) -> Option<String
         }
     }
     let run = smaller.cycle_s * smaller.positions_run as f64 / smaller.positions_asked.max(1) as f64;
-    let seconds = (smaller.offline_s + run) * ratio.powf(WORK_EXPONENT);
+    // Positions of a reduced gear go with its flanks, those of a whole one with a factorisation each.
+    let online = if smaller.dof_after < smaller.dof_before { 1.0 } else { WORK_EXPONENT };
+    let seconds = smaller.offline_s * ratio.powf(WORK_EXPONENT) + run * ratio.powf(online);
     (seconds > limit_s)
         .then(|| format!("{dof} DOF would take about {seconds:.0} s, the limit is {limit_s:.0} s a point"))
 }

@@ -71,6 +71,8 @@ pub struct WorkPrecision {
     pub reference_work: Work,
     /// What it gave.
     pub reference: Answer,
+    /// Why it was not taken on a finer mesh; empty when it is on the finest.
+    pub reference_note: String,
     /// The points, way by way, coarse to fine.
     pub rows: Vec<PointRow>,
 }
@@ -104,7 +106,7 @@ pub fn chart(
         series(scene, way, options, results, &mut raw, &mut seen);
     }
     seen("reference");
-    let (reference_density, reference) = refined(scene, options, results, &raw)?;
+    let (reference_density, reference_note, reference) = refined(scene, options, results, &raw)?;
     let rows = raw
         .into_iter()
         .map(|Raw { way, density, measured }| {
@@ -119,7 +121,7 @@ pub fn chart(
         })
         .collect();
     let Measured { work: reference_work, answer: reference, .. } = reference;
-    Ok(WorkPrecision { reference_density, reference_work, reference, rows })
+    Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows })
 }
 
 /// The points of one way, coarse to fine.
@@ -166,7 +168,7 @@ fn refined(
     options: &ChartOptions,
     results: &ResultDirectory,
     raw: &[Raw],
-) -> Result<(Density, Measured), CommandError> {
+) -> Result<(Density, String, Measured), CommandError> {
     let way = Way { name: "reference", engine: Engine::Own(reference), range: Range::All, share: Share::Whole };
     // What slices took on coarser meshes tells what the reference will.
     let before: Vec<(Density, Work)> = raw
@@ -174,16 +176,16 @@ fn refined(
         .filter(|r| r.way.range == Range::BelowReference)
         .filter_map(|r| Some((r.density?, r.measured.as_ref().ok()?.work)))
         .collect();
-    let mut why = CommandError::failed("no mesh density to take a reference on", None);
+    let mut coarser = String::new();
     for &density in options.densities.iter().rev() {
-        let smaller = before.iter().filter(|(d, _)| *d < density).max_by_key(|(d, _)| *d).map(|(_, work)| work);
+        let smaller = before.iter().filter(|(d, _)| *d <= density).max_by_key(|(d, _)| *d).map(|(_, work)| work);
         let point = Point::new(scene, way, Some(density), options.part);
         match guarded(&point, smaller, options.limit_s, results) {
-            Ok(measured) => return Ok((density, measured)),
-            Err(message) => why = CommandError::failed(format_args!("no reference: {message}"), None),
+            Ok(measured) => return Ok((density, coarser, measured)),
+            Err(message) => coarser = format!("not on {} elements along the profile: {message}", density.profile),
         }
     }
-    Err(why)
+    Err(CommandError::failed(format_args!("no reference: {coarser}"), None))
 }
 
 /// A point in a few words.

@@ -17,7 +17,7 @@ pub fn write_chart_csv(chart: &WorkPrecision) -> String {
             work: chart.reference_work,
             answer: chart.reference.clone(),
             error: study::AnswerError { mean_ste: 0.0, peak_to_peak_ste: None, mean_line_length: None },
-            note: "what the others are compared with".into(),
+            note: format!("what the others are compared with; {}", chart.reference_note),
         },
     };
     text.push_str(&line(&reference));

@@ -16,6 +16,9 @@ pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> Str
          are relative to it.\n",
         mean(&chart.reference.ste_um)
     );
+    if !chart.reference_note.is_empty() {
+        let _ = writeln!(t, "It was {}.\n", chart.reference_note);
+    }
     t.push_str(&points(chart));
     t.push_str(&speed_ups(chart));
     t.push_str(&scaling(chart));
