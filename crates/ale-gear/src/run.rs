@@ -2,12 +2,12 @@
 
 use contact::{GapSource, Law};
 use dynamics::{
-    ElasticGear, FullGear, Misalignment, Offset, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition,
+    ElasticGear, Misalignment, Offset, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition,
 };
-use fem::{ElementOptions, Material};
 use geometry::GearPair;
-use reduction::{GearReducer, ReductionOptions};
 
+use crate::cache::Cache;
+use crate::elastic_gears::{ElasticGears, elastic_gears};
 use crate::error::CommandError;
 use crate::facts::{Facts, Solved};
 use crate::fields::FieldWriter;
@@ -17,12 +17,17 @@ use crate::phases::Phases;
 use crate::scene::{Analysis, Driver, Flanks, Gap, Method, Model, Rotation, Scene};
 use crate::{gears, iso_model, meshes};
 
-/// Solves a scene; ParaView files, when asked for, go into `results` on the way.
+/// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go there.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no solution is found.
-pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> Result<Solved, CommandError> {
-    Ok(solve_and_keep(scene, phases, results)?.0)
+pub fn solve(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<Solved, CommandError> {
+    Ok(solve_and_keep(scene, phases, results, cache)?.0)
 }
 
 /// As [`solve`]; the model comes back too, its gears reduced: for more of the same. `None` for a model without meshes.
@@ -33,6 +38,7 @@ pub(crate) fn solve_and_keep(
     scene: &Scene,
     phases: &mut Phases,
     results: &ResultDirectory,
+    cache: &Cache,
 ) -> Result<(Solved, Option<StaticModel>), CommandError> {
     let pair = phases.run("geometry", || gears::pair(scene))?;
     if scene.analysis.model == Model::Iso {
@@ -45,8 +51,9 @@ pub(crate) fn solve_and_keep(
     })?;
     let mut warnings: Vec<String> = meshes.iter().flat_map(|m| m.warnings.clone()).collect();
     let mut options = options(scene, &pair);
+    let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
     let (model, mut history) = loop {
-        match attempt(scene, phases, results, &pair, &meshes, &options) {
+        match attempt(inputs, phases, &options) {
             Ok(solved) => break solved,
             Err(Failure::Command(e)) => return Err(e),
             Err(Failure::Static(e)) => match wider_window(scene, &pair, &meshes, &options, &e) {
@@ -70,6 +77,8 @@ pub(crate) fn solve_and_keep(
     };
     let cyclic = model.gears().iter().all(ElasticGear::is_cyclic);
     facts.model.insert("cyclic_gears".into(), cyclic.into());
+    let stored = model.gears().iter().filter(|g| matches!(g, ElasticGear::Stored(_))).count();
+    facts.model.insert("gears_from_cache".into(), stored.into());
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     history.warnings.extend(warnings);
@@ -125,22 +134,31 @@ fn wider_window(
     (starved && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
 }
 
+/// What all attempts share.
+#[derive(Clone, Copy)]
+struct Inputs<'a> {
+    scene: &'a Scene,
+    results: &'a ResultDirectory,
+    cache: &'a Cache,
+    pair: &'a GearPair,
+    meshes: &'a [SceneMesh; 2],
+}
+
 /// Reduction and run with one width of the window.
 fn attempt(
-    scene: &Scene,
+    inputs: Inputs<'_>,
     phases: &mut Phases,
-    results: &ResultDirectory,
-    pair: &GearPair,
-    meshes: &[SceneMesh; 2],
     options: &StaticOptions,
 ) -> Result<(StaticModel, StaticHistory), Failure> {
+    let Inputs { scene, results, cache, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let elastic = phases.run(name, || elastic_gears(scene, pair, options, meshes))?;
-    let mut model = phases.run("contact", || StaticModel::new(pair.clone(), elastic, options.clone()))?;
+    let ElasticGears { gears, keys, mut warnings } =
+        phases.run(name, || elastic_gears(scene, pair, options, meshes, cache))?;
+    let mut model = phases.run("contact", || StaticModel::new(pair.clone(), gears, options.clone()))?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let steps = per_cycle * scene.analysis.cycles as usize;
     let mut fields = FieldWriter::new(scene, results);
-    let history = phases.run_steps("solve", steps as u64, |progress| {
+    let mut history = phases.run_steps("solve", steps as u64, |progress| {
         let mut failed = None;
         let history = model.run(per_cycle, scene.analysis.cycles as usize, |index, position, model| {
             progress.tick();
@@ -155,6 +173,11 @@ fn attempt(
         }
     })?;
     fields.finish()?;
+    if cache.is_on() {
+        // After the run, when every window and half tooth that it took is known.
+        warnings.extend(phases.run("store", || keys.save(cache, model.gears())));
+    }
+    history.warnings.extend(warnings);
     Ok((model, history))
 }
 
@@ -196,46 +219,6 @@ pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
         root_stress: scene.output.root_stress,
         ..defaults
     }
-}
-
-/// Both gears, side by side.
-fn elastic_gears(
-    scene: &Scene,
-    pair: &GearPair,
-    options: &StaticOptions,
-    meshes: &[SceneMesh; 2],
-) -> Result<[ElasticGear; 2], CommandError> {
-    let first = StaticModel::first_teeth(pair, options).map_err(|e| complaint(scene, &e))?;
-    let window = StaticModel::window_teeth(pair, options);
-    let build = |i: usize, mesh: &SceneMesh| -> Result<ElasticGear, CommandError> {
-        let whose = ["pinion", "wheel"][i];
-        let material = material(scene, i)?;
-        let elements = ElementOptions::default();
-        let gear = if scene.analysis.model == Model::Full {
-            FullGear::new(mesh.gear.clone(), material, &elements).map(ElasticGear::Full)
-        } else {
-            let options = ReductionOptions { sides: options.sides(), window, first: first[i], elements };
-            GearReducer::new(mesh.gear.clone(), material, options).map(ElasticGear::Reduced)
-        };
-        let place = match scene.gears()[i].mesh {
-            Some(_) => mesh.facts.source.clone(),
-            None => format!("{}: built-in mesher", scene.file.display()),
-        };
-        gear.map_err(|e| CommandError::input(format_args!("{place}: {whose}: {e}"), e.hint()))
-    };
-    let [pinion, wheel] = meshes;
-    let (pinion, wheel) = rayon::join(|| build(0, pinion), || build(1, wheel));
-    Ok([pinion?, wheel?])
-}
-
-/// Material of pinion (0) or wheel (1).
-///
-/// # Errors
-/// Exit status 2 when it is none.
-pub(crate) fn material(scene: &Scene, i: usize) -> Result<Material, CommandError> {
-    let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
-    Material::new(m.young_mpa, m.poisson, m.density())
-        .map_err(|e| CommandError::input(format_args!("{}: {whose}'s material: {e}", scene.file.display()), e.hint()))
 }
 
 fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
@@ -286,7 +269,7 @@ fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
 }
 
 /// Wrong input is status 2, a solver that finds no answer status 1.
-fn complaint(scene: &Scene, error: &StaticError) -> CommandError {
+pub(crate) fn complaint(scene: &Scene, error: &StaticError) -> CommandError {
     let message = format!("{}: {error}", scene.file.display());
     match error {
         StaticError::Contact { .. } | StaticError::NoEquilibrium { .. } => CommandError::failed(message, error.hint()),

@@ -10,8 +10,11 @@ use super::{
     plan::PENALTY,
 };
 use crate::{
+    elastic_gears::material,
     error::CommandError,
-    gears, run,
+    gears,
+    partial::Partial,
+    run,
     scene::{MisalignmentScene, ModificationScene, Rotation, Scene},
 };
 
@@ -30,8 +33,10 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
     let pair = gears::pair(scene)?;
     let meshes = point_meshes(scene)?;
     let options = run::options(scene, &pair);
-    let materials = [run::material(scene, 0)?, run::material(scene, 1)?];
-    let scratch = tempfile::tempdir().map_err(|e| CommandError::write(&std::env::temp_dir(), &e))?;
+    let materials = [material(scene, 0)?, material(scene, 1)?];
+    let name = format!("ale-gear-calculix-{}", std::process::id());
+    let scratch = Partial::new(std::env::temp_dir().join(name));
+    std::fs::create_dir_all(scratch.path()).map_err(|e| CommandError::write(scratch.path(), &e))?;
     let side = scene.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];

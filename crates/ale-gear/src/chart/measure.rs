@@ -5,6 +5,7 @@ use study::{Answer, Work};
 
 use super::{Point, calculix_point, plan::Engine};
 use crate::{
+    cache::Cache,
     error::CommandError,
     facts::Solved,
     gears, meshes,
@@ -49,7 +50,7 @@ pub(super) fn measure(point: &Point, results: &ResultDirectory) -> Result<Measur
 
 fn own(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandError> {
     let mut phases = Phases::quiet();
-    let (Solved { history, facts }, model) = run::solve_and_keep(&point.scene, &mut phases, results)?;
+    let (Solved { history, facts }, model) = run::solve_and_keep(&point.scene, &mut phases, results, &Cache::off())?;
     let wall =
         |solve: bool| -> f64 { phases.rows().iter().filter(|p| (p.name == "solve") == solve).map(|p| p.wall_s).sum() };
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
@@ -81,7 +82,7 @@ fn own(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandErro
 fn time_closed_form(scene: &Scene, results: &ResultDirectory) -> Result<f64, CommandError> {
     let mut phases = Phases::quiet();
     for _ in 0..REPEATS {
-        run::solve_and_keep(scene, &mut phases, results)?;
+        run::solve_and_keep(scene, &mut phases, results, &Cache::off())?;
     }
     let solve: f64 = phases.rows().iter().filter(|p| p.name == "solve").map(|p| p.wall_s).sum();
     Ok(solve / f64::from(REPEATS))
