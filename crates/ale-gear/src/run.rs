@@ -52,7 +52,7 @@ pub(crate) fn solve_and_keep(
     let mut warnings: Vec<String> = meshes.iter().flat_map(|m| m.warnings.clone()).collect();
     let mut options = options(scene, &pair);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
-    let (model, mut history) = loop {
+    let (model, mut history, first_result_s) = loop {
         match attempt(inputs, phases, &options) {
             Ok(solved) => break solved,
             Err(Failure::Command(e)) => return Err(e),
@@ -72,6 +72,7 @@ pub(crate) fn solve_and_keep(
         dof_before,
         dof_after: dof_after(&model, dof_before),
         window_teeth: Some(model.window().count() as u32),
+        first_result_s,
         contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
         ..Facts::default()
     };
@@ -149,18 +150,20 @@ fn attempt(
     inputs: Inputs<'_>,
     phases: &mut Phases,
     options: &StaticOptions,
-) -> Result<(StaticModel, StaticHistory), Failure> {
+) -> Result<(StaticModel, StaticHistory, Option<f64>), Failure> {
     let Inputs { scene, results, cache, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let ElasticGears { gears, keys, mut warnings } =
-        phases.run(name, || elastic_gears(scene, pair, options, meshes, cache))?;
+        phases.run_foreseen(name, foreseen_s(meshes), || elastic_gears(scene, pair, options, meshes, cache))?;
     let mut model = phases.run("contact", || StaticModel::new(pair.clone(), gears, options.clone()))?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let steps = per_cycle * scene.analysis.cycles as usize;
     let mut fields = FieldWriter::new(scene, results);
+    let (start, mut first_result_s) = (phases.start(), None);
     let mut history = phases.run_steps("solve", steps as u64, |progress| {
         let mut failed = None;
         let history = model.run(per_cycle, scene.analysis.cycles as usize, |index, position, model| {
+            first_result_s.get_or_insert_with(|| start.elapsed().as_secs_f64());
             progress.tick();
             progress.say(format!("STE {:.3} um", 1e3 * position.transmission_error));
             if failed.is_none() {
@@ -178,7 +181,14 @@ fn attempt(
         warnings.extend(phases.run("store", || keys.save(cache, model.gears())));
     }
     history.warnings.extend(warnings);
-    Ok((model, history))
+    Ok((model, history, first_result_s))
+}
+
+/// About how long the general reduction of both gears takes, s: 4 s for gears of 86 000 degrees of freedom, 35 s for 338 000, on two
+/// cores of 2020 or so. For the progress bar only.
+fn foreseen_s(meshes: &[SceneMesh; 2]) -> f64 {
+    let dof = meshes.iter().map(|m| 3 * m.gear.mesh().nodes.len()).max().unwrap_or(0);
+    4.0 * (dof as f64 / 86e3).powf(1.6)
 }
 
 /// What a scene asks of the analysis.

@@ -99,11 +99,12 @@ impl ElasticGear {
         }
     }
 
-    /// What a later run of the same gear needs; `None` for a gear that came from a record, or has none.
+    /// What a later run of the same gear needs; `None` for a gear whose record has it all, or that is not reduced to its flanks.
     pub fn record(&self) -> Option<ReductionRecord> {
         match self {
             Self::Reduced(r) => Some(r.record()),
-            Self::Stored(_) | Self::Grid(_) | Self::Full(_) => None,
+            Self::Stored(r) => r.record(),
+            Self::Grid(_) | Self::Full(_) => None,
         }
     }
 }

@@ -76,6 +76,24 @@ impl StoredGear {
         self.reducer.get_or_init(make).as_deref().map_err(Clone::clone)
     }
 
+    /// What a later run needs beyond the record that this gear came from; `None` when that was enough.
+    pub fn record(&self) -> Option<ReductionRecord> {
+        let reducer = self.reducer.get()?.as_ref().ok()?;
+        let mut record = reducer.record();
+        if record.cyclic {
+            return None;
+        }
+        let known = |w: &Arc<ReducedGear>| w.teeth.first().is_some_and(|t| self.windows.contains_key(t));
+        record.windows.retain(|w| !known(w));
+        if record.windows.is_empty() {
+            return None;
+        }
+        record.windows.extend(self.windows.values().cloned());
+        let halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
+        record.halves = halves.iter().map(|(&flank, half)| (flank, half.clone())).collect();
+        Some(record)
+    }
+
     /// The window whose first tooth is `first`.
     ///
     /// # Errors
