@@ -3,14 +3,14 @@
 use dynamics::{ElasticGear, FullGear, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
-use reduction::{GearReducer, RecordKey, ReductionOptions, StoredGear, record_key};
+use reduction::{GearReducer, RecordKey, ReductionOptions, record_key};
 
 use crate::{
     cache::Cache,
     error::CommandError,
     meshes::SceneMesh,
     run::complaint,
-    scene::{Model, Scene},
+    scene::{Model, Reduction, Scene},
 };
 
 /// Both gears as the analysis takes them.
@@ -29,13 +29,13 @@ pub(crate) struct RecordKeys([Option<RecordKey>; 2]);
 impl RecordKeys {
     /// Writes what was reduced in this run; the warnings are about what could not be written.
     pub(crate) fn save(&self, cache: &Cache, gears: &[ElasticGear; 2]) -> Vec<String> {
-        let records = self.0.iter().zip(gears).filter_map(|(key, gear)| Some((key.as_ref()?, gear.record()?)));
+        let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
+            ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
+            ElasticGear::Full(_) => None,
+        });
         records.filter_map(|(key, record)| cache.save(key, &record)).collect()
     }
 }
-
-/// Name of this way of reduction in a record's key.
-const GENERAL: &str = "general";
 
 /// Both gears, side by side.
 ///
@@ -78,15 +78,16 @@ fn one(
         return Ok((gear.map(ElasticGear::Full).map_err(|e| blame(scene, mesh, i, &e))?, None, None));
     }
     let geometry = [&pair.pinion, &pair.wheel][i];
-    let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, GENERAL));
+    let general = scene.analysis.reduction == Some(Reduction::General);
+    let asked = if general { "general" } else { "auto" };
+    let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, asked));
     let (found, warning) = key.as_ref().map_or((None, None), |key| cache.load(key));
-    let gear = match found {
-        Some(record) => ElasticGear::Stored(StoredGear::new(mesh.gear.clone(), material, options, record)),
-        None => GearReducer::new(mesh.gear.clone(), material, options)
-            .map(ElasticGear::Reduced)
-            .map_err(|e| blame(scene, mesh, i, &e))?,
+    let gear = match (found, general) {
+        (Some(record), _) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
+        (None, true) => GearReducer::general(mesh.gear.clone(), material, options),
+        (None, false) => GearReducer::new(mesh.gear.clone(), material, options),
     };
-    Ok((gear, key, warning))
+    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, &e))?, key, warning))
 }
 
 fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, error: &reduction::ReductionError) -> CommandError {

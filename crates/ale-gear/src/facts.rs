@@ -25,6 +25,9 @@ pub struct Facts {
     pub dof_before: [usize; 2],
     /// Degrees of freedom of pinion and wheel that the analysis carries.
     pub dof_after: [usize; 2],
+    /// Which way pinion and wheel were condensed: `cyclic sector` or `general`; empty for a model without reduction.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reduction: Vec<&'static str>,
     /// Teeth in the window at the end.
     pub window_teeth: Option<u32>,
     /// Contact points of the window.

@@ -126,22 +126,11 @@ impl<'a> GearState<'a> {
                 let field = r.expand(window, boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
                 (field, r.material_nodes(window), r.frame_angle(window), r.elements())
             }
-            (ElasticGear::Stored(r), Some(windows)) => {
-                let window = &windows[part];
-                let failed = |e: reduction::ReductionError| CommandError::failed(&e, e.hint());
-                let field = r.expand(window, boundary).map_err(failed)?;
-                (field, r.material_nodes(window).map_err(failed)?, r.frame_angle(window), r.elements())
-            }
             (ElasticGear::Full(f), _) => {
                 let field = f.dofs.to_nodes(boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
                 (field, f.dofs.free_nodes().to_vec(), 0.0, &f.elements)
             }
-            (ElasticGear::Grid(_), _) => {
-                return Err(CommandError::failed("a gear reduced to grids has no displacement field", None));
-            }
-            (ElasticGear::Reduced(_) | ElasticGear::Stored(_), None) => {
-                return Err(CommandError::failed("the window is lost", None));
-            }
+            (ElasticGear::Reduced(_), None) => return Err(CommandError::failed("the window is lost", None)),
         };
         // The pose is that of the window's frame; the gear's own frame is turned back by the frame's angle.
         let own = e.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);

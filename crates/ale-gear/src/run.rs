@@ -5,6 +5,7 @@ use dynamics::{
     ElasticGear, Misalignment, Offset, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition,
 };
 use geometry::GearPair;
+use reduction::GearReducer;
 
 use crate::cache::Cache;
 use crate::elastic_gears::{ElasticGears, elastic_gears};
@@ -65,7 +66,7 @@ pub(crate) fn solve_and_keep(
             },
         }
     };
-    let dof_before = [0, 1].map(|i| model.gears()[i].dofs().free_count());
+    let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     let mut facts = Facts {
         geometry: gears::geometry_facts(&pair),
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
@@ -76,10 +77,11 @@ pub(crate) fn solve_and_keep(
         contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
         ..Facts::default()
     };
-    let cyclic = model.gears().iter().all(ElasticGear::is_cyclic);
+    let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
     facts.model.insert("cyclic_gears".into(), cyclic.into());
-    let stored = model.gears().iter().filter(|g| matches!(g, ElasticGear::Stored(_))).count();
+    let stored = model.gears().iter().filter(|g| reduced(g).is_some_and(GearReducer::is_from_record)).count();
     facts.model.insert("gears_from_cache".into(), stored.into());
+    facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     history.warnings.extend(warnings);
@@ -131,7 +133,10 @@ fn wider_window(
 ) -> Option<usize> {
     let teeth = StaticModel::window_teeth(pair, options) + 1;
     let starved = matches!(error, StaticError::Starved { .. });
-    let room = meshes.iter().all(|m| teeth < m.gear.teeth().len());
+    let available = |m: &SceneMesh| {
+        if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
+    };
+    let room = meshes.iter().all(|m| teeth < available(m));
     (starved && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
 }
 
@@ -231,6 +236,20 @@ pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     }
 }
 
+fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
+    match gear {
+        ElasticGear::Reduced(r) => Some(r),
+        ElasticGear::Full(_) => None,
+    }
+}
+
+fn free_dofs(gear: &ElasticGear) -> usize {
+    match gear {
+        ElasticGear::Reduced(r) => r.free_count(),
+        ElasticGear::Full(f) => f.dofs.free_count(),
+    }
+}
+
 fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
     match model.contact_set().windows() {
         Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
@@ -245,7 +264,8 @@ fn sector_warnings(model: &StaticModel) -> Vec<String> {
         .filter_map(|i| {
             let gear = model.gears()[i].gear();
             let meshed = gear.teeth().len();
-            (meshed < gear.tooth_count() as usize).then(|| {
+            let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
+            (!cyclic && meshed < gear.tooth_count() as usize).then(|| {
                 format!(
                     "the {}'s mesh has {meshed} of {} teeth and free cuts: it is softer than the whole gear (5 of 30 teeth: by about \
                      16 % in the mean transmission error); use it for comparison only",

@@ -2,7 +2,7 @@
 
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::GearMesh;
-use reduction::{GearReducer, GridReducer, ReductionError, ReductionRecord, StoredGear, Window};
+use reduction::{GearReducer, ReductionError, Window};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
@@ -35,12 +35,8 @@ impl FullGear {
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "two of them live as long as the program")]
 pub enum ElasticGear {
-    /// Known from its flanks.
+    /// Known from its flanks, or from coarse grids over them.
     Reduced(GearReducer),
-    /// The same from a record.
-    Stored(StoredGear),
-    /// Known from coarse grids over its flanks.
-    Grid(GridReducer),
     /// All degrees of freedom.
     Full(FullGear),
 }
@@ -53,8 +49,6 @@ impl ElasticGear {
     pub fn window(&self, first: u32) -> Result<Option<Window>, ReductionError> {
         match self {
             Self::Reduced(r) => r.window(first).map(Some),
-            Self::Stored(r) => r.window(first).map(Some),
-            Self::Grid(r) => r.window(first).map(Some),
             Self::Full(_) => Ok(None),
         }
     }
@@ -63,8 +57,6 @@ impl ElasticGear {
     pub fn gear(&self) -> &GearMesh {
         match self {
             Self::Reduced(r) => r.gear(),
-            Self::Stored(r) => r.gear(),
-            Self::Grid(r) => r.gear(),
             Self::Full(f) => &f.gear,
         }
     }
@@ -73,38 +65,7 @@ impl ElasticGear {
     pub fn material(&self) -> &Material {
         match self {
             Self::Reduced(r) => r.material(),
-            Self::Stored(r) => r.material(),
-            Self::Grid(r) => r.material(),
             Self::Full(f) => &f.material,
-        }
-    }
-
-    /// Free degrees of freedom of the whole mesh.
-    pub fn dofs(&self) -> &DofMap {
-        match self {
-            Self::Reduced(r) => r.dofs(),
-            Self::Stored(r) => r.dofs(),
-            Self::Grid(r) => r.dofs(),
-            Self::Full(f) => &f.dofs,
-        }
-    }
-
-    /// Whether the gear is reduced and all its windows are alike.
-    pub fn is_cyclic(&self) -> bool {
-        match self {
-            Self::Reduced(r) => r.is_cyclic(),
-            Self::Stored(r) => r.is_cyclic(),
-            Self::Grid(r) => r.is_cyclic(),
-            Self::Full(_) => false,
-        }
-    }
-
-    /// What a later run of the same gear needs; `None` for a gear whose record has it all, or that is not reduced to its flanks.
-    pub fn record(&self) -> Option<ReductionRecord> {
-        match self {
-            Self::Reduced(r) => Some(r.record()),
-            Self::Stored(r) => r.record(),
-            Self::Grid(_) | Self::Full(_) => None,
         }
     }
 }

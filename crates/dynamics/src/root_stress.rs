@@ -160,20 +160,11 @@ impl WindowRoots {
                 let modes = gear.stress_modes(&windows[i], &nodes)?;
                 StressMap::Modes(windows[i].reduced.clone(), modes)
             }
-            (ElasticGear::Stored(gear), Some(windows)) => {
-                let modes = gear.stress_modes(&windows[i], &nodes)?;
-                StressMap::Modes(windows[i].reduced.clone(), modes)
-            }
-            (ElasticGear::Stored(gear), None) => {
-                let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
-                StressMap::Operator(StressOperator::new(mesh, gear.material(), gear.elements(), dofs, &nodes)?)
-            }
             (ElasticGear::Reduced(gear), None) => {
                 // No set of a reduced gear is without its window; the operator would serve all the same.
                 let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
                 StressMap::Operator(StressOperator::new(mesh, gear.material(), gear.elements(), dofs, &nodes)?)
             }
-            (ElasticGear::Grid(_), _) => return Err(ReductionError::NoStressModes),
             (ElasticGear::Full(gear), _) => {
                 let (mesh, dofs) = (gear.gear.mesh(), &gear.dofs);
                 StressMap::Operator(StressOperator::new(mesh, &gear.material, &gear.elements, dofs, &nodes)?)
@@ -220,7 +211,6 @@ impl WindowRoots {
             let [x, y, z] = mesh.nodes[node as usize];
             let own = match (elastic, window) {
                 (ElasticGear::Reduced(gear), Some(window)) => gear.material_node(window, node),
-                (ElasticGear::Stored(gear), Some(window)) => gear.material_node(window, node),
                 _ => node,
             };
             Some(StressPeak { stress, node: mesh.node_tags[own as usize], radius: x.hypot(y), z })

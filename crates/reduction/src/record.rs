@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use geometry::Side;
 
-use crate::{HalfTooth, ReducedGear};
+use crate::{HalfTooth, ReducedGear, reducer::Summary};
 
 pub use error::RecordError;
 pub use key::{RecordKey, record_key};
@@ -22,8 +22,8 @@ const MAGIC: [u8; 16] = *b"ale-gear reduced";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its windows, half teeth. Not the factor, so neither displacement fields nor
-/// stress modes come of it ([`crate::StoredGear`] makes the factor again when these are asked for).
+/// What contact takes of a reduced gear: matrices of its windows, half teeth. Not the factor, which [`crate::GearReducer::from_record`] makes again when
+/// displacement fields or stress modes are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
 ///
@@ -34,13 +34,13 @@ const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 /// | 32 | [`RecordKey`]: BLAKE3 of everything that the numbers depend on |
 /// | 8 | length of the payload |
 /// | 32 | BLAKE3 of all bytes above and the payload |
-/// | .. | payload: cyclic or not; windows; half teeth |
+/// | .. | payload: how it was condensed; windows; half teeth |
 #[derive(Debug, Clone)]
 pub struct ReductionRecord {
-    /// Whether all windows are alike.
-    pub cyclic: bool,
+    /// How it was condensed.
+    pub(crate) summary: Summary,
     /// Windows; of a cyclic gear one alone.
-    pub windows: Vec<Arc<ReducedGear>>,
+    pub(crate) windows: Vec<Arc<ReducedGear>>,
     /// Half teeth by tooth and side.
-    pub halves: Vec<((u32, Side), Arc<HalfTooth>)>,
+    pub(crate) halves: Vec<((u32, Side), Arc<HalfTooth>)>,
 }

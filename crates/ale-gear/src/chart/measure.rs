@@ -88,7 +88,7 @@ fn time_closed_form(scene: &Scene, results: &ResultDirectory) -> Result<f64, Com
     Ok(solve / f64::from(REPEATS))
 }
 
-/// The meshes of a point.
+/// The meshes of a point, as its analysis takes them.
 ///
 /// # Errors
 /// As reading and meshing complain.
@@ -99,7 +99,7 @@ pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], CommandError>
     Ok([pinion.gear, wheel.gear])
 }
 
-/// Degrees of freedom of both gears of a point, bores held; 0 without meshes.
+/// Degrees of freedom of both whole gears of a point, bores counted; 0 without meshes.
 ///
 /// # Errors
 /// As meshing complains.
@@ -107,6 +107,8 @@ pub(super) fn degrees_of_freedom(scene: &Scene) -> Result<usize, CommandError> {
     if scene.analysis.model == Model::Iso {
         return Ok(0);
     }
-    let meshes = point_meshes(scene)?;
-    Ok(meshes.iter().map(|g| 3 * (g.mesh().nodes.len() - g.bore_nodes().len())).sum())
+    let pair = gears::pair(scene)?;
+    let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
+    let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
+    Ok(3 * (pinion.facts.nodes + wheel.facts.nodes))
 }

@@ -1,6 +1,6 @@
 //! The points of the chart: ways to compute a cycle times mesh densities. Each point is a scene of its own.
 
-use crate::scene::{Gap, MesherScene, Method, Model, Scene};
+use crate::scene::{Gap, MesherScene, Method, Model, Reduction, Scene};
 
 /// A density of the built-in mesher, quadratic elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,9 +83,10 @@ pub fn ways() -> Vec<Way> {
     let own = |name, range, edit| Way { name, engine: Engine::Own(edit), range, share: Share::Whole };
     vec![
         own("iso", Range::None, iso),
-        own("slice, general reduction", Range::BelowReference, slice),
-        own("nodal, general reduction", Range::All, nodal),
-        own("nodal with penalty, general reduction", Range::BelowReference, penalty),
+        own("slice", Range::BelowReference, slice),
+        own("slice, general reduction", Range::BelowReference, slice_general),
+        own("nodal", Range::All, nodal),
+        own("nodal with penalty", Range::BelowReference, penalty),
         Way { name: FULL, engine: Engine::Own(full), range: Range::First(2), share: Share::Part },
         Way { name: CALCULIX, engine: Engine::Calculix, range: Range::First(2), share: Share::Part },
     ]
@@ -98,10 +99,17 @@ pub(crate) const CALCULIX: &str = "CalculiX";
 
 fn iso(scene: &mut Scene) {
     scene.analysis.model = Model::Iso;
+    scene.analysis.reduction = None;
+}
+
+/// By cyclic sectors, unless the mesh is none of a cyclic gear.
+fn reduced(scene: &mut Scene) {
+    scene.analysis.model = Model::Reduced;
+    scene.analysis.reduction = Some(Reduction::Auto);
 }
 
 fn slice(scene: &mut Scene) {
-    scene.analysis.model = Model::Reduced;
+    reduced(scene);
     scene.contact.method = Method::Slice;
     scene.contact.penalty_mpa_per_mm = None;
     scene.contact.gap = None;
@@ -109,7 +117,7 @@ fn slice(scene: &mut Scene) {
 }
 
 fn nodal(scene: &mut Scene) {
-    scene.analysis.model = Model::Reduced;
+    reduced(scene);
     scene.contact.method = Method::Nodal;
     scene.contact.slices = None;
     scene.contact.corner_contact = None;
@@ -125,6 +133,12 @@ fn penalty(scene: &mut Scene) {
 fn full(scene: &mut Scene) {
     slice(scene);
     scene.analysis.model = Model::Full;
+    scene.analysis.reduction = None;
+}
+
+fn slice_general(scene: &mut Scene) {
+    slice(scene);
+    scene.analysis.reduction = Some(Reduction::General);
 }
 
 /// Slices of the reference over those of the scene.
@@ -157,8 +171,10 @@ impl Point {
     /// The scene computed in one way on one mesh; `part` positions at most where the way takes a part of the cycle.
     pub fn new(scene: &Scene, way: Way, density: Option<Density>, part: u32) -> Self {
         let mut own = meshed(scene, density);
-        if let Engine::Own(edit) = way.engine {
-            edit(&mut own);
+        match way.engine {
+            Engine::Own(edit) => edit(&mut own),
+            // It takes the whole meshes, as `full` does.
+            Engine::Calculix => full(&mut own),
         }
         let positions_asked = scene.analysis.positions_per_cycle;
         let positions = match way.share {

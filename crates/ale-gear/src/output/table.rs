@@ -42,6 +42,9 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     line("worst torque residual", format!("{:.1e}", h.worst_torque_residual), "");
     line("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
     line("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
+    for (name, way) in ["pinion", "wheel"].iter().zip(&facts.reduction) {
+        line(&format!("reduction, {name}"), (*way).to_owned(), "");
+    }
 
     let mut all = format!("{} (model {})\n\n{t}\n", scene.name, model_name(scene));
     let _ = writeln!(all, "  {:<14} {:>10} {:>14}", "phase", "wall s", "peak MB");

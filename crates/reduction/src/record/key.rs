@@ -51,6 +51,7 @@ fn mesh(hasher: &mut Hasher, gear: &GearMesh) {
     let mesh = gear.mesh();
     number(hasher, u64::from(gear.tooth_count()));
     number(hasher, u64::from(gear.is_whole_gear()));
+    number(hasher, u64::from(gear.is_periodic_sector()));
     number(hasher, mesh.nodes.len() as u64);
     let nodes: Vec<u8> = mesh.nodes.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
     hasher.update(&nodes);
@@ -59,6 +60,9 @@ fn mesh(hasher: &mut Hasher, gear: &GearMesh) {
         numbers(hasher, &block.connectivity);
     }
     numbers(hasher, gear.bore_nodes());
+    for cut in gear.cuts().into_iter().flatten() {
+        numbers(hasher, &cut.nodes());
+    }
     for tooth in gear.teeth() {
         for side in [Side::Left, Side::Right] {
             for face in gear.flank(tooth, side).unwrap_or_default() {

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord, write::checksum};
-use crate::{HalfTooth, LayerProfile, ReducedGear};
+use crate::{HalfTooth, LayerProfile, ReducedGear, ReductionWay, reducer::Summary};
 
 impl ReductionRecord {
     /// The record in the bytes of a file, if it is that of `key`.
@@ -86,11 +86,10 @@ impl<'a> Cursor<'a> {
         Ok(bytes.chunks_exact(8).map(|c| f64::from_le_bytes(part(c, 0))).collect())
     }
 
-    /// A matrix that must have so many rows and columns, or none where that is allowed.
-    fn matrix(&mut self, size: usize, or_none: bool) -> Result<Mat<f64>, RecordError> {
+    /// A matrix that must have so many rows and columns.
+    fn matrix(&mut self, size: usize) -> Result<Mat<f64>, RecordError> {
         let (rows, columns) = (self.count()?, self.count()?);
-        let fits = (rows, columns) == (size, size) || or_none && (rows, columns) == (0, 0);
-        if !fits {
+        if (rows, columns) != (size, size) {
             return Err(self.wrong("a matrix of another size than its nodes"));
         }
         let count = rows.checked_mul(columns).ok_or_else(|| self.wrong("a list longer than the file"))?;
@@ -103,7 +102,10 @@ impl<'a> Cursor<'a> {
     }
 
     fn record(&mut self) -> Result<ReductionRecord, RecordError> {
+        let way = if self.byte(1)? == 1 { ReductionWay::CyclicSector } else { ReductionWay::General };
         let cyclic = self.byte(1)? == 1;
+        let free_count = u64::from_le_bytes(part(self.take(8)?, 0)) as usize;
+        let summary = Summary { way, cyclic, free_count };
         // Counts of long things are not trusted with an allocation: each thing must be there first.
         let mut windows = Vec::new();
         for _ in 0..self.count()? {
@@ -115,7 +117,7 @@ impl<'a> Cursor<'a> {
             let side = self.side()?;
             halves.push(((tooth, side), Arc::new(self.half()?)));
         }
-        Ok(ReductionRecord { cyclic, windows, halves })
+        Ok(ReductionRecord { summary, windows, halves })
     }
 
     fn window(&mut self) -> Result<ReducedGear, RecordError> {
@@ -125,14 +127,8 @@ impl<'a> Cursor<'a> {
             sides.push(self.side()?);
         }
         let nodes = self.nodes()?;
-        let size = 3 * nodes.len();
-        Ok(ReducedGear {
-            teeth,
-            sides,
-            stiffness: self.matrix(size, true)?,
-            compliance: self.matrix(size, false)?,
-            nodes,
-        })
+        let compliance = self.matrix(3 * nodes.len())?;
+        Ok(ReducedGear::new(teeth, sides, nodes, compliance))
     }
 
     /// Node numbers, which are looked up by bisection.
@@ -143,7 +139,7 @@ impl<'a> Cursor<'a> {
 
     fn half(&mut self) -> Result<HalfTooth, RecordError> {
         let nodes = self.nodes()?;
-        let compliance = self.matrix(3 * nodes.len(), false)?;
+        let compliance = self.matrix(3 * nodes.len())?;
         let overshoot = self.values(1)?[0];
         let mut lists = [Vec::new(), Vec::new(), Vec::new()];
         for list in &mut lists {

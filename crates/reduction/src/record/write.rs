@@ -4,6 +4,7 @@ use faer::Mat;
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordKey, ReductionRecord};
+use crate::{ReductionWay, reducer::Summary};
 
 impl ReductionRecord {
     /// The content of a file; the same record gives the same bytes.
@@ -23,20 +24,22 @@ impl ReductionRecord {
 
     /// About the length of the payload.
     fn size(&self) -> usize {
-        let windows = self.windows.iter().map(|w| 16 * w.coordinates().pow(2) + 8 * w.nodes.len());
+        let windows = self.windows.iter().map(|w| 8 * w.coordinates().pow(2) + 8 * w.nodes.len());
         let halves = self.halves.iter().map(|(_, h)| 8 * h.compliance.ncols().pow(2) + 4096);
         windows.sum::<usize>() + halves.sum::<usize>() + 4096
     }
 
     fn payload(&self, bytes: &mut Vec<u8>) {
-        bytes.push(u8::from(self.cyclic));
+        let Summary { way, cyclic, free_count } = self.summary;
+        bytes.push(u8::from(way == ReductionWay::CyclicSector));
+        bytes.push(u8::from(cyclic));
+        bytes.extend((free_count as u64).to_le_bytes());
         put(bytes, self.windows.len());
         for window in &self.windows {
             list(bytes, &window.teeth);
             put(bytes, window.sides.len());
             bytes.extend(window.sides.iter().map(|s| side_byte(*s)));
             list(bytes, &window.nodes);
-            matrix(bytes, &window.stiffness);
             matrix(bytes, &window.compliance);
         }
         put(bytes, self.halves.len());
