@@ -26,7 +26,6 @@ pub struct Facts {
     /// Degrees of freedom of pinion and wheel that the analysis carries.
     pub dof_after: [usize; 2],
     /// Which way pinion and wheel were condensed: `cyclic sector` or `general`; empty for a model without reduction.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reduction: Vec<&'static str>,
     /// Teeth in the window at the end.
     pub window_teeth: Option<u32>,
