@@ -44,7 +44,7 @@ pub struct Facts {
 pub struct MeshFacts {
     /// File as the scene names it, or `built-in mesher`; and whether a sector was repeated.
     pub source: String,
-    /// Number of nodes.
+    /// Number of nodes; of a repeated sector, those of the whole gear, as with the elements.
     pub nodes: usize,
     /// Number of volume elements.
     pub elements: usize,

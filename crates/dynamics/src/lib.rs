@@ -13,6 +13,7 @@ mod full;
 mod kinematic;
 mod line;
 mod loads;
+pub mod motion;
 mod options;
 mod parts;
 mod pose;

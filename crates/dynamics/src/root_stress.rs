@@ -32,7 +32,7 @@ pub const ROOT_STRESS_AVERAGING: &str =
 pub struct StressPeak {
     /// MPa, tension positive.
     pub stress: f64,
-    /// The mesh file's tag of the node (1, 2, ... for a generated mesh).
+    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
     pub node: u64,
     /// Distance of the node from the gear's axis, mm.
     pub radius: f64,

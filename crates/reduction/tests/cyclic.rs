@@ -142,13 +142,25 @@ fn whole_gears_by_gmsh_go_the_cyclic_way() {
 /// A periodic sector shows the sectors about its window only; its matrices are those of the gear that it unrolls to.
 #[test]
 fn a_periodic_sector_is_not_unrolled() {
-    for (teeth, beta, order, window, first) in [(11, 25.0, 1, 2, 10), (30, 20.0, 1, 3, 28), (17, -15.0, 2, 1, 4)] {
+    for (teeth, beta, order, window, first, cut_through_teeth) in [
+        (11, 25.0, 1, 2, 10, false),
+        (11, 25.0, 1, 3, 9, true),
+        (30, 20.0, 1, 3, 28, false),
+        (17, -15.0, 2, 1, 4, false),
+    ] {
         let exact = gear(teeth, beta);
-        let sector = meshed(&exact, order, Extent::Periodic);
+        let mut sector = meshed(&exact, order, Extent::Periodic);
+        if cut_through_teeth {
+            // The right flank of the next tooth in place of the sector's own: half of a window's flanks are in other copies.
+            let mut mesh = sector.mesh().clone();
+            mesh.surfaces.iter_mut().for_each(|g| g.name = g.name.replace("right_0", "right_1"));
+            sector = GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap();
+        }
         let options = options(&[Side::Right, Side::Left], window, first);
         let cyclic = GearReducer::new(sector.clone(), Material::STEEL, options.clone()).unwrap();
         let general = GearReducer::general(sector, Material::STEEL, options).unwrap();
-        assert_eq!(cyclic.gear().teeth().len(), window + 2, "z {teeth}");
+        // One more sector on either side; a tooth that is cut has its flanks in two.
+        assert_eq!(cyclic.gear().teeth().len(), window + 2 + 2 * usize::from(cut_through_teeth), "z {teeth}");
         assert_eq!(cyclic.way(), ReductionWay::CyclicSector, "z {teeth}");
         assert_eq!(cyclic.free_count(), general.free_count(), "z {teeth}");
         let windows = [&cyclic, &general].map(|r| r.window(first).unwrap());
