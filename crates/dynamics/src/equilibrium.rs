@@ -1,10 +1,11 @@
 //! Torque equilibrium at one station.
 
+use ale::ToothWindow;
 use contact::{ContactError, ContactRow, Pose, Slice, Solution};
 use geometry::GearPair;
 
 use crate::{
-    MeshContact, StaticError, StaticOptions,
+    ContactSet, MeshContact, StaticError, StaticOptions,
     kinematic::Unloaded,
     parts::Parts,
     pose,
@@ -61,6 +62,12 @@ const POSE_TOLERANCE: f64 = 1e-10;
 const POSE_ROUND_OFF: f64 = 1e-9;
 
 impl Station {
+    /// Whole and part of a count of mesh cycles.
+    pub fn at_cycles(cycles: f64) -> Self {
+        let whole = cycles.floor();
+        Self { cycle: whole as i64, phase: (cycles - whole).min(1.0 - f64::EPSILON) }
+    }
+
     /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle.
     pub(crate) fn pinion_angle(&self, pair: &GearPair, options: &StaticOptions) -> f64 {
         let middle = pair.middle_angle(options.side());
@@ -82,18 +89,31 @@ impl Station {
 /// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
 pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2] {
     let Parts { pair, set, window, options, .. } = *parts;
+    let mut turns = [0.0; 2];
+    turns[options.driven()] = rotation;
+    frames(pair, set, window, options, station, turns)
+}
+
+/// Frames of the matrices when both gears are turned from the unloaded position.
+pub(crate) fn frames(
+    pair: &GearPair,
+    set: &ContactSet,
+    window: &ToothWindow,
+    options: &StaticOptions,
+    station: Station,
+    turns: [f64; 2],
+) -> [Pose; 2] {
     let theta1 = station.pinion_angle(pair, options);
-    let mut angles = [theta1, pose::reference_angle(pair, options, theta1)];
-    angles[options.driven()] += rotation;
+    let angles = [theta1, pose::reference_angle(pair, options, theta1)];
     // Teeth counted from the middle pair of the cycle stand at these angles; the matrices count from their first tooth.
     let first_pair = window.first() - station.middle_pair(options);
     let last_pair = first_pair + window.count() as i64 - 1;
     let [f1, f2] = set.first_teeth();
-    let turn = [
+    let whole = [
         (first_pair - i64::from(f1)).rem_euclid(i64::from(pair.pinion.teeth())) as f64 * pair.pinion.pitch_angle(),
         (-last_pair - i64::from(f2)).rem_euclid(i64::from(pair.wheel.teeth())) as f64 * pair.wheel.pitch_angle(),
     ];
-    [0, 1].map(|i| pose::pose(pair, options, i, angles[i] + turn[i]))
+    [0, 1].map(|i| pose::pose(pair, options, i, angles[i] + turns[i] + whole[i]))
 }
 
 impl Equilibrium {

@@ -17,6 +17,7 @@ mod loads;
 mod mesh_contact;
 pub mod motion;
 mod options;
+pub mod pair_motion;
 mod parts;
 mod pose;
 mod pose_solver;

@@ -168,22 +168,26 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks overlap.
-    ///
-    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by some per cent of it at most, so rows that gape by
-    /// more stay open.
-    pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
-        let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
+    /// Forces of the last evaluation.
+    pub fn force(&self) -> &MeshForce {
+        &self.force
+    }
+
+    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
+    pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
+        self.find_places(poses);
+        self.places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
+    }
+
+    /// Where the flanks are nearest, station by station.
+    fn find_places(&mut self, poses: &[Pose; 2]) {
+        let Self { set, pairs, hints, places, .. } = self;
         places.clear();
-        keys.clear();
-        rows.clear();
-        slices.clear();
         let Some(of_window) = set.slices() else { return };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         let stations = of_window.stations();
-        let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
         for (p, &numbers) in pairs.iter().enumerate() {
-            let pair = pair_at(numbers);
+            let pair = FlankPair::new(of_window.flanks(patches, numbers), poses);
             for (i, &z) in stations.iter().enumerate() {
                 let key = p * stations.len() + i;
                 if let Some(place) = pair.place(z, &mut hints[key]) {
@@ -191,6 +195,22 @@ impl MeshContact {
                 }
             }
         }
+    }
+
+    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks overlap.
+    ///
+    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by some per cent of it at most, so rows that gape by
+    /// more stay open.
+    pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
+        self.find_places(poses);
+        let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
+        keys.clear();
+        rows.clear();
+        slices.clear();
+        let Some(of_window) = set.slices() else { return };
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        let stations = of_window.stations();
+        let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
         let reach = reach.unwrap_or_else(|| places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap())));
         for of_pair in places.chunk_by(|a, b| a.0 / stations.len() == b.0 / stations.len()) {
             let numbers = pairs[of_pair[0].0 / stations.len()];

@@ -39,9 +39,6 @@ impl Nominal {
     /// The moment at time `t` (s).
     pub fn at(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> Moment {
         let cycles = self.cycles(pair, options, t);
-        let whole = cycles.floor();
-        // Within round-off of a whole cycle, it is one: phase is below 1.
-        let phase = (cycles - whole).min(1.0 - f64::EPSILON);
         let ratio = f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth());
         let sense = options.sense.sign() as f64;
         let of_pinion = match options.driver {
@@ -50,7 +47,7 @@ impl Nominal {
         };
         let both = |x: f64| [of_pinion * x, -of_pinion * ratio * x];
         Moment {
-            station: Station { cycle: whole as i64, phase },
+            station: Station::at_cycles(cycles),
             velocity: both(self.speed.at(t)),
             acceleration: both(self.speed.acceleration(t)),
         }

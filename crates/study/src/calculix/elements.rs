@@ -28,7 +28,7 @@ pub(super) fn node_order(kind: ElementKind) -> &'static [usize] {
         ElementKind::Tet10 => &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
         ElementKind::Wedge15 => &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
         // Corners come in the same order in both.
-        _ => &[0, 1, 2, 3, 4, 5, 6, 7].split_at(kind.corner_count()).0[..],
+        _ => [0, 1, 2, 3, 4, 5, 6, 7].split_at(kind.corner_count()).0,
     }
 }
 
