@@ -246,7 +246,10 @@ fn error_control_controls_the_error() {
         };
         let [(loose, few), (tight, many)] = [1e-5, 1e-7].map(run);
         println!("{scheme:?}: {loose:.1e} in {few} steps, {tight:.1e} in {many}");
-        assert!(tight < (0.15 * loose).max(1e-5 * 0.3) && loose < 1e-2 && many > few, "{scheme:?}: {loose:e}, {tight:e}");
+        assert!(
+            tight < (0.15 * loose).max(1e-5 * 0.3) && loose < 1e-2 && many > few,
+            "{scheme:?}: {loose:e}, {tight:e}"
+        );
     }
 }
 

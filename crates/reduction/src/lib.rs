@@ -17,6 +17,7 @@ mod half_tooth;
 mod layer_profile;
 mod load;
 mod plane_strain;
+mod recovery;
 mod reducer;
 mod stress_modes;
 mod window;
