@@ -31,6 +31,9 @@ pub struct Facts {
     pub window_teeth: Option<u32>,
     /// Contact points of the window.
     pub contact_points: Option<usize>,
+    /// Wall time from the start of the program to the first solved position, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_result_s: Option<f64>,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,

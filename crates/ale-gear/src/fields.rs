@@ -119,7 +119,7 @@ impl<'a> GearState<'a> {
                 elements: &PLAIN,
             });
         };
-        let boundary = &e.displacements[part];
+        let boundary = &model.contact_set().displacements(e)[part];
         let (displacement, nodes, frame, elements) = match (elastic, model.contact_set().windows()) {
             (ElasticGear::Reduced(r), Some(windows)) => {
                 let window = &windows[part];

@@ -7,9 +7,14 @@
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
+//! | [`cache`] | reduced gears on disk |
+//! | [`chart`] | accuracy against cost of every model |
 //! | [`command`] | the subcommands |
 
+pub mod cache;
+pub mod chart;
 pub mod command;
+mod elastic_gears;
 pub mod error;
 pub mod facts;
 mod fields;
@@ -23,3 +28,4 @@ pub mod scene;
 mod gears;
 mod iso_model;
 pub mod meshes;
+mod partial;

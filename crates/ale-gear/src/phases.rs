@@ -1,8 +1,9 @@
 //! Wall time and peak memory of each phase, and bars for those who wait.
 
+use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde::Serialize;
 
 use crate::memory;
@@ -68,10 +69,26 @@ impl Phases {
         self.measure(name, bar, |_| work())
     }
 
+    /// Runs a phase that should take about `seconds`: a bar with what is left of them.
+    pub fn run_foreseen<T>(&mut self, name: &str, seconds: f64, work: impl FnOnce() -> T) -> T {
+        let bar = ProgressBar::new_spinner();
+        let shown = style("{spinner} {prefix:<10} [{done}] {elapsed} {left}")
+            .with_key("done", move |s: &ProgressState, w: &mut dyn Write| {
+                let _ = w.write_str(&filled(s.elapsed().as_secs_f64() / seconds));
+            })
+            .with_key("left", move |s: &ProgressState, w: &mut dyn Write| {
+                let _ = w.write_str(&left(seconds - s.elapsed().as_secs_f64()));
+            });
+        bar.set_style(shown);
+        self.measure(name, bar, |_| work())
+    }
+
     /// Runs a phase of `steps` units of work; `work` calls [`Progress::tick`] after each.
     pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&Progress) -> T) -> T {
         let bar = ProgressBar::new(steps);
-        bar.set_style(style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed} {msg}").progress_chars("=> "));
+        bar.set_style(
+            style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}, {eta} left {msg}").progress_chars("=> "),
+        );
         self.measure(name, bar, work)
     }
 
@@ -104,9 +121,32 @@ impl Phases {
         self.start.elapsed().as_secs_f64()
     }
 
+    /// When the recorder was made.
+    pub fn start(&self) -> Instant {
+        self.start
+    }
+
     /// Largest resident set in any phase, MB.
     pub fn peak_memory_mb(&self) -> Option<f64> {
         self.highest
+    }
+}
+
+/// Width of a bar, characters.
+const BAR: usize = 32;
+
+/// A bar filled in part; what takes longer than foreseen stays just short of full.
+fn filled(part: f64) -> String {
+    let full = ((BAR as f64 * part.max(0.0)) as usize).min(BAR - 1);
+    format!("{}>{}", "=".repeat(full), " ".repeat(BAR - 1 - full))
+}
+
+/// Remaining seconds in words.
+fn left(seconds: f64) -> String {
+    match seconds {
+        s if s >= 120.0 => format!("about {:.0} min left", s / 60.0),
+        s if s >= 1.0 => format!("about {s:.0} s left"),
+        _ => "any moment, or longer than foreseen".to_owned(),
     }
 }
 
@@ -117,6 +157,14 @@ fn style(template: &str) -> ProgressStyle {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bar_grows_and_never_bursts() {
+        let full = |part: f64| filled(part).matches('=').count();
+        assert_eq!((full(-1.0), full(0.0), full(0.5), full(1.0), full(1e9)), (0, 0, 16, 31, 31));
+        assert!([0.0, 0.3, 5.0].iter().all(|&p| filled(p).len() == BAR));
+        assert_eq!((left(200.0).as_str(), left(12.3).as_str()), ("about 3 min left", "about 12 s left"));
+    }
 
     /// A phase that touches 64 MB shows them, and the next one does not.
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Candidates, ContactPoint, FlankPatch, Pose, Vec3, least_gap, patch::Interpolation};
+use crate::{Candidates, ContactPoint, FacePoint, FlankPatch, Pose, Vec3, least_gap, patch::Interpolation};
 
 /// What a gap is measured between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -173,7 +173,8 @@ pub(crate) fn levers(poses: &[Pose; 2], position: &Vec3, normal: &Vec3) -> [f64;
     [lever(&poses[0]), -lever(&poses[1])]
 }
 
-/// Row of a pair of points with known surface coordinates and gap; `None` when a patch has no faces near them.
+/// Row of a pair of points with known surface coordinates and gap; `None` when a patch has no faces near them. `faces`: where on
+/// the faces such points were found before.
 pub(crate) fn row_at(
     patches: [&FlankPatch; 2],
     poses: &[Pose; 2],
@@ -181,6 +182,7 @@ pub(crate) fn row_at(
     point: usize,
     at: [[f64; 2]; 2],
     gap: f64,
+    faces: &mut [Option<FacePoint>; 2],
 ) -> Option<ContactRow> {
     let position = poses[0].transform_point(&patches[0].surface().point(at[0]).into()).coords;
     let normal_2 = patches[1].surface().normal(at[1]);
@@ -197,15 +199,24 @@ pub(crate) fn row_at(
         torque_levers: levers(poses, &position, &normal),
         traction: normal,
         supports: [
-            support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal))?,
-            support_at(patches[1], at[1], -normal_2)?,
+            support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal), &mut faces[0])?,
+            support_at(patches[1], at[1], -normal_2, &mut faces[1])?,
         ],
     })
 }
 
 /// Loading of a body at surface coordinates; those past the edge of the faces load the edge.
-pub(crate) fn support_at(patch: &FlankPatch, at: [f64; 2], direction: Vec3) -> Option<Support> {
-    Some(Support::new(patch.interpolation(patch.nearest_face_at(at)?), direction))
+///
+/// `face`: a face point found for coordinates nearby, and the one found now.
+pub(crate) fn support_at(
+    patch: &FlankPatch,
+    at: [f64; 2],
+    direction: Vec3,
+    face: &mut Option<FacePoint>,
+) -> Option<Support> {
+    let found = patch.nearest_face_from(at, *face)?;
+    *face = Some(found);
+    Some(Support::new(patch.interpolation(found), direction))
 }
 
 impl Support {

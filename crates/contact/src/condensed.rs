@@ -47,6 +47,18 @@ impl<'a> Condensed<'a> {
         bodies + self.correction.as_ref().map_or(0.0, |x| x[(i, j)])
     }
 
+    /// C between all rows, column by column, mm/N.
+    pub fn matrix(&mut self, out: &mut Vec<f64>) {
+        let n = self.rows.len();
+        out.clear();
+        for j in 0..n {
+            for i in 0..n {
+                let entry = self.entry(i, j);
+                out.push(entry);
+            }
+        }
+    }
+
     fn prepare(&mut self, row: usize, body: usize) {
         if self.columns[row][body].is_none() {
             let mut column = vec![0.0; self.compliance[body].nrows()];

@@ -1,10 +1,10 @@
 //! Where two flanks are nearest at an axial station.
 
-use crate::{FlankPatch, Pose, Surface};
+use crate::{FlankPatch, Pose, Surface, profile_search::bracket_zero};
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.
 const SCAN: usize = 24;
-/// Bisection steps: the bracket shrinks to round-off.
+/// Bisection steps to the end of the facing part: it is found to round-off.
 const STEPS: usize = 60;
 
 /// Two smooth surfaces at the poses of their bodies.
@@ -39,7 +39,7 @@ impl SurfacePair<'_> {
     /// there, mm; ends of `range` and of what `covers` the second surface (tip edges) included. `None` where no point of the
     /// station faces the second surface.
     ///
-    /// The zero of the slope is bracketed by a scan and bisected, so the place is found to round-off and not to its square
+    /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not to its square
     /// root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the jump is found as well.
     pub fn least_gap(&self, range: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool, z: f64) -> Option<(f64, f64)> {
         let [from, to] = range;
@@ -60,17 +60,15 @@ impl SurfacePair<'_> {
             }
             inside
         };
-        let (mut a, mut b) = (end(at(nearest.saturating_sub(1))), end(at((nearest + 1).min(SCAN - 1))));
+        let (a, b) = (end(at(nearest.saturating_sub(1))), end(at((nearest + 1).min(SCAN - 1))));
         let slope = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);
-        let u = if slope(a) >= 0.0 {
+        let slopes = [slope(a), slope(b)];
+        let u = if slopes[0] >= 0.0 {
             a
-        } else if slope(b) <= 0.0 {
+        } else if slopes[1] <= 0.0 {
             b
         } else {
-            for _ in 0..STEPS {
-                let middle = 0.5 * (a + b);
-                if slope(middle) < 0.0 { a = middle } else { b = middle }
-            }
+            let [a, b] = bracket_zero(slope, [a, b], slopes);
             0.5 * (a + b)
         };
         Some((u, gap_and_slope(u)?.0))

@@ -11,6 +11,8 @@
 //! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
+mod bulk_grid;
+mod bulk_table;
 mod candidates;
 mod closest_point;
 pub mod complementarity;
@@ -23,22 +25,24 @@ mod local;
 mod patch;
 mod points;
 mod pressure;
+mod profile_search;
 mod slices;
 mod surface;
 mod tooth_layer;
 
+pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
 pub use candidates::{Candidates, FacePair};
 pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
-pub use complementarity::{Equality, Law, LinearContact, Problem, Solution};
+pub use complementarity::{Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, Solution};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use least_gap::{SurfacePair, least_gap};
 pub use line_length::{contact_intervals, covered};
-pub use local::{EndFace, LocalBody, LocalContact, LocalState, layer_constant, wedge_softening};
+pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
 pub use pressure::nodal_pressures;
-pub use slices::{Slice, SliceFlank, slice};
+pub use slices::{FlankPair, Slice, SliceFlank, SliceHint, SlicePlace, slice};
 pub use surface::{Cylinder, Foot, Surface};
 pub use tooth_layer::ToothLayer;
 

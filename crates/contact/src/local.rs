@@ -76,50 +76,33 @@ impl LocalContact {
     /// middle of the flank to an edge far off the line of action. Without load, all is 0 and the slope is that of a load small enough not
     /// to matter.
     pub fn under(&self, load: f64) -> LocalState {
+        self.law().under(load)
+    }
+
+    /// All of it that does not depend on the load.
+    pub fn law(&self) -> LocalLaw {
         let modulus = hertz::effective_modulus(self.bodies.map(|b| (b.young, b.poisson)));
-        // The compliance of a vanishing load is infinite, if only as a logarithm.
-        let least = 1e-15 * modulus * self.radius;
-        let q = load.max(least);
-        let half_width = hertz::half_width(q, self.radius, modulus);
-        let (bracket, growth) = self.bracket(half_width);
-        // a grows with the square root of q.
-        let (approach, slope) = (q * bracket, bracket + 0.5 * growth);
-        if load < least {
-            return LocalState { approach: approach * (load / least).max(0.0), slope, ..LocalState::default() };
-        }
-        LocalState { approach, slope, half_width, pressure: hertz::line_pressure(q, self.radius, modulus) }
+        let edges = self.edges();
+        let bodies = [0, 1].map(|i| {
+            let (body, edge) = (&self.bodies[i], edges[i]);
+            BodyLaw {
+                softness: body.softness(),
+                depth_term: (2.0 * body.depth).ln() + 0.5 + body.layer,
+                ln_depth: body.depth.ln(),
+                eta: edge.softening(),
+                edge,
+                tip_gradient: body.tip_gradient,
+                tip_distance: body.tip_distance,
+                ends: body.ends.map(|face| end_face::Softening::new(&face, body.poisson, body.depth)),
+            }
+        });
+        LocalLaw { modulus, radius: self.radius, bodies }
     }
 
     /// What rounding the edge adds to the gap between the sharp flanks, mm: the arc lies behind the corner that it replaces.
     /// 0 without an edge radius and away from the edge.
     pub fn edge_opening(&self) -> f64 {
         self.edges().iter().map(Edge::opening).sum()
-    }
-
-    /// Approach over load (mm^2/N) and its derivative by ln a.
-    fn bracket(&self, a: f64) -> (f64, f64) {
-        let softness = self.bodies.map(|b| b.softness());
-        let both = softness[0] + softness[1];
-        let (mut value, mut growth) = (0.0, 0.0);
-        for ((body, edge), k) in self.bodies.iter().zip(self.edges()).zip(softness) {
-            value += k * ((2.0 * body.depth / a).ln() + 0.5 + body.layer);
-            growth -= k;
-            for face in &body.ends {
-                let (soft, dsoft) = end_face::softening(face, body.poisson, body.depth, a);
-                value += k * soft;
-                growth += k * dsoft;
-            }
-            let eta = edge.softening();
-            if eta > 0.0 {
-                let (cut, dcut) = edge.cut_off(a);
-                let (ln_l, dln_l) = edge.log_reach(a, eta * k / both);
-                let inside = ln_l.exp();
-                let moved = body.tip_gradient * (inside - body.tip_distance);
-                value += k * (eta * (body.depth.ln() - ln_l) + moved) + both * cut;
-                growth += k * dln_l * (body.tip_gradient * inside - eta) + both * dcut;
-            }
-        }
-        (value, growth)
     }
 
     fn edges(&self) -> [Edge; 2] {
@@ -134,6 +117,72 @@ impl LocalContact {
                 radius: self.radius,
             }
         })
+    }
+}
+
+/// A [`LocalContact`] ready to be loaded: for many loads at one place.
+#[derive(Debug, Clone, Copy)]
+pub struct LocalLaw {
+    modulus: f64,
+    radius: f64,
+    bodies: [BodyLaw; 2],
+}
+
+/// One body's part of it.
+#[derive(Debug, Clone, Copy)]
+struct BodyLaw {
+    /// K, mm^2/N.
+    softness: f64,
+    /// ln(2 t) + 1/2 + c.
+    depth_term: f64,
+    ln_depth: f64,
+    eta: f64,
+    edge: Edge,
+    tip_gradient: f64,
+    tip_distance: f64,
+    ends: [end_face::Softening; 2],
+}
+
+impl LocalLaw {
+    /// State under a line load q (N/mm): see [`LocalContact::under`].
+    pub fn under(&self, load: f64) -> LocalState {
+        // The compliance of a vanishing load is infinite, if only as a logarithm.
+        let least = 1e-15 * self.modulus * self.radius;
+        let q = load.max(least);
+        let half_width = hertz::half_width(q, self.radius, self.modulus);
+        let (bracket, growth) = self.bracket(half_width);
+        // a grows with the square root of q.
+        let (approach, slope) = (q * bracket, bracket + 0.5 * growth);
+        if load < least {
+            return LocalState { approach: approach * (load / least).max(0.0), slope, ..LocalState::default() };
+        }
+        LocalState { approach, slope, half_width, pressure: hertz::line_pressure(q, self.radius, self.modulus) }
+    }
+
+    /// Approach over load (mm^2/N) and its derivative by ln a.
+    fn bracket(&self, a: f64) -> (f64, f64) {
+        let both = self.bodies[0].softness + self.bodies[1].softness;
+        let ln_a = a.ln();
+        let (mut value, mut growth) = (0.0, 0.0);
+        for body in &self.bodies {
+            let (k, eta) = (body.softness, body.eta);
+            value += k * (body.depth_term - ln_a);
+            growth -= k;
+            for face in &body.ends {
+                let (soft, dsoft) = face.at(a);
+                value += k * soft;
+                growth += k * dsoft;
+            }
+            if eta > 0.0 {
+                let (cut, dcut) = body.edge.cut_off(a);
+                let (ln_l, dln_l) = body.edge.log_reach(a, eta * k / both);
+                let inside = ln_l.exp();
+                let moved = body.tip_gradient * (inside - body.tip_distance);
+                value += k * (eta * (body.ln_depth - ln_l) + moved) + both * cut;
+                growth += k * dln_l * (body.tip_gradient * inside - eta) + both * dcut;
+            }
+        }
+        (value, growth)
     }
 }
 

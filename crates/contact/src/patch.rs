@@ -212,7 +212,7 @@ impl FlankPatch {
     }
 
     /// Range of surface coordinates of a face.
-    fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
+    pub(crate) fn face_range(&self, face: usize) -> [[f64; 2]; 2] {
         range(self.corners(face).map(|n| n.at))
     }
 
@@ -275,15 +275,27 @@ impl FlankPatch {
         })
     }
 
+    /// The same as [`FlankPatch::nearest_face_at`], tried first from a face point found before for coordinates nearby.
+    pub fn nearest_face_from(&self, at: [f64; 2], before: Option<FacePoint>) -> Option<FacePoint> {
+        let near = before.and_then(|p| {
+            let xi = self.invert_from(p.face, at, p.xi)?;
+            inside(self.faces.get(p.face)?.kind, xi).then_some(FacePoint { face: p.face, xi })
+        });
+        near.or_else(|| self.nearest_face_at(at))
+    }
+
     /// Whether the surface coordinates lie on the faces.
     pub fn covers(&self, at: [f64; 2]) -> bool {
         self.face_at(at).is_some()
     }
 
     fn invert(&self, face: usize, at: [f64; 2]) -> Option<[f64; 2]> {
-        let f = &self.faces[face];
+        self.invert_from(face, at, self.faces.get(face)?.kind.centre())
+    }
+
+    fn invert_from(&self, face: usize, at: [f64; 2], mut xi: [f64; 2]) -> Option<[f64; 2]> {
+        let f = self.faces.get(face)?;
         let count = f.kind.node_count();
-        let mut xi = f.kind.centre();
         let (mut n, mut dn) = ([0.0; 9], [[0.0; 2]; 9]);
         for _ in 0..20 {
             f.kind.shape(xi, &mut n[..count]);

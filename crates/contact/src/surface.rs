@@ -29,6 +29,11 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
+    /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place, and any
+    /// search that goes downhill finds it.
+    fn is_single_arc(&self) -> bool {
+        false
+    }
 }
 
 /// Half of a usual band of contact, mm.
@@ -54,6 +59,10 @@ impl Surface for geometry::Flank {
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
         geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+    }
+
+    fn is_single_arc(&self) -> bool {
+        true
     }
 }
 
@@ -90,6 +99,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn depth(&self, [u, z]: [f64; 2]) -> f64 {
         geometry::ModifiedFlank::depth(self, u, z).value
+    }
+
+    fn is_single_arc(&self) -> bool {
+        self.is_offset_helicoid()
     }
 }
 

@@ -31,6 +31,11 @@ impl ToothLayer {
         Self { flank, young, poisson, profile, overshoot, edge_radius }
     }
 
+    /// Radius of the rounded tip edge, mm; 0: sharp.
+    pub fn edge_radius(&self) -> f64 {
+        self.edge_radius
+    }
+
     /// The layer at surface coordinates (roll angle, z).
     ///
     /// ```text

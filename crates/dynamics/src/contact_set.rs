@@ -13,8 +13,18 @@ use reduction::Window;
 use crate::{ElasticGear, Method, StaticError, StaticOptions, full::FullContact, slice_set::SliceSet};
 
 /// Everything the contact of one window needs, in the frames of the window's matrices.
-#[derive(Debug)]
+///
+/// Copies share all but where the window stands.
+#[derive(Debug, Clone)]
 pub struct ContactSet {
+    shared: Arc<Shared>,
+    /// Reduced windows; `None` for full gears.
+    windows: Option<[Window; 2]>,
+}
+
+/// What all windows with the same matrices share.
+#[derive(Debug)]
+struct Shared {
     patches: [Vec<FlankPatch>; 2],
     points: Vec<Vec<ContactPoint>>,
     trees: [Candidates; 2],
@@ -24,8 +34,6 @@ pub struct ContactSet {
     sides: [Vec<Side>; 2],
     /// First tooth of each gear's window in the frame of its matrices.
     first: [u32; 2],
-    /// Reduced windows; `None` for full gears.
-    windows: Option<[Window; 2]>,
     slices: Option<SliceSet>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
     pitch_errors: [bool; 2],
@@ -62,6 +70,8 @@ impl ContactSet {
                 SliceSet::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
             })
             .transpose()?;
+        let windows = w1.zip(w2).map(|(a, b)| [a, b]);
+        let slices = slices.map(|s| s.with_tables([&p1, &p2], windows.as_ref(), options));
         let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
         let stations = p1.first().map_or(0, |p| {
             let [low, high] = p.range();
@@ -69,10 +79,10 @@ impl ContactSet {
             2 * faces as usize * options.points_per_face_edge
         });
         let trees = [Candidates::new(&p1), Candidates::new(&p2)];
-        let windows = w1.zip(w2).map(|(a, b)| [a, b]);
         let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
-        Ok(Self { patches, points, trees, stations, sides, first, windows, slices, pitch_errors })
+        let shared = Arc::new(Shared { patches, points, trees, stations, sides, first, slices, pitch_errors });
+        Ok(Self { shared, windows })
     }
 
     /// Whether this set serves another window too: same matrices, same teeth in their frames.
@@ -83,7 +93,7 @@ impl ContactSet {
         for i in 0..2 {
             let w = gears[i].window(first[i]).map_err(|source| StaticError::Reduction { gear: NAMES[i], source })?;
             let Some(w) = w else { return Ok(false) };
-            let other_flanks = w.shift != mine[i].shift && self.pitch_errors[i];
+            let other_flanks = w.shift != mine[i].shift && self.shared.pitch_errors[i];
             if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() || other_flanks {
                 return Ok(false);
             }
@@ -100,30 +110,32 @@ impl ContactSet {
 
     /// First tooth of each gear's window in its matrices' frame.
     pub fn first_teeth(&self) -> [u32; 2] {
-        self.first
+        self.shared.first
     }
 
     /// Flank patches of both gears.
     pub fn patches(&self) -> &[Vec<FlankPatch>; 2] {
-        &self.patches
+        &self.shared.patches
     }
 
     /// Contact points of each patch of the pinion.
     pub fn points(&self) -> &[Vec<ContactPoint>] {
-        &self.points
+        &self.shared.points
     }
 
     /// Side of a patch of the pinion.
     pub fn side(&self, patch: usize) -> Side {
-        self.sides[0][patch]
+        self.shared.sides[0][patch]
     }
 
     /// Patch of the pinion's (0) or wheel's (1) flank of a window pair, counted from 0 in order of running numbers.
     pub fn patch_of(&self, gear: usize, pair: usize, side: Side) -> Option<usize> {
-        let count = self.patches[gear].len() / self.kept_sides();
+        let count = self.shared.patches[gear].len() / self.kept_sides();
         // The wheel's teeth run against the pair numbers.
         let tooth = if gear == 0 { pair } else { count.checked_sub(pair + 1)? };
-        (0..self.kept_sides()).map(|s| tooth * self.kept_sides() + s).find(|&p| self.sides[gear].get(p) == Some(&side))
+        (0..self.kept_sides())
+            .map(|s| tooth * self.kept_sides() + s)
+            .find(|&p| self.shared.sides[gear].get(p) == Some(&side))
     }
 
     /// Window pair of a patch of the pinion, counted from 0.
@@ -134,12 +146,12 @@ impl ContactSet {
     /// Whether a patch of the pinion and one of the wheel are the two flanks of one pair. Any others stay whole tooth
     /// thicknesses apart, yet their smooth surfaces, which go on behind the teeth, may look like deep penetration.
     pub(crate) fn partners(&self, (first, second): (usize, usize)) -> bool {
-        self.patch_of(1, self.pair_of(first), self.sides[0][first]) == Some(second)
+        self.patch_of(1, self.pair_of(first), self.shared.sides[0][first]) == Some(second)
     }
 
     fn kept_sides(&self) -> usize {
-        let first = self.patches[0].first().map(|p| p.tooth);
-        self.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
+        let first = self.shared.patches[0].first().map(|p| p.tooth);
+        self.shared.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
     }
 
     /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty), or where
@@ -151,11 +163,16 @@ impl ContactSet {
         if options.method == Method::Slice || options.law != Law::Exact || options.gap != GapSource::Smooth {
             return line;
         }
-        let pairs = self.patches[0].len() / self.kept_sides();
+        let pairs = self.shared.patches[0].len() / self.kept_sides();
         for pair in 0..pairs {
             for side in [Side::Left, Side::Right] {
                 if let (Some(a), Some(b)) = (self.patch_of(0, pair, side), self.patch_of(1, pair, side)) {
-                    let points = line_points(&self.patches[0][a], &self.patches[1][b], poses, self.stations);
+                    let points = line_points(
+                        &self.shared.patches[0][a],
+                        &self.shared.patches[1][b],
+                        poses,
+                        self.shared.stations,
+                    );
                     line.insert((a, b), points);
                 }
             }
@@ -165,11 +182,11 @@ impl ContactSet {
 
     pub(crate) fn scene<'a>(&'a self, options: &StaticOptions, line: &'a LinePoints) -> Scene<'a> {
         Scene {
-            first: &self.patches[0],
-            points: &self.points,
-            second: &self.patches[1],
-            first_tree: &self.trees[0],
-            second_tree: &self.trees[1],
+            first: &self.shared.patches[0],
+            points: &self.shared.points,
+            second: &self.shared.patches[1],
+            first_tree: &self.shared.trees[0],
+            second_tree: &self.shared.trees[1],
             source: options.gap,
             line,
         }
@@ -177,13 +194,35 @@ impl ContactSet {
 
     /// Slices, when contact is made of them.
     pub fn slices(&self) -> Option<&SliceSet> {
-        self.slices.as_ref()
+        self.shared.slices.as_ref()
     }
 
     /// Pairs of patches that are the two flanks of one pair.
     pub(crate) fn pairs(&self) -> Vec<(usize, usize)> {
-        let partner = |p: usize| Some((p, self.patch_of(1, self.pair_of(p), self.sides[0][p])?));
-        (0..self.patches[0].len()).filter_map(partner).collect()
+        let partner = |p: usize| Some((p, self.patch_of(1, self.pair_of(p), self.shared.sides[0][p])?));
+        (0..self.shared.patches[0].len()).filter_map(partner).collect()
+    }
+
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under the forces of an equilibrium of this
+    /// window.
+    pub fn displacements(&self, e: &crate::Equilibrium) -> [Vec<f64>; 2] {
+        match &self.windows {
+            Some([a, b]) if e.displacements.iter().all(Vec::is_empty) => {
+                let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+                Condensed::new(&e.rows, compliance).displacements(&e.solution.forces)
+            }
+            _ => e.displacements.clone(),
+        }
+    }
+
+    /// S between rows, mm/N, column by column, from the matrices as they are.
+    pub(crate) fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
+        out.clear();
+        if let Some([a, b]) = &self.windows {
+            let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+            let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
+            Condensed::new(rows, compliance).corrected(correction).matrix(out);
+        }
     }
 
     /// The elastic model behind the rows.
@@ -192,7 +231,7 @@ impl ContactSet {
         gears: &'a [ElasticGear; 2],
         rows: &'a [ContactRow],
     ) -> Result<Box<dyn LinearContact + 'a>, ContactError> {
-        let correction = self.slices.as_ref().map(|s| s.correction(rows));
+        let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
         match (&self.windows, gears) {
             (Some([a, b]), _) => {
                 let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];

@@ -1,11 +1,15 @@
 //! Torque equilibrium at one station.
 
-use std::collections::BTreeMap;
-
-use contact::{ContactError, ContactRow, Pose, Slice, Solution, closest_points, complementarity};
+use contact::{ContactError, ContactRow, Pose, Slice, Solution};
 use geometry::GearPair;
 
-use crate::{StaticError, StaticOptions, friction, kinematic::Unloaded, parts::Parts, pose};
+use crate::{
+    MeshContact, StaticError, StaticOptions,
+    kinematic::Unloaded,
+    parts::Parts,
+    pose,
+    pose_solver::{Memory, Solver, Step, Touched, remembered},
+};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
@@ -40,7 +44,8 @@ pub struct Equilibrium {
     pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames.
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced gears, where nothing
+    /// needs them: [`crate::ContactSet::displacements`] has them then.
     pub displacements: [Vec<f64>; 2],
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
@@ -52,6 +57,8 @@ const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
+/// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
+const POSE_ROUND_OFF: f64 = 1e-9;
 
 impl Station {
     /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle.
@@ -89,15 +96,9 @@ pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2]
     [0, 1].map(|i| pose::pose(pair, options, i, angles[i] + turn[i]))
 }
 
-/// Forces by (pair of patches counted by running number, point): what a next solve starts from.
-pub(crate) type Memory = BTreeMap<(usize, usize, usize), f64>;
-
 impl Equilibrium {
     pub(crate) fn memory(&self) -> Memory {
-        let active = self.solution.active.iter();
-        active
-            .map(|&i| ((self.rows[i].patches.0, self.rows[i].patches.1, self.rows[i].point), self.solution.forces[i]))
-            .collect()
+        remembered(&self.rows, &self.solution)
     }
 
     /// Transmission error that is due to load, mm.
@@ -114,22 +115,28 @@ impl Equilibrium {
 /// Turns the driven gear until contact balances its torque.
 ///
 /// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
-/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact.
+/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact. `mesh` solves it
+/// where contact is made of slices on reduced gears.
 pub(crate) fn equilibrium(
     parts: &Parts,
+    mesh: Option<&mut MeshContact>,
     station: Station,
     guess: Option<&Equilibrium>,
 ) -> Result<Equilibrium, StaticError> {
-    let Parts { pair, gears, set, options, .. } = *parts;
+    let Parts { pair, set, options, .. } = *parts;
     let fail = |source: ContactError| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
     let side = options.side();
-    let driven = options.driven();
-    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
-    let moment = -side.sign() * options.torque;
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
     let unloaded = Unloaded::new(pair, options, station)?;
     let kinematic = unloaded.transmission_error();
-    let line = set.line_points(options, &poses(parts, station, unloaded.rotation));
-    let scene = set.scene(options, &line);
+    let mut solver = match mesh {
+        Some(mesh) => Solver::Mesh(mesh),
+        None => Solver::General {
+            line: set.line_points(options, &poses(parts, station, unloaded.rotation)),
+            memory: guess.map(Equilibrium::memory).unwrap_or_default(),
+            touched: None,
+        },
+    };
     let force = options.torque / base_radius;
     // From the flanks' touch on by the deflection of the station before.
     let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
@@ -138,56 +145,37 @@ pub(crate) fn equilibrium(
     // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
     let facets = if options.gap == contact::GapSource::Facet { options.surface_tolerance } else { 0.0 };
     let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
-    let mut memory = guess.map(Equilibrium::memory).unwrap_or_default();
     let mut iterations = 0;
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
         let poses = poses(parts, station, rotation);
-        let (rows, slices) = match set.slices() {
-            Some(slices) => slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), &poses, reach),
-            None => {
-                let mut rows = closest_points(&scene, &poses, reach);
-                rows.retain(|r| set.partners(r.patches));
-                (rows, Vec::new())
+        let (turn, steps) = match solver.step(parts, &poses, reach).map_err(fail)? {
+            Step::Turn(turn, steps) => (turn, steps),
+            Step::OutOfReach => {
+                if reach > pair.pinion.data().normal_module {
+                    return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
+                }
+                reach = 4.0 * reach.max(1e-9);
+                continue;
+            }
+            Step::TooShort(farthest) => {
+                reach = 1.5 * farthest;
+                continue;
             }
         };
-        let rows = friction::applied(pair, options, &poses, rows);
-        if rows.iter().all(|r| r.levers[driven] * moment <= 0.0) {
-            if reach > pair.pinion.data().normal_module {
-                return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
-            }
-            reach = 4.0 * reach.max(1e-9);
-            continue;
-        }
-        let start: Vec<f64> =
-            rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
-        let mut bodies = set.bodies(gears, &rows).map_err(fail)?;
-        let solution = if set.slices().is_some() {
-            let local = |i: usize, force: f64| {
-                let state = slices[i].local.under(force / slices[i].length);
-                (state.approach, state.slope / slices[i].length)
-            };
-            complementarity::solve_slices(&mut *bodies, &rows, driven, moment, local, &start)
-        } else {
-            complementarity::solve(&mut *bodies, &rows, driven, moment, options.law, &start)
-        }
-        .map_err(fail)?;
-        iterations += solution.iterations;
-        // A row that the step can close must have been among the rows.
-        let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * solution.rotation).abs()));
-        if 1.05 * farthest > reach {
-            reach = 1.5 * farthest;
-            continue;
-        }
-        rotation += solution.rotation;
-        step_mm = (solution.rotation * base_radius).abs();
+        iterations += steps;
+        rotation += turn;
+        let before = step_mm;
+        step_mm = (turn * base_radius).abs();
         let error = side.sign() * base_radius * rotation;
         let elastic = (error - kinematic).abs();
         // An angle of a few radians resolves no smaller steps.
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
-        if step_mm <= (POSE_TOLERANCE * elastic).max(round_off) {
-            let displacements = bodies.displacements(&solution.forces);
-            drop(bodies);
+        let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
+        if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
+            && let Some(touched) = solver.touched()
+        {
+            let Touched { rows, slices, solution, displacements } = *touched;
             return Ok(Equilibrium {
                 station,
                 poses,
@@ -202,9 +190,6 @@ pub(crate) fn equilibrium(
                 iterations,
             });
         }
-        drop(bodies);
-        let active = solution.active.iter();
-        memory = active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect();
         reach = facets + (0.25 * elastic).max(2.0 * step_mm);
     }
     Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })

@@ -102,7 +102,14 @@ impl LinearContact for FullContact<'_> {
         // One row alone, without torque: u = K^-1 A' on a unit load.
         let (matrix, last) = self.tangent(
             &[],
-            &Problem { gaps: vec![], levers: vec![], torque_levers: vec![], compliance: vec![], moment: 0.0 },
+            &Problem {
+                gaps: vec![],
+                levers: vec![],
+                torque_levers: vec![],
+                compliance: vec![],
+                moment: 0.0,
+                held: false,
+            },
         )?;
         let n = matrix.n() - 1;
         drop(last);

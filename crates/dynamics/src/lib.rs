@@ -4,6 +4,7 @@
 //! torque. Station by station over mesh cycles, with tooth changes in between.
 
 mod contact_set;
+mod cycle;
 mod elastic;
 mod equilibrium;
 mod error;
@@ -13,14 +14,17 @@ mod full;
 mod kinematic;
 mod line;
 mod loads;
+mod mesh_contact;
 pub mod motion;
 mod options;
 mod parts;
 mod pose;
+mod pose_solver;
 pub mod result;
 mod root_stress;
 mod slice_set;
 mod statics;
+mod walk;
 
 pub use contact_set::ContactSet;
 pub use elastic::{ElasticGear, FullGear};
@@ -28,7 +32,8 @@ pub use equilibrium::{Equilibrium, Station};
 pub use error::StaticError;
 pub use flank_grid::flank_grids;
 pub use kinematic::kinematic_transmission_error;
-pub use options::{Driver, Method, StaticOptions};
+pub use mesh_contact::{ContactWork, MeshContact, MeshForce};
+pub use options::{Bulk, Driver, Method, StaticOptions};
 pub use pose::{Misalignment, Offset};
 pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
 pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};

@@ -1,8 +1,10 @@
 //! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would touch.
 
+use std::cell::Cell;
+
 use contact::{
-    ContactPoint, ContactRow, FlankPatch, LinePoints, contact_intervals, contact_row, covered, hertz, least_gap,
-    opening, slice,
+    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, SliceHint, contact_intervals, contact_row, covered,
+    hertz, least_gap, opening,
 };
 use geometry::GearPair;
 
@@ -98,28 +100,34 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * e.approach(pair))
 }
 
-/// The same from slices: between stations the flanks' gap is taken anew and the approach of the stations interpolated.
+/// The same from slices: between stations the flanks' gap is taken anew and the approach of the stations interpolated. Between two
+/// stations that press it is closed.
 fn slice_line(parts: &Parts, e: &Equilibrium, slices: &SliceSet, pair: (usize, usize), half: f64) -> Vec<[f64; 2]> {
     let set = parts.set;
-    let flanks = slices.flanks([&set.patches()[0], &set.patches()[1]], pair);
-    let mut openings = vec![None; slices.stations().len()];
-    for (row, &opening) in e.rows.iter().zip(&e.solution.openings).filter(|(row, _)| row.patches == pair) {
-        openings[row.point] = Some(opening);
-    }
+    let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), &e.poses);
     let stations = slices.stations();
+    // Opening and force; a station too far from contact to be a row has none.
+    let mut solved: Vec<Option<(f64, f64)>> = vec![None; stations.len()];
+    let of_rows = e.rows.iter().zip(e.solution.openings.iter().zip(&e.solution.forces));
+    for (row, (&opening, &force)) in of_rows.filter(|(row, _)| row.patches == pair) {
+        solved[row.point] = Some((opening, force));
+    }
     let step = stations.get(1).map_or(2.0 * half, |z| z - stations[0]);
+    let hint = Cell::new(SliceHint::default());
     let gap = |z: f64| -> Option<f64> {
-        let (row, _) = slice(flanks, &e.poses, pair, usize::MAX, z, 0.0)?;
         let place = ((z - stations[0]) / step).clamp(0.0, (stations.len() - 1) as f64);
         let (below, share) = (place.floor() as usize, place.fract());
-        // A station too far from contact to be a row has no approach of its own.
-        let at = |i: usize| openings.get(i).copied().flatten();
+        let at = |i: usize| solved.get(i).copied().flatten();
         let opening = match (at(below), at(below + 1)) {
-            (Some(a), Some(b)) => a + share * (b - a),
-            (Some(a), None) | (None, Some(a)) => a,
+            (Some((_, f)), Some((_, g))) if f > 0.0 && g > 0.0 => return Some(0.0),
+            (Some((a, _)), Some((b, _))) => a + share * (b - a),
+            (Some((a, _)), None) | (None, Some((a, _))) => a,
             (None, None) => return None,
         };
-        Some(row.gap + opening)
+        let mut near = hint.get();
+        let found = flanks.place(z, &mut near)?;
+        hint.set(near);
+        Some(flanks.gap(&found) + opening)
     };
     let samples = 2 * stations.len() + 1;
     let inset = 1e-9 * half;

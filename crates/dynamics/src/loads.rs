@@ -89,10 +89,16 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
             complementarity_residual: e.solution.residual,
             action_reaction_residual: action_reaction(e),
             iterations: e.iterations,
+            bulk_compliance_error: bulk_error(parts),
             window_edge_load: if total > 0.0 { edge / total } else { 0.0 },
         },
         pairs,
     }
+}
+
+fn bulk_error(parts: &Parts) -> f64 {
+    let tables = parts.set.slices().and_then(|s| s.bulk());
+    tables.map_or(0.0, |both| both.iter().map(contact::BulkTable::error).fold(0.0, f64::max))
 }
 
 fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
@@ -151,14 +157,14 @@ fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     }
 }
 
-/// What the local approach stores beyond half of force times approach, N mm: its slope falls as the load grows.
+/// What the local approach stores beyond half of force times approach, N mm, <= 0: its slope falls as the load grows.
 ///
-/// delta = q (b - c ln q) stores q delta / 2 + c q^2 / 4 per length of line, and c = delta / q - d delta/dq.
-fn local_energy(slice: &Slice, force: f64) -> f64 {
+/// delta = q (b - c ln q) stores (integral of q d delta) q delta / 2 - c q^2 / 4 per length of line, and c = delta / q - d delta/dq.
+pub(crate) fn local_energy(slice: &Slice, force: f64) -> f64 {
     let q = force / slice.length;
     if q <= 0.0 {
         return 0.0;
     }
     let state = slice.local.under(q);
-    0.25 * slice.length * q * (state.approach - q * state.slope)
+    -0.25 * slice.length * q * (state.approach - q * state.slope)
 }

@@ -24,6 +24,23 @@ pub enum Method {
     Nodal,
 }
 
+/// How the bulk compliance behind slices is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bulk {
+    /// The mesh's own matrices, entry by entry.
+    Exact,
+    /// Interpolated in a table ([`contact::BulkTable`]) that is off by at most this share of the largest self-compliance of a slice;
+    /// exact where no table of reasonable size is.
+    Table(f64),
+}
+
+impl Default for Bulk {
+    /// A table good to a thousandth: the transmission error is off by less than a ten thousandth then.
+    fn default() -> Self {
+        Self::Table(1e-3)
+    }
+}
+
 /// Operation, contact and window of a quasi-static analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticOptions {
@@ -37,6 +54,8 @@ pub struct StaticOptions {
     pub method: Method,
     /// Slices over the face width.
     pub slices: usize,
+    /// How the bulk compliance behind slices is held, for reduced gears.
+    pub bulk: Bulk,
     /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only: slices end where
     /// the undeflected flanks end, and the transmission error steps whenever a pair comes or goes under load.
     pub corner_contact: bool,
@@ -69,6 +88,7 @@ impl StaticOptions {
             torque,
             method: Method::Slice,
             slices: 32,
+            bulk: Bulk::default(),
             corner_contact: true,
             friction: 0.0,
             law: Law::Exact,

@@ -67,6 +67,8 @@ pub struct Certificate {
     pub action_reaction_residual: f64,
     /// Newton (active-set) iterations.
     pub iterations: usize,
+    /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0 where it is exact.
+    pub bulk_compliance_error: f64,
     /// Force on the teeth at the window's ends relative to the total: how close the window is to being too small.
     pub window_edge_load: f64,
 }

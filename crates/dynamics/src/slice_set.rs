@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use contact::{ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, opening, slice};
+use contact::{
+    BulkCompliance, BulkTable, ContactRow, FlankPatch, Pose, Slice, SliceFlank, Support, ToothLayer, opening, slice,
+};
 use faer::Mat;
 use geometry::{Gear, GearPair, Side};
-use reduction::HalfTooth;
+use reduction::{HalfTooth, Window};
 
-use crate::{ElasticGear, StaticError, StaticOptions};
+use crate::{Bulk, ElasticGear, StaticError, StaticOptions};
 
 /// What slice contact needs beside the flank patches, patch by patch of both gears.
 #[derive(Debug)]
@@ -18,6 +20,8 @@ pub struct SliceSet {
     halves: [Vec<Half>; 2],
     /// Whether edges may press off the line of action.
     corner_contact: bool,
+    /// Bulk compliance of both gears in tables, unless it is to be exact.
+    bulk: Option<[BulkTable; 2]>,
 }
 
 /// The half tooth behind one patch.
@@ -52,7 +56,44 @@ impl SliceSet {
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
-        Ok(Self { stations, length, halves, corner_contact: options.corner_contact })
+        Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
+    }
+
+    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as asked.
+    pub(crate) fn with_tables(
+        mut self,
+        patches: [&[FlankPatch]; 2],
+        windows: Option<&[Window; 2]>,
+        options: &StaticOptions,
+    ) -> Self {
+        if let (Bulk::Table(tolerance), Some(windows)) = (options.bulk, windows) {
+            let table = |i: usize| {
+                let bulk = BulkCompliance {
+                    whole: windows[i].reduced.compliance.as_ref(),
+                    halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
+                    patches: patches[i],
+                };
+                BulkTable::new(&bulk, tolerance)
+            };
+            let (first, second) = rayon::join(|| table(0), || table(1));
+            self.bulk = first.zip(second).map(|(a, b)| [a, b]);
+        }
+        self
+    }
+
+    /// Bulk compliance of both gears in tables; `None` where it is exact.
+    pub fn bulk(&self) -> Option<&[BulkTable; 2]> {
+        self.bulk.as_ref()
+    }
+
+    /// Length of contact line of one slice, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether a slice may press.
+    pub(crate) fn may_touch(&self, slice: &Slice) -> bool {
+        self.corner_contact || slice.local.off_line == 0.0
     }
 
     /// Heights of the stations, mm, ascending.
@@ -79,8 +120,7 @@ impl SliceSet {
             let stations = self.stations.iter().enumerate();
             stations.filter_map(move |(i, &z)| slice(flanks, poses, pair, i, z, self.length))
         };
-        let may_touch = |s: &Slice| self.corner_contact || s.local.off_line == 0.0;
-        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && may_touch(s)).unzip()
+        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && self.may_touch(s)).unzip()
     }
 
     /// X = - sum over both bodies of A W_c A' between rows on the same tooth, mm/N.

@@ -4,9 +4,10 @@ use ale::{ToothWindow, teeth_needed};
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, ElasticGear, Equilibrium, FilletStress, Method, StaticError, StaticHistory, StaticOptions,
-    StaticPosition, Station, equilibrium::equilibrium, kinematic::Unloaded, line, loads, parts::Parts, pose,
+    ContactSet, ElasticGear, Equilibrium, Method, StaticError, StaticHistory, StaticOptions, StaticPosition, Station,
+    cycle, pose,
     root_stress::RootStress,
+    walk::{Fixed, Walk},
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -26,11 +27,8 @@ pub struct StaticModel {
     pair: GearPair,
     gears: [ElasticGear; 2],
     options: StaticOptions,
-    window: ToothWindow,
-    set: ContactSet,
     root: Option<RootStress>,
-    last: Option<Equilibrium>,
-    changes: u64,
+    walk: Walk,
 }
 
 impl StaticModel {
@@ -76,12 +74,14 @@ impl StaticModel {
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, &window, &options)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
-        Ok(Self { pair, gears, options, window, set, root, last: None, changes: 0 })
+        let fixed = Fixed { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
+        let walk = Walk::new(&fixed, window, set)?;
+        Ok(Self { pair, gears, options, root, walk })
     }
 
-    fn parts(&self) -> Parts<'_> {
-        let Self { pair, gears, set, window, options, .. } = self;
-        Parts { pair, gears, set, window, options }
+    fn split(&mut self) -> (Fixed<'_>, &mut Walk) {
+        let Self { pair, gears, options, root, walk } = self;
+        (Fixed { pair, gears, options, root: root.as_ref() }, walk)
     }
 
     /// The pair.
@@ -106,17 +106,17 @@ impl StaticModel {
 
     /// The window as it stands.
     pub fn window(&self) -> &ToothWindow {
-        &self.window
+        &self.walk.window
     }
 
     /// Flanks and matrices of the window as it stands.
     pub fn contact_set(&self) -> &ContactSet {
-        &self.set
+        &self.walk.set
     }
 
     /// The last solved contact.
     pub fn last(&self) -> Option<&Equilibrium> {
-        self.last.as_ref()
+        self.walk.last.as_ref()
     }
 
     /// Solves a station with the window as it stands.
@@ -124,93 +124,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
-        if self.options.torque == 0.0 {
-            let root_stress = self.root_stress(None)?;
-            return Ok(StaticPosition { root_stress, ..self.unloaded(station)? });
-        }
-        let guess = self.last.take();
-        let e = equilibrium(&self.parts(), station, guess.as_ref())?;
-        let result = self.position(&e)?;
-        let starved = self.starved(&e);
-        self.last = Some(e);
-        starved.map_or(Ok(result), Err)
-    }
-
-    /// Everything the results hold of a solved station.
-    fn position(&self, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
-        let root_stress = self.root_stress(Some(e))?;
-        Ok(StaticPosition { root_stress, ..loads::position(&self.parts(), e, self.changes) })
-    }
-
-    /// Stress in the fillets of both windows, when it is asked for.
-    fn root_stress(&self, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
-        let displacements = e.map(|e| &e.displacements);
-        self.root.as_ref().map_or(Ok(Default::default()), |root| root.of(&self.parts(), displacements))
-    }
-
-    /// A pair beside the window that overlaps at the loaded pose.
-    fn starved(&self, e: &Equilibrium) -> Option<StaticError> {
-        let pairs = self.window.pairs();
-        let least = 1e-3 * e.elastic_error().abs();
-        [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
-            let gap = line::outside_gap(&self.parts(), e, running);
-            (gap < -least).then(|| StaticError::Starved {
-                cycle: e.station.cycle,
-                phase: e.station.phase,
-                pair: running,
-                window: self.window.count(),
-                overlap_um: -1e3 * gap,
-                torque_nm: 1e-3 * self.options.torque,
-            })
-        })
-    }
-
-    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
-    /// their least gap is.
-    fn unloaded(&self, station: Station) -> Result<StaticPosition, StaticError> {
-        let touch = Unloaded::new(&self.pair, &self.options, station)?;
-        let error = touch.transmission_error();
-        let theta1 = station.pinion_angle(&self.pair, &self.options);
-        let lines = self.pair.contact_lines(self.options.side(), theta1);
-        let middle = station.middle_pair(&self.options);
-        let mut pairs: Vec<_> = self
-            .window
-            .pairs()
-            .map(|running| {
-                let nominal = lines.iter().find(|l| l.tooth == running - middle).map_or(0.0, |l| l.length);
-                let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
-                let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
-                crate::PairResult {
-                    pair: self.options.sense.sign() * running,
-                    pinion_tooth,
-                    wheel_tooth,
-                    normal_force: 0.0,
-                    max_pressure: 0.0,
-                    contact_line_length: length,
-                    points_in_contact: 0,
-                    slices: Vec::new(),
-                }
-            })
-            .collect();
-        pairs.sort_by_key(|p| p.pair);
-        Ok(StaticPosition {
-            pinion_angle: (station.cycle as f64 + station.phase - 0.5) * self.pair.pinion.pitch_angle(),
-            mesh_phase: station.phase,
-            transmission_error: error,
-            kinematic_transmission_error: error,
-            secant_stiffness: f64::NAN,
-            tangent_stiffness: 0.0,
-            contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
-            geometric_line_length: lines.iter().map(|l| l.length).sum(),
-            pairs,
-            wrench: Default::default(),
-            root_stress: Default::default(),
-            max_pressure: 0.0,
-            friction_work: 0.0,
-            strain_energy: 0.0,
-            tooth_changes: self.changes,
-            certificate: Default::default(),
-        })
+        let (fixed, walk) = self.split();
+        walk.solve(&fixed, station)
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
@@ -218,29 +133,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
-        let forces: Vec<f64> = self.window.pairs().map(|running| self.force_of(before, running)).collect();
-        let next = self.window.change(self.options.sense, &forces)?;
-        self.enter(next)?;
-        self.changes += 1;
-        // The patches of the window have other numbers now: points are not remembered across a change.
-        if let Some(last) = &mut self.last {
-            last.solution.active.clear();
-        }
-        self.solve(station)
-    }
-
-    /// Normal force of the pair of a running number, N; results number pairs in the sense of rotation.
-    fn force_of(&self, position: &StaticPosition, running: i64) -> f64 {
-        let number = self.options.sense.sign() * running;
-        position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
-    }
-
-    fn enter(&mut self, window: ToothWindow) -> Result<(), StaticError> {
-        if !self.set.move_to(&self.gears, &window)? {
-            self.set = ContactSet::new(&self.pair, &self.gears, &window, &self.options)?;
-        }
-        self.window = window;
-        Ok(())
+        let (fixed, walk) = self.split();
+        walk.change(&fixed, before, station)
     }
 
     /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
@@ -248,30 +142,16 @@ impl StaticModel {
     ///
     /// # Errors
     /// [`StaticError`].
-    pub fn advance(&mut self, station: Station, mut seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
-        let due = ToothWindow::nominal_first(station.centre(&self.options), self.window.count());
-        let mut result = self.solve(station);
-        while (due - self.window.first()) * self.options.sense.sign() < 0 {
-            let before = match &result {
-                Ok(position) => position.clone(),
-                // A pair that comes in early is what the change is for; the outgoing tooth decides.
-                Err(StaticError::Starved { .. }) => match &self.last {
-                    Some(e) => self.position(e)?,
-                    None => break,
-                },
-                Err(_) => break,
-            };
-            if self.force_of(&before, self.window.outgoing(self.options.sense)) != 0.0 {
-                break;
-            }
-            let after = self.change(&before, station)?;
-            seen(&Change { before, after: after.clone(), window: self.window });
-            result = Ok(after);
-        }
-        result
+    pub fn advance(&mut self, station: Station, seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
+        let (fixed, walk) = self.split();
+        walk.advance(&fixed, station, seen)
     }
 
-    /// Runs `cycles` mesh cycles of `positions` stations each; `seen` is told of each result (for progress).
+    /// Runs `cycles` mesh cycles of `positions` stations each; `seen` is told of each result in order (for progress), the model standing
+    /// where that result was found.
+    ///
+    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are the same for any number of
+    /// threads.
     ///
     /// # Errors
     /// [`StaticError`] of the first station that cannot be solved.
@@ -281,12 +161,22 @@ impl StaticModel {
         cycles: usize,
         mut seen: impl FnMut(usize, &StaticPosition, &Self),
     ) -> Result<StaticHistory, StaticError> {
+        let stations: Vec<Station> = (0..positions * cycles)
+            .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
+            .collect();
         let mut history = StaticHistory::default();
-        for i in 0..positions * cycles {
-            let station = Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 };
-            let position = self.advance(station, |_| ())?;
-            seen(i, &position, self);
-            history.positions.push(position);
+        let mut left = &stations[..];
+        while !left.is_empty() {
+            let (fixed, walk) = self.split();
+            let (wave, rest) = left.split_at(cycle::wave(&fixed, walk).min(left.len()));
+            left = rest;
+            for solved in cycle::solve(&fixed, walk, wave) {
+                let (position, stood) = solved?;
+                self.walk.stand(stood);
+                let i = history.positions.len();
+                seen(i, &position, self);
+                history.positions.push(position);
+            }
         }
         Ok(history)
     }

@@ -102,6 +102,19 @@ impl LayerProfile {
         a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)))
     }
 
+    /// Its lists (arcs, constants, slopes) and its single values, for a file.
+    pub(crate) fn parts(&self) -> ([&[f64]; 3], [f64; 4]) {
+        let values = [self.roll_tip, self.base_radius, self.tip_angle, self.tip_gradient];
+        ([&self.arcs, &self.constants, &self.slopes], values)
+    }
+
+    /// From its parts; `None` when they are none of a profile.
+    pub(crate) fn from_parts([arcs, constants, slopes]: [Vec<f64>; 3], values: [f64; 4]) -> Option<Self> {
+        let same = arcs.len() >= 2 && constants.len() == arcs.len() && slopes.len() == arcs.len();
+        let [roll_tip, base_radius, tip_angle, tip_gradient] = values;
+        same.then_some(Self { arcs, constants, slopes, roll_tip, base_radius, tip_angle, tip_gradient })
+    }
+
     /// d/dx [c + (1 + eta) ln t] at the tip edge, x the distance from it, 1/mm.
     pub fn tip_gradient(&self) -> f64 {
         self.tip_gradient

@@ -13,7 +13,7 @@ impl GearReducer {
     /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from coordinates: a grid with
     /// more nodes than the mesh can tell apart.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
-        match &self.method {
+        match self.method()? {
             Method::Cyclic(cyclic) => cyclic.expand(&self.forces(window, u)?, window.shift),
             Method::General(general, turn) => {
                 let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
@@ -57,7 +57,7 @@ impl GearReducer {
     /// As [`GearReducer::expand`].
     pub fn carry(&self, from: &Window, to: &Window, u: &[f64]) -> Result<Vec<f64>, ReductionError> {
         let (z, loads) = (self.gear().tooth_count(), self.loads(to)?);
-        if let Method::Cyclic(cyclic) = &self.method {
+        if let Method::Cyclic(cyclic) = self.method()? {
             return cyclic.carry(&self.forces(from, u)?, (to.shift + z - from.shift) % z, &loads);
         }
         let field = self.expand(from, u)?;
@@ -100,7 +100,7 @@ impl GearReducer {
     pub fn condensed_mass(&self) -> Result<Mat<f64>, ReductionError> {
         let window = Window { reduced: self.base.clone(), shift: 0 };
         let stiffness = self.stiffness_of(&window)?;
-        match &self.method {
+        match self.method()? {
             Method::Cyclic(cyclic) => cyclic.mass(stiffness),
             Method::General(general, _) if self.is_last(&window) => {
                 general.mass(Seen::Last, self.gear().mesh(), self.material(), stiffness)
@@ -113,7 +113,7 @@ impl GearReducer {
 
     /// Stress at `nodes` (6 rows a node) for unit coordinates of a window, MPa/mm, in the frame of its matrices.
     pub(crate) fn stress_of(&self, window: &Window, nodes: &[u32]) -> Result<Mat<f64>, ReductionError> {
-        let by_force = match &self.method {
+        let by_force = match self.method()? {
             Method::Cyclic(cyclic) => cyclic.stress(nodes)?,
             Method::General(general, _) => {
                 let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());

@@ -3,7 +3,7 @@
 use std::{
     collections::BTreeMap,
     f64::consts::TAU,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
 use faer::Mat;
@@ -12,7 +12,7 @@ use geometry::{Gear, Side};
 use mesh::{Face, GearMesh};
 
 use crate::{
-    FlankGrid, FlankGrids, HalfTooth, ReducedGear, ReductionError, Window,
+    FlankGrid, FlankGrids, HalfTooth, ReducedGear, ReductionError, ReductionRecord, Window,
     cyclic::{CyclicGear, PitchTurn, SectorMesh},
     general::{GeneralGear, Seen},
     load::{Coordinates, Load, missing},
@@ -59,17 +59,42 @@ impl ReductionWay {
 ///
 /// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the first
 /// window and one more on either side, in the frame of the matrices.
+///
+/// A gear from a [`ReductionRecord`] is condensed only when something asks for more than the record has: another window of a gear that is not
+/// cyclic, a displacement field, stress modes, mass.
 #[derive(Debug)]
 pub struct GearReducer {
     gear: GearMesh,
+    /// The mesh that was given, where `gear` was made of it.
+    given: Option<GearMesh>,
     material: Material,
     options: ReductionOptions,
     pub(crate) dofs: DofMap,
     coordinates: Coordinates,
-    pub(crate) method: Method,
+    summary: Summary,
+    method: OnceLock<Result<Method, ReductionError>>,
+    /// Further windows and half teeth that came from a record, so many.
+    recorded: Option<[usize; 2]>,
     pub(crate) base: Arc<ReducedGear>,
     others: Mutex<BTreeMap<u32, Arc<ReducedGear>>>,
     halves: Mutex<BTreeMap<(u32, Side), Arc<HalfTooth>>>,
+}
+
+/// What is known of the method without having it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Summary {
+    pub(crate) way: ReductionWay,
+    pub(crate) cyclic: bool,
+    pub(crate) free_count: usize,
+}
+
+/// A condensed gear before its parts are put together.
+struct Condensed {
+    gear: GearMesh,
+    coordinates: Coordinates,
+    method: Method,
+    first: First,
+    compliance: Mat<f64>,
 }
 
 /// The condensed gear.
@@ -122,18 +147,29 @@ impl GearReducer {
         general: bool,
         coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
     ) -> Result<Self, E> {
+        let condensed = Self::condense(gear, &material, &options, general, coordinates)?;
+        Ok(Self::assembled(material, options, condensed))
+    }
+
+    fn condense<E: From<ReductionError>>(
+        gear: GearMesh,
+        material: &Material,
+        options: &ReductionOptions,
+        general: bool,
+        coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+    ) -> Result<Condensed, E> {
         let mut turn = PitchTurn::of_gear(&gear);
-        let sectors = if general { None } else { sectors(&gear, turn.as_ref(), &options)? };
+        let sectors = if general { None } else { sectors(&gear, turn.as_ref(), options)? };
         if let Some((part, copies)) = sectors {
             let seen = copies.as_ref().unwrap_or(&gear);
             let coordinates = coordinates(seen)?;
-            let first = First::new(seen, &coordinates, &options)?;
-            let cyclic = CyclicGear::new(part, &material, &options.elements, &first.loads, coordinates.are_nodes())?;
+            let first = First::new(seen, &coordinates, options)?;
+            let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, coordinates.are_nodes())?;
             if let Some(cyclic) = cyclic {
                 let compliance = cyclic.compliance();
                 let method = Method::Cyclic(Box::new(cyclic));
                 let gear = copies.unwrap_or(gear);
-                return Ok(Self::assembled(gear, material, options, coordinates, method, (first, compliance)));
+                return Ok(Condensed { gear, coordinates, method, first, compliance });
             }
         }
         let gear = if gear.is_periodic_sector() {
@@ -144,27 +180,93 @@ impl GearReducer {
             gear
         };
         let coordinates = coordinates(&gear)?;
-        let first = First::new(&gear, &coordinates, &options)?;
+        let first = First::new(&gear, &coordinates, options)?;
         let (last, seen) =
             if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
-        let factor = GeneralGear::new(gear.mesh(), gear.bore_nodes(), &material, &options.elements, last)?;
+        let factor = GeneralGear::new(gear.mesh(), gear.bore_nodes(), material, &options.elements, last)?;
         let compliance = factor.compliance(seen)?;
         let method = Method::General(Box::new(factor), turn);
-        Ok(Self::assembled(gear, material, options, coordinates, method, (first, compliance)))
+        Ok(Condensed { gear, coordinates, method, first, compliance })
     }
 
-    fn assembled(
-        gear: GearMesh,
-        material: Material,
-        options: ReductionOptions,
-        coordinates: Coordinates,
-        method: Method,
-        (first, compliance): (First, Mat<f64>),
-    ) -> Self {
+    fn assembled(material: Material, options: ReductionOptions, condensed: Condensed) -> Self {
+        let Condensed { gear, coordinates, method, first, compliance } = condensed;
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
         let base = Arc::new(ReducedGear::new(first.teeth, options.sides.clone(), first.nodes, compliance));
         let (others, halves) = Default::default();
-        Self { gear, material, options, dofs, coordinates, method, base, others, halves }
+        let summary = match &method {
+            Method::Cyclic(c) => Summary { way: ReductionWay::CyclicSector, cyclic: true, free_count: c.free_count() },
+            Method::General(_, turn) => {
+                Summary { way: ReductionWay::General, cyclic: turn.is_some(), free_count: dofs.free_count() }
+            }
+        };
+        let method = OnceLock::from(Ok(method));
+        let (given, recorded) = (None, None);
+        Self { gear, given, material, options, dofs, coordinates, summary, method, recorded, base, others, halves }
+    }
+
+    /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of ([`crate::record_key`]
+    /// sees to that); with `record` of another first window the gear is reduced anew.
+    ///
+    /// # Errors
+    /// As [`GearReducer::new`].
+    pub fn from_record(
+        gear: GearMesh,
+        material: Material,
+        options: ReductionOptions,
+        record: ReductionRecord,
+    ) -> Result<Self, ReductionError> {
+        let ReductionRecord { summary, windows, halves } = record;
+        let first = options.first % gear.tooth_count().max(1);
+        let by_first = windows.into_iter().filter_map(|w| Some((w.teeth.first().copied()?, w)));
+        let mut others: BTreeMap<u32, Arc<ReducedGear>> = by_first.collect();
+        let general = summary.way == ReductionWay::General;
+        let Some(base) = others.remove(&first) else {
+            return Self::build(gear, material, options, general, |_| Ok(Coordinates::FlankNodes));
+        };
+        let seen = match (gear.is_periodic_sector(), general) {
+            (false, _) => None,
+            (true, true) => Some(gear.clone().whole()?),
+            (true, false) => sectors(&gear, None, &options)?.and_then(|(_, copies)| copies),
+        };
+        let (gear, given) = match seen {
+            Some(seen) => (seen, Some(gear)),
+            None => (gear, None),
+        };
+        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
+        let recorded = Some([others.len(), halves.len()]);
+        let (others, halves) = (Mutex::new(others), Mutex::new(halves.into_iter().collect()));
+        let (coordinates, method) = (Coordinates::FlankNodes, OnceLock::new());
+        Ok(Self { gear, given, material, options, dofs, coordinates, summary, method, recorded, base, others, halves })
+    }
+
+    /// What a later run needs of this gear: the windows and half teeth that were asked for so far. `None` when a record has
+    /// it all already, and for a gear reduced to grids.
+    pub fn record(&self) -> Option<ReductionRecord> {
+        let others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
+        let new = self.recorded != Some([others.len(), halves.len()]);
+        (new && self.coordinates.are_nodes()).then(|| ReductionRecord {
+            summary: self.summary,
+            windows: std::iter::once(&self.base).chain(others.values()).cloned().collect(),
+            halves: halves.iter().map(|(&flank, half)| (flank, half.clone())).collect(),
+        })
+    }
+
+    /// Whether the gear came from a record.
+    pub fn is_from_record(&self) -> bool {
+        self.recorded.is_some()
+    }
+
+    /// The condensed gear behind the windows; a gear from a record is condensed by the first call.
+    pub(crate) fn method(&self) -> Result<&Method, ReductionError> {
+        let again = || {
+            let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
+            let general = self.summary.way == ReductionWay::General;
+            let nodes = |_: &GearMesh| Ok::<_, ReductionError>(Coordinates::FlankNodes);
+            Ok(Self::condense(gear, &self.material, &self.options, general, nodes)?.method)
+        };
+        self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }
 
     /// The mesh: the whole gear as it was given, or the sectors about the first window.
@@ -189,23 +291,17 @@ impl GearReducer {
 
     /// Number of free degrees of freedom of the gear, all its sectors counted.
     pub fn free_count(&self) -> usize {
-        match &self.method {
-            Method::Cyclic(cyclic) => cyclic.free_count(),
-            Method::General(..) => self.dofs.free_count(),
-        }
+        self.summary.free_count
     }
 
     /// Which way the gear was condensed.
     pub fn way(&self) -> ReductionWay {
-        match &self.method {
-            Method::Cyclic(_) => ReductionWay::CyclicSector,
-            Method::General(..) => ReductionWay::General,
-        }
+        self.summary.way
     }
 
     /// Whether all windows are alike: the gear is the same after a turn by one pitch.
     pub fn is_cyclic(&self) -> bool {
-        matches!(self.method, Method::Cyclic(_) | Method::General(_, Some(_)))
+        self.summary.cyclic
     }
 
     /// The grid of a flank; `None` for a gear reduced to its flank nodes.
@@ -259,7 +355,7 @@ impl GearReducer {
         if let Some(reduced) = others.get(&first) {
             return Ok(Window { reduced: reduced.clone(), shift: 0 });
         }
-        let Method::General(general, _) = &self.method else {
+        let Method::General(general, _) = self.method()? else {
             return Ok(Window { reduced: self.base.clone(), shift: 0 });
         };
         let options = ReductionOptions { first, ..self.options.clone() };
@@ -301,12 +397,15 @@ impl GearReducer {
     ///
     /// `node` itself where the mesh does not have that place, being some sectors only.
     pub fn material_node(&self, window: &Window, node: u32) -> u32 {
-        match &self.method {
-            Method::Cyclic(cyclic) => cyclic.turned_node(node, window.shift).unwrap_or(node),
-            Method::General(_, Some(turn)) => {
+        if window.shift == 0 {
+            return node;
+        }
+        match self.method() {
+            Ok(Method::Cyclic(cyclic)) => cyclic.turned_node(node, window.shift).unwrap_or(node),
+            Ok(Method::General(_, Some(turn))) => {
                 (0..window.shift).fold(node, |n, _| turn.nodes.get(n as usize).copied().unwrap_or(n))
             }
-            Method::General(_, None) => node,
+            Ok(Method::General(_, None)) | Err(_) => node,
         }
     }
 

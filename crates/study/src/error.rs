@@ -32,6 +32,20 @@ pub enum StudyError {
         /// Axial stations.
         stations: usize,
     },
+    /// No power law can be laid through measured costs.
+    #[error("no power law through {points} points: it takes two different sizes, and all values above 0")]
+    NoPowerLaw {
+        /// Points given.
+        points: usize,
+    },
+    /// A history has no counterpart in the reference.
+    #[error("{positions} positions a cycle are not among the reference's {reference}")]
+    OtherPositions {
+        /// Positions of the history.
+        positions: usize,
+        /// Positions of the reference.
+        reference: usize,
+    },
 }
 
 impl StudyError {
@@ -43,6 +57,8 @@ impl StudyError {
             }
             Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
             Self::NoGrid { .. } => Some("give a rising, finite range, at least one step and one station".into()),
+            Self::NoPowerLaw { .. } => Some("measure at least two sizes".into()),
+            Self::OtherPositions { .. } => Some("take a number of positions that divides the reference's".into()),
         }
     }
 }

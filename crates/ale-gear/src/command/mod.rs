@@ -1,5 +1,6 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
+mod chart;
 mod default_scene;
 mod mesh;
 mod run;
@@ -23,6 +24,8 @@ pub struct Cli {
 enum Command {
     /// Run a scene and write its result folder
     Run(run::RunArgs),
+    /// Run every model and mesh density on a scene: accuracy against cost
+    Chart(chart::ChartArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -37,7 +40,16 @@ impl Cli {
         match self.command {
             None => run::RunArgs::for_default_scene()?.execute(),
             Some(Command::Run(args)) => args.execute(),
+            Some(Command::Chart(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
+    }
+}
+
+/// Threads of the whole process, all cores where nothing is said.
+fn use_threads(threads: Option<usize>) {
+    if let Some(threads) = threads {
+        // Fails only when a pool is there already, which nobody has made before this line.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
 }

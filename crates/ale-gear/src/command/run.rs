@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cache::Cache;
 use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
 use crate::output::{
@@ -19,6 +20,12 @@ pub(super) struct RunArgs {
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
+    /// Folder of reduced gears [default: the user's cache folder]
+    #[arg(long, value_name = "DIR")]
+    cache: Option<PathBuf>,
+    /// Neither read nor write reduced gears
+    #[arg(long, conflicts_with = "cache")]
+    no_cache: bool,
     /// Threads [default: all cores]
     #[arg(long, short = 'j', value_name = "N")]
     threads: Option<usize>,
@@ -34,7 +41,16 @@ impl RunArgs {
     /// The default scene into `out/default`.
     pub(super) fn for_default_scene() -> Result<Self, CommandError> {
         let out = PathBuf::from("out/default");
-        Ok(Self { scene: super::default_scene::find()?, out, threads: None, torque_nm: None, vtu: false })
+        let scene = super::default_scene::find()?;
+        Ok(Self { scene, out, cache: None, no_cache: false, threads: None, torque_nm: None, vtu: false })
+    }
+
+    fn cache(&self) -> Cache {
+        match &self.cache {
+            _ if self.no_cache => Cache::off(),
+            Some(folder) => Cache::in_folder(folder.clone()),
+            None => Cache::of_user(),
+        }
     }
 
     /// Every complaint about the words is made here, before any work starts or any file is written.
@@ -69,12 +85,9 @@ impl RunArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
-        if let Some(threads) = self.threads {
-            // Fails only when a pool is there already, which nobody has made before this line.
-            let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
-        }
+        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
-        let Solved { history, facts } = run::solve(&scene, &mut phases, &results)?;
+        let Solved { history, facts } = run::solve(&scene, &mut phases, &results, &self.cache())?;
         let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
         let picture = phases.run("write", || {

@@ -8,7 +8,7 @@ pub(super) struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-const COLOURS: [RGBColor; 6] = [
+pub(super) const COLOURS: [RGBColor; 6] = [
     RGBColor(31, 95, 168),
     RGBColor(200, 80, 30),
     RGBColor(40, 130, 70),

@@ -2,37 +2,15 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, Once, PoisonError};
 
-use crate::error::CommandError;
+use crate::{error::CommandError, partial::Partial};
 
 /// Files are written into a temporary folder beside the wanted one; [`ResultDirectory::finish`] renames it.
 /// Dropped before that, it takes its files with it.
 #[derive(Debug)]
 pub struct ResultDirectory {
     wanted: PathBuf,
-    partial: PathBuf,
-    finished: bool,
-}
-
-/// Temporary folders of this process, for the case that the user stops it.
-static PARTIAL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-static HANDLER: Once = Once::new();
-/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
-const STOPPED: i32 = 130;
-
-/// Ctrl-C and a polite kill take the temporary folders with them.
-fn clean_up_when_stopped() {
-    HANDLER.call_once(|| {
-        // A host that has a handler of its own keeps it; then the folder's name still says what it is.
-        let _ = ctrlc::set_handler(|| {
-            let partial = PARTIAL.lock().unwrap_or_else(PoisonError::into_inner);
-            for folder in partial.iter() {
-                let _ = fs::remove_dir_all(folder);
-            }
-            std::process::exit(STOPPED);
-        });
-    });
+    partial: Partial,
 }
 
 impl ResultDirectory {
@@ -66,16 +44,15 @@ impl ResultDirectory {
             _ => PathBuf::from("."),
         };
         let partial = parent.join(format!(".{}.partial-{}", name.to_string_lossy(), std::process::id()));
-        clean_up_when_stopped();
-        PARTIAL.lock().unwrap_or_else(PoisonError::into_inner).push(partial.clone());
-        fs::create_dir_all(&partial)
+        let partial = Partial::new(partial);
+        fs::create_dir_all(partial.path())
             .map_err(|e| complaint(format!("cannot be made: {e}"), "give a folder that you may write to"))?;
-        Ok(Self { wanted: wanted.to_owned(), partial, finished: false })
+        Ok(Self { wanted: wanted.to_owned(), partial })
     }
 
     /// Path of a file while the result is being written.
     pub fn path(&self, name: &str) -> PathBuf {
-        self.partial.join(name)
+        self.partial.path().join(name)
     }
 
     /// Writes one file.
@@ -91,42 +68,32 @@ impl ResultDirectory {
     /// # Errors
     /// Exit status 1 when the system refuses.
     pub fn files(&self) -> Result<Vec<String>, CommandError> {
-        names(&self.partial).map_err(|e| CommandError::write(&self.wanted, &e))
+        names(self.partial.path()).map_err(|e| CommandError::write(&self.wanted, &e))
     }
 
     /// Puts the result where it was wanted, in place of an earlier one.
     ///
     /// # Errors
     /// Exit status 1 when the system refuses; an earlier result is then still there.
-    pub fn finish(mut self) -> Result<(), CommandError> {
+    pub fn finish(self) -> Result<(), CommandError> {
         let failed = |e: std::io::Error| CommandError::write(&self.wanted, &e);
-        let old = self.partial.with_extension("replaced");
+        let old = self.partial.path().with_extension("replaced");
         let replaces = self.wanted.exists();
         if replaces {
             fs::rename(&self.wanted, &old).map_err(failed)?;
         }
-        if let Err(e) = fs::rename(&self.partial, &self.wanted) {
+        if let Err(e) = fs::rename(self.partial.path(), &self.wanted) {
             if replaces {
                 // Back to where it was; the first error is the one to tell.
                 let _ = fs::rename(&old, &self.wanted);
             }
             return Err(failed(e));
         }
-        self.finished = true;
+        self.partial.keep();
         if replaces {
             fs::remove_dir_all(&old).map_err(|e| CommandError::write(&old, &e))?;
         }
         Ok(())
-    }
-}
-
-impl Drop for ResultDirectory {
-    fn drop(&mut self) {
-        PARTIAL.lock().unwrap_or_else(PoisonError::into_inner).retain(|p| *p != self.partial);
-        if !self.finished {
-            // Nothing more can be done about it here, and the folder's name says what it is.
-            let _ = fs::remove_dir_all(&self.partial);
-        }
     }
 }
 
@@ -147,6 +114,7 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
                 name.as_str(),
                 "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
             )
+            || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };

@@ -1,5 +1,7 @@
 //! Files and the closing table: what a user gets.
 
+mod chart_csv;
+mod chart_tables;
 mod charts;
 mod contact_files;
 mod contact_lines;
@@ -10,13 +12,17 @@ mod history;
 mod pairs;
 mod pattern_csv;
 mod pattern_vtu;
+mod png;
 mod pvd;
 mod report;
 mod root_stress;
 mod summary;
 mod table;
 mod vtu;
+mod work_precision_chart;
 
+pub use chart_csv::write_chart_csv;
+pub use chart_tables::chart_tables;
 pub use contact_files::write_contact;
 pub use contact_lines::write_contact_lines;
 pub use directory::ResultDirectory;
@@ -26,9 +32,11 @@ pub use history::write_history;
 pub(crate) use pairs::in_cycle as pair_in_cycle;
 pub use pattern_csv::write_contact_pattern;
 pub use pattern_vtu::write_pattern_vtu;
+pub use png::svg_to_png;
 pub use pvd::{PvdEntry, write_pvd};
 pub use report::write_report;
 pub use root_stress::{GearRootStress, Place, RootStressHeadline};
 pub use summary::write_summary;
 pub use table::closing_table;
 pub use vtu::{Encoding, Field, write_surface, write_vtu};
+pub use work_precision_chart::work_precision_svg;

@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A folder of its own, gone with the value.
-pub struct Scratch(tempfile::TempDir);
+/// A folder of its own and one for the cache, gone with the value.
+pub struct Scratch(tempfile::TempDir, tempfile::TempDir);
 
 /// How a run ended.
 pub struct Run {
@@ -17,7 +17,7 @@ pub struct Run {
 
 impl Scratch {
     pub fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
+        Self(tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap())
     }
 
     pub fn path(&self) -> &Path {
@@ -42,8 +42,13 @@ impl Scratch {
     }
 
     pub fn ale_gear<const N: usize>(&self, words: [&str; N]) -> Run {
-        let output =
-            Command::new(env!("CARGO_BIN_EXE_ale-gear")).current_dir(self.path()).args(words).output().unwrap();
+        // No test reads or fills the user's own cache.
+        let output = Command::new(env!("CARGO_BIN_EXE_ale-gear"))
+            .current_dir(self.path())
+            .env("XDG_CACHE_HOME", self.1.path())
+            .args(words)
+            .output()
+            .unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }

@@ -114,7 +114,8 @@ impl Edge {
 
     /// Distance of the arc's tangent point from the corner: r tan((PI - omega) / 2), mm.
     fn tangent_point(&self) -> f64 {
-        if self.angle < PI { self.arc * (0.5 * (PI - self.angle)).tan() } else { 0.0 }
+        // Most edges are sharp: no tangent is taken for these.
+        if self.arc > 0.0 && self.angle < PI { self.arc * (0.5 * (PI - self.angle)).tan() } else { 0.0 }
     }
 
     /// P and its derivative by ln a, for a half-width `a`.

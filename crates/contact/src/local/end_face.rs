@@ -19,7 +19,7 @@ impl EndFace {
 const POISSON: [f64; 5] = [0.0, 0.2, 0.3, 0.4, 0.45];
 const LEAN_STEP_DEG: f64 = 10.0;
 const LEANS: usize = 9;
-/// Weights of the two terms of [`softening`], leans from -40 to 40 deg.
+/// Weights of the two terms of [`Softening`], leans from -40 to 40 deg.
 ///
 /// Fitted to a bonded layer with a free end, resolved in 3-D under the same line load everywhere
 /// (`cargo run --release -p contact --example end_faces`); within 5 % of the softening at distances over a quarter of the half-width, 0.03 where it is small.
@@ -34,28 +34,51 @@ const WEIGHTS: [[[f64; 2]; LEANS]; POISSON.len()] = [
 ];
 /// Decay of the two terms, one over depths.
 const DECAY: [f64; 2] = [1.6, 1.2];
+/// Distance over depth past which no face is felt.
+const FAR: f64 = 20.0;
 /// Part of the half-width within which the band is too wide to feel the face any more.
 const BLUNT: f64 = 0.28;
 
-/// What an end face adds to the bracket of a body of depth `t` (mm), and its derivative by ln a.
+/// [`EndFace`] before a body of known depth: all that does not depend on the load.
 ///
 /// ```text
 /// E = B_1 ln coth(1.6 s/t) + B_2 ln coth(1.2 s/t),   s^2 = distance^2 + (0.28 a)^2
 /// ```
 /// Near the face it grows with ln(t/s), as any load does that nears an edge; a depth away it is gone. An acute end softens much, an obtuse one stiffens a
 /// little; Poisson's ratio softens all (the face is free to bulge).
-pub(super) fn softening(face: &EndFace, poisson: f64, t: f64, a: f64) -> (f64, f64) {
-    let blunt = BLUNT * a / t;
-    let s = (face.distance.max(0.0) / t).hypot(blunt);
-    if s > 20.0 || s <= 0.0 {
-        return (0.0, 0.0);
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Softening {
+    /// Distance over depth.
+    distance: f64,
+    /// 0.28 over depth, 1/mm.
+    blunt: f64,
+    weights: [f64; 2],
+}
+
+impl Softening {
+    pub fn new(face: &EndFace, poisson: f64, t: f64) -> Self {
+        let distance = face.distance.max(0.0) / t;
+        let weights = if distance > FAR { [0.0; 2] } else { weights(poisson, face.lean) };
+        Self { distance, blunt: BLUNT / t, weights }
     }
-    let (mut value, mut slope) = (0.0, 0.0);
-    for (weight, k) in weights(poisson, face.lean).iter().zip(DECAY) {
-        value -= weight * (k * s).tanh().ln();
-        slope -= weight * 2.0 * k / (2.0 * k * s).sinh();
+
+    /// What the face adds to the bracket of the body for a half-width `a` (mm), and its derivative by ln a.
+    pub fn at(&self, a: f64) -> (f64, f64) {
+        let blunt = self.blunt * a;
+        let s = (self.distance * self.distance + blunt * blunt).sqrt();
+        if s > FAR || s <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (mut value, mut slope) = (0.0, 0.0);
+        for (weight, k) in self.weights.iter().zip(DECAY) {
+            // ln coth x = ln((1 + e) / (1 - e)) with e = exp(-2 x), and 1 / sinh(2 x) = 2 e / (1 - e^2).
+            let e = (-2.0 * k * s).exp();
+            let rest = -(-2.0 * k * s).exp_m1();
+            value += weight * ((1.0 + e) / rest).ln();
+            slope -= weight * 4.0 * k * e / ((1.0 + e) * rest);
+        }
+        (value, slope * blunt * blunt / s)
     }
-    (value, slope * blunt * blunt / s)
 }
 
 /// Linear between the table's entries, held past its ends.
@@ -75,6 +98,10 @@ fn weights(poisson: f64, lean: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn softening(face: &EndFace, poisson: f64, t: f64, a: f64) -> (f64, f64) {
+        Softening::new(face, poisson, t).at(a)
+    }
 
     /// Plane strain needs no end face when nu = 0; else an upright face softens, an acute one more, an obtuse one less.
     #[test]

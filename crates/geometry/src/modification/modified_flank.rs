@@ -42,6 +42,11 @@ impl ModifiedFlank {
         depth
     }
 
+    /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along it.
+    pub fn is_offset_helicoid(&self) -> bool {
+        self.field.is_none()
+    }
+
     fn is_nominal(&self) -> bool {
         self.field.is_none() && self.pitch == 0.0
     }

@@ -1,0 +1,116 @@
+//! Reduced gears on disk, so that a second run of the same gears starts at once.
+
+use std::{
+    fs::{self, File},
+    path::{Path, PathBuf},
+    time::SystemTime,
+};
+
+use reduction::{RecordKey, ReductionRecord};
+
+use crate::partial::Partial;
+
+/// A folder of reduced gears, or none.
+///
+/// Losing the folder loses time, never a result: a file that is damaged, foreign or of another version is told of and made again, and
+/// one that cannot be written is left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cache {
+    folder: Option<PathBuf>,
+}
+
+/// What the folder may hold, bytes; the files that were not used for the longest time go first.
+const LIMIT: u64 = 4_000_000_000;
+/// Suffix of the files.
+const SUFFIX: &str = "reduced";
+
+impl Cache {
+    /// Nothing is read or written.
+    pub fn off() -> Self {
+        Self { folder: None }
+    }
+
+    /// A folder, made when first written into.
+    pub fn in_folder(folder: PathBuf) -> Self {
+        Self { folder: Some(folder) }
+    }
+
+    /// The user's cache folder (`$XDG_CACHE_HOME/ale-gear`, `~/.cache/ale-gear`, or what the system has in its place); none where the
+    /// system names none.
+    pub fn of_user() -> Self {
+        Self { folder: directories::ProjectDirs::from("", "", "ale-gear").map(|p| p.cache_dir().to_owned()) }
+    }
+
+    fn file(&self, key: &RecordKey) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
+    }
+
+    /// Whether there is a folder.
+    pub fn is_on(&self) -> bool {
+        self.folder.is_some()
+    }
+
+    /// The record of a key; `None` when there is none. A warning says what is wrong with a file that is there and cannot be used.
+    pub fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+        let Some(file) = self.file(key) else { return (None, None) };
+        let bytes = match fs::read(&file) {
+            Ok(bytes) => bytes,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return (None, None),
+            Err(e) => return (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
+        };
+        match ReductionRecord::from_bytes(&bytes, key) {
+            Ok(record) => {
+                touch(&file);
+                (Some(record), None)
+            }
+            Err(e) => (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
+        }
+    }
+
+    /// Writes a record; a warning says why it could not be done.
+    pub fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+        let file = self.file(key)?;
+        let written = self.write(&file, &record.to_bytes(key));
+        written.err().map(|e| format!("{}: {e}; the next run will reduce the gear again", file.display()))
+    }
+
+    /// Beside its place first, then renamed: whoever reads sees a whole file or none.
+    fn write(&self, file: &Path, bytes: &[u8]) -> std::io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        fs::create_dir_all(folder)?;
+        let partial = Partial::new(file.with_extension(format!("partial-{}", std::process::id())));
+        fs::write(partial.path(), bytes)?;
+        fs::rename(partial.path(), file)?;
+        partial.keep();
+        make_room(folder, file);
+        Ok(())
+    }
+}
+
+/// Marks a file as used now. Where the system does not let it, the file is only taken for older than it is.
+fn touch(file: &Path) {
+    let _ = File::options().append(true).open(file).and_then(|f| f.set_modified(SystemTime::now()));
+}
+
+/// Removes the least recently used files until the rest is within the limit; `newest` stays.
+fn make_room(folder: &Path, newest: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    let mut files: Vec<(SystemTime, u64, PathBuf)> = entries
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            let data = fs::metadata(&path).ok()?;
+            let ours = path.extension().is_some_and(|e| e == SUFFIX) && path != newest;
+            ours.then_some((data.modified().ok()?, data.len(), path))
+        })
+        .collect();
+    files.sort();
+    let mut total: u64 = files.iter().map(|f| f.1).sum();
+    for (_, size, path) in files {
+        if total <= LIMIT {
+            break;
+        }
+        // Another run may have removed it first.
+        let _ = fs::remove_file(path);
+        total -= size;
+    }
+}

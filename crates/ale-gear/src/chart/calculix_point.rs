@@ -1,0 +1,116 @@
+//! The same mesh through CalculiX.
+
+use geometry::Side;
+use study::calculix::{Body, Calculix, CalculixError, Deck};
+use study::{Answer, Work};
+
+use super::{
+    Point,
+    measure::{Measured, point_meshes},
+    plan::PENALTY,
+};
+use crate::{
+    elastic_gears::material,
+    error::CommandError,
+    gears,
+    partial::Partial,
+    run,
+    scene::{MisalignmentScene, ModificationScene, Rotation, Scene},
+};
+
+/// The driven gear is turned into contact by about this much on the line of action, mm: a few um are what steel gears yield under load.
+const CLOSING: f64 = 5e-3;
+
+/// Runs the positions of a point by CalculiX.
+///
+/// # Errors
+/// When CalculiX is not installed, cannot model the scene, or gives no result.
+pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
+    let scene = &point.scene;
+    let failed = |e: CalculixError| CommandError::failed(&e, e.hint());
+    let calculix = Calculix::find(rayon::current_num_threads()).map_err(failed)?;
+    beyond_calculix(scene)?;
+    let pair = gears::pair(scene)?;
+    let meshes = point_meshes(scene)?;
+    let options = run::options(scene, &pair);
+    let materials = [material(scene, 0)?, material(scene, 1)?];
+    let name = format!("ale-gear-calculix-{}", std::process::id());
+    let scratch = Partial::new(std::env::temp_dir().join(name));
+    std::fs::create_dir_all(scratch.path()).map_err(|e| CommandError::write(scratch.path(), &e))?;
+    let side = scene.side();
+    let driven = options.driven();
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+    let mut work = Work {
+        offline_s: 0.0,
+        cycle_s: 0.0,
+        further_cycle_s: None,
+        positions_run: point.positions as usize,
+        positions_asked: point.positions_asked as usize,
+        peak_memory_mb: None,
+        dof_before: meshes.iter().map(|g| 3 * (g.mesh().nodes.len() - g.bore_nodes().len())).sum(),
+        dof_after: 0,
+    };
+    work.dof_after = work.dof_before;
+    let mut answer = Answer { ste_um: Vec::new(), line_length_mm: Vec::new() };
+    let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+    for i in 0..point.positions {
+        let phase = f64::from(i) / f64::from(point.positions);
+        let angle = pinion_angle(scene, &pair, side, phase);
+        let angles = [angle, pair.wheel_angle(side, angle)];
+        let pairs = pairs_near(&pair, &options, scene.operation.rotation, phase, teeth)?;
+        let body = |i: usize| Body {
+            gear: &meshes[i],
+            material: &materials[i],
+            angle: angles[i],
+            centre_x: [0.0, pair.centre_distance()][i],
+        };
+        let deck = Deck {
+            bodies: [body(0), body(1)],
+            driven,
+            side,
+            pairs: &pairs,
+            torque: scene.operation.torque(),
+            closing: CLOSING / base_radius,
+            penalty: PENALTY,
+        };
+        let run = calculix.run(&deck, scratch.path()).map_err(failed)?;
+        work.cycle_s += run.wall_s * f64::from(point.positions_asked) / f64::from(point.positions);
+        work.peak_memory_mb = work.peak_memory_mb.into_iter().chain(run.peak_memory_mb).reduce(f64::max);
+        answer.ste_um.push(1e3 * base_radius * run.result.rotation);
+    }
+    Ok(Measured { work, answer, note: calculix.version().unwrap_or_default() })
+}
+
+/// Angle of the pinion at a phase of the first cycle, rad.
+fn pinion_angle(scene: &Scene, pair: &geometry::GearPair, side: Side, phase: f64) -> f64 {
+    pair.middle_angle(side) + scene.operation.rotation.sign() * (phase - 0.5) * pair.pinion.pitch_angle()
+}
+
+/// Teeth of the pairs of the window that stands at a phase of the first cycle.
+fn pairs_near(
+    pair: &geometry::GearPair,
+    options: &dynamics::StaticOptions,
+    rotation: Rotation,
+    phase: f64,
+    teeth: [u32; 2],
+) -> Result<Vec<[u32; 2]>, CommandError> {
+    let count = dynamics::StaticModel::window_teeth(pair, options);
+    let first = ale::ToothWindow::nominal_first(-rotation.sign() * (phase - 0.5), count);
+    let window = ale::ToothWindow::new(first, count, teeth).map_err(|e| CommandError::input(&e, None))?;
+    Ok(window.pairs().map(|running| window.teeth_of(running)).collect())
+}
+
+/// Says what of a scene the deck does not carry.
+fn beyond_calculix(scene: &Scene) -> Result<(), CommandError> {
+    let modified = scene.gears().iter().any(|g| {
+        !ModificationScene::is_none(&g.modification) || !g.pitch_errors_um.is_empty() || g.pitch_errors_file.is_some()
+    });
+    let what = [
+        (modified, "micro-geometry: meshes have nominal flanks"),
+        (!MisalignmentScene::is_none(&scene.pair.misalignment), "misaligned axes"),
+        (scene.contact.friction != 0.0, "friction"),
+        (scene.operation.torque_nm == 0.0, "gears without torque"),
+    ];
+    let named = what.into_iter().find_map(|(there, name)| there.then_some(name));
+    named.map_or(Ok(()), |name| Err(CommandError::failed(format_args!("the deck for CalculiX has no {name}"), None)))
+}

@@ -1,0 +1,116 @@
+//! `ale-gear chart`: a scene in, accuracy against cost of every model out.
+
+use std::path::{Path, PathBuf};
+
+use crate::{
+    chart::{ChartOptions, chart, point_count},
+    error::CommandError,
+    output::{ResultDirectory, chart_tables, svg_to_png, work_precision_svg, write_chart_csv},
+    phases::Phases,
+    scene::Scene,
+};
+
+/// Words of `ale-gear chart`.
+#[derive(Debug, clap::Args)]
+pub(super) struct ChartArgs {
+    /// Scene file
+    scene: PathBuf,
+    /// Folder for chart and tables; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+    /// Coarse meshes and few positions: less than a minute
+    #[arg(long)]
+    quick: bool,
+    /// Threads [default: all cores]
+    #[arg(long, short = 'j', value_name = "N")]
+    threads: Option<usize>,
+    /// Leave out what would take longer than this, by what the coarser mesh took
+    #[arg(long, value_name = "S", default_value = "240")]
+    limit_s: f64,
+    /// Replace the tables between `<!-- chart NAME -->` and `<!-- end -->` in this Markdown file, NAME being the scene's name
+    #[arg(long, value_name = "FILE")]
+    into: Option<PathBuf>,
+}
+
+/// Positions of a cycle in a quick look.
+const QUICK_POSITIONS: u32 = 8;
+
+impl ChartArgs {
+    /// Every complaint about the words is made here, before any work starts or any file is written.
+    fn plan(&self) -> Result<(Scene, ChartOptions), CommandError> {
+        let mut scene = Scene::read(&self.scene)?;
+        if self.threads == Some(0) {
+            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
+        }
+        if !(self.limit_s > 0.0 && self.limit_s.is_finite()) {
+            return Err(CommandError::input(format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s), None));
+        }
+        if let Some(file) = &self.into {
+            between(file, &scene.name)?;
+        }
+        let options = if self.quick {
+            scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
+            ChartOptions::quick(self.limit_s)
+        } else {
+            ChartOptions::whole(self.limit_s)
+        };
+        Ok((scene, options))
+    }
+
+    /// Runs all points; the text is the tables.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let (scene, options) = self.plan()?;
+        super::use_threads(self.threads);
+        let results = ResultDirectory::create(&self.out)?;
+        let mut phases = Phases::with_bars();
+        let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
+            chart(&scene, &options, &results, |what| {
+                progress.say(what);
+                progress.tick();
+            })
+        })?;
+        let quick = if self.quick { " --quick" } else { "" };
+        let command = format!("ale-gear chart {} --out DIR{quick}", self.scene.display());
+        let tables = chart_tables(&points, &command, rayon::current_num_threads());
+        let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
+        let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
+        results.write("chart.csv", write_chart_csv(&points).as_bytes())?;
+        results.write("work_precision.svg", svg.as_bytes())?;
+        results.write("work_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
+        results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;
+        results.finish()?;
+        if let Some(file) = &self.into {
+            put_into(file, &scene.name, &tables)?;
+        }
+        Ok(format!("{tables}\nresults: {}\n", self.out.display()))
+    }
+}
+
+/// A file and the bytes of it that the tables replace.
+struct Place {
+    text: String,
+    start: usize,
+    end: usize,
+}
+
+/// The place of a scene's tables.
+///
+/// # Errors
+/// Exit status 2 when the file or its marks are not there.
+fn between(file: &Path, name: &str) -> Result<Place, CommandError> {
+    let (open, close) = (format!("<!-- chart {name} -->\n"), "<!-- end -->");
+    let hint = || Some(format!("put the two lines `{}` and `{close}` where the tables shall stand", open.trim()));
+    let complain = |what: String| CommandError::input(format_args!("--into {}: {what}", file.display()), hint());
+    let text = std::fs::read_to_string(file).map_err(|e| complain(e.to_string()))?;
+    let start = text.find(&open).map(|at| at + open.len()).ok_or_else(|| complain(format!("no `{}`", open.trim())))?;
+    let end = text[start..].find(close).map(|at| start + at).ok_or_else(|| complain(format!("no `{close}`")))?;
+    Ok(Place { text, start, end })
+}
+
+fn put_into(file: &Path, name: &str, tables: &str) -> Result<(), CommandError> {
+    let Place { text, start, end } = between(file, name)?;
+    let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
+    // Beside it first: a file that is half written would be lost.
+    let new = file.with_extension("new");
+    std::fs::write(&new, whole).and_then(|()| std::fs::rename(&new, file)).map_err(|e| CommandError::write(file, &e))
+}

@@ -1,0 +1,62 @@
+//! Files and folders that are being written: gone when they do not become whole, also when the user stops the program.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::{Mutex, Once, PoisonError},
+};
+
+/// A path that is taken away with the value, unless [`Partial::keep`] says that it has become something.
+#[derive(Debug)]
+pub(crate) struct Partial(PathBuf);
+
+/// Paths of this process, for the case that the user stops it.
+static PARTIAL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static HANDLER: Once = Once::new();
+/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
+const STOPPED: i32 = 130;
+
+impl Partial {
+    /// Watches a path from before anything is there.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        HANDLER.call_once(|| {
+            // A host that has a handler of its own keeps it; then the path's name still says what it is.
+            let _ = ctrlc::set_handler(|| {
+                paths().iter().for_each(|path| remove(path));
+                std::process::exit(STOPPED);
+            });
+        });
+        paths().push(path.clone());
+        Self(path)
+    }
+
+    /// Where it is.
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// It is whole and stands elsewhere: there is nothing to take away.
+    pub(crate) fn keep(self) {
+        paths().retain(|p| *p != self.0);
+    }
+}
+
+impl Drop for Partial {
+    fn drop(&mut self) {
+        let mut paths = paths();
+        // Kept ones are no longer in the list.
+        if let Some(at) = paths.iter().position(|p| *p == self.0) {
+            paths.remove(at);
+            remove(&self.0);
+        }
+    }
+}
+
+fn paths() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
+    PARTIAL.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Nothing more can be done about a failure here, and the path's name says what it is.
+fn remove(path: &Path) {
+    let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+}

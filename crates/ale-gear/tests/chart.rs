@@ -1,0 +1,84 @@
+//! `ale-gear chart` end to end on a small scene: every point is a run, or says why it is none.
+
+mod util;
+
+use util::{ISO_SCENE, Scratch};
+
+/// Five teeth of each gear: a second or two for all points.
+fn small() -> String {
+    let mesher = |gear: &str| format!("[{gear}.mesher]\nsector_teeth = 5\n");
+    let scene = ISO_SCENE.replace("model = \"iso\"", "positions_per_cycle = 8");
+    format!("name = \"small\"\n{scene}{}{}", mesher("pinion"), mesher("wheel"))
+}
+
+/// Fields of a line of CSV; quoted ones without their quotes.
+fn fields(line: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut all = vec![String::new()];
+    for c in line.chars() {
+        match c {
+            '"' => inside = !inside,
+            ',' if !inside => all.push(String::new()),
+            _ => all.last_mut().unwrap().push(c),
+        }
+    }
+    all
+}
+
+#[test]
+fn every_point_is_a_run_or_says_why_not() {
+    let page = "# Cost\n<!-- chart small -->\nold\n<!-- end -->\nrest\n";
+    let scratch = Scratch::new().file("a.toml", small()).file("page.md", page);
+    let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", "--quick", "--into", "page.md"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    assert_eq!(scratch.names(), ["a.toml", "o", "page.md"]);
+    let csv = scratch.read("o/chart.csv");
+    let header = fields(csv.lines().next().unwrap());
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap_or_else(|| panic!("no column {name}"));
+    let mut measured = Vec::new();
+    for line in csv.lines().skip(1) {
+        let row = fields(line);
+        assert_eq!(row.len(), header.len(), "{line}");
+        let value = |name: &str| row[column(name)].parse::<f64>();
+        if row[column("first_cycle_s")].is_empty() {
+            assert!(row[column("note")].len() > 10, "no reason given: {line}");
+            continue;
+        }
+        for name in ["offline_s", "cycle_s", "first_cycle_s", "position_s", "mean_ste_um", "error_mean_ste"] {
+            assert!(value(name).is_ok_and(f64::is_finite), "{name} in {line}");
+        }
+        measured.push((row[0].clone(), value("mean_ste_um").unwrap(), value("positions_run").unwrap()));
+    }
+    for way in ["iso", "slice", "slice, general reduction", "nodal", "full", "reference"] {
+        assert!(measured.iter().any(|(name, ..)| name == way), "no point of {way}:\n{csv}");
+    }
+    // Each of them computes the same gears: nothing is off by a unit, a sign or a factor.
+    for (way, ste, _) in &measured {
+        assert!((5.0..20.0).contains(ste), "{way}: {ste} um");
+    }
+    let page = scratch.read("page.md");
+    assert!(page.starts_with("# Cost\n<!-- chart small -->\n") && page.ends_with("<!-- end -->\nrest\n"), "{page}");
+    assert!(page.contains("| iso |") && !page.contains("old"), "{page}");
+    let png = std::fs::read(scratch.path().join("o/work_precision.png")).unwrap();
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n") && png.len() > 10_000, "{} bytes", png.len());
+    let svg = scratch.read("o/work_precision.svg");
+    assert_eq!(svg.matches(">Error of ").count() + svg.matches("\nError of ").count(), 6, "six panels");
+}
+
+#[test]
+fn words_of_the_chart_are_checked_before_any_work() {
+    let scratch = Scratch::new().file("a.toml", small()).file("page.md", "nothing to fill\n");
+    for (words, text) in [
+        (["--limit-s", "0"], "ale-gear: `--limit-s` is 0, allowed is above 0\n"),
+        (
+            ["--into", "page.md"],
+            "ale-gear: --into page.md: no `<!-- chart small -->`\n\
+             hint: put the two lines `<!-- chart small -->` and `<!-- end -->` where the tables shall stand\n",
+        ),
+        (["--threads", "0"], "ale-gear: `--threads` is 0, allowed is 1 or more\n"),
+    ] {
+        let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", words[0], words[1]]);
+        assert_eq!((run.stderr.as_str(), run.code), (text, Some(2)));
+    }
+    assert_eq!(scratch.names(), ["a.toml", "page.md"]);
+}

@@ -1,0 +1,94 @@
+//! Grid lines over a flank, and interpolation between them.
+
+use crate::FlankPatch;
+
+/// Cells over the surface coordinates of a patch; each has four lines along the profile and three along the face, ends shared.
+#[derive(Debug, Clone)]
+pub(crate) struct FlankGridLines {
+    /// Ends of the cells, ascending, in either coordinate.
+    ends: [Vec<f64>; 2],
+}
+
+/// Lines of a cell, as parts of its length: Lobatto's points.
+const PROFILE: [f64; 4] = [0.0, 0.276_393_202_250_021, 0.723_606_797_749_979, 1.0];
+const FACE: [f64; 3] = [0.0, 0.5, 1.0];
+/// Cells of the coarsest uniform grid.
+const COARSEST: [usize; 2] = [4, 8];
+/// Ends of faces nearer than this share of a face are one.
+const SAME: f64 = 0.05;
+
+impl FlankGridLines {
+    /// Cells that are the faces of the mesh, where these form a grid.
+    pub fn of_faces(patch: &FlankPatch) -> Option<Self> {
+        let mut ends = [Vec::new(), Vec::new()];
+        for face in 0..patch.face_count() {
+            let [low, high] = patch.face_range(face);
+            (0..2).for_each(|k| ends[k].extend([low[k], high[k]]));
+        }
+        let size = patch.mean_face_size();
+        for (k, of) in ends.iter_mut().enumerate() {
+            of.sort_unstable_by(f64::total_cmp);
+            of.dedup_by(|b, a| *b - *a < SAME * size[k]);
+        }
+        let cells = [0, 1].map(|k| ends[k].len().saturating_sub(1));
+        (cells[0] > 0 && cells[0] * cells[1] == patch.face_count()).then_some(Self { ends })
+    }
+
+    /// Equal cells, twice as many either way with each refinement.
+    pub fn uniform(patch: &FlankPatch, refinement: usize) -> Self {
+        let [low, high] = patch.range();
+        let ends = [0, 1].map(|k| {
+            let cells = COARSEST[k] << refinement;
+            (0..=cells).map(|i| low[k] + (high[k] - low[k]) * i as f64 / cells as f64).collect()
+        });
+        Self { ends }
+    }
+
+    fn lines(&self, axis: usize) -> usize {
+        [PROFILE.len() - 1, FACE.len() - 1][axis] * (self.ends[axis].len() - 1) + 1
+    }
+
+    /// Number of grid points.
+    pub fn count(&self) -> usize {
+        self.lines(0) * self.lines(1)
+    }
+
+    /// Surface coordinates of a grid point.
+    pub fn point(&self, p: usize) -> [f64; 2] {
+        let number = [p / self.lines(1), p % self.lines(1)];
+        [0, 1].map(|k| {
+            let parts: &[f64] = if k == 0 { &PROFILE } else { &FACE };
+            let ends = &self.ends[k];
+            let cell = (number[k] / (parts.len() - 1)).min(ends.len() - 2);
+            ends[cell] + (ends[cell + 1] - ends[cell]) * parts[number[k] - cell * (parts.len() - 1)]
+        })
+    }
+
+    /// Points around a place and their weights; past the ends of the flank those of the end.
+    pub fn weights(&self, at: [f64; 2]) -> ([usize; 12], [f64; 12]) {
+        let (i, wu) = self.along(0, at[0], &PROFILE);
+        let (j, wz) = self.along(1, at[1], &FACE);
+        let (mut points, mut weights) = ([0; 12], [0.0; 12]);
+        for (a, u) in wu.iter().enumerate() {
+            for (b, z) in wz.iter().enumerate() {
+                let k = a * FACE.len() + b;
+                (points[k], weights[k]) = ((i + a) * self.lines(1) + j + b, u * z);
+            }
+        }
+        (points, weights)
+    }
+
+    /// First line of the cell that a coordinate is in, and Lagrange's weights.
+    fn along<const N: usize>(&self, axis: usize, at: f64, parts: &[f64; N]) -> (usize, [f64; N]) {
+        let ends = &self.ends[axis];
+        let cell = ends.partition_point(|&e| e <= at).clamp(1, ends.len() - 1) - 1;
+        let x = ((at - ends[cell]) / (ends[cell + 1] - ends[cell])).clamp(0.0, 1.0);
+        let mut weights = [1.0; N];
+        for (a, w) in weights.iter_mut().enumerate() {
+            for b in (0..N).filter(|&b| b != a) {
+                *w *= (x - parts[b]) / (parts[a] - parts[b]);
+            }
+        }
+        (cell * (N - 1), weights)
+    }
+}

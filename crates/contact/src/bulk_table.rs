@@ -1,0 +1,305 @@
+//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are taken away.
+
+use faer::MatRef;
+
+use crate::{FacePoint, FlankPatch, Support, Vec3, bulk_grid::FlankGridLines, condensed::load_columns, opening};
+
+/// One body's compliance, and what is to be taken away of it.
+#[derive(Debug, Clone)]
+pub struct BulkCompliance<'a> {
+    /// W, mm/N, 3n x 3n, node by node x, y, z.
+    pub whole: MatRef<'a, f64>,
+    /// W_c of each patch with the numbers its nodes have in W, ascending.
+    pub halves: Vec<(&'a [u32], MatRef<'a, f64>)>,
+    /// The body's patches.
+    pub patches: &'a [FlankPatch],
+}
+
+/// Table of the bulk compliance of one body.
+///
+/// ```text
+/// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
+/// ```
+/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal and along its profile; w interpolates between
+/// them, cubic along the profile and quadratic along the face, in cells that are the faces of the mesh where these form a grid: what
+/// shape functions make of D is then met almost exactly. The component of a force along the generator, which neither edges nor
+/// friction of parallel axes have, is left out. [`BulkTable::error`] says how far from A D A' that is.
+#[derive(Debug, Clone)]
+pub struct BulkTable {
+    lines: Vec<FlankGridLines>,
+    /// First point of each patch; the last entry is the number of points.
+    first: Vec<usize>,
+    /// T, mm/N, column by column: all points along the normal, then all along the profile.
+    table: Vec<f64>,
+    error: f64,
+}
+
+/// Points and weights of one row in a table.
+#[derive(Debug, Clone, Copy)]
+pub struct TablePlace {
+    /// First entries along the normal, the rest along the profile.
+    points: [u32; 2 * CELL],
+    weights: [f64; 2 * CELL],
+    count: usize,
+}
+
+/// Points of a cell: four along the profile, three along the face.
+const CELL: usize = 12;
+/// Share of the force along the profile that counts as none.
+const NORMAL_ONLY: f64 = 1e-6;
+/// Points of a table at most, both directions: 128 MiB.
+const MOST_POINTS: usize = 4096;
+/// Uniform grids to try, each twice as fine as the one before.
+const REFINEMENTS: usize = 3;
+/// Places of each patch at which a table is held against the matrices, either way.
+const CHECKS: usize = 9;
+
+impl BulkCompliance<'_> {
+    /// D a for a unit force, mm/N.
+    fn displacement(&self, support: &Support, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.whole.nrows(), 0.0);
+        load_columns(support, |dof, f| {
+            out.iter_mut().zip(self.whole.col(dof).iter()).for_each(|(o, w)| *o += f * w);
+            for (numbers, half) in &self.halves {
+                let Ok(own) = numbers.binary_search(&((dof / 3) as u32)) else { continue };
+                let column = half.col(3 * own + dof % 3);
+                for (k, &number) in numbers.iter().enumerate() {
+                    (0..3).for_each(|b| out[3 * number as usize + b] -= f * column[3 * k + b]);
+                }
+            }
+        });
+    }
+
+    /// Supports of unit forces along normal and profile at a place of a patch.
+    fn supports(&self, patch: usize, at: [f64; 2]) -> Option<[Support; 2]> {
+        let flank = &self.patches[patch];
+        let mut face: Option<FacePoint> = None;
+        let [n, t] = directions(flank, at);
+        let support = crate::closest_point::support_at(flank, at, n, &mut face)?;
+        Some([support, Support { direction: t, load: t, ..support }])
+    }
+}
+
+/// Normal and direction of the profile at a place of a flank.
+fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; 2] {
+    let normal = patch.surface().normal(at);
+    let profile = patch.surface().profile_tangent(at);
+    let along = profile - normal * normal.dot(&profile);
+    [normal, along / along.norm().max(f64::MIN_POSITIVE)]
+}
+
+impl BulkTable {
+    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the mesh, else on uniform
+    /// grids that grow finer; `None` where none within reason is good enough.
+    pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+        let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
+        let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
+        let small =
+            |lines: &Vec<FlankGridLines>| 2 * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS;
+        let candidates = of_faces.into_iter().chain((0..REFINEMENTS).map(uniform));
+        candidates.filter(small).map(|lines| Self::on(bulk, lines)).find(|table| table.error <= tolerance)
+    }
+
+    fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
+        let mut first = vec![0];
+        lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+        let count = first.last().copied().unwrap_or(0);
+        let mut supports: Vec<Option<[Support; 2]>> = Vec::with_capacity(count);
+        for (patch, grid) in lines.iter().enumerate() {
+            supports.extend((0..grid.count()).map(|p| bulk.supports(patch, grid.point(p))));
+        }
+        let along = |p: usize| supports[p % count].as_ref().map(|s| &s[p / count]);
+        let mut table = vec![0.0; 4 * count * count];
+        let mut u = Vec::new();
+        for (q, column) in table.chunks_mut((2 * count).max(1)).enumerate() {
+            let Some(load) = along(q) else { continue };
+            bulk.displacement(load, &mut u);
+            for (p, entry) in column.iter_mut().enumerate().skip(q) {
+                *entry = along(p).map_or(0.0, |s| opening(s, &u));
+            }
+        }
+        for q in 0..2 * count {
+            for p in q + 1..2 * count {
+                table[p * 2 * count + q] = table[q * 2 * count + p];
+            }
+        }
+        let mut made = Self { lines, first, table, error: 0.0 };
+        made.error = made.measured(bulk);
+        made
+    }
+
+    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each place with itself and with
+    /// the places checked before it.
+    fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
+        let mut places = Vec::new();
+        for (patch, flank) in bulk.patches.iter().enumerate() {
+            let [low, high] = flank.range();
+            // Steps that are no simple parts of the flank, so as to miss the grid lines.
+            for i in 0..CHECKS * CHECKS {
+                let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
+                let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
+                let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
+                if let (Some(exact), Some(place)) = (bulk.supports(patch, at), self.place(flank, patch, at, None)) {
+                    places.push((exact[0], place));
+                }
+            }
+        }
+        let (mut worst, mut largest) = (0.0f64, f64::MIN_POSITIVE);
+        let mut u = Vec::new();
+        for (i, (support, place)) in places.iter().enumerate() {
+            bulk.displacement(support, &mut u);
+            largest = largest.max(opening(support, &u));
+            for (other, other_place) in &places[..=i] {
+                worst = worst.max((opening(other, &u) - self.entry(other_place, place)).abs());
+            }
+        }
+        worst / largest
+    }
+
+    /// Error relative to the largest self-compliance, as measured between the grid points when the table was made.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Number of points, both directions.
+    pub fn points(&self) -> usize {
+        2 * self.first.last().copied().unwrap_or(0)
+    }
+
+    /// Size of the table, bytes.
+    pub fn bytes(&self) -> usize {
+        self.table.len() * size_of::<f64>()
+    }
+
+    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal if `None`).
+    pub fn place(
+        &self,
+        flank: &FlankPatch,
+        patch: usize,
+        at: [f64; 2],
+        direction: Option<&Vec3>,
+    ) -> Option<TablePlace> {
+        let (points, weights) = self.lines.get(patch)?.weights(at);
+        let [n, t] = direction.map_or([1.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
+        let count = if t.abs() > NORMAL_ONLY { 2 * CELL } else { CELL };
+        let mut place = TablePlace { points: [0; 2 * CELL], weights: [0.0; 2 * CELL], count };
+        let half = self.points() / 2;
+        for (k, (p, w)) in points.iter().zip(weights).enumerate() {
+            let point = self.first[patch] + p;
+            (place.points[k], place.weights[k]) = (point as u32, n * w);
+            (place.points[CELL + k], place.weights[CELL + k]) = ((half + point) as u32, t * w);
+        }
+        Some(place)
+    }
+
+    /// S between two places, mm/N.
+    pub fn entry(&self, first: &TablePlace, second: &TablePlace) -> f64 {
+        let column = |q: u32| &self.table[q as usize * self.points()..];
+        second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
+    }
+
+    /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`: loads are the
+    /// openings, and the lower triangle is enough.
+    pub fn add(
+        &self,
+        openings: &[TablePlace],
+        loads: &[TablePlace],
+        symmetric: bool,
+        work: &mut TableWork,
+        out: &mut [f64],
+    ) {
+        let n = openings.len();
+        work.collect(self.points(), openings.iter().chain(if symmetric { &[] } else { loads }));
+        let m = work.used.len();
+        work.renumber(openings, loads);
+        // The part of the table that these rows touch, side by side.
+        work.part.clear();
+        for &q in &work.used {
+            let column = &self.table[q as usize * self.points()..][..self.points()];
+            work.part.extend(work.used.iter().map(|&p| column[p as usize]));
+        }
+        let TableWork { part, column, places: [openings, loads], .. } = work;
+        for (j, load) in loads.iter().enumerate() {
+            column.clear();
+            column.resize(m, 0.0);
+            for (q, w) in load.each() {
+                let from = &part[m * q as usize..][..m];
+                column.iter_mut().zip(from).for_each(|(c, t)| *c += w * t);
+            }
+            let start = if symmetric { j } else { 0 };
+            for (place, entry) in openings[start..].iter().zip(&mut out[j * n + start..(j + 1) * n]) {
+                *entry += place.each().map(|(p, w)| w * column[p as usize]).sum::<f64>();
+            }
+        }
+    }
+}
+
+impl TablePlace {
+    /// Number of points that it stands on: 12, and 12 more where it is loaded along the profile.
+    pub fn points(&self) -> usize {
+        self.count
+    }
+
+    fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.points[..self.count].iter().copied().zip(self.weights[..self.count].iter().copied())
+    }
+}
+
+/// Memory for [`BulkTable::add`], used again.
+#[derive(Debug, Default)]
+pub struct TableWork {
+    /// Points that the rows touch, and the number of each point among them.
+    used: Vec<u32>,
+    rank: Vec<u32>,
+    part: Vec<f64>,
+    column: Vec<f64>,
+    /// Openings and loads, their points counted among those used.
+    places: [Vec<TablePlace>; 2],
+}
+
+impl TableWork {
+    /// Memory for `rows` rows on a table.
+    pub fn new(table: &BulkTable, rows: usize) -> Self {
+        let most = table.points().min(rows * 2 * CELL);
+        Self {
+            used: Vec::with_capacity(most),
+            rank: Vec::with_capacity(table.points()),
+            part: Vec::with_capacity(most * most),
+            column: Vec::with_capacity(most),
+            places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],
+        }
+    }
+
+    /// Points of the table that the rows of the last call touched.
+    pub fn touched(&self) -> usize {
+        self.used.len()
+    }
+
+    fn renumber(&mut self, openings: &[TablePlace], loads: &[TablePlace]) {
+        for (to, from) in self.places.iter_mut().zip([openings, loads]) {
+            to.clear();
+            to.extend(from.iter().map(|place| {
+                let mut own = *place;
+                own.points[..own.count].iter_mut().for_each(|p| *p = self.rank[*p as usize]);
+                own
+            }));
+        }
+    }
+
+    fn collect<'a>(&mut self, points: usize, places: impl Iterator<Item = &'a TablePlace>) {
+        self.used.clear();
+        self.rank.clear();
+        self.rank.resize(points, u32::MAX);
+        for (p, _) in places.flat_map(TablePlace::each) {
+            if self.rank[p as usize] == u32::MAX {
+                self.rank[p as usize] = 0;
+                self.used.push(p);
+            }
+        }
+        self.used.sort_unstable();
+        for (r, &p) in self.used.iter().enumerate() {
+            self.rank[p as usize] = r as u32;
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again.
+
+use dyn_stack::{MemBuffer, MemStack};
+use faer::{
+    MatMut, MatRef, Par,
+    linalg::{cholesky::llt, lu::partial_pivoting as lu, triangular_solve},
+    perm::PermRef,
+};
+
+use super::{TOLERANCE, pivots::PIVOT_TOLERANCE, tangent::RIGID};
+use crate::ContactError;
+
+/// What stands against the contact forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Balance {
+    /// The bodies stand still, whatever the forces.
+    Held,
+    /// One body turns until contact carries this moment about its axis, N mm.
+    Moment(f64),
+}
+
+/// Contact of n rows that see each other with a dense compliance.
+///
+/// ```text
+/// g_i = g0_i + l_i dtheta + sum_j S_ij F_j + delta_i(F_i) >= 0,   F_i >= 0,   F_i g_i = 0
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct DenseProblem<'a> {
+    /// S, mm/N, n x n, both triangles.
+    pub compliance: MatRef<'a, f64>,
+    /// Whether S is symmetric: no friction.
+    pub symmetric: bool,
+    /// g0, mm.
+    pub gaps: &'a [f64],
+    /// l, mm.
+    pub levers: &'a [f64],
+    /// Moment of a unit normal force, friction included, mm.
+    pub torque_levers: &'a [f64],
+    /// dtheta held at 0, or to balance a moment.
+    pub balance: Balance,
+}
+
+/// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps do not settle.
+pub struct DenseSolver {
+    pub(super) forces: Vec<f64>,
+    pub(super) openings: Vec<f64>,
+    pub(super) approach: Vec<f64>,
+    pub(super) slopes: Vec<f64>,
+    pub(super) active: Vec<usize>,
+    pub(super) order: Vec<usize>,
+    pub(super) factor: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) permutation: [Vec<usize>; 2],
+    pub(super) scratch: MemBuffer,
+    pub(super) symmetric: bool,
+    pub(super) rotation: f64,
+    pub(super) stiffness: f64,
+    pub(super) iterations: usize,
+    pub(super) residual: f64,
+}
+
+/// Newton steps in which the active set may change as a whole; three to eight do.
+const BLOCK_STEPS: usize = 24;
+
+impl std::fmt::Debug for DenseSolver {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("DenseSolver").field("active", &self.active).field("residual", &self.residual).finish()
+    }
+}
+
+impl DenseSolver {
+    /// Memory for up to `most` rows.
+    pub fn new(most: usize) -> Self {
+        let cholesky = llt::factor::cholesky_in_place_scratch::<f64>(most, Par::Seq, Default::default());
+        let lu = lu::factor::lu_in_place_scratch::<usize, f64>(most, most, Par::Seq, Default::default());
+        let solve = lu::solve::solve_in_place_scratch::<usize, f64>(most, RIGID, Par::Seq);
+        Self {
+            forces: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            approach: Vec::with_capacity(most),
+            slopes: Vec::with_capacity(most),
+            active: Vec::with_capacity(most),
+            order: Vec::with_capacity(most),
+            factor: Vec::with_capacity(most * most),
+            x: Vec::with_capacity(RIGID * most),
+            permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
+            scratch: MemBuffer::new(cholesky.or(lu).or(solve)),
+            symmetric: true,
+            rotation: 0.0,
+            stiffness: 0.0,
+            iterations: 0,
+            residual: 0.0,
+        }
+    }
+
+    /// Force of every row, N, >= 0.
+    pub fn forces(&self) -> &[f64] {
+        &self.forces
+    }
+
+    /// Opening of every row by all compliance, its own included, mm.
+    pub fn openings(&self) -> &[f64] {
+        &self.openings
+    }
+
+    /// Rows that press, ascending.
+    pub fn active(&self) -> &[usize] {
+        &self.active
+    }
+
+    /// dtheta, rad.
+    pub fn rotation(&self) -> f64 {
+        self.rotation
+    }
+
+    /// -dM/dtheta, N mm/rad, of a balance of moments.
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    /// Newton steps of the last solve.
+    pub fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// Largest violation of the conditions relative to the largest approach.
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start row i from, 0 where
+    /// there is none.
+    ///
+    /// Newton on forces and active set at once (semi-smooth Newton; Hintermueller, Ito, Kunisch, SIAM J. Optim. 13(3), 2003): rows that
+    /// pull leave, rows that overlap enter, each with the tangent of its delta. Where that goes in circles, tangents are held while the
+    /// set is found by pivots that cannot.
+    ///
+    /// # Errors
+    /// [`ContactError::NotConverged`], [`ContactError::NoLever`], [`ContactError::NotPositiveDefinite`].
+    pub fn solve(
+        &mut self,
+        problem: &DenseProblem<'_>,
+        local: impl Fn(usize, f64) -> (f64, f64),
+        start: impl Fn(usize) -> f64,
+    ) -> Result<(), ContactError> {
+        let n = problem.gaps.len();
+        self.forces.clear();
+        self.forces.extend((0..n).map(start));
+        for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
+            list.clear();
+            list.resize(n, 0.0);
+        }
+        (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
+        self.symmetric = problem.symmetric;
+        self.active.clear();
+        self.active.extend((0..n).filter(|&i| self.forces[i] > 0.0));
+        if self.active.is_empty() {
+            self.first_guess(problem)?;
+        }
+        if self.active.is_empty() {
+            return Ok(());
+        }
+        self.linearise(&local);
+        for _ in 0..BLOCK_STEPS {
+            if self.active.is_empty() && problem.balance != Balance::Held {
+                break;
+            }
+            self.step(problem)?;
+            let changed = self.change_sides(problem);
+            self.linearise(&local);
+            if changed {
+                continue;
+            }
+            self.residual = self.violation(problem);
+            if self.residual < TOLERANCE {
+                self.finish();
+                return Ok(());
+            }
+        }
+        self.carefully(problem, local)
+    }
+
+    /// Rows that touch first, with a force that is not far off.
+    fn first_guess(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
+        let n = problem.gaps.len();
+        match problem.balance {
+            Balance::Moment(moment) => {
+                let driving = moment.signum();
+                let lever_mm = problem.levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+                if n == 0 || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+                    return Err(ContactError::NoLever { lever_mm });
+                }
+                let way = |i: usize| problem.gaps[i] / (problem.levers[i] * driving);
+                self.order.clear();
+                self.order.extend((0..n).filter(|&i| problem.levers[i] * driving > 0.0));
+                self.order.sort_unstable_by(|&a, &b| way(a).total_cmp(&way(b)).then(a.cmp(&b)));
+                self.order.truncate((n / 20).max(1));
+                self.order.sort_unstable();
+                self.active.extend(&self.order);
+                // Tangents at a typical force: half of the rows share the load.
+                let typical = 2.0 * moment.abs() / (lever_mm * n as f64);
+                self.active.iter().for_each(|&i| self.forces[i] = typical);
+            }
+            Balance::Held => {
+                let deepest = problem.gaps.iter().fold(0.0f64, |m, g| m.max(-g));
+                let own = (0..n).map(|i| problem.compliance[(i, i)]).fold(f64::MIN_POSITIVE, f64::max);
+                self.active.extend((0..n).filter(|&i| problem.gaps[i] < 0.0));
+                // A row shares its approach with some ten neighbours.
+                self.active.iter().for_each(|&i| self.forces[i] = 0.1 * deepest / own);
+            }
+        }
+        Ok(())
+    }
+
+    /// Approach and slope of the local compliance of the active rows at the forces as they are.
+    fn linearise(&mut self, local: &impl Fn(usize, f64) -> (f64, f64)) {
+        for &i in &self.active {
+            (self.approach[i], self.slopes[i]) = local(i, self.forces[i]);
+        }
+    }
+
+    /// Forces, rotation and bulk openings of the linear problem on the active rows.
+    pub(super) fn step(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
+        self.iterations += 1;
+        let m = self.active.len();
+        if m == 0 {
+            (self.rotation, self.stiffness) = (0.0, 0.0);
+            [&mut self.forces, &mut self.openings].into_iter().for_each(|list| list.fill(0.0));
+            return Ok(());
+        }
+        self.factor(problem)?;
+        self.x.clear();
+        for &i in &self.active {
+            self.x.push(-(problem.gaps[i] + self.approach[i] - self.slopes[i] * self.forces[i]));
+        }
+        self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
+        let columns = if problem.balance == Balance::Held { 1 } else { 2 };
+        self.back_substitute(m, columns);
+        self.rotation = 0.0;
+        if let Balance::Moment(moment) = problem.balance {
+            let dot = |x: &[f64]| self.active.iter().zip(x).map(|(&i, x)| problem.torque_levers[i] * x).sum::<f64>();
+            let (carried, stiffness) = (dot(&self.x[..m]), dot(&self.x[m..]));
+            (self.rotation, self.stiffness) = ((carried - moment) / stiffness, stiffness);
+        }
+        self.forces.fill(0.0);
+        self.openings.fill(0.0);
+        for (a, &i) in self.active.iter().enumerate() {
+            let force = self.x[a] - self.rotation * self.x[m + a];
+            self.forces[i] = force;
+            let column = problem.compliance.col(i);
+            self.openings.iter_mut().zip(column.iter()).for_each(|(o, c)| *o += c * force);
+        }
+        Ok(())
+    }
+
+    /// Factor of S + diag(slopes) on the active rows.
+    pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
+        let m = self.active.len();
+        self.factor.clear();
+        for &j in &self.active {
+            let column = problem.compliance.col(j);
+            self.factor.extend(self.active.iter().map(|&i| column[i]));
+        }
+        for (a, &i) in self.active.iter().enumerate() {
+            self.factor[a * (m + 1)] += self.slopes[i];
+        }
+        let matrix = MatMut::from_column_major_slice_mut(&mut self.factor, m, m);
+        let stack = MemStack::new(&mut self.scratch);
+        if self.symmetric {
+            llt::factor::cholesky_in_place(matrix, Default::default(), Par::Seq, stack, Default::default())
+                .map_err(|_| ContactError::NotPositiveDefinite { points: m })?;
+        } else {
+            let [forward, backward] = &mut self.permutation;
+            for list in [&mut *forward, &mut *backward] {
+                list.clear();
+                list.resize(m, 0);
+            }
+            lu::factor::lu_in_place(matrix, forward, backward, Par::Seq, stack, Default::default());
+        }
+        Ok(())
+    }
+
+    /// Solves with the factor for the first `columns` columns of `x`, m rows each.
+    pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
+        let factor = MatRef::from_column_major_slice(&self.factor, m, m);
+        let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
+        if self.symmetric {
+            triangular_solve::solve_lower_triangular_in_place(factor, x.as_mut(), Par::Seq);
+            triangular_solve::solve_upper_triangular_in_place(factor.transpose(), x, Par::Seq);
+        } else {
+            let [forward, backward] = &self.permutation;
+            let permutation = PermRef::new_checked(forward, backward, m);
+            let stack = MemStack::new(&mut self.scratch);
+            lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
+        }
+    }
+
+    /// Rows that pull leave, rows that overlap enter; whether any did.
+    fn change_sides(&mut self, problem: &DenseProblem<'_>) -> bool {
+        let largest = self.forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+        let forces = &self.forces;
+        let before = self.active.len();
+        self.active.retain(|&i| forces[i] >= -PIVOT_TOLERANCE * largest);
+        let mut changed = self.active.len() != before;
+        let scale = self.scale(problem);
+        let stay = self.active.len();
+        let left = before != stay;
+        for i in 0..problem.gaps.len() {
+            // A row that has just left is told by its force.
+            if self.forces[i] < 0.0 || self.active[..stay].binary_search(&i).is_ok() {
+                continue;
+            }
+            let gap = problem.gaps[i] + problem.levers[i] * self.rotation + self.openings[i];
+            if gap < -PIVOT_TOLERANCE * scale {
+                self.active.push(i);
+                changed = true;
+            }
+        }
+        self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
+        if left || self.active.len() != stay {
+            self.active.sort_unstable();
+        }
+        changed
+    }
+
+    /// Largest approach, mm.
+    fn scale(&self, problem: &DenseProblem<'_>) -> f64 {
+        let turned = problem.levers.iter().fold(0.0f64, |m, l| m.max((l * self.rotation).abs()));
+        let opened = self.openings.iter().fold(turned, |m, o| m.max(o.abs()));
+        if problem.balance == Balance::Held { problem.gaps.iter().fold(opened, |m, g| m.max(-g)) } else { opened }
+    }
+
+    /// Violation of the conditions by the forces as they are.
+    fn violation(&self, problem: &DenseProblem<'_>) -> f64 {
+        let gap = |i: usize| problem.gaps[i] + problem.levers[i] * self.rotation + self.openings[i];
+        let of = |i: usize| {
+            if self.forces[i] > 0.0 { (gap(i) + self.approach[i]).abs() } else { (-gap(i)).max(0.0) }
+        };
+        let worst = (0..problem.gaps.len()).map(of).fold(0.0, f64::max);
+        let scale = self.scale(problem);
+        if scale > 0.0 { worst / scale } else { worst }
+    }
+
+    fn finish(&mut self) {
+        for &i in &self.active {
+            if self.forces[i] > 0.0 {
+                self.openings[i] += self.approach[i];
+            }
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment.
+//!
+//! ```text
+//! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
+//! F_i >= 0,  g_i >= 0,  F_i g_i = 0
+//! ```
+//! With friction the moment of a force has a lever of its own, and the openings are those by normal and friction force together.
+//! g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the penalty law, 0
+//! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
+//! for the rotation and the gaps is unique.
+
+mod careful;
+mod dense;
+mod pivots;
+mod proximal;
+mod slices;
+mod tangent;
+
+use crate::{ContactError, ContactRow};
+
+pub use dense::{Balance, DenseProblem, DenseSolver};
+pub use proximal::solve;
+pub use slices::solve_slices;
+
+/// How a point resists penetration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// No penetration.
+    Exact,
+    /// Pressure = stiffness times penetration; stiffness in MPa/mm.
+    Penalty(f64),
+}
+
+/// Elastic bodies with a linear answer to contact forces.
+pub trait LinearContact {
+    /// Forces and rotation with `g_i = 0` on the active rows alone (sign of the forces unchecked), and the
+    /// elastic openings o_i at all rows.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the equations have no unique answer.
+    fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError>;
+
+    /// Compliance of a typical row under its own force, mm/N.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the elastic model fails.
+    fn self_compliance(&mut self) -> Result<f64, ContactError>;
+
+    /// Displacements of both bodies' boundary nodes, three a node, mm, under the given row forces: those of the last
+    /// answer of [`LinearContact::solve`].
+    fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2];
+}
+
+/// Data of the complementarity problem, one entry a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// g0, mm.
+    pub gaps: Vec<f64>,
+    /// l, mm.
+    pub levers: Vec<f64>,
+    /// Moment of a unit normal force, friction included, mm: l without friction.
+    pub torque_levers: Vec<f64>,
+    /// d, mm/N.
+    pub compliance: Vec<f64>,
+    /// M, N mm.
+    pub moment: f64,
+    /// Whether the bodies stand still: dtheta is 0 and M is not looked at.
+    pub held: bool,
+}
+
+/// Answer of the equality problem on an active set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equality {
+    /// Forces of the active rows, N.
+    pub forces: Vec<f64>,
+    /// dtheta, rad.
+    pub rotation: f64,
+    /// Elastic openings o_i of all rows, mm.
+    pub openings: Vec<f64>,
+    /// -dM/dtheta on this active set, N mm/rad: the tangent torsional stiffness of the mesh.
+    pub stiffness: f64,
+}
+
+/// Solved contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Force of every row, N, >= 0.
+    pub forces: Vec<f64>,
+    /// Rows that carry force, ascending.
+    pub active: Vec<usize>,
+    /// dtheta, rad.
+    pub rotation: f64,
+    /// Elastic opening of every row, mm.
+    pub openings: Vec<f64>,
+    /// -dM/dtheta, N mm/rad.
+    pub stiffness: f64,
+    /// Active-set iterations.
+    pub iterations: usize,
+    /// Largest violation of the conditions: gap in mm over the largest approach, negative force over the largest force.
+    pub residual: f64,
+}
+
+/// Violation that counts as solved, relative to approach and force.
+pub(crate) const TOLERANCE: f64 = 1e-11;
+
+fn levers_of(rows: &[ContactRow], body: usize) -> [Vec<f64>; 2] {
+    [rows.iter().map(|r| r.levers[body]).collect(), rows.iter().map(|r| r.torque_levers[body]).collect()]
+}
+
+/// Points that touch first when the body turns: those within a hundredth of the way of the nearest.
+fn first_guess(rows: &[ContactRow], levers: &[f64], driving: f64) -> Vec<usize> {
+    let way = |i: usize| if levers[i] * driving > 0.0 { rows[i].gap / levers[i].abs() } else { f64::INFINITY };
+    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| way(i).is_finite()).collect();
+    order.sort_by(|&a, &b| way(a).total_cmp(&way(b)));
+    order.truncate((rows.len() / 20).max(1));
+    order.sort_unstable();
+    order
+}
+
+fn finish(problem: &Problem, answer: Equality, active: Vec<usize>, iterations: usize) -> Solution {
+    let mut forces = vec![0.0; problem.gaps.len()];
+    for (&i, &f) in active.iter().zip(&answer.forces) {
+        forces[i] = f.max(0.0);
+    }
+    let approach = problem
+        .levers
+        .iter()
+        .fold(0.0f64, |m, l| m.max((l * answer.rotation).abs()))
+        .max(answer.openings.iter().fold(0.0, |m: f64, o| m.max(o.abs())));
+    let residual = (0..forces.len())
+        .map(|i| {
+            let gap = problem.gaps[i]
+                + problem.levers[i] * answer.rotation
+                + answer.openings[i]
+                + problem.compliance[i] * forces[i];
+            if forces[i] > 0.0 { gap.abs() / approach } else { (-gap).max(0.0) / approach }
+        })
+        .fold(0.0, f64::max);
+    let Equality { rotation, openings, stiffness, .. } = answer;
+    Solution { forces, active, rotation, openings, stiffness, iterations, residual }
+}
+
+/// Violation of exact contact by a proximal iterate, without the proximal compliance.
+fn exact_residual(gaps: &[f64], levers: &[f64], s: &Solution) -> f64 {
+    let approach = levers
+        .iter()
+        .fold(0.0f64, |m, l| m.max((l * s.rotation).abs()))
+        .max(s.openings.iter().fold(0.0, |m: f64, o| m.max(o.abs())))
+        .max(f64::MIN_POSITIVE);
+    (0..gaps.len())
+        .map(|i| {
+            let gap = gaps[i] + levers[i] * s.rotation + s.openings[i];
+            if s.forces[i] > 0.0 { gap.abs() / approach } else { (-gap).max(0.0) / approach }
+        })
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,105 @@
+//! Points that press on a mesh: forces that need not be unique, by proximal continuation.
+
+use super::{
+    Law, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
+};
+use crate::{ContactError, ContactRow};
+
+/// Row compliance of exact contact in the first proximal step, relative to a point's own compliance: large enough that
+/// the active set settles in a few pivots from any start.
+const FIRST_COMPLIANCE: f64 = 0.1;
+/// Each proximal step's compliance relative to the one before: the set hardly changes from step to step.
+const COMPLIANCE_DECAY: f64 = 0.1;
+/// Smallest; below it rows of faces with more points than nodes are linearly dependent to round-off.
+const LAST_COMPLIANCE: f64 = 1e-6;
+/// Residual of a proximal step relative to the one before from which on it creeps.
+const SLOW: f64 = 0.5;
+/// Proximal steps before giving up.
+const PROXIMAL_STEPS: usize = 60;
+/// Violation of the penalty law that is still an answer.
+const PENALTY_TOLERANCE: f64 = 1e-9;
+
+/// Solves the contact of `rows` under `moment` (N mm) about the axis of body number `body`.
+///
+/// Block principal pivoting (all violated points change at once); where that stops making progress, the primal active-set
+/// method, which ends because every step lowers the energy. Exact contact with more points than nodes has no unique forces and no
+/// regular matrix; the proximal-point method (a local compliance about the forces of the step before, smaller from step to step)
+/// converges to zero penetration all the same. `start`: forces of an earlier solution at these rows, or zeros.
+///
+/// # Errors
+/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+pub fn solve(
+    bodies: &mut dyn LinearContact,
+    rows: &[ContactRow],
+    body: usize,
+    moment: f64,
+    law: Law,
+    start: &[f64],
+) -> Result<Solution, ContactError> {
+    let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
+    let [levers, torque_levers] = levers_of(rows, body);
+    let driving = moment.signum();
+    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+        return Err(ContactError::NoLever { lever_mm });
+    }
+    let compliance = match law {
+        Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
+        Law::Exact => vec![0.0; rows.len()],
+    };
+    let mut problem =
+        Problem { gaps: gaps.clone(), levers: levers.clone(), torque_levers, compliance, moment, held: false };
+    let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
+    if active.is_empty() {
+        active = first_guess(rows, &levers, driving);
+    }
+    let Law::Exact = law else {
+        let (answer, active, iterations) = pivot(bodies, &problem, active)?;
+        let solution = finish(&problem, answer, active, iterations);
+        if solution.residual > PENALTY_TOLERANCE {
+            let infeasible = solution.active.len();
+            return Err(ContactError::NotConverged { iterations, infeasible, points: rows.len() });
+        }
+        return Ok(solution);
+    };
+    let own = bodies.self_compliance()?;
+    let mut before = start.to_vec();
+    let mut total = 0;
+    let mut relative = FIRST_COMPLIANCE;
+    let mut residual = f64::INFINITY;
+    for _ in 0..PROXIMAL_STEPS {
+        problem.compliance.fill(relative * own);
+        for (i, row) in rows.iter().enumerate() {
+            problem.gaps[i] = row.gap - problem.compliance[i] * before[i];
+        }
+        let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
+        total += iterations;
+        let mut solution = finish(&problem, answer, settled.clone(), total);
+        solution.residual = exact_residual(&gaps, &levers, &solution);
+        if solution.residual < TOLERANCE {
+            return Ok(solution);
+        }
+        let slow = relative <= LAST_COMPLIANCE && solution.residual > SLOW * residual;
+        let further = if slow { extrapolation(&before, &solution.forces, solution.residual / residual) } else { 0.0 };
+        for (b, f) in before.iter_mut().zip(&solution.forces) {
+            *b = (f + further * (f - *b)).max(0.0);
+        }
+        residual = solution.residual;
+        active = settled;
+        relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
+    }
+    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+}
+
+/// How many steps like the last one proximal continuation may go at once where it creeps.
+///
+/// Where more points press than the faces can tell apart, forces drift from one to the other at a rate that the proximal compliance sets,
+/// until one of them is free. As far as the residual would take to vanish at its `ratio` from step to step (Aitken), and not
+/// past the first force that becomes zero. Any forces are a fair start of the next proximal step.
+fn extrapolation(before: &[f64], now: &[f64], ratio: f64) -> f64 {
+    let to_zero = |(b, f): (&f64, &f64)| if f < b && *f > 0.0 { f / (b - f) } else { f64::INFINITY };
+    let first = before.iter().zip(now).map(to_zero).fold(f64::INFINITY, f64::min);
+    let vanishes = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
+    let steps = first.min(vanishes);
+    if steps.is_finite() { steps } else { 0.0 }
+}

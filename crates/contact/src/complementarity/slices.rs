@@ -1,0 +1,100 @@
+//! Slices: rows with a compliance of their own, not linear in the force.
+
+use super::{
+    Balance, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
+};
+use crate::{ContactError, ContactRow};
+
+/// Newton steps on the local compliance of slices before giving up; five or six do.
+const SLICE_STEPS: usize = 60;
+
+/// Solves the contact of slices: each row has a compliance of its own besides the bodies', not linear in its force.
+///
+/// ```text
+/// g_i = g0_i + l_i dtheta + o_i(F) + delta_i(F_i)
+/// ```
+/// Newton on the complementarity: delta is replaced by its tangent at the last forces, the resulting linear problem is solved
+/// exactly, active set and all; the tangents are exact, so the error falls quadratically. delta grows slower and slower with the load, so the steps
+/// approach from below and need no damping. `local(i, F)` gives delta_i (mm) and its slope (mm/N); slopes are positive.
+///
+/// # Errors
+/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+pub fn solve_slices(
+    bodies: &mut dyn LinearContact,
+    rows: &[ContactRow],
+    body: usize,
+    moment: f64,
+    local: impl Fn(usize, f64) -> (f64, f64),
+    start: &[f64],
+) -> Result<Solution, ContactError> {
+    let [levers, torque_levers] = levers_of(rows, body);
+    let driving = moment.signum();
+    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
+    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
+        return Err(ContactError::NoLever { lever_mm });
+    }
+    let n = rows.len();
+    let mut active: Vec<usize> = (0..n).filter(|&i| start[i] > 0.0).collect();
+    let mut forces = start.to_vec();
+    if active.is_empty() {
+        active = first_guess(rows, &levers, driving);
+        // Tangents at a typical force: half of the rows share the load.
+        forces.fill(2.0 * moment.abs() / (lever_mm * n as f64));
+    }
+    let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
+    let balance = Balance::Moment(moment);
+    let rows = Rows { gaps: &gaps, levers: &levers, torque_levers: &torque_levers, balance };
+    newton(bodies, &rows, local, forces, active)
+}
+
+/// What Newton's method sees of the rows.
+pub(super) struct Rows<'a> {
+    pub gaps: &'a [f64],
+    pub levers: &'a [f64],
+    pub torque_levers: &'a [f64],
+    pub balance: Balance,
+}
+
+/// Newton steps from `forces`, each with the active set found exactly for the tangents of its start.
+pub(super) fn newton(
+    bodies: &mut dyn LinearContact,
+    rows: &Rows<'_>,
+    local: impl Fn(usize, f64) -> (f64, f64),
+    mut forces: Vec<f64>,
+    mut active: Vec<usize>,
+) -> Result<Solution, ContactError> {
+    let n = rows.gaps.len();
+    let (moment, held) = match rows.balance {
+        Balance::Moment(moment) => (moment, false),
+        Balance::Held => (0.0, true),
+    };
+    let mut problem = Problem {
+        gaps: vec![0.0; n],
+        levers: rows.levers.to_vec(),
+        torque_levers: rows.torque_levers.to_vec(),
+        compliance: vec![0.0; n],
+        moment,
+        held,
+    };
+    let mut total = 0;
+    for _ in 0..SLICE_STEPS {
+        for (i, &force) in forces.iter().enumerate() {
+            let (approach, slope) = local(i, force);
+            problem.compliance[i] = slope;
+            problem.gaps[i] = rows.gaps[i] + approach - slope * force;
+        }
+        let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
+        total += iterations;
+        let mut solution = finish(&problem, answer, settled, total);
+        for (i, o) in solution.openings.iter_mut().enumerate() {
+            *o += local(i, solution.forces[i]).0;
+        }
+        solution.residual = exact_residual(rows.gaps, rows.levers, &solution);
+        if solution.residual < TOLERANCE {
+            return Ok(solution);
+        }
+        forces.clone_from(&solution.forces);
+        active = solution.active;
+    }
+    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: n })
+}

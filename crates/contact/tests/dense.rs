@@ -1,0 +1,87 @@
+//! Slices with a dense compliance: the conditions hold whatever it is, with the bodies held or a moment to balance, from any start.
+
+use contact::{Balance, DenseProblem, DenseSolver};
+use faer::Mat;
+use proptest::prelude::*;
+
+/// Approach and slope of a line contact: grows slower and slower.
+fn local(force: f64) -> (f64, f64) {
+    let f = force.max(1e-6);
+    let c = 2e-6;
+    let (value, slope) = (c * f * (20.0 - f.ln()), c * (19.0 - f.ln()));
+    if force <= 0.0 { (0.0, slope) } else { (value, slope) }
+}
+
+/// C = B B' + bending, entries about 1e-5 mm/N.
+fn compliance(n: usize, seed: &[f64]) -> Mat<f64> {
+    let b = Mat::from_fn(n, 4, |i, j| 2e-3 * (seed[(i * 7919 + j * 104_729) % seed.len()] - 0.3));
+    let local = &b * b.transpose();
+    Mat::from_fn(n, n, |i, j| local[(i, j)] + 1e-6)
+}
+
+fn check(s: &Mat<f64>, gaps: &[f64], balance: Balance, start: f64) -> Result<(), TestCaseError> {
+    let n = gaps.len();
+    let levers: Vec<f64> = (0..n).map(|i| -42.0 - 0.01 * i as f64).collect();
+    let problem = DenseProblem {
+        compliance: s.as_ref(),
+        symmetric: true,
+        gaps,
+        levers: &levers,
+        torque_levers: &levers,
+        balance,
+    };
+    let mut solver = DenseSolver::new(n);
+    solver.solve(&problem, |_, f| local(f), |_| start).map_err(|e| TestCaseError::fail(e.to_string()))?;
+    let forces = solver.forces();
+    if let Balance::Moment(moment) = balance {
+        let carried: f64 = forces.iter().zip(&levers).map(|(f, l)| f * l).sum();
+        prop_assert!((carried / moment - 1.0).abs() < 1e-9, "moment {carried}, not {moment}");
+    } else {
+        prop_assert_eq!(solver.rotation(), 0.0);
+    }
+    let scale = gaps.iter().fold(1e-9f64, |m, g| m.max(g.abs())).max(42.0 * solver.rotation().abs());
+    for i in 0..n {
+        let opening: f64 = (0..n).map(|j| s[(i, j)] * forces[j]).sum::<f64>() + local(forces[i]).0;
+        let gap = gaps[i] + levers[i] * solver.rotation() + opening;
+        prop_assert!(forces[i] >= 0.0, "row {i} pulls with {}", forces[i]);
+        prop_assert!(gap > -1e-9 * scale, "row {i} is penetrated by {gap}");
+        prop_assert!(forces[i] == 0.0 || gap.abs() < 1e-9 * scale, "row {i}: force {} at gap {gap}", forces[i]);
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn conditions_hold(
+        gaps in prop::collection::vec(-0.02f64..0.02, 1..70),
+        seed in prop::collection::vec(0.0f64..1.0, 97),
+        moment in prop::sample::select(vec![-10.0, -1e4, -3e5]),
+        start in prop::sample::select(vec![0.0, 1.0, 500.0]),
+    ) {
+        let s = compliance(gaps.len(), &seed);
+        check(&s, &gaps, Balance::Held, start)?;
+        check(&s, &gaps, Balance::Moment(moment), start)?;
+    }
+}
+
+/// Nothing overlaps: nothing presses, and there is no tangent.
+#[test]
+fn open_gaps_carry_nothing() {
+    let s = compliance(5, &[0.1, 0.7, 0.4]);
+    let (gaps, levers) = ([1e-3; 5], [-40.0; 5]);
+    let problem = DenseProblem {
+        compliance: s.as_ref(),
+        symmetric: true,
+        gaps: &gaps,
+        levers: &levers,
+        torque_levers: &levers,
+        balance: Balance::Held,
+    };
+    let mut solver = DenseSolver::new(5);
+    solver.solve(&problem, |_, f| local(f), |_| 0.0).unwrap();
+    assert!(solver.forces().iter().all(|&f| f == 0.0) && solver.active().is_empty());
+    assert_eq!(solver.tangent(|_| [[1.0; 12]; 2]), [[0.0; 12]; 12]);
+    // The same from forces that are not there any more.
+    solver.solve(&problem, |_, f| local(f), |_| 100.0).unwrap();
+    assert!(solver.forces().iter().all(|&f| f == 0.0), "{:?}", solver.forces());
+}

@@ -1,0 +1,312 @@
+//! Contact of two gears that stand where they are told: forces and their tangent.
+
+use contact::{
+    Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalLaw, LocalState, Pose, Slice,
+    SliceHint, SlicePlace, TablePlace, TableWork,
+};
+use faer::MatRef;
+use geometry::GearPair;
+
+use crate::{ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches};
+
+/// Forces of the mesh on both gears at given poses, and how they change as the gears move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshForce {
+    /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
+    pub wrench: [Wrench; 2],
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes, in the order
+    /// pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    ///
+    /// ```text
+    /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
+    /// ```
+    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by some thousandths of its largest entries.
+    /// Symmetric and negative semi-definite without friction.
+    pub tangent: [[f64; 12]; 12],
+    /// Normal force of each pair of the window, N, in order of running numbers.
+    pub pair_forces: Vec<f64>,
+    /// Elastic energy of both gears and the contact, N mm.
+    pub strain_energy: f64,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
+    pub residual: f64,
+}
+
+/// What one evaluation passes over and does; see [`MeshContact::work`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ContactWork {
+    /// Data that it passes over at least once, bytes.
+    pub bytes: f64,
+    /// Floating-point operations of its linear algebra: those of the search and of the local compliance, a few hundred a slice, are left out.
+    pub flops: f64,
+}
+
+/// The slice contact of a window: search, compliance and solution, in memory that is used again.
+///
+/// Poses are those of the frames that the window's matrices are in ([`crate::Equilibrium::poses`]). Slices start from where they were found before, and
+/// forces from what they were; neither changes the answer but by round-off.
+#[derive(Debug)]
+pub struct MeshContact {
+    set: ContactSet,
+    friction: Option<Friction>,
+    pairs: Vec<(usize, usize)>,
+    hints: Vec<SliceHint>,
+    /// Force of each station of each pair at the last solution, N.
+    memory: Vec<f64>,
+    places: Vec<(usize, SlicePlace)>,
+    /// Station of each row, counted over all pairs.
+    keys: Vec<usize>,
+    rows: Vec<ContactRow>,
+    slices: Vec<Slice>,
+    laws: Vec<LocalLaw>,
+    gaps: Vec<f64>,
+    levers: Vec<f64>,
+    torque_levers: Vec<f64>,
+    /// Where the rows' openings stand in the table of a gear, and their loads where friction makes these another thing.
+    openings: Vec<TablePlace>,
+    loads: Vec<TablePlace>,
+    work: [TableWork; 2],
+    compliance: Vec<f64>,
+    solver: DenseSolver,
+    force: MeshForce,
+}
+
+impl MeshContact {
+    /// The contact of a window of slices on reduced gears.
+    ///
+    /// # Errors
+    /// [`StaticError::OutOfRange`] for points ([`crate::Method::Nodal`]) or gears with all their degrees of freedom.
+    pub fn new(pair: &GearPair, set: ContactSet, options: &StaticOptions) -> Result<Self, StaticError> {
+        let (Some(slices), Some(_)) = (set.slices(), set.windows()) else {
+            let expected = "slice contact on reduced gears";
+            return Err(StaticError::OutOfRange { name: "contact of given poses", value: 0.0, expected });
+        };
+        let pairs = set.pairs();
+        let most = pairs.len() * slices.stations().len();
+        let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
+        let friction = Friction::new(pair, options);
+        let force = MeshForce {
+            wrench: Default::default(),
+            tangent: [[0.0; 12]; 12],
+            pair_forces: vec![0.0; pairs.len()],
+            strain_energy: 0.0,
+            iterations: 0,
+            residual: 0.0,
+        };
+        Ok(Self {
+            friction,
+            hints: vec![SliceHint::default(); most],
+            memory: vec![0.0; most],
+            places: Vec::with_capacity(most),
+            keys: Vec::with_capacity(most),
+            rows: Vec::with_capacity(most),
+            slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
+            gaps: Vec::with_capacity(most),
+            levers: Vec::with_capacity(most),
+            torque_levers: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
+            work,
+            compliance: Vec::with_capacity(most * most),
+            solver: DenseSolver::new(most),
+            force,
+            pairs,
+            set,
+        })
+    }
+
+    /// Flanks and matrices of the window.
+    pub fn contact_set(&self) -> &ContactSet {
+        &self.set
+    }
+
+    /// Goes over to another window with the same flanks; forces are forgotten, they belong to other pairs there.
+    pub(crate) fn enter(&mut self, set: ContactSet) {
+        self.memory.fill(0.0);
+        self.hints.fill(SliceHint::default());
+        self.set = set;
+    }
+
+    /// Forgets the forces of the last solution.
+    pub fn forget(&mut self) {
+        self.memory.fill(0.0);
+    }
+
+    /// Forces with the gears' frames at `poses`.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
+        self.prepare(poses, None);
+        self.solve(Balance::Held, 0)?;
+        let Self { force, rows, slices, solver, set, .. } = self;
+        force.wrench = wrenches(poses, rows, solver.forces());
+        let centres = poses.map(|p| p.translation.vector);
+        force.tangent = solver.tangent(|i| {
+            let row = &rows[i];
+            [row.normal, row.traction].map(|direction| {
+                let mut j = [0.0; 12];
+                for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+                    let force = sign * direction;
+                    let moment = (row.position - centres[body]).cross(&force);
+                    j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+                    j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+                }
+                j
+            })
+        });
+        force.pair_forces.fill(0.0);
+        for (row, f) in rows.iter().zip(solver.forces()) {
+            force.pair_forces[set.pair_of(row.patches.0)] += f;
+        }
+        let halves = solver.forces().iter().zip(solver.openings()).map(|(f, o)| 0.5 * f * o).sum::<f64>();
+        let local = slices.iter().zip(solver.forces()).map(|(s, &f)| crate::loads::local_energy(s, f)).sum::<f64>();
+        force.strain_energy = halves + local;
+        (force.iterations, force.residual) = (solver.iterations(), solver.residual());
+        Ok(&self.force)
+    }
+
+    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks overlap.
+    ///
+    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by some per cent of it at most, so rows that gape by
+    /// more stay open.
+    pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
+        let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
+        places.clear();
+        keys.clear();
+        rows.clear();
+        slices.clear();
+        let Some(of_window) = set.slices() else { return };
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        let stations = of_window.stations();
+        let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
+        for (p, &numbers) in pairs.iter().enumerate() {
+            let pair = pair_at(numbers);
+            for (i, &z) in stations.iter().enumerate() {
+                let key = p * stations.len() + i;
+                if let Some(place) = pair.place(z, &mut hints[key]) {
+                    places.push((key, place));
+                }
+            }
+        }
+        let reach = reach.unwrap_or_else(|| places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap())));
+        for of_pair in places.chunk_by(|a, b| a.0 / stations.len() == b.0 / stations.len()) {
+            let numbers = pairs[of_pair[0].0 / stations.len()];
+            let pair = pair_at(numbers);
+            for (key, place) in of_pair.iter().filter(|(_, place)| place.gap() <= reach) {
+                let point = key % stations.len();
+                let made = pair.slice(place, numbers, point, of_window.length(), &mut hints[*key]);
+                let Some((row, slice)) = made.filter(|(row, s)| row.gap <= reach && of_window.may_touch(s)) else {
+                    continue;
+                };
+                keys.push(*key);
+                rows.push(friction.map_or(row, |f| f.on(poses, row)));
+                slices.push(slice);
+            }
+        }
+        self.gaps.clear();
+        self.gaps.extend(self.rows.iter().map(|r| r.gap));
+        self.laws.clear();
+        self.laws.extend(self.slices.iter().map(|s| s.local.law()));
+        self.compliance();
+    }
+
+    /// S between the rows, from both gears' tables or matrices.
+    fn compliance(&mut self) {
+        let Self { set, rows, slices, openings, loads, work, compliance, friction, .. } = self;
+        let n = rows.len();
+        let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
+            set.exact_compliance(rows, compliance);
+            return;
+        };
+        let symmetric = friction.is_none();
+        compliance.clear();
+        compliance.resize(n * n, 0.0);
+        for (b, table) in tables.iter().enumerate() {
+            let places = |out: &mut Vec<TablePlace>, load: bool| {
+                out.clear();
+                out.extend(rows.iter().zip(slices.iter()).filter_map(|(row, slice)| {
+                    let patch = [row.patches.0, row.patches.1][b];
+                    let support = &row.supports[b];
+                    let direction = if load { &support.load } else { &support.direction };
+                    table.place(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
+                }));
+            };
+            places(openings, false);
+            if symmetric {
+                table.add(openings, openings, true, &mut work[b], compliance);
+            } else {
+                places(loads, true);
+                table.add(openings, loads, false, &mut work[b], compliance);
+            }
+        }
+        if symmetric {
+            for j in 0..n {
+                for i in j + 1..n {
+                    compliance[i * n + j] = compliance[j * n + i];
+                }
+            }
+        }
+    }
+
+    /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
+    pub(crate) fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
+        let Self { rows, slices, laws, gaps, levers, torque_levers, compliance, keys, memory, solver, .. } = self;
+        let n = rows.len();
+        levers.clear();
+        torque_levers.clear();
+        levers.extend(rows.iter().map(|r| r.levers[body]));
+        torque_levers.extend(rows.iter().map(|r| r.torque_levers[body]));
+        let problem = DenseProblem {
+            compliance: MatRef::from_column_major_slice(&compliance[..], n, n),
+            symmetric: self.friction.is_none(),
+            gaps,
+            levers,
+            torque_levers,
+            balance,
+        };
+        let local = |i: usize, force: f64| {
+            let LocalState { approach, slope, .. } = laws[i].under(force / slices[i].length);
+            (approach, slope / slices[i].length)
+        };
+        solver.solve(&problem, local, |i| memory[keys[i]])?;
+        memory.fill(0.0);
+        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| memory[key] = f);
+        Ok(())
+    }
+
+    /// What the last evaluation passed over and did, from the sizes of its arrays.
+    pub fn work(&self) -> ContactWork {
+        let (n, m) = (self.rows.len() as f64, self.solver.active().len() as f64);
+        let steps = self.solver.iterations() as f64;
+        let touched = self.work.each_ref().map(|w| w.touched() as f64);
+        let places: f64 = self.openings.iter().chain(&self.loads).map(|p| p.points() as f64).sum::<f64>() / n.max(1.0);
+        let of_row = size_of::<ContactRow>() + size_of::<Slice>() + 2 * size_of::<TablePlace>();
+        let of_station = size_of::<SliceHint>() + size_of::<(usize, SlicePlace)>();
+        let doubles = touched.iter().map(|t| t * t).sum::<f64>() + n * n + m * m + 12.0 * m;
+        let tables: f64 = touched.iter().map(|t| 2.0 * places * n * t + places * n * n).sum();
+        let newton = steps * (m * m * m / 3.0 + 2.0 * m * m + 2.0 * n * m);
+        let tangent = 12.0 * m * m + 156.0 * m;
+        ContactWork {
+            bytes: 8.0 * doubles + n * of_row as f64 + (self.hints.len() * of_station) as f64,
+            flops: tables + newton + tangent,
+        }
+    }
+
+    /// Rows of the last solution, in order of pair and height.
+    pub fn rows(&self) -> &[ContactRow] {
+        &self.rows
+    }
+
+    /// Slices of the rows.
+    pub fn slices(&self) -> &[Slice] {
+        &self.slices
+    }
+
+    /// Forces, openings and active rows of the last solution.
+    pub fn solver(&self) -> &DenseSolver {
+        &self.solver
+    }
+}

@@ -1,0 +1,85 @@
+//! What the numbers of a record depend on, in 32 bytes.
+
+use std::fmt;
+
+use blake3::Hasher;
+use fem::Material;
+use geometry::{Gear, Side};
+use mesh::GearMesh;
+
+use super::RECORD_VERSION;
+use crate::ReductionOptions;
+
+/// Names a record: equal for equal meshes, materials, gears and options, in practice different for any others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RecordKey(pub(super) [u8; 32]);
+
+impl fmt::Display for RecordKey {
+    /// 64 hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+/// BLAKE3 of everything that a reduced gear depends on: version of the format and of the program, nodes, elements, bore and flanks of the mesh,
+/// material, nominal geometry (it places the half teeth), what is kept. `way` names the way of reduction: results of two
+/// ways are equal to round-off only.
+///
+/// Micro-geometry and torque are not in it: they change nothing of the reduced gear.
+pub fn record_key(
+    gear: &GearMesh,
+    geometry: &Gear,
+    material: &Material,
+    options: &ReductionOptions,
+    way: &str,
+) -> RecordKey {
+    let mut hasher = Hasher::new();
+    let mut words = |text: &str| {
+        number(&mut hasher, text.len() as u64);
+        hasher.update(text.as_bytes());
+    };
+    words(env!("CARGO_PKG_VERSION"));
+    words(way);
+    // Debug prints every number with as many digits as it takes to read the same one back.
+    words(&format!("{material:?} {options:?} {:?}", geometry.data()));
+    number(&mut hasher, u64::from(RECORD_VERSION));
+    mesh(&mut hasher, gear);
+    RecordKey(*hasher.finalize().as_bytes())
+}
+
+fn mesh(hasher: &mut Hasher, gear: &GearMesh) {
+    let mesh = gear.mesh();
+    number(hasher, u64::from(gear.tooth_count()));
+    number(hasher, u64::from(gear.is_whole_gear()));
+    number(hasher, u64::from(gear.is_periodic_sector()));
+    number(hasher, mesh.nodes.len() as u64);
+    let nodes: Vec<u8> = mesh.nodes.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    hasher.update(&nodes);
+    for block in &mesh.blocks {
+        number(hasher, block.kind.gmsh_type() as u64);
+        numbers(hasher, &block.connectivity);
+    }
+    numbers(hasher, gear.bore_nodes());
+    for cut in gear.cuts().into_iter().flatten() {
+        numbers(hasher, &cut.nodes());
+    }
+    for tooth in gear.teeth() {
+        for side in [Side::Left, Side::Right] {
+            for face in gear.flank(tooth, side).unwrap_or_default() {
+                number(hasher, u64::from(tooth) << 1 | u64::from(side == Side::Right));
+                numbers(hasher, face.nodes());
+            }
+        }
+    }
+}
+
+fn number(hasher: &mut Hasher, value: u64) {
+    hasher.update(&value.to_le_bytes());
+}
+
+/// A list with its length before it, so that two lists never run into each other.
+fn numbers(hasher: &mut Hasher, values: &[u32]) {
+    number(hasher, values.len() as u64);
+    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+    hasher.update(&bytes);
+}

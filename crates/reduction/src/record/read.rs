@@ -1,0 +1,154 @@
+//! From bytes to a record: nothing is believed that was not checked.
+
+use std::sync::Arc;
+
+use faer::{Mat, MatRef};
+use geometry::Side;
+
+use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord, write::checksum};
+use crate::{HalfTooth, LayerProfile, ReducedGear, ReductionWay, reducer::Summary};
+
+impl ReductionRecord {
+    /// The record in the bytes of a file, if it is that of `key`.
+    ///
+    /// # Errors
+    /// [`RecordError`]: any changed, missing or added byte is noticed.
+    pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
+        if bytes.get(..16) != Some(&MAGIC[..]) {
+            return Err(RecordError::Foreign);
+        }
+        let found = bytes.len() as u64;
+        let header = bytes.get(..HEADER).ok_or(RecordError::WrongLength { found, wanted: HEADER as u64 })?;
+        let version = u32::from_le_bytes(part(header, 16));
+        if version != RECORD_VERSION {
+            return Err(RecordError::OtherVersion { found: version });
+        }
+        let wanted = u64::from_le_bytes(part(header, HEADER - 40)).saturating_add(HEADER as u64);
+        if wanted != found {
+            return Err(RecordError::WrongLength { found, wanted });
+        }
+        if checksum(bytes) != part::<32>(header, HEADER - 32) {
+            return Err(RecordError::Damaged);
+        }
+        if part::<32>(header, 20) != key.0 {
+            return Err(RecordError::OtherGear);
+        }
+        let mut cursor = Cursor { bytes, at: HEADER };
+        let record = cursor.record()?;
+        if cursor.at != bytes.len() {
+            return Err(cursor.wrong("bytes after the end"));
+        }
+        Ok(record)
+    }
+}
+
+/// `N` bytes at a place inside the header.
+fn part<const N: usize>(header: &[u8], at: usize) -> [u8; N] {
+    std::array::from_fn(|i| header[at + i])
+}
+
+struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    fn wrong(&self, what: &'static str) -> RecordError {
+        RecordError::Inconsistent { at: self.at, what }
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8], RecordError> {
+        let end = self.at.checked_add(count).filter(|&end| end <= self.bytes.len());
+        let end = end.ok_or_else(|| self.wrong("a list longer than the file"))?;
+        let taken = &self.bytes[self.at..end];
+        self.at = end;
+        Ok(taken)
+    }
+
+    fn byte(&mut self, most: u8) -> Result<u8, RecordError> {
+        let value = self.take(1)?[0];
+        if value > most { Err(self.wrong("a mark without meaning")) } else { Ok(value) }
+    }
+
+    fn count(&mut self) -> Result<usize, RecordError> {
+        Ok(u32::from_le_bytes(part(self.take(4)?, 0)) as usize)
+    }
+
+    fn list(&mut self) -> Result<Vec<u32>, RecordError> {
+        let count = self.count()?;
+        let bytes = self.take(4 * count)?;
+        Ok(bytes.chunks_exact(4).map(|c| u32::from_le_bytes(part(c, 0))).collect())
+    }
+
+    fn values(&mut self, count: usize) -> Result<Vec<f64>, RecordError> {
+        let size = count.checked_mul(8).ok_or_else(|| self.wrong("a list longer than the file"))?;
+        let bytes = self.take(size)?;
+        Ok(bytes.chunks_exact(8).map(|c| f64::from_le_bytes(part(c, 0))).collect())
+    }
+
+    /// A matrix that must have so many rows and columns.
+    fn matrix(&mut self, size: usize) -> Result<Mat<f64>, RecordError> {
+        let (rows, columns) = (self.count()?, self.count()?);
+        if (rows, columns) != (size, size) {
+            return Err(self.wrong("a matrix of another size than its nodes"));
+        }
+        let count = rows.checked_mul(columns).ok_or_else(|| self.wrong("a list longer than the file"))?;
+        let values = self.values(count)?;
+        Ok(MatRef::from_column_major_slice(&values, rows, columns).to_owned())
+    }
+
+    fn side(&mut self) -> Result<Side, RecordError> {
+        Ok(if self.byte(1)? == 1 { Side::Right } else { Side::Left })
+    }
+
+    fn record(&mut self) -> Result<ReductionRecord, RecordError> {
+        let way = if self.byte(1)? == 1 { ReductionWay::CyclicSector } else { ReductionWay::General };
+        let cyclic = self.byte(1)? == 1;
+        let free_count = u64::from_le_bytes(part(self.take(8)?, 0)) as usize;
+        let summary = Summary { way, cyclic, free_count };
+        // Counts of long things are not trusted with an allocation: each thing must be there first.
+        let mut windows = Vec::new();
+        for _ in 0..self.count()? {
+            windows.push(Arc::new(self.window()?));
+        }
+        let mut halves = Vec::new();
+        for _ in 0..self.count()? {
+            let tooth = u32::from_le_bytes(part(self.take(4)?, 0));
+            let side = self.side()?;
+            halves.push(((tooth, side), Arc::new(self.half()?)));
+        }
+        Ok(ReductionRecord { summary, windows, halves })
+    }
+
+    fn window(&mut self) -> Result<ReducedGear, RecordError> {
+        let teeth = self.list()?;
+        let mut sides = Vec::new();
+        for _ in 0..self.count()? {
+            sides.push(self.side()?);
+        }
+        let nodes = self.nodes()?;
+        let compliance = self.matrix(3 * nodes.len())?;
+        Ok(ReducedGear::new(teeth, sides, nodes, compliance))
+    }
+
+    /// Node numbers, which are looked up by bisection.
+    fn nodes(&mut self) -> Result<Vec<u32>, RecordError> {
+        let nodes = self.list()?;
+        if nodes.is_sorted_by(|a, b| a < b) { Ok(nodes) } else { Err(self.wrong("nodes out of order")) }
+    }
+
+    fn half(&mut self) -> Result<HalfTooth, RecordError> {
+        let nodes = self.nodes()?;
+        let compliance = self.matrix(3 * nodes.len())?;
+        let overshoot = self.values(1)?[0];
+        let mut lists = [Vec::new(), Vec::new(), Vec::new()];
+        for list in &mut lists {
+            let count = self.count()?;
+            *list = self.values(count)?;
+        }
+        let values = self.values(4)?;
+        let layer = LayerProfile::from_parts(lists, [values[0], values[1], values[2], values[3]]);
+        let layer = layer.ok_or_else(|| self.wrong("a layer without stations"))?;
+        Ok(HalfTooth { nodes, compliance, overshoot, layer })
+    }
+}

@@ -1,0 +1,91 @@
+//! From a record to bytes.
+
+use faer::Mat;
+use geometry::Side;
+
+use super::{HEADER, MAGIC, RECORD_VERSION, RecordKey, ReductionRecord};
+use crate::{ReductionWay, reducer::Summary};
+
+impl ReductionRecord {
+    /// The content of a file; the same record gives the same bytes.
+    pub fn to_bytes(&self, key: &RecordKey) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(HEADER + self.size());
+        bytes.extend(MAGIC);
+        bytes.extend(RECORD_VERSION.to_le_bytes());
+        bytes.extend(key.0);
+        bytes.extend([0; 8 + 32]); // length and checksum, known below
+        self.payload(&mut bytes);
+        let length = (bytes.len() - HEADER) as u64;
+        bytes[HEADER - 40..HEADER - 32].copy_from_slice(&length.to_le_bytes());
+        let checksum = checksum(&bytes);
+        bytes[HEADER - 32..HEADER].copy_from_slice(&checksum);
+        bytes
+    }
+
+    /// About the length of the payload.
+    fn size(&self) -> usize {
+        let windows = self.windows.iter().map(|w| 8 * w.coordinates().pow(2) + 8 * w.nodes.len());
+        let halves = self.halves.iter().map(|(_, h)| 8 * h.compliance.ncols().pow(2) + 4096);
+        windows.sum::<usize>() + halves.sum::<usize>() + 4096
+    }
+
+    fn payload(&self, bytes: &mut Vec<u8>) {
+        let Summary { way, cyclic, free_count } = self.summary;
+        bytes.push(u8::from(way == ReductionWay::CyclicSector));
+        bytes.push(u8::from(cyclic));
+        bytes.extend((free_count as u64).to_le_bytes());
+        put(bytes, self.windows.len());
+        for window in &self.windows {
+            list(bytes, &window.teeth);
+            put(bytes, window.sides.len());
+            bytes.extend(window.sides.iter().map(|s| side_byte(*s)));
+            list(bytes, &window.nodes);
+            matrix(bytes, &window.compliance);
+        }
+        put(bytes, self.halves.len());
+        for ((tooth, side), half) in &self.halves {
+            bytes.extend(tooth.to_le_bytes());
+            bytes.push(side_byte(*side));
+            list(bytes, &half.nodes);
+            matrix(bytes, &half.compliance);
+            bytes.extend(half.overshoot.to_le_bytes());
+            let (lists, values) = half.layer.parts();
+            for list in lists {
+                put(bytes, list.len());
+                list.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+            }
+            values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+        }
+    }
+}
+
+/// BLAKE3 of a file's bytes without those of the checksum itself.
+pub(super) fn checksum(bytes: &[u8]) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&bytes[..HEADER - 32]);
+    hasher.update(&bytes[HEADER..]);
+    *hasher.finalize().as_bytes()
+}
+
+fn side_byte(side: Side) -> u8 {
+    u8::from(side == Side::Right)
+}
+
+/// A count; nothing here comes near 2^32 entries, which would be 32 GB a list.
+fn put(bytes: &mut Vec<u8>, count: usize) {
+    bytes.extend((count as u32).to_le_bytes());
+}
+
+fn list(bytes: &mut Vec<u8>, values: &[u32]) {
+    put(bytes, values.len());
+    values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+}
+
+/// Rows, columns, then column by column.
+fn matrix(bytes: &mut Vec<u8>, m: &Mat<f64>) {
+    put(bytes, m.nrows());
+    put(bytes, m.ncols());
+    for column in m.col_iter() {
+        column.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+    }
+}

@@ -1,0 +1,169 @@
+//! Writes the deck of one position.
+
+use std::fmt::Write;
+
+use fem::Material;
+use geometry::Side;
+use mesh::GearMesh;
+
+use super::{
+    CalculixError, element_type,
+    elements::{Numbering, node_order},
+};
+
+/// One gear where it stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Body<'a> {
+    /// The meshed gear, in its own frame.
+    pub gear: &'a GearMesh,
+    /// Its material.
+    pub material: &'a Material,
+    /// Turn about its own axis, rad, +z.
+    pub angle: f64,
+    /// x of its axis, mm; y is 0.
+    pub centre_x: f64,
+}
+
+/// Both gears at one position, the driven one loaded.
+#[derive(Debug, Clone, Copy)]
+pub struct Deck<'a> {
+    /// Pinion and wheel where they just touch without load.
+    pub bodies: [Body<'a>; 2],
+    /// Index of the driven gear.
+    pub driven: usize,
+    /// Side of the teeth that the torque presses.
+    pub side: Side,
+    /// Pinion and wheel tooth of each pair that may touch.
+    pub pairs: &'a [[u32; 2]],
+    /// Torque on the driven gear, N mm, > 0, against its motion.
+    pub torque: f64,
+    /// Angle by which the driven gear is turned into contact beforehand, rad, > 0: without contact its rotation would have no
+    /// stiffness. The mesh takes it back; it belongs to the result.
+    pub closing: f64,
+    /// Pressure a mm of penetration, MPa/mm.
+    pub penalty: f64,
+}
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+/// CalculiX takes at most 16 entries a line.
+const A_LINE: usize = 15;
+
+impl Deck<'_> {
+    /// Numbers of the driven gear's rigid body: its reference node and the node whose "displacement" is its rotation.
+    fn rigid_nodes(&self) -> [usize; 2] {
+        let nodes: usize = self.bodies.iter().map(|b| b.gear.mesh().nodes.len()).sum();
+        [nodes + 1, nodes + 2]
+    }
+
+    /// Sense of the load on the driven gear about +z, in which it also yields.
+    pub(super) fn sense(&self) -> f64 {
+        self.side.sign()
+    }
+
+    /// The whole deck; node and element numbers count through both gears from 1.
+    ///
+    /// # Errors
+    /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::OutOfRange`].
+    pub fn text(&self) -> Result<String, CalculixError> {
+        for (name, value) in
+            [("torque [N mm]", self.torque), ("closing angle [rad]", self.closing), ("penalty [MPa/mm]", self.penalty)]
+        {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(CalculixError::OutOfRange { name, value, expected: "above 0" });
+            }
+        }
+        let mut t = String::new();
+        let (mut first_node, mut first_element) = (1, 1);
+        for i in 0..2 {
+            self.body(&mut t, i, first_node, first_element)?;
+            let mesh = self.bodies[i].gear.mesh();
+            first_node += mesh.nodes.len();
+            first_element += mesh.element_count();
+        }
+        self.rest(&mut t);
+        Ok(t)
+    }
+
+    /// Nodes, elements, material, bore and flanks of one gear.
+    fn body(&self, t: &mut String, i: usize, first_node: usize, first_element: usize) -> Result<(), CalculixError> {
+        let Body { gear, material, angle, centre_x } = self.bodies[i];
+        let (mesh, name) = (gear.mesh(), NAMES[i]);
+        let turned = angle + if i == self.driven { self.sense() * self.closing } else { 0.0 };
+        let (sin, cos) = turned.sin_cos();
+        line(t, format_args!("*NODE, NSET=all_{name}"));
+        for (n, [x, y, z]) in mesh.nodes.iter().enumerate() {
+            // CalculiX reads at most 20 characters a number.
+            let (px, py) = (centre_x + cos * x - sin * y, sin * x + cos * y);
+            line(t, format_args!("{}, {px:.12e}, {py:.12e}, {z:.12e}", first_node + n));
+        }
+        let mut number = first_element;
+        for block in &mesh.blocks {
+            line(t, format_args!("*ELEMENT, TYPE={}, ELSET={name}", element_type(block.kind)?));
+            for nodes in block.elements() {
+                let ordered = node_order(block.kind).iter().map(|&l| first_node + nodes[l] as usize);
+                numbers(t, std::iter::once(number).chain(ordered));
+                number += 1;
+            }
+        }
+        line(t, format_args!("*MATERIAL, NAME=material_{name}"));
+        line(t, format_args!("*ELASTIC\n{:.12e}, {:.12e}", material.young_mpa(), material.poisson()));
+        line(t, format_args!("*SOLID SECTION, ELSET={name}, MATERIAL=material_{name}"));
+        line(t, format_args!("*NSET, NSET=bore_{name}"));
+        for &n in gear.bore_nodes() {
+            line(t, format_args!("{},", first_node + n as usize));
+        }
+        self.flanks(t, i, first_element)
+    }
+
+    fn flanks(&self, t: &mut String, i: usize, first_element: usize) -> Result<(), CalculixError> {
+        let gear = self.bodies[i].gear;
+        let numbering = Numbering::new(gear.mesh());
+        for (k, teeth) in self.pairs.iter().enumerate() {
+            let missing = || CalculixError::MissingFlank { gear: NAMES[i], side: self.side.name(), tooth: teeth[i] };
+            line(t, format_args!("*SURFACE, NAME={}_{k}, TYPE=ELEMENT", NAMES[i]));
+            for face in gear.flank(teeth[i], self.side).ok_or_else(missing)? {
+                let (element, number) = numbering.face(gear.mesh(), face).ok_or_else(missing)?;
+                line(t, format_args!("{}, S{number}", first_element + element));
+            }
+        }
+        Ok(())
+    }
+
+    /// Contact, supports, load and what is to be printed.
+    fn rest(&self, t: &mut String) {
+        let (driver, driven) = (NAMES[1 - self.driven], NAMES[self.driven]);
+        let [reference, rotation] = self.rigid_nodes();
+        let centre = self.bodies[self.driven].centre_x;
+        line(t, format_args!("*NODE, NSET=axis\n{reference}, {centre:.12e}, 0., 0."));
+        line(t, format_args!("*NODE, NSET=rotation\n{rotation}, {centre:.12e}, 0., 0."));
+        line(t, format_args!("*RIGID BODY, NSET=bore_{driven}, REF NODE={reference}, ROT NODE={rotation}"));
+        line(t, format_args!("*SURFACE INTERACTION, NAME=flanks"));
+        line(t, format_args!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6e}", self.penalty));
+        for k in 0..self.pairs.len() {
+            line(t, format_args!("*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"));
+            line(t, format_args!("{driver}_{k}, {driven}_{k}"));
+        }
+        line(t, format_args!("*BOUNDARY\nbore_{driver}, 1, 3"));
+        line(t, format_args!("{reference}, 1, 3\n{rotation}, 1, 2"));
+        line(t, format_args!("*STEP, INC=100\n*STATIC\n1., 1."));
+        line(t, format_args!("*CLOAD\n{rotation}, 3, {:.12e}", self.sense() * self.torque));
+        line(t, format_args!("*NODE PRINT, NSET=rotation\nU"));
+        for k in 0..self.pairs.len() {
+            line(t, format_args!("*CONTACT PRINT, SLAVE={driver}_{k}, MASTER={driven}_{k}\nCF"));
+        }
+        line(t, format_args!("*END STEP"));
+    }
+}
+
+fn line(t: &mut String, what: std::fmt::Arguments<'_>) {
+    // Writing to a String cannot fail.
+    let _ = t.write_fmt(what);
+    t.push('\n');
+}
+
+/// Numbers over as many lines as they need; a comma at the end means that it goes on.
+fn numbers(t: &mut String, numbers: impl Iterator<Item = usize>) {
+    let words: Vec<String> = numbers.map(|n| n.to_string()).collect();
+    let lines: Vec<String> = words.chunks(A_LINE).map(|chunk| chunk.join(", ")).collect();
+    line(t, format_args!("{}", lines.join(",\n")));
+}
