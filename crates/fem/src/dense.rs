@@ -23,7 +23,7 @@ const BLOCK: usize = 96;
 /// [`FemError::NotPositiveDefinite`] with the row of the pivot that is not positive, [`FemError::OutOfMemory`].
 pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
     let n = a.nrows();
-    let mut l = Mat::from_fn(n, n, |i, j| if i < j { 0.0 } else { a[(i, j)] });
+    let mut l = a.to_owned();
     let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default());
     let mut memory =
         MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
@@ -32,7 +32,11 @@ pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         Err(LltError::NonPositivePivot { index }) => {
             Err(FemError::NotPositiveDefinite { dof: index, pivot_ratio: 0.0 })
         }
-        Ok(_) if l.as_ref().diagonal().column_vector().iter().all(|d| d.is_finite()) => Ok(l),
+        Ok(_) if l.as_ref().diagonal().column_vector().iter().all(|d| d.is_finite()) => {
+            // The kernel leaves other things there.
+            (1..n).for_each(|j| l.as_mut().col_mut(j).subrows_mut(0, j).fill(0.0));
+            Ok(l)
+        }
         Ok(_) => Err(FemError::NotPositiveDefinite { dof: 0, pivot_ratio: f64::NAN }),
     }
 }

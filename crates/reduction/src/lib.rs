@@ -18,6 +18,7 @@ mod layer_profile;
 mod load;
 mod plane_strain;
 mod record;
+mod recovery;
 mod reducer;
 mod stress_modes;
 mod window;

@@ -53,18 +53,17 @@ impl Sector {
         keep: bool,
     ) -> Result<Self, ReductionError> {
         let dofs = DofMap::new(part.mesh.nodes.len(), &part.held);
-        let rows = |n: u32| (0..3).filter_map(move |axis| Some((n, axis))).collect::<Vec<_>>();
-        let place = |nodes: &mut dyn Iterator<Item = u32>| -> Vec<usize> {
-            nodes.flat_map(rows).filter_map(|(n, axis)| dofs.dof(n, axis)).collect()
+        let rows = |nodes: &mut dyn Iterator<Item = u32>| -> Vec<usize> {
+            nodes.flat_map(|n| (0..3).map(move |axis| (n, axis))).filter_map(|(n, axis)| dofs.dof(n, axis)).collect()
         };
         let free: Vec<[u32; 2]> = part.cuts.iter().filter(|c| dofs.position(c[0]).is_some()).copied().collect();
         let mut boundary = Vec::new();
         if keep {
-            boundary = place(&mut loads.iter().flatten().map(|&(n, _)| n));
+            boundary = rows(&mut loads.iter().flatten().map(|&(n, _)| n));
         }
         let kept = boundary.len();
-        boundary.extend(place(&mut free.iter().map(|c| c[0])));
-        boundary.extend(place(&mut free.iter().map(|c| c[1])));
+        boundary.extend(rows(&mut free.iter().map(|c| c[0])));
+        boundary.extend(rows(&mut free.iter().map(|c| c[1])));
         let cut = 3 * free.len();
         let factor = {
             let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;

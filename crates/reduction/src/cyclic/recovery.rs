@@ -1,0 +1,181 @@
+//! Back from the loads to fields, stress and mass of any sector.
+
+use std::collections::BTreeMap;
+
+use faer::{Mat, MatRef};
+use fem::dense;
+
+use super::{
+    CyclicGear,
+    chain::{congruent, stacked},
+};
+use crate::{ReductionError, load::Load};
+
+/// Copy, node of the sector, and share in a nodal mean.
+type Share = (u32, u32, f64);
+
+impl CyclicGear {
+    /// Displacements of both cuts of some copies, 2c x k each, from those of the ring's cuts.
+    fn ends_of(&self, copies: &[u32], ring: MatRef<'_, f64>) -> Vec<Mat<f64>> {
+        let (c, w) = (self.sector.cut, self.count as usize);
+        let cut = |j: usize| ring.subrows(self.cut_row(j), c);
+        // Cut i of the chain is cut w + i of the gear; its last one is the ring's first.
+        let mut wanted: Vec<usize> = copies.iter().map(|&k| self.offset(k)).filter(|&j| j >= w).collect();
+        wanted = wanted.iter().flat_map(|j| [j - w, j - w + 1]).collect();
+        let inner: BTreeMap<usize, Mat<f64>> = match &self.chain {
+            Some(chain) if !wanted.is_empty() => chain.cuts(stacked(cut(w), cut(0)).as_ref(), &wanted),
+            _ => BTreeMap::new(),
+        };
+        let ends = copies.iter().map(|&k| self.offset(k)).map(|j| {
+            if j < w {
+                return stacked(cut(j), cut(j + 1));
+            }
+            let at = |i: usize| inner.get(&i).map_or(ring.subrows(0, c), |m| m.as_ref());
+            stacked(at(j - w), at(j - w + 1))
+        });
+        ends.collect()
+    }
+
+    /// Displacement of all free freedoms of the sector in some copies, each in its own frame, one column a copy, for forces on
+    /// the coordinates (N).
+    fn fields(&self, copies: &[u32], forces: &[f64]) -> Result<Mat<f64>, ReductionError> {
+        let forces = MatRef::from_column_major_slice(forces, forces.len(), 1);
+        let ends = self.ends_of(copies, self.ring_cuts(Some(forces)).as_ref());
+        let loads: Vec<Mat<f64>> = copies.iter().map(|&k| self.forces_in(k, forces)).collect();
+        let f = Mat::from_fn(self.sector.loads(), copies.len(), |i, j| loads[j][(i, 0)]);
+        let ends = Mat::from_fn(2 * self.sector.cut, copies.len(), |i, j| ends[j][(i, 0)]);
+        self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
+    }
+
+    /// Displacement (mm) of every node of the larger mesh under forces on the coordinates of the window that stands `shift` pitches on, in the
+    /// mesh's frame.
+    pub(crate) fn expand(&self, forces: &[f64], shift: u32) -> Result<Vec<[f64; 3]>, ReductionError> {
+        let z = self.part.teeth;
+        let mut copies: Vec<u32> = self.part.places.iter().map(|p| (p.copy + z - shift % z) % z).collect();
+        copies.sort_unstable();
+        copies.dedup();
+        let fields = self.fields(&copies, forces)?;
+        let mut all = Vec::with_capacity(self.part.places.len());
+        for place in &self.part.places {
+            let column = copies.binary_search(&((place.copy + z - shift % z) % z)).unwrap_or_default();
+            all.push(self.at(place.node, place.copy, fields.as_ref(), column));
+        }
+        Ok(all)
+    }
+
+    /// Displacement of a sector's node in one column of its fields, turned by so many pitches.
+    fn at(&self, node: u32, pitches: u32, fields: MatRef<'_, f64>, column: usize) -> [f64; 3] {
+        let u = [0, 1, 2].map(|axis| self.sector.dofs.dof(node, axis).map_or(0.0, |row| fields[(row, column)]));
+        self.turn(pitches).map(|row| (0..3).map(|k| row[k] * u[k]).sum())
+    }
+
+    /// Coordinates of the window that stands `pitches` on, in its own frame, under forces on those of this one.
+    pub(crate) fn carry(&self, forces: &[f64], pitches: u32, loads: &[Load]) -> Result<Vec<f64>, ReductionError> {
+        let z = self.part.teeth;
+        let mut copies: Vec<u32> = self.coordinates.iter().map(|c| (c.0 + pitches) % z).collect();
+        copies.sort_unstable();
+        copies.dedup();
+        let fields = self.fields(&copies, forces)?;
+        let mut carried = Vec::with_capacity(3 * self.coordinates.len());
+        for (&(copy, _), load) in self.coordinates.iter().zip(loads) {
+            let column = copies.binary_search(&((copy + pitches) % z)).unwrap_or_default();
+            let mut mean = [0.0; 3];
+            for &(node, weight) in load {
+                let u = self.at(self.part.places[node as usize].node, copy, fields.as_ref(), column);
+                mean.iter_mut().zip(u).for_each(|(m, u)| *m += weight * u);
+            }
+            carried.extend(mean);
+        }
+        Ok(carried)
+    }
+
+    /// Stress at nodes of the larger mesh (6 rows a node, MPa) for unit forces on the coordinates, in the frame of copy 0.
+    ///
+    /// On a cut the mean is over the elements on both of its sides.
+    pub(crate) fn stress(&self, nodes: &[u32]) -> Result<Mat<f64>, ReductionError> {
+        let parts = self.shares(nodes)?;
+        let mut own: Vec<u32> = parts.iter().flatten().map(|p| p.1).collect();
+        let mut copies: Vec<u32> = parts.iter().flatten().map(|p| p.0).collect();
+        for list in [&mut own, &mut copies] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        let [by_load, by_cut] = self.sector.stress(&self.material, &self.elements, &own)?;
+        let unit = Mat::<f64>::identity(3 * self.coordinates.len(), 3 * self.coordinates.len());
+        let ring = self.ring_cuts(None);
+        let mut stress = Mat::<f64>::zeros(6 * nodes.len(), unit.ncols());
+        for &copy in &copies {
+            let ends = &self.ends_of(&[copy], ring.as_ref())[0];
+            let mut local = dense::product(by_cut.as_ref(), ends.as_ref());
+            if self.offset(copy) < self.count as usize {
+                local += dense::product(by_load.as_ref(), self.forces_in(copy, unit.as_ref()).as_ref());
+            }
+            let turn = tensor_turn(self.angle(copy));
+            for (i, part) in parts.iter().enumerate() {
+                for &(_, node, share) in part.iter().filter(|p| p.0 == copy) {
+                    let from = 6 * own.binary_search(&node).unwrap_or_default();
+                    for k in 0..stress.ncols() {
+                        for (a, row) in turn.iter().enumerate() {
+                            let turned: f64 = row.iter().enumerate().map(|(b, t)| t * local[(from + b, k)]).sum();
+                            stress[(6 * i + a, k)] += share * turned;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(stress)
+    }
+
+    /// Of which the nodal mean at each node is made.
+    fn shares(&self, nodes: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
+        let (z, touching) = (self.part.teeth, self.sector.touching());
+        let count = self.part.places.len();
+        let of = |&node: &u32| {
+            let wrong = || fem::FemError::Shape { what: "nodes", expected: count, found: node as usize };
+            let place = self.part.places.get(node as usize).ok_or_else(wrong)?;
+            let Some(right) = self.part.right_of(place.node) else {
+                return Ok(vec![(place.copy, place.node, 1.0)]);
+            };
+            let [here, behind] = [place.node, right].map(|n| f64::from(touching[n as usize]));
+            let sum = (here + behind).max(1.0);
+            Ok(vec![(place.copy, place.node, here / sum), ((place.copy + z - 1) % z, right, behind / sum)])
+        };
+        nodes.iter().map(of).collect()
+    }
+
+    /// M^ (t) of the coordinates, whose stiffness is `stiffness`, in the frame of copy 0.
+    pub(crate) fn mass(&self, stiffness: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
+        let own = self.sector.mass(&self.material)?;
+        let forces = stiffness.as_ref();
+        let ring = self.ring_cuts(Some(forces));
+        let mut mass = Mat::<f64>::zeros(forces.nrows(), forces.ncols());
+        for j in 0..self.count {
+            let copy = (self.first + j) % self.part.teeth;
+            let ends = &self.ends_of(&[copy], ring.as_ref())[0];
+            let basis = self.sector.basis(self.forces_in(copy, forces).as_ref(), ends.as_ref());
+            mass += congruent(&own, &basis);
+        }
+        if let Some(chain) = &self.chain {
+            let c = self.sector.cut;
+            let unit = Mat::<f64>::identity(2 * c, 2 * c);
+            let unloaded = Mat::<f64>::zeros(self.sector.loads(), 2 * c);
+            let free = congruent(&own, &self.sector.basis(unloaded.as_ref(), unit.as_ref()));
+            let ends = stacked(ring.subrows(self.cut_row(self.count as usize), c), ring.subrows(self.cut_row(0), c));
+            mass += congruent(&chain.mass(&free), &ends);
+        }
+        Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])))
+    }
+}
+
+/// Components xx, yy, zz, xy, yz, zx of a tensor after a turn by `angle` about z.
+fn tensor_turn(angle: f64) -> [[f64; 6]; 6] {
+    let (s, c) = angle.sin_cos();
+    [
+        [c * c, s * s, 0.0, -2.0 * s * c, 0.0, 0.0],
+        [s * s, c * c, 0.0, 2.0 * s * c, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        [s * c, -s * c, 0.0, c * c - s * s, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.0, c, s],
+        [0.0, 0.0, 0.0, 0.0, -s, c],
+    ]
+}

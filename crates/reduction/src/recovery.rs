@@ -1,0 +1,147 @@
+//! From a window's coordinates to fields, mass and stress of the gear.
+
+use faer::{Mat, MatRef};
+use nalgebra::{Rotation3, Vector3};
+
+use crate::{GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method};
+
+impl GearReducer {
+    /// Displacement (mm) of every node of the mesh in the gear's own frame when the window's coordinates are `u` and all else is free
+    /// of load: T u = [u_B; Phi_IC u_B].
+    ///
+    /// # Errors
+    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from coordinates: a grid with
+    /// more nodes than the mesh can tell apart.
+    pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
+        match self.method()? {
+            Method::Cyclic(cyclic) => cyclic.expand(&self.forces(window, u)?, window.shift),
+            Method::General(general, turn) => {
+                let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
+                let field = if self.is_last(window) {
+                    check_length(window, u)?;
+                    general.fields(Seen::Last, &column(u), &column(&[]))?
+                } else {
+                    let f = self.forces(window, u)?;
+                    general.fields(Seen::Loads(&self.loads(window)?), &column(u), &column(&f))?
+                };
+                let field = self.dofs.to_nodes(field.col_as_slice(0))?;
+                Ok(match turn {
+                    Some(turn) if window.shift > 0 => self.turned(window, &field, turn),
+                    _ => field,
+                })
+            }
+        }
+    }
+
+    /// A field of the whole gear, moved on by the window's shift.
+    fn turned(&self, window: &Window, field: &[[f64; 3]], turn: &PitchTurn) -> Vec<[f64; 3]> {
+        let forward = Rotation3::from_axis_angle(&Vector3::z_axis(), self.frame_angle(window));
+        let mut image: Vec<u32> = (0..field.len() as u32).collect();
+        for _ in 0..window.shift {
+            image.iter_mut().for_each(|n| *n = turn.nodes[*n as usize]);
+        }
+        let mut turned = vec![[0.0; 3]; field.len()];
+        for (&to, u) in image.iter().zip(field) {
+            turned[to as usize] = (forward * Vector3::from(*u)).into();
+        }
+        turned
+    }
+
+    /// Coordinates of the window `to`, in its own frame, of the field that `u` describe in the window `from`.
+    ///
+    /// ```text
+    /// kept teeth:    u_B(to) = u_B(from)
+    /// oncoming one:  u_B(to) = rows of Phi_IC of the old window times u_B(from)
+    /// ```
+    /// # Errors
+    /// As [`GearReducer::expand`].
+    pub fn carry(&self, from: &Window, to: &Window, u: &[f64]) -> Result<Vec<f64>, ReductionError> {
+        let (z, loads) = (self.gear().tooth_count(), self.loads(to)?);
+        if let Method::Cyclic(cyclic) = self.method()? {
+            return cyclic.carry(&self.forces(from, u)?, (to.shift + z - from.shift) % z, &loads);
+        }
+        let field = self.expand(from, u)?;
+        let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -self.frame_angle(to));
+        let mut carried = Vec::with_capacity(3 * loads.len());
+        for load in &loads {
+            let moved = |&(n, w): &(u32, f64)| w * Vector3::from(field[self.material_node(to, n) as usize]);
+            let mean: Vector3<f64> = load.iter().map(moved).sum();
+            carried.extend_from_slice((back * mean).as_slice());
+        }
+        Ok(carried)
+    }
+
+    /// Columns `columns` of T = [I; Phi_IC] of the first window, one row a free degree of freedom of the mesh.
+    ///
+    /// # Errors
+    /// [`ReductionError::WrongLength`] when a column does not exist; else as [`GearReducer::expand`].
+    pub fn constraint_modes(&self, columns: &[usize]) -> Result<Mat<f64>, ReductionError> {
+        let n = self.base.coordinates();
+        if let Some(&given) = columns.iter().find(|&&c| c >= n) {
+            return Err(ReductionError::WrongLength { given, wanted: n });
+        }
+        let window = Window { reduced: self.base.clone(), shift: 0 };
+        let mut modes = Mat::zeros(self.dofs.free_count(), columns.len());
+        for (j, &column) in columns.iter().enumerate() {
+            let mut unit = vec![0.0; n];
+            unit[column] = 1.0;
+            let field = self.expand(&window, &unit)?;
+            for (i, &node) in self.dofs.free_nodes().iter().enumerate() {
+                (0..3).for_each(|axis| modes[(3 * i + axis, j)] = field[node as usize][axis]);
+            }
+        }
+        Ok(modes)
+    }
+
+    /// M^ = T' M T of the first window, t; the same for every window of a cyclic gear.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fem`]; [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
+    pub fn condensed_mass(&self) -> Result<Mat<f64>, ReductionError> {
+        let window = Window { reduced: self.base.clone(), shift: 0 };
+        let stiffness = self.stiffness_of(&window)?;
+        match self.method()? {
+            Method::Cyclic(cyclic) => cyclic.mass(stiffness),
+            Method::General(general, _) if self.is_last(&window) => {
+                general.mass(Seen::Last, self.gear().mesh(), self.material(), stiffness)
+            }
+            Method::General(general, _) => {
+                general.mass(Seen::Loads(&self.loads(&window)?), self.gear().mesh(), self.material(), stiffness)
+            }
+        }
+    }
+
+    /// Stress at `nodes` (6 rows a node) for unit coordinates of a window, MPa/mm, in the frame of its matrices.
+    pub(crate) fn stress_of(&self, window: &Window, nodes: &[u32]) -> Result<Mat<f64>, ReductionError> {
+        let by_force = match self.method()? {
+            Method::Cyclic(cyclic) => cyclic.stress(nodes)?,
+            Method::General(general, _) => {
+                let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
+                let operator = fem::StressOperator::new(mesh, self.material(), self.elements(), &self.dofs, nodes)?;
+                if self.is_last(window) {
+                    return general.stress(Seen::Last, count, &operator);
+                }
+                general.stress(Seen::Loads(&self.loads(window)?), count, &operator)?
+            }
+        };
+        // From stress of unit forces to that of unit displacements: the forces that these take are K^.
+        Ok(fem::dense::product(by_force.as_ref(), self.stiffness_of(window)?.as_ref()))
+    }
+
+    fn stiffness_of<'a>(&self, window: &'a Window) -> Result<&'a Mat<f64>, ReductionError> {
+        let first = window.reduced.teeth.first().copied().unwrap_or(0);
+        window.reduced.stiffness().ok_or(ReductionError::NotPositiveDefinite { first })
+    }
+
+    /// Forces that hold a window's coordinates at `u`, N.
+    fn forces(&self, window: &Window, u: &[f64]) -> Result<Vec<f64>, ReductionError> {
+        check_length(window, u)?;
+        let first = window.reduced.teeth.first().copied().unwrap_or(0);
+        window.reduced.forces(u).ok_or(ReductionError::NotPositiveDefinite { first })
+    }
+}
+
+fn check_length(window: &Window, u: &[f64]) -> Result<(), ReductionError> {
+    let (given, wanted) = (u.len(), window.reduced.coordinates());
+    if given == wanted { Ok(()) } else { Err(ReductionError::WrongLength { given, wanted }) }
+}
