@@ -25,6 +25,8 @@ pub struct Facts {
     pub dof_before: [usize; 2],
     /// Degrees of freedom of pinion and wheel that the analysis carries.
     pub dof_after: [usize; 2],
+    /// Which way pinion and wheel were condensed: `cyclic sector` or `general`; empty for a model without reduction.
+    pub reduction: Vec<&'static str>,
     /// Teeth in the window at the end.
     pub window_teeth: Option<u32>,
     /// Contact points of the window.
@@ -39,7 +41,7 @@ pub struct Facts {
 pub struct MeshFacts {
     /// File as the scene names it, or `built-in mesher`; and whether a sector was repeated.
     pub source: String,
-    /// Number of nodes.
+    /// Number of nodes; of a repeated sector, those of the whole gear, as with the elements.
     pub nodes: usize,
     /// Number of volume elements.
     pub elements: usize,

@@ -130,9 +130,6 @@ impl<'a> GearState<'a> {
                 let field = f.dofs.to_nodes(boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
                 (field, f.dofs.free_nodes().to_vec(), 0.0, &f.elements)
             }
-            (ElasticGear::Grid(_), _) => {
-                return Err(CommandError::failed("a gear reduced to grids has no displacement field", None));
-            }
             (ElasticGear::Reduced(_), None) => return Err(CommandError::failed("the window is lost", None)),
         };
         // The pose is that of the window's frame; the gear's own frame is turned back by the frame's angle.

@@ -2,13 +2,13 @@
 
 use geometry::{Gear, Side, Vec3};
 use mesh::{
-    DEFAULT_TOLERANCE_MODULES, ElementBlock, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity,
-    StructuredOptions, generate,
+    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity, StructuredOptions,
+    SurfaceGroup, generate,
 };
 
 use crate::error::CommandError;
 use crate::facts::MeshFacts;
-use crate::scene::{GearScene, MesherScene, Scene};
+use crate::scene::{GearScene, MesherScene, Model, Reduction, Scene};
 
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
@@ -56,14 +56,18 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
             }
             on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
             let source = path.display().to_string();
-            let (gear, facts) = whole(found, source).map_err(|e| complain(&e))?;
+            let (gear, facts) = to_compute(scene, found, source).map_err(|e| complain(&e))?;
             Ok(SceneMesh { gear, facts, warnings })
         }
         None => {
-            let mesh = generated(scene, whose, gear, exact)?;
+            let mut options = options_of(gear);
+            if options.extent == Extent::Whole && sector_is_enough(scene) {
+                options.extent = Extent::Periodic;
+            }
+            let mesh = generated_with(scene, whose, exact, &options)?;
             let failed = |e: MeshError| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint());
             let (found, _) = GearMesh::find(mesh, exact, &mesh::GroupNames::default()).map_err(failed)?;
-            let (gear, facts) = whole(found, "built-in mesher".to_owned()).map_err(failed)?;
+            let (gear, facts) = to_compute(scene, found, "built-in mesher".to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, warnings: Vec::new() })
         }
     }
@@ -74,8 +78,20 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
 /// # Errors
 /// Exit status 2 when the gear cannot be meshed with these numbers of elements.
 pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, CommandError> {
-    let options = gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m));
-    generate(exact, &options)
+    generated_with(scene, whose, exact, &options_of(gear))
+}
+
+fn options_of(gear: &GearScene) -> StructuredOptions {
+    gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m))
+}
+
+/// Whether one sector tells all: nobody asks for the mesh of the whole gear.
+fn sector_is_enough(scene: &Scene) -> bool {
+    scene.analysis.model == Model::Reduced && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
+}
+
+fn generated_with(scene: &Scene, whose: &str, exact: &Gear, options: &StructuredOptions) -> Result<Mesh, CommandError> {
+    generate(exact, options)
         .map_err(|e| CommandError::input(format_args!("{}: [{whose}.mesher]: {e}", scene.file.display()), e.hint()))
 }
 
@@ -154,24 +170,25 @@ fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Res
     Ok(())
 }
 
-/// The mesh to compute with, a periodic sector repeated to the whole gear, and what the summary says of it.
-fn whole(found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
+/// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough, else it is
+/// repeated to the whole gear.
+fn to_compute(scene: &Scene, found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
+    let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };
     if found.is_periodic_sector() {
-        source += &format!(", one sector, repeated {} times", found.tooth_count());
+        source += &format!(", one sector, repeated {copies} times");
     }
-    let gear = found.whole()?;
-    let facts = facts(source, gear.mesh());
+    // What all copies make, joined at the cuts; an axis is in all of them.
+    let on_cuts = found.cuts().filter(|_| copies > 1).map(|cuts| cuts.map(SurfaceGroup::nodes)).unwrap_or_default();
+    let on_axis = on_cuts[0].iter().filter(|n| on_cuts[1].binary_search(n).is_ok()).count();
+    let mesh = found.mesh();
+    let facts = MeshFacts {
+        source,
+        nodes: copies * (mesh.nodes.len() - on_cuts[0].len()) + on_axis,
+        elements: copies * mesh.element_count(),
+        kinds: mesh.blocks.iter().map(|b| format!("{} {}", b.kind.name(), copies * b.len())).collect(),
+    };
+    let gear = if sector_is_enough(scene) { found } else { found.whole()? };
     Ok((gear, facts))
-}
-
-/// Size of a mesh.
-fn facts(source: String, mesh: &Mesh) -> MeshFacts {
-    MeshFacts { source, nodes: mesh.nodes.len(), elements: mesh.element_count(), kinds: kinds(&mesh.blocks) }
-}
-
-/// Kinds of elements with their numbers, as `hex8 1200`.
-fn kinds(blocks: &[ElementBlock]) -> Vec<String> {
-    blocks.iter().map(|b| format!("{} {}", b.kind.name(), b.len())).collect()
 }
 
 /// Format of a mesh file by the words of the command line.

@@ -14,7 +14,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
-use crate::scene::{Driver, Flanks, Gap, Method, Model, Rotation, Scene};
+use crate::scene::{Driver, Flanks, Gap, Method, Model, Reduction, Rotation, Scene};
 use crate::{gears, iso_model, meshes};
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way.
@@ -58,6 +58,7 @@ pub fn solve(scene: &Scene, phases: &mut Phases, results: &ResultDirectory) -> R
     };
     let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
     facts.model.insert("cyclic_gears".into(), cyclic.into());
+    facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     history.warnings.extend(warnings);
@@ -94,7 +95,10 @@ fn wider_window(
 ) -> Option<usize> {
     let teeth = StaticModel::window_teeth(pair, options) + 1;
     let starved = matches!(error, StaticError::Starved { .. });
-    let room = meshes.iter().all(|m| teeth < m.gear.teeth().len());
+    let available = |m: &SceneMesh| {
+        if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
+    };
+    let room = meshes.iter().all(|m| teeth < available(m));
     (starved && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
 }
 
@@ -190,7 +194,11 @@ fn elastic_gears(
             FullGear::new(mesh.gear.clone(), material, &elements).map(ElasticGear::Full)
         } else {
             let options = ReductionOptions { sides: options.sides(), window, first: first[i], elements };
-            GearReducer::new(mesh.gear.clone(), material, options).map(ElasticGear::Reduced)
+            let reduce = match scene.analysis.reduction {
+                Some(Reduction::General) => GearReducer::general,
+                Some(Reduction::Auto) | None => GearReducer::new,
+            };
+            reduce(mesh.gear.clone(), material, options).map(ElasticGear::Reduced)
         };
         let place = match scene.gears()[i].mesh {
             Some(_) => mesh.facts.source.clone(),
@@ -203,10 +211,16 @@ fn elastic_gears(
     Ok([pinion?, wheel?])
 }
 
+fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
+    match gear {
+        ElasticGear::Reduced(r) => Some(r),
+        ElasticGear::Full(_) => None,
+    }
+}
+
 fn free_dofs(gear: &ElasticGear) -> usize {
     match gear {
-        ElasticGear::Reduced(r) => r.dofs().free_count(),
-        ElasticGear::Grid(r) => r.dofs().free_count(),
+        ElasticGear::Reduced(r) => r.free_count(),
         ElasticGear::Full(f) => f.dofs.free_count(),
     }
 }
@@ -225,7 +239,8 @@ fn sector_warnings(model: &StaticModel) -> Vec<String> {
         .filter_map(|i| {
             let gear = model.gears()[i].gear();
             let meshed = gear.teeth().len();
-            (meshed < gear.tooth_count() as usize).then(|| {
+            let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
+            (!cyclic && meshed < gear.tooth_count() as usize).then(|| {
                 format!(
                     "the {}'s mesh has {meshed} of {} teeth and free cuts: it is softer than the whole gear (5 of 30 teeth: by about \
                      16 % in the mean transmission error); use it for comparison only",

@@ -1,6 +1,5 @@
 //! Generalised coordinates at a tooth change.
 
-use nalgebra::{Rotation3, Vector3};
 use reduction::{GearReducer, Window};
 
 use crate::AleError;
@@ -24,12 +23,5 @@ pub fn carry_coordinates(
     to: &Window,
     coordinates: &[f64],
 ) -> Result<Vec<f64>, AleError> {
-    let field = gear.expand(from, coordinates)?;
-    let back = Rotation3::from_axis_angle(&Vector3::z_axis(), -gear.frame_angle(to));
-    let mut carried = Vec::with_capacity(coordinates.len());
-    for node in gear.material_nodes(to) {
-        let turned = back * Vector3::from(field[node as usize]);
-        carried.extend_from_slice(turned.as_slice());
-    }
-    Ok(carried)
+    Ok(gear.carry(from, to, coordinates)?)
 }

@@ -147,7 +147,7 @@ impl LocalLaw {
     /// State under a line load q (N/mm): see [`LocalContact::under`].
     pub fn under(&self, load: f64) -> LocalState {
         // The compliance of a vanishing load is infinite, if only as a logarithm.
-        let least = 1e-9 * self.modulus * self.radius;
+        let least = 1e-15 * self.modulus * self.radius;
         let q = load.max(least);
         let half_width = hertz::half_width(q, self.radius, self.modulus);
         let (bracket, growth) = self.bracket(half_width);

@@ -80,7 +80,7 @@ impl Surface for geometry::ModifiedFlank {
         self.tangents(u, z)[0]
     }
 
-    /// That of the nominal flank and that of the depth, as a band of [`BAND`] either way sees it: where a relief starts with a kink there
+    /// That of the nominal flank and that of the depth, as a band of 0.1 mm either way sees it: where a relief starts with a kink there
     /// is none to be had at a point.
     fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
         let nominal = self.nominal();

@@ -287,18 +287,17 @@ fn flanks(
 /// Nodes and faces that carry the load of a flank: the mesh's own, or those of the grid over it.
 fn flank_mesh(elastic: &ElasticGear, tooth: u32, side: Side) -> Option<(&[[f64; 3]], &[mesh::Face])> {
     match elastic {
-        ElasticGear::Grid(g) => g.grid(tooth, side).map(|grid| (&grid.positions[..], &grid.faces[..])),
-        _ => elastic.gear().flank(tooth, side).map(|faces| (&elastic.gear().mesh().nodes[..], faces)),
+        ElasticGear::Reduced(r) => r.flank(tooth, side),
+        ElasticGear::Full(f) => f.gear.flank(tooth, side).map(|faces| (&f.gear.mesh().nodes[..], faces)),
     }
 }
 
 /// Number that a node of a flank has among the boundary nodes of a gear.
-fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, (tooth, side): (u32, Side), node: u32) -> u32 {
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> u32 {
     let position = match (window, elastic) {
-        (Some(w), ElasticGear::Grid(g)) => g.first_node(w, tooth, side).map(|first| first + node as usize),
-        (Some(w), _) => w.reduced.position(node),
+        (Some(window), ElasticGear::Reduced(r)) => r.boundary_position(window, flank, node),
         (None, ElasticGear::Full(f)) => f.dofs.position(node),
-        (None, _) => None,
+        _ => None,
     };
     position.map_or(u32::MAX, |p| p as u32)
 }

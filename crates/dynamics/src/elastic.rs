@@ -2,7 +2,7 @@
 
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::GearMesh;
-use reduction::{GearReducer, GridReducer, ReductionError, Window};
+use reduction::{GearReducer, ReductionError, Window};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
@@ -35,10 +35,8 @@ impl FullGear {
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "two of them live as long as the program")]
 pub enum ElasticGear {
-    /// Known from its flanks.
+    /// Known from its flanks, or from coarse grids over them.
     Reduced(GearReducer),
-    /// Known from coarse grids over its flanks.
-    Grid(GridReducer),
     /// All degrees of freedom.
     Full(FullGear),
 }
@@ -51,7 +49,6 @@ impl ElasticGear {
     pub fn window(&self, first: u32) -> Result<Option<Window>, ReductionError> {
         match self {
             Self::Reduced(r) => r.window(first).map(Some),
-            Self::Grid(r) => r.window(first).map(Some),
             Self::Full(_) => Ok(None),
         }
     }
@@ -60,7 +57,6 @@ impl ElasticGear {
     pub fn gear(&self) -> &GearMesh {
         match self {
             Self::Reduced(r) => r.gear(),
-            Self::Grid(r) => r.gear(),
             Self::Full(f) => &f.gear,
         }
     }
@@ -69,7 +65,6 @@ impl ElasticGear {
     pub fn material(&self) -> &Material {
         match self {
             Self::Reduced(r) => r.material(),
-            Self::Grid(r) => r.material(),
             Self::Full(f) => &f.material,
         }
     }

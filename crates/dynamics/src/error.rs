@@ -87,6 +87,12 @@ pub enum StaticError {
     },
 }
 
+impl From<reduction::ReductionError> for StaticError {
+    fn from(source: reduction::ReductionError) -> Self {
+        Self::Reduction { gear: "gear", source }
+    }
+}
+
 impl StaticError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use contact::FlankPatch;
 use geometry::{Gear, Side};
 use mesh::{Face, FaceKind, GearMesh};
-use reduction::FlankGrid;
+use reduction::{FlankGrid, FlankGrids};
 
 use crate::StaticError;
 
@@ -22,7 +22,7 @@ pub fn flank_grids(
     sides: &[Side],
     counts: [usize; 2],
     tolerance: f64,
-) -> Result<BTreeMap<(u32, Side), FlankGrid>, StaticError> {
+) -> Result<FlankGrids, StaticError> {
     const NAME: &str = "gear";
     let mut grids = BTreeMap::new();
     for &tooth in teeth {

@@ -47,9 +47,10 @@ impl Friction {
     }
 }
 
-/// Work of friction per radian of the pinion's rotation for a unit normal force at the row, mm, >= 0.
-pub(crate) fn work(pair: &GearPair, poses: &[Pose; 2], row: &ContactRow) -> f64 {
-    (row.traction - row.normal).dot(&sliding(ratio(pair), poses, row)).abs()
+/// Work that friction takes per radian of the pinion's rotation in the running sense, for a unit normal force at the row, mm.
+pub(crate) fn work(pair: &GearPair, options: &StaticOptions, poses: &[Pose; 2], row: &ContactRow) -> f64 {
+    let on_pinion = row.traction - row.normal;
+    -(options.sense.sign() as f64) * on_pinion.dot(&sliding(ratio(pair), poses, row))
 }
 
 /// Sliding of the pinion's flank on the wheel's, mm per radian of counter-clockwise pinion rotation.

@@ -15,6 +15,7 @@ mod kinematic;
 mod line;
 mod loads;
 mod mesh_contact;
+pub mod motion;
 mod options;
 mod parts;
 mod pose;

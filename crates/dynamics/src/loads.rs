@@ -63,7 +63,7 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
         }
     };
     let friction_work =
-        e.rows.iter().zip(&e.solution.forces).map(|(row, f)| f * friction::work(pair, &e.poses, row)).sum();
+        e.rows.iter().zip(&e.solution.forces).map(|(row, f)| f * friction::work(pair, options, &e.poses, row)).sum();
     let theta1 = e.station.pinion_angle(pair, options);
     StaticPosition {
         pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),

@@ -32,7 +32,7 @@ pub const ROOT_STRESS_AVERAGING: &str =
 pub struct StressPeak {
     /// MPa, tension positive.
     pub stress: f64,
-    /// The mesh file's tag of the node (1, 2, ... for a generated mesh).
+    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
     pub node: u64,
     /// Distance of the node from the gear's axis, mm.
     pub radius: f64,
@@ -165,7 +165,6 @@ impl WindowRoots {
                 let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
                 StressMap::Operator(StressOperator::new(mesh, gear.material(), gear.elements(), dofs, &nodes)?)
             }
-            (ElasticGear::Grid(_), _) => return Err(ReductionError::NoStressModes),
             (ElasticGear::Full(gear), _) => {
                 let (mesh, dofs) = (gear.gear.mesh(), &gear.dofs);
                 StressMap::Operator(StressOperator::new(mesh, &gear.material, &gear.elements, dofs, &nodes)?)

@@ -180,7 +180,6 @@ fn half(
     let fail = |source| StaticError::Reduction { gear: ["pinion", "wheel"][which], source };
     let half = match gear {
         ElasticGear::Reduced(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
-        ElasticGear::Grid(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
         ElasticGear::Full(f) => {
             Arc::new(HalfTooth::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
         }

@@ -9,7 +9,6 @@
 //! so that K^ and C come without a single solve, and interior displacements by back substitution alone.
 //! Source: the Schur complement of Guyan, AIAA J. 3(2), 1965; multifrontal view of Liu, SIAM Review 34, 1992.
 
-mod dense;
 mod substitution;
 
 use dyn_stack::{MemBuffer, MemStack};
@@ -21,7 +20,7 @@ use faer::{
 use rayon::prelude::*;
 
 use crate::{
-    FemError, SymmetricMatrix,
+    FemError, SymmetricMatrix, dense,
     ordering::{Ordering, supernodal, try_zeroed},
 };
 
@@ -155,6 +154,35 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
+    /// Displacement of every degree of freedom under forces on the interior, the boundary held where it is.
+    ///
+    /// ```text
+    /// u = [u_I; u_B],   u_I = K_II^-1 (f_I - K_IB u_B)
+    /// ```
+    /// `force`: n x k (N) in the matrix's own numbering, its boundary rows have no effect; `boundary`: n_B x k (mm); result:
+    /// n x k (mm).
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when `force` does not have n rows, `boundary` not n_B, or they differ in columns.
+    pub fn solve_held(&self, force: MatRef<'_, f64>, boundary: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
+        let interior = self.ordering.interior;
+        check_rows(self.n(), force.nrows())?;
+        check_rows(self.boundary.len(), boundary.nrows())?;
+        if force.ncols() != boundary.ncols() {
+            return Err(FemError::Shape { what: "columns", expected: force.ncols(), found: boundary.ncols() });
+        }
+        let mut result = Mat::zeros(self.n(), force.ncols());
+        let given = force.par_col_chunks(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK));
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(given).for_each(|(mut result, (force, boundary))| {
+            let mut x = self.permute(force);
+            self.forward(x.as_mut(), interior);
+            x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
+            self.backward(x.as_mut(), interior, None);
+            self.unpermute(x.as_ref(), result.as_mut());
+        });
+        Ok(result)
+    }
+
     /// Rows `wanted` of [`BoundaryLastFactor::expand`], in that order.
     ///
     /// Back substitution passes over all branches of the elimination tree that hold none of them: for one region of a gear
@@ -266,8 +294,8 @@ impl BoundaryLastFactor {
         Ok(Near { places, branches: needed })
     }
 
-    /// L_BB as a full lower triangle.
-    fn boundary_factor(&self) -> Mat<f64> {
+    /// L_BB, n_B x n_B, zeros above the diagonal: K^ = L_BB L_BB'.
+    pub fn boundary_factor(&self) -> Mat<f64> {
         let (interior, size) = (self.ordering.interior, self.boundary.len());
         let mut l = Mat::zeros(size, size);
         for node in self.supernodes().filter(|s| s.start + s.columns > interior) {

@@ -12,6 +12,7 @@
 //! Units: mm, N, MPa, t, s. Results are the same to the last bit for any number of threads.
 
 mod assembly;
+pub mod dense;
 mod dofs;
 mod element_matrices;
 mod error;

@@ -68,6 +68,46 @@ fn condensed_stiffness_compliance_and_modes_agree_with_dense_algebra() {
     }
 }
 
+/// With the boundary held where it is, the interior carries the forces on it, and forces on the boundary have no effect.
+#[test]
+fn a_held_boundary_leaves_the_interior_its_forces() {
+    let (mesh, dofs, k) = clamped(ElementKind::Hex8, [5, 4, 4]);
+    let boundary = top_rows(&mesh, &dofs, 3.7);
+    let factor = BoundaryLastFactor::new(&k, &boundary).unwrap();
+    let (force, held) = (wavy(k.n(), 70), wavy(boundary.len(), 70));
+    let u = factor.solve_held(force.as_ref(), held.as_ref()).unwrap();
+    let found = k.multiply(u.as_ref()).unwrap();
+    for j in 0..force.ncols() {
+        for (b, &row) in boundary.iter().enumerate() {
+            assert_eq!(u[(row, j)], held[(b, j)], "row {row}");
+        }
+        for row in (0..k.n()).filter(|row| !boundary.contains(row)) {
+            let off = (found[(row, j)] - force[(row, j)]).abs();
+            assert!(off < 1e-10 * found.norm_max(), "row {row}, column {j}: {off:e} N");
+        }
+    }
+    assert!(matches!(factor.solve_held(force.as_ref(), wavy(3, 70).as_ref()), Err(FemError::Shape { .. })));
+}
+
+/// Dense kernels against the plain products, over more than one block of columns.
+#[test]
+fn dense_kernels_agree_with_plain_products() {
+    use fem::dense;
+    let (z, b) = (wavy(130, 110), wavy(110, 200));
+    let gram = dense::gram(z.as_ref());
+    assert!(difference(gram.as_ref(), (z.transpose() * &z).as_ref()) < 1e-14);
+    let positive = &gram + Mat::<f64>::identity(110, 110);
+    let l = dense::cholesky(positive.as_ref()).unwrap();
+    assert!(difference(dense::times_transpose(l.as_ref()).as_ref(), positive.as_ref()) < 1e-13);
+    let mut x = b.clone();
+    dense::solve_lower(l.as_ref(), x.as_mut());
+    dense::solve_lower_transposed(l.as_ref(), x.as_mut());
+    assert!(difference(dense::product(positive.as_ref(), x.as_ref()).as_ref(), b.as_ref()) < 1e-11);
+    let inverse = dense::inverse_of_product(l.as_ref());
+    assert!(difference((&inverse * &b).as_ref(), x.as_ref()) < 1e-10);
+    assert!(matches!(dense::cholesky((-positive).as_ref()), Err(FemError::NotPositiveDefinite { .. })));
+}
+
 #[test]
 fn expanded_displacements_leave_the_interior_without_load() {
     let (mesh, dofs, k) = clamped(ElementKind::Hex20, [5, 4, 4]);

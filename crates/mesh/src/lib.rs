@@ -30,4 +30,5 @@ pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};
 pub use msh::{MshError, MshFormat};
 pub use quality::{element_volume, min_det_j, scaled_jacobian};
 pub use root_fillets::RootFillets;
+pub use sector::{Copies, Origin};
 pub use structured::{Extent, StructuredError, StructuredOptions, generate};

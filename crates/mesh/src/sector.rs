@@ -23,6 +23,28 @@ const MOST_NODES: u64 = 20_000_000;
 /// `cut_1` has no such node: the cut's node is its own.
 const NO_PARTNER: u32 = u32::MAX;
 
+/// Some copies of a periodic sector.
+#[derive(Debug, Clone)]
+pub struct Copies {
+    /// The copies as one mesh.
+    pub gear: GearMesh,
+    /// Where each of its nodes comes from.
+    pub origins: Vec<Origin>,
+    /// Which node of the sector's first cut falls on which one of the second when it is turned by one pitch, ascending.
+    pub cuts: Vec<[u32; 2]>,
+    /// Whether the sector has nodes on the axis, which belong to all copies.
+    pub on_axis: bool,
+}
+
+/// A node of some copies of a sector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// Copy, 0 .. z-1.
+    pub copy: u32,
+    /// Node of the sector, never one that lies on its second cut alone: that one is a node of the next copy's first cut.
+    pub node: u32,
+}
+
 impl GearMesh {
     /// The whole gear where this is a periodic sector of one tooth, by [`GearMesh::replicate`]; else itself.
     ///
@@ -52,12 +74,24 @@ impl GearMesh {
     /// radius from every node of the other; [`MeshError::CutFaces`] when nodes meet but faces do not;
     /// [`MeshError::CutInPart`] when the cuts' groups lack faces; [`MeshError::TooLarge`] past 20 million nodes.
     pub fn replicate(&self) -> Result<Self, MeshError> {
-        let Some([first, second]) = &self.cuts else { return Err(MeshError::NoCuts) };
-        let copies = self.teeth.max(1);
-        let partner = partners(&self.mesh, first, second, copies)?;
-        let numbers = Numbers::new(&partner, copies)?;
+        Ok(self.copies(0, self.teeth)?.gear)
+    }
+
+    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`GearMesh::replicate`] makes all of them.
+    ///
+    /// Fewer than z copies have the first cut of their first copy and the second of their last one; nodes of the first
+    /// one follow after those of all copies, and tags are those of the sector, so that a node is named by its tooth and
+    /// by the tag it has in the sector's file.
+    ///
+    /// # Errors
+    /// Those of [`GearMesh::replicate`].
+    pub fn copies(&self, first: u32, count: u32) -> Result<Copies, MeshError> {
+        let Some([from, to]) = &self.cuts else { return Err(MeshError::NoCuts) };
+        let teeth = self.teeth.max(1);
+        let partner = partners(&self.mesh, from, to, teeth)?;
+        let numbers = Numbers::new(&partner, teeth, first % teeth, count.clamp(1, teeth))?;
         let nodes = numbers.positions(&self.mesh);
-        let mesh = Mesh {
+        let mut mesh = Mesh {
             node_tags: (1..=nodes.len() as u64).collect(),
             nodes,
             blocks: numbers.blocks(&self.mesh),
@@ -67,8 +101,8 @@ impl GearMesh {
 
         let mut flanks = BTreeMap::new();
         for (&(tooth, side), faces) in &self.flanks {
-            for copy in 0..copies {
-                flanks.insert(((tooth + copy) % copies, side), numbers.faces(copy, faces));
+            for copy in 0..numbers.count {
+                flanks.insert(((tooth + numbers.first + copy) % teeth, side), numbers.faces(copy, faces));
             }
         }
         let bore = SurfaceGroup { name: self.bore.name.clone(), faces: numbers.all_faces(&self.bore.faces) };
@@ -77,12 +111,28 @@ impl GearMesh {
             name: format!("flank_{}_{tooth}", side.name()),
             faces: faces.clone(),
         }));
-        let others = self.other_groups([first, second]);
+        let others = self.other_groups([from, to]);
         surfaces.extend(others.into_iter().map(|g| SurfaceGroup { faces: numbers.all_faces(&g.faces), ..g }));
+        let mut cuts = None;
+        if !numbers.is_closed() {
+            mesh.node_tags = numbers.origins().iter().map(|o| tag(&self.mesh, o.own)).collect();
+            let end = |copy, cut: &SurfaceGroup| SurfaceGroup {
+                name: cut.name.clone(),
+                faces: numbers.faces(copy, &cut.faces),
+            };
+            let ends = [end(0, from), end(numbers.count - 1, to)];
+            surfaces.extend(ends.iter().cloned());
+            cuts = Some(ends);
+        }
         surfaces.sort_by(|a, b| a.name.cmp(&b.name));
         // Somebody's other group may have a flank's name: the flank, which came first, keeps it.
         surfaces.dedup_by(|a, b| a.name == b.name);
-        Ok(Self::from_parts(Mesh { surfaces, ..mesh }, copies, bore, flanks, None))
+        let origins = numbers.origins().iter().map(|o| Origin { copy: o.copy, node: o.node }).collect();
+        let on_axis = !numbers.shared.is_empty();
+        let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts);
+        let pairs = (0_u32..).zip(&partner).filter(|(_, there)| **there != NO_PARTNER);
+        let cuts = pairs.map(|(here, &there)| [here, there]).collect();
+        Ok(Copies { gear, origins, cuts, on_axis })
     }
 
     /// Groups that are neither bore, flank nor cut, without the faces that the cuts share: these come to lie inside.
@@ -183,15 +233,21 @@ fn all_of_the_cut(
     Ok(())
 }
 
-/// Node numbers of the whole gear.
+/// Node numbers of some copies of a sector.
 struct Numbers {
-    copies: u32,
+    teeth: u32,
+    first: u32,
+    count: u32,
     /// Nodes of the sector that a copy adds, in their order.
     own: Vec<u32>,
+    /// Nodes of the first cut, which the first copy of an open chain adds.
+    start: Vec<u32>,
     /// Nodes on the axis, which all copies share; they come last.
     shared: Vec<u32>,
     /// Where in a copy each node of the sector lies.
     slots: Vec<Slot>,
+    /// The first cut's node that falls on a node of the second one.
+    on_first: BTreeMap<u32, u32>,
 }
 
 /// Where a node of the sector is in the gear.
@@ -199,16 +255,25 @@ struct Numbers {
 enum Slot {
     /// n-th of the copy's own nodes.
     Own(u32),
-    /// n-th of the own nodes of the copy before.
-    Before(u32),
+    /// n-th of the own nodes of the copy before; m-th of the first cut.
+    Before(u32, u32),
     /// n-th of the nodes on the axis.
     Shared(u32),
 }
 
+/// Where a node of the copies is: turned by `turns` pitches from node `own`, and as the first cut's node `node` of `copy`.
+struct Placed {
+    turns: u32,
+    own: u32,
+    copy: u32,
+    node: u32,
+}
+
 impl Numbers {
-    fn new(partner: &[u32], copies: u32) -> Result<Self, MeshError> {
-        let (mut own, mut shared) = (Vec::new(), Vec::new());
+    fn new(partner: &[u32], teeth: u32, first: u32, count: u32) -> Result<Self, MeshError> {
+        let (mut own, mut start, mut shared) = (Vec::new(), Vec::new(), Vec::new());
         let mut places = vec![None; partner.len()];
+        let mut on_first = BTreeMap::new();
         for (node, &there) in (0_u32..).zip(partner) {
             if there == NO_PARTNER {
                 places[node as usize] = Some(Slot::Own(own.len() as u32));
@@ -216,55 +281,80 @@ impl Numbers {
             } else if there == node {
                 places[node as usize] = Some(Slot::Shared(shared.len() as u32));
                 shared.push(node);
+            } else {
+                on_first.insert(there, node);
             }
         }
-        let nodes = own.len() as u64 * u64::from(copies) + shared.len() as u64;
-        if nodes > MOST_NODES {
-            return Err(MeshError::TooLarge { nodes, most: MOST_NODES });
-        }
-        let slot = |node: usize| match places[node] {
+        let mut slot = |node: usize| match places[node] {
             Some(slot) => Ok(slot),
             None => match places[partner[node] as usize] {
-                Some(Slot::Own(slot)) => Ok(Slot::Before(slot)),
+                Some(Slot::Own(slot)) => {
+                    start.push(node as u32);
+                    Ok(Slot::Before(slot, start.len() as u32 - 1))
+                }
                 // The partner lies on the first cut as well.
                 _ => Err(MeshError::CutsCross),
             },
         };
-        let slots = (0..partner.len()).map(slot).collect::<Result<_, _>>()?;
-        Ok(Self { copies, own, shared, slots })
+        let slots = (0..partner.len()).map(&mut slot).collect::<Result<_, _>>()?;
+        if count == teeth {
+            start.clear();
+        }
+        let nodes = own.len() as u64 * u64::from(count) + (start.len() + shared.len()) as u64;
+        if nodes > MOST_NODES {
+            return Err(MeshError::TooLarge { nodes, most: MOST_NODES });
+        }
+        Ok(Self { teeth, first, count, own, start, shared, slots, on_first })
     }
 
-    /// Number in the gear of a sector's node in one copy.
+    /// Whether the last copy joins the first.
+    fn is_closed(&self) -> bool {
+        self.count == self.teeth
+    }
+
+    /// Number in the gear of a sector's node in one copy, counted from the first.
     fn node(&self, copy: u32, node: u32) -> u32 {
         let own = self.own.len() as u32;
         match self.slots[node as usize] {
             Slot::Own(slot) => copy * own + slot,
-            Slot::Before(slot) => (copy + self.copies - 1) % self.copies * own + slot,
-            Slot::Shared(slot) => self.copies * own + slot,
+            Slot::Before(_, place) if copy == 0 && !self.is_closed() => self.count * own + place,
+            Slot::Before(slot, _) => (copy + self.count - 1) % self.count * own + slot,
+            Slot::Shared(slot) => self.count * own + self.start.len() as u32 + slot,
         }
+    }
+
+    /// Where the nodes are, in the order of the numbers.
+    fn origins(&self) -> Vec<Placed> {
+        let turns = |copy: u32| (self.first + copy) % self.teeth;
+        let mut placed = Vec::with_capacity(self.own.len() * self.count as usize + self.start.len());
+        for copy in 0..self.count {
+            placed.extend(self.own.iter().map(|&own| match self.on_first.get(&own) {
+                Some(&node) => Placed { turns: turns(copy), own, copy: turns(copy + 1), node },
+                None => Placed { turns: turns(copy), own, copy: turns(copy), node: own },
+            }));
+        }
+        let rest = self.start.iter().chain(&self.shared);
+        placed.extend(rest.map(|&own| Placed { turns: turns(0), own, copy: turns(0), node: own }));
+        placed
     }
 
     /// Positions in the order of the numbers, mm.
     fn positions(&self, sector: &Mesh) -> Vec<[f64; 3]> {
-        let mut nodes = Vec::with_capacity(self.own.len() * self.copies as usize + self.shared.len());
-        for copy in 0..self.copies {
-            // From the sector each time, not from copy to copy: errors do not add up.
-            let turn = Turn::new(TAU * f64::from(copy) / f64::from(self.copies));
-            nodes.extend(self.own.iter().map(|&n| turn.of(sector.nodes[n as usize])));
-        }
-        nodes.extend(self.shared.iter().map(|&n| sector.nodes[n as usize]));
-        nodes
+        // From the sector each time, not from copy to copy: errors do not add up.
+        let angle = |turns: u32| TAU * f64::from(turns) / f64::from(self.teeth);
+        let turns: Vec<Turn> = (0..self.teeth).map(|k| Turn::new(angle(k))).collect();
+        self.origins().iter().map(|p| turns[p.turns as usize].of(sector.nodes[p.own as usize])).collect()
     }
 
     /// Elements of all copies.
     fn blocks(&self, sector: &Mesh) -> Vec<ElementBlock> {
         let mut last = 0;
         let copies = |block: &ElementBlock| {
-            let connectivity: Vec<u32> = (0..self.copies)
+            let connectivity: Vec<u32> = (0..self.count)
                 .flat_map(|copy| block.connectivity.iter().map(move |&node| self.node(copy, node)))
                 .collect();
             let first = last + 1;
-            last += block.len() as u64 * u64::from(self.copies);
+            last += block.len() as u64 * u64::from(self.count);
             ElementBlock { kind: block.kind, connectivity, tags: (first..=last).collect() }
         };
         sector.blocks.iter().map(copies).collect()
@@ -277,6 +367,6 @@ impl Numbers {
 
     /// Faces of all copies.
     fn all_faces(&self, faces: &[Face]) -> Vec<Face> {
-        (0..self.copies).flat_map(|copy| self.faces(copy, faces)).collect()
+        (0..self.count).flat_map(|copy| self.faces(copy, faces)).collect()
     }
 }

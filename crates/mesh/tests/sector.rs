@@ -126,6 +126,28 @@ fn periodic_files_become_the_coarse_gears() {
     }
 }
 
+/// Some of the copies: every node is its origin's place turned, cuts are where they were, and their nodes belong to the next copy.
+#[test]
+fn some_copies_are_part_of_the_whole_gear() {
+    let sector = generated(2, Extent::Periodic);
+    let copies = sector.copies(28, 4).expect("cuts match");
+    assert_eq!(copies.gear.teeth(), [0, 1, 28, 29]);
+    assert!(!copies.gear.is_whole_gear() && copies.gear.cuts().is_some() && !copies.on_axis);
+    let body = copies.gear.mesh();
+    for (n, ([x, y, z], from)) in body.nodes.iter().zip(&copies.origins).enumerate() {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(from.copy) / 30.0).sin_cos();
+        let [a, b, c] = sector.mesh().nodes[from.node as usize];
+        let off = (cos * a - sin * b - x).hypot(sin * a + cos * b - y).hypot(c - z);
+        assert!(off < 1e-12, "node {n}: {off:e} mm");
+        assert!(copies.cuts.iter().all(|pair| pair[1] != from.node), "node {n} is one of the second cut");
+    }
+    let own = sector.mesh().nodes.len() - copies.cuts.len();
+    assert_eq!(body.nodes.len(), 4 * own + copies.cuts.len());
+    // Nothing but cuts is new on the boundary.
+    let report = MeshReport::of_gear(body, &GroupNames::default(), None);
+    assert!(report.worst().is_none_or(|worst| worst < Severity::Error), "{report:?}");
+}
+
 /// No seam is left, and the file of the whole gear is read back as it was.
 #[test]
 fn a_repeated_sector_is_a_sound_mesh() {

@@ -9,6 +9,14 @@ pub enum ReductionError {
     /// Elements, assembly or factor.
     #[error(transparent)]
     Fem(#[from] fem::FemError),
+    /// The copies of a sector do not join.
+    #[error("the sector's copies do not join: {said}")]
+    Sector {
+        /// What the mesh says.
+        said: String,
+        /// What it advises.
+        hint: Option<String>,
+    },
     /// The mesh has no such flank.
     #[error("the mesh has no {} flank of tooth {tooth}; it has teeth {available:?}", side.name())]
     MissingFlank {
@@ -45,9 +53,6 @@ pub enum ReductionError {
         /// Coordinates of the window.
         wanted: usize,
     },
-    /// Stress asked of a gear that only knows means of its flanks' displacements.
-    #[error("a gear reduced to grids over its flanks has no stress modes")]
-    NoStressModes,
     /// A condensed matrix is not positive definite.
     #[error("the compliance of the window from tooth {first} on is not positive definite")]
     NotPositiveDefinite {
@@ -56,11 +61,18 @@ pub enum ReductionError {
     },
 }
 
+impl From<mesh::MeshError> for ReductionError {
+    fn from(e: mesh::MeshError) -> Self {
+        Self::Sector { said: e.to_string(), hint: e.hint() }
+    }
+}
+
 impl ReductionError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Fem(e) => e.hint(),
+            Self::Sector { hint, .. } => hint.clone(),
             Self::MissingFlank { available, .. } => Some(format!(
                 "the window slides over {} teeth of the mesh: mesh the whole gear, or run fewer cycles or a narrower window",
                 available.len()
@@ -72,7 +84,6 @@ impl ReductionError {
             ),
             Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
             Self::WrongLength { .. } => None,
-            Self::NoStressModes => Some("reduce the gear to its flank nodes".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }
     }

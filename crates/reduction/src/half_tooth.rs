@@ -7,7 +7,7 @@ use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix}
 use geometry::{Gear, Side};
 use mesh::{ElementBlock, GearMesh, Mesh};
 
-use crate::{FlankGrid, LayerProfile, ReductionError, grid::grid_compliance};
+use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general::load_compliance, load::missing};
 
 /// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface is
 /// clamped.
@@ -46,14 +46,7 @@ impl HalfTooth {
         tooth: u32,
         side: Side,
     ) -> Result<Self, ReductionError> {
-        let faces = gear.flank(tooth, side).ok_or_else(|| ReductionError::MissingFlank {
-            tooth,
-            side,
-            available: gear.teeth(),
-        })?;
-        let mut nodes: Vec<u32> = faces.iter().flat_map(|f| f.nodes()).copied().collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let nodes = face_nodes(gear.flank(tooth, side).ok_or_else(|| missing(gear, (tooth, side)))?);
         let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
         let kept: Vec<usize> = nodes.iter().filter_map(|n| half.position(*n)).flat_map(|p| 3 * p..3 * p + 3).collect();
         let small = BoundaryLastFactor::new(&half.stiffness, &kept)?.compliance();
@@ -85,7 +78,7 @@ impl HalfTooth {
     ) -> Result<Self, ReductionError> {
         let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
         let factor = BoundaryLastFactor::new(&half.stiffness, &[])?;
-        let compliance = grid_compliance(&factor, half.dofs.free_count(), &[grid], |n| half.position(n))?;
+        let compliance = load_compliance(&factor, &grid.loads, |n| half.position(n))?;
         let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
         let nodes = (0..grid.positions.len() as u32).collect();
         Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })

@@ -6,14 +6,16 @@
 //! ```text
 //! Phi_IC = -K_II^-1 K_IB,  T = [I; Phi_IC],  K^ = T' K T,  M^ = T' M T,  C = K^^-1
 //! ```
-//! One sparse factorisation a gear, boundary last, gives all of it, and stress modes S = D B T with it. Coordinates are three displacements a
-//! boundary node (x, y, z), mm, in the window's own frame.
+//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and joined with itself, for
+//! a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear for any other. Coordinates are three
+//! displacements a boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
 mod error;
-mod grid;
+mod general;
 mod half_tooth;
 mod layer_profile;
+mod load;
 mod plane_strain;
 mod reducer;
 mod stress_modes;
@@ -21,9 +23,9 @@ mod window;
 
 pub use cyclic::pitch_permutation;
 pub use error::ReductionError;
-pub use grid::{FlankGrid, GridReducer};
 pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;
-pub use reducer::{GearReducer, ReductionOptions};
+pub use load::{FlankGrid, FlankGrids};
+pub use reducer::{GearReducer, ReductionOptions, ReductionWay};
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

@@ -1,26 +1,31 @@
 //! The reduced gear of one window.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use faer::Mat;
+use faer::{Mat, MatRef};
+use fem::dense;
 use geometry::Side;
 
-/// A gear reduced to the flank nodes of some neighbouring teeth.
+/// A gear reduced to the flanks of some neighbouring teeth.
 #[derive(Debug, Clone)]
 pub struct ReducedGear {
     /// Teeth, counter-clockwise, 0 .. z-1, as the frame of the matrices numbers them.
     pub teeth: Vec<u32>,
     /// Sides of the teeth whose nodes are kept.
     pub sides: Vec<Side>,
-    /// Boundary nodes, numbers of the mesh, ascending; coordinate 3 i + axis belongs to `nodes[i]`.
+    /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in turn);
+    /// coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
-    /// K^, N/mm, 3 n x 3 n; empty for a gear reduced to grids, which may have more nodes than the mesh can tell apart.
-    pub stiffness: Mat<f64>,
-    /// C = K^^-1, mm/N.
+    /// C, mm/N, 3 n x 3 n.
     pub compliance: Mat<f64>,
+    stiffness: OnceLock<Option<Mat<f64>>>,
 }
 
 impl ReducedGear {
+    pub(crate) fn new(teeth: Vec<u32>, sides: Vec<Side>, nodes: Vec<u32>, compliance: Mat<f64>) -> Self {
+        Self { teeth, sides, nodes, compliance, stiffness: OnceLock::new() }
+    }
+
     /// Number of coordinates, three a boundary node.
     pub fn coordinates(&self) -> usize {
         3 * self.nodes.len()
@@ -31,18 +36,34 @@ impl ReducedGear {
         self.nodes.binary_search(&node).ok()
     }
 
-    /// Strain energy u' K^ u / 2, N mm; NaN where there is no K^.
+    /// K^ = C^-1, N/mm, 3 n x 3 n, made when first asked for: contact needs C alone.
+    ///
+    /// `None` where C is singular: a grid with more nodes than the mesh can tell apart.
+    pub fn stiffness(&self) -> Option<&Mat<f64>> {
+        let inverse = || {
+            let factor = dense::cholesky(self.compliance.as_ref()).ok()?;
+            Some(dense::inverse_of_product(factor.as_ref()))
+        };
+        self.stiffness.get_or_init(inverse).as_ref()
+    }
+
+    /// Forces K^ u (N) that hold the coordinates at u (mm); one step of refinement makes up for the round-off of the inverse.
+    pub(crate) fn forces(&self, u: &[f64]) -> Option<Vec<f64>> {
+        let stiffness = self.stiffness()?;
+        let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
+        let u = column(u);
+        let mut f = dense::product(stiffness.as_ref(), u.as_ref());
+        let left = u - dense::product(self.compliance.as_ref(), f.as_ref());
+        f += dense::product(stiffness.as_ref(), left.as_ref());
+        Some(f.col_as_slice(0).to_vec())
+    }
+
+    /// Strain energy u' K^ u / 2, N mm; NaN where there is no K^ or `u` is of another window.
     pub fn strain_energy(&self, u: &[f64]) -> f64 {
-        let k = &self.stiffness;
-        if k.ncols() != u.len() {
+        if u.len() != self.coordinates() {
             return f64::NAN;
         }
-        let mut sum = 0.0;
-        for j in 0..u.len() {
-            let column = k.col(j);
-            sum += u[j] * u.iter().zip(column.iter()).map(|(a, b)| a * b).sum::<f64>();
-        }
-        0.5 * sum
+        self.forces(u).map_or(f64::NAN, |f| 0.5 * f.iter().zip(u).map(|(f, u)| f * u).sum::<f64>())
     }
 }
 

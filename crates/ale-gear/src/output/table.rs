@@ -16,32 +16,35 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
         let _ = writeln!(t, "  {label:<38} {value:>14} {unit}");
     };
     line("contact ratio eps_gamma", format!("{:.4}", g.eps_gamma), "");
-    line("mean STE", format!("{:.4}", h.mean_ste_um), "um");
-    line(
-        &format!("peak-to-peak STE ({} positions)", h.samples_per_cycle),
-        format!("{:.4}", h.peak_to_peak_ste_um),
-        "um",
-    );
-    line("mean mesh stiffness, secant", format!("{:.2}", h.mean_mesh_stiffness_n_per_um), "N/um");
-    line("mean mesh stiffness, tangent", format!("{:.2}", h.mean_mesh_stiffness_tangent_n_per_um), "N/um");
-    line("mean contact-line length", format!("{:.3}", h.mean_contact_line_length_mm), "mm");
-    line("  unloaded, analytic", format!("{:.3}", h.mean_geometric_line_length_mm), "mm");
-    line("mean sum of normal forces", format!("{:.1}", h.mean_normal_force_n), "N");
-    line("mean axial force on the wheel", format!("{:.1}", h.mean_wheel_force_n[2]), "N");
-    line("mean tilting moment on the pinion", format!("{:.0}", h.mean_pinion_tilting_moment_nmm), "N mm");
-    line("largest force of one pair", format!("{:.1}", h.max_pair_force_n), "N");
-    line("maximum pressure", format!("{:.0}", h.max_pressure_mpa), "MPa");
+    line("mean STE", fixed(h.mean_ste_um, 4), "um");
+    line(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), fixed(h.peak_to_peak_ste_um, 4), "um");
+    line("mean mesh stiffness, secant", fixed(h.mean_mesh_stiffness_n_per_um, 2), "N/um");
+    line("mean mesh stiffness, tangent", fixed(h.mean_mesh_stiffness_tangent_n_per_um, 2), "N/um");
+    line("mean contact-line length", fixed(h.mean_contact_line_length_mm, 3), "mm");
+    line("  unloaded, analytic", fixed(h.mean_geometric_line_length_mm, 3), "mm");
+    line("mean sum of normal forces", fixed(h.mean_normal_force_n, 1), "N");
+    line("mean axial force on the wheel", fixed(h.mean_wheel_force_n[2], 1), "N");
+    line("mean tilting moment on the pinion", fixed(h.mean_pinion_tilting_moment_nmm, 0), "N mm");
+    line("largest force of one pair", fixed(h.max_pair_force_n, 1), "N");
+    if h.mean_friction_power_loss_w != 0.0 {
+        line("mean power lost to friction", fixed(h.mean_friction_power_loss_w, 2), "W");
+        line("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
+    }
+    line("maximum pressure", fixed(h.max_pressure_mpa, 0), "MPa");
     if let Some(root) = &h.root_stress {
         for (name, gear) in [("pinion", &root.pinion), ("wheel", &root.wheel)] {
             let at = gear.max_principal;
-            line(&format!("largest root tension, {name}"), format!("{:.1}", at.stress_mpa), &place(&at));
-            line(&format!("largest root von Mises, {name}"), format!("{:.1}", gear.von_mises.stress_mpa), "MPa");
+            line(&format!("largest root tension, {name}"), fixed(at.stress_mpa, 1), &place(&at));
+            line(&format!("largest root von Mises, {name}"), fixed(gear.von_mises.stress_mpa, 1), "MPa");
         }
     }
     line("tooth changes", h.tooth_changes.to_string(), "");
     line("worst torque residual", format!("{:.1e}", h.worst_torque_residual), "");
     line("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
     line("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
+    for (name, way) in ["pinion", "wheel"].iter().zip(&facts.reduction) {
+        line(&format!("reduction, {name}"), (*way).to_owned(), "");
+    }
 
     let mut all = format!("{} (model {})\n\n{t}\n", scene.name, model_name(scene));
     let _ = writeln!(all, "  {:<14} {:>10} {:>14}", "phase", "wall s", "peak MB");
@@ -54,6 +57,19 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
         let _ = writeln!(all, "\nwarning: {warning}");
     }
     all
+}
+
+/// With `decimals` places, or with as many as show four digits where those would show fewer than two.
+fn fixed(value: f64, decimals: usize) -> String {
+    let size = value.abs();
+    if size == 0.0 || size >= 10f64.powi(1 - decimals as i32) {
+        return format!("{value:.decimals$}");
+    }
+    if size < 1e-3 {
+        return format!("{value:.3e}");
+    }
+    let places = (3.0 - size.log10().floor()) as usize;
+    format!("{value:.places$}")
 }
 
 /// Unit, tooth and place of a root stress.

@@ -12,7 +12,7 @@ use super::raw::{
 use super::source::Source;
 use super::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
-    Operation, OutputScene, PairScene, Rotation, Scene, SceneError,
+    Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
 };
 
 type Checked<T> = Result<T, SceneError>;
@@ -276,13 +276,21 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
         let instead = "use `model = \"reduced\"`, \"full\" or \"iso\"";
         return Err(not_yet(s, "model", word, "a dynamic model of the pair", instead));
     }
+    let model =
+        s.choice("model", &raw.model, &[("reduced", Model::Reduced), ("full", Model::Full), ("iso", Model::Iso)])?;
+    if let Some(word) = raw.reduction.as_ref().filter(|_| model != Model::Reduced) {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: "`reduction` belongs to `model = \"reduced\"`".into(),
+            advice: "leave it out: this model reduces nothing".into(),
+        });
+    }
+    let ways = [("auto", Reduction::Auto), ("general", Reduction::General)];
+    let reduction = s.choice("reduction", &raw.reduction, &ways)?;
     Ok(Analysis {
         kind: s.choice("kind", &raw.kind, &[("static", Kind::Static)])?,
-        model: s.choice(
-            "model",
-            &raw.model,
-            &[("reduced", Model::Reduced), ("full", Model::Full), ("iso", Model::Iso)],
-        )?,
+        model,
+        reduction: (model == Model::Reduced).then_some(reduction),
         positions_per_cycle: s.whole("positions_per_cycle", &raw.positions_per_cycle, 32, 1, 100_000)?,
         cycles: s.whole("cycles", &raw.cycles, 1, 1, 1_000_000)?,
         window_teeth: match raw.window_teeth {

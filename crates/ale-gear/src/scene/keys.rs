@@ -63,7 +63,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "corner_contact",
         ],
     ),
-    ("analysis", &["kind", "model", "positions_per_cycle", "cycles", "window_teeth"]),
+    ("analysis", &["kind", "model", "reduction", "positions_per_cycle", "cycles", "window_teeth"]),
     ("output", &["contact_lines", "root_stress", "vtu", "fields", "vtu_every"]),
     (
         "pinion.modification",

@@ -99,7 +99,7 @@ pub struct MesherScene {
     pub elements_face: u32,
     /// Elements from the root circle to the bore.
     pub elements_rim: u32,
-    /// 0: whole gear; 1: periodic sector, repeated to the whole gear where it is run; k: open sector of k teeth, cut faces free.
+    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth, cut faces free.
     pub sector_teeth: u32,
 }
 
@@ -233,6 +233,9 @@ pub struct Analysis {
     pub kind: Kind,
     /// Which rung of the ladder of models.
     pub model: Model,
+    /// Which way gears are condensed; only the reduced model has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduction: Option<Reduction>,
     /// Positions in one mesh cycle, the end point left out.
     pub positions_per_cycle: u32,
     /// Mesh cycles.
@@ -240,6 +243,16 @@ pub struct Analysis {
     /// Teeth in the window; `None`: floor(eps_gamma) + 1, at least 3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_teeth: Option<u32>,
+}
+
+/// Which way gears are condensed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reduction {
+    /// One sector where the gear is cyclic, else the whole gear.
+    Auto,
+    /// The whole gear in one factor.
+    General,
 }
 
 /// Quasi-static or in time.

@@ -198,6 +198,7 @@ pub(super) struct RawContact {
 pub(super) struct RawAnalysis {
     pub kind: Word,
     pub model: Word,
+    pub reduction: Word,
     pub positions_per_cycle: Whole,
     pub cycles: Whole,
     pub window_teeth: Whole,

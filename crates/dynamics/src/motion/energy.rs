@@ -1,0 +1,66 @@
+//! Implicit midpoint with a discrete gradient: energy is what the ledger says, to round-off, at any step.
+//!
+//! O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
+//!
+//! ```text
+//! q_1 - q_0 = h (v_0 + v_1) / 2,   M (v_1 - v_0) = h [f(t_m, q_m, v_m) + c W (q_1 - q_0)]
+//! c = -[V(t_m, q_1) - V(t_m, q_0) + f_c(q_m) . (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0),   W = M
+//! ```
+//! m: the middle of the step. Second order, no damping of its own at any frequency; forces with kinks (contact lost and gained) do no work that their
+//! potential does not know of. What V changes by itself between t_0 and t_1 is booked as parametric work.
+
+use nalgebra::DVector;
+
+use super::{Forces, Ledger, Mechanism, MotionError, State, newton};
+
+/// One step of length `h`; the ledger's entries of the step come with it.
+pub(super) fn step<M: Mechanism>(
+    system: &mut M,
+    from: &State,
+    h: f64,
+    scale: &DVector<f64>,
+    forces: &mut Forces,
+    book: &mut Ledger,
+) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+    let (start, middle, end) = (from.time, from.time + 0.5 * h, from.time + h);
+    let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
+    let before = system.potential(middle, &from.q).map_err(fail(middle))?;
+    let mut to = from.clone();
+    to.time = end;
+    to.q = &from.q + h * &from.v + 0.5 * h * h * &from.a;
+    let mut change = f64::INFINITY;
+    forces.tangents = true;
+    for iteration in 0..newton::ITERATIONS {
+        let moved = &to.q - &from.q;
+        let velocity = &moved / h;
+        forces.clear();
+        let half = &from.q + 0.5 * &moved;
+        system.forces(middle, &half, &velocity, forces).map_err(fail(middle))?;
+        let weighted = system.mass() * &moved;
+        let length = moved.dot(&weighted);
+        let after = system.potential(middle, &to.q).map_err(fail(middle))?;
+        let c = if length > 0.0 { -(after - before + forces.conservative.dot(&moved)) / length } else { 0.0 };
+        to.v = 2.0 * &velocity - &from.v;
+        if change <= 1.0 {
+            to.a = (&to.v - &from.v) / h;
+            to.averaged.copy_from(&to.a);
+            to.next_step = h;
+            book.supplied += h * forces.supplied;
+            book.dissipated += h * forces.dissipated;
+            let known = system.potential(start, &from.q).map_err(fail(start))?;
+            book.potential = system.potential(end, &to.q).map_err(fail(end))?;
+            book.parametric += (book.potential - after) + (before - known);
+            // Third differences of the motion: what a midpoint step leaves out.
+            let error = h * h / 12.0 * (&to.a - &from.a);
+            return Ok((to, error));
+        }
+        let rest = system.mass() * (&to.v - &from.v) / h - &forces.conservative - &forces.other - c * &weighted;
+        let matrix = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
+        let mut step =
+            newton::solve(matrix, &rest).ok_or(MotionError::Singular { time: middle, which: "iteration" })?;
+        step *= newton::damping(iteration);
+        to.q -= &step;
+        change = newton::change(&step, &to.q, scale);
+    }
+    Err(MotionError::NotConverged { time: start, step: h, iterations: newton::ITERATIONS, change })
+}

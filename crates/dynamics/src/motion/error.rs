@@ -1,0 +1,67 @@
+//! Why a motion could not go on.
+
+/// A motion could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError<E> {
+    /// The system's own trouble.
+    #[error("at {time:.9} s: {source}")]
+    Mechanism {
+        /// Time, s.
+        time: f64,
+        /// What happened.
+        source: E,
+    },
+    /// Newton's method did not settle within a step.
+    #[error(
+        "at {time:.9} s, step {step:.3e} s: no solution after {iterations} iterations, the last change {change:.3e} of the motion's scale"
+    )]
+    NotConverged {
+        /// Time at the step's start, s.
+        time: f64,
+        /// Step, s.
+        step: f64,
+        /// Iterations.
+        iterations: usize,
+        /// Last change, relative.
+        change: f64,
+    },
+    /// The error control asked for a step below the least one.
+    #[error("at {time:.9} s: a step of {step:.3e} s is needed for the tolerance, the least allowed is {least:.3e} s")]
+    StepTooSmall {
+        /// Time, s.
+        time: f64,
+        /// Step asked for, s.
+        step: f64,
+        /// Least step, s.
+        least: f64,
+    },
+    /// A matrix that must be regular is not.
+    #[error("at {time:.9} s: the {which} matrix is singular")]
+    Singular {
+        /// Time, s.
+        time: f64,
+        /// Which.
+        which: &'static str,
+    },
+    /// Options that make no sense, or lengths that do not fit.
+    #[error("{0}")]
+    Options(&'static str),
+}
+
+impl<E> MotionError<E> {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Mechanism { .. } => {
+                "see the message; a smaller step often keeps the motion within reach of the contact search"
+            }
+            Self::NotConverged { .. } => "take a smaller fixed step, or let the error control choose the step",
+            Self::StepTooSmall { .. } => {
+                "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
+            }
+            Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
+            Self::Options(_) => "correct the integrator's options",
+        }
+    }
+}

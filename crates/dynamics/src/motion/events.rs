@@ -1,0 +1,61 @@
+//! Events within a step: where a function of the motion changes its sign.
+
+use nalgebra::DVector;
+
+use super::State;
+
+/// Which way an event function went through zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From below zero up.
+    Up,
+    /// From above zero down.
+    Down,
+}
+
+/// A located event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Which event function.
+    pub event: usize,
+    /// When, s.
+    pub time: f64,
+    /// Which way.
+    pub direction: Direction,
+}
+
+/// Coordinates and velocities within a step, by the cubic through both ends with their velocities.
+pub(super) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
+    let h = to.time - from.time;
+    let (s, r) = (share, 1.0 - share);
+    let q = (r * r * (1.0 + 2.0 * s)) * &from.q + (s * s * (1.0 + 2.0 * r)) * &to.q + (h * s * r * r) * &from.v
+        - (h * s * s * r) * &to.v;
+    // Velocities by the cubic through velocities and accelerations.
+    let v = (r * r * (1.0 + 2.0 * s)) * &from.v + (s * s * (1.0 + 2.0 * r)) * &to.v + (h * s * r * r) * &from.a
+        - (h * s * s * r) * &to.a;
+    (q, v)
+}
+
+/// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and false position in turns.
+pub(super) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
+    let ([mut low, mut high], [mut at_low, mut at_high]) = ([0.0, 1.0], ends);
+    for i in 0..60 {
+        let slope = at_high - at_low;
+        let secant = if slope == 0.0 { 0.5 } else { -at_low / slope };
+        let share = if i % 3 == 2 || !(0.0..=1.0).contains(&secant) { 0.5 } else { secant };
+        let middle = low + share * (high - low);
+        let at = value(middle)?;
+        if at == 0.0 {
+            return Ok(middle);
+        }
+        if (at >= 0.0) == (at_low >= 0.0) {
+            (low, at_low) = (middle, at);
+        } else {
+            (high, at_high) = (middle, at);
+        }
+        if high - low < 1e-13 {
+            break;
+        }
+    }
+    Ok(high)
+}

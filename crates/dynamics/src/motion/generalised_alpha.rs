@@ -1,0 +1,77 @@
+//! Generalised-alpha: second order, implicit, high frequencies damped as much as asked for.
+//!
+//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371; in the form that takes forces at the ends of steps only (M. Arnold, O. Bruels, Multibody Syst.
+//! Dyn. 18 (2007) 185).
+//!
+//! ```text
+//! q_1 = q_0 + h v_0 + h^2 [(1/2 - beta) b_0 + beta b_1],   v_1 = v_0 + h [(1 - gamma) b_0 + gamma b_1]
+//! (1 - a_m) b_1 + a_m b_0 = (1 - a_f) a_1 + a_f a_0,        M a_1 = f(t_1, q_1, v_1)
+//! ```
+
+use nalgebra::DVector;
+
+use super::{Forces, Mechanism, MotionError, State, newton};
+
+/// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Coefficients {
+    a_m: f64,
+    a_f: f64,
+    beta: f64,
+    gamma: f64,
+}
+
+impl Coefficients {
+    /// With the spectral radius `rho` at infinite frequency, 0 .. 1: second order, and the least damping of low frequencies for that.
+    pub(super) fn generalised_alpha(rho: f64) -> Self {
+        let (a_m, a_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        let gamma = 0.5 + a_f - a_m;
+        Self { a_m, a_f, beta: 0.25 * (gamma + 0.5).powi(2), gamma }
+    }
+
+    /// Newmark's constant average acceleration (beta 1/4, gamma 1/2) and its relatives.
+    pub(super) fn newmark(beta: f64, gamma: f64) -> Self {
+        Self { a_m: 0.0, a_f: 0.0, beta, gamma }
+    }
+
+    /// One step of length `h` from `from`: the state at its end, and the local error of its coordinates. `forces` are those of the end.
+    pub(super) fn step<M: Mechanism>(
+        &self,
+        system: &mut M,
+        from: &State,
+        h: f64,
+        scale: &DVector<f64>,
+        forces: &mut Forces,
+    ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+        let Self { a_m, a_f, beta, gamma } = *self;
+        let time = from.time + h;
+        // The averaged acceleration belongs to a place within the step: a new step moves it.
+        let stretch = if from.next_step > 0.0 { h / from.next_step } else { 1.0 };
+        let b0 = &from.a + (&from.averaged - &from.a) * stretch;
+        let mut to = from.clone();
+        to.time = time;
+        to.q = &from.q + h * &from.v + 0.5 * h * h * &b0;
+        let mass_share = (1.0 - a_m) / ((1.0 - a_f) * beta * h * h);
+        let mut change = f64::INFINITY;
+        forces.tangents = true;
+        for iteration in 0..newton::ITERATIONS {
+            to.averaged = (&to.q - &from.q - h * &from.v) / (beta * h * h) - (0.5 - beta) / beta * &b0;
+            to.v = &from.v + h * ((1.0 - gamma) * &b0 + gamma * &to.averaged);
+            to.a = ((1.0 - a_m) * &to.averaged + a_m * &b0 - a_f * &from.a) / (1.0 - a_f);
+            if change <= 1.0 {
+                let error = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h * (&to.a - &from.a);
+                to.next_step = h;
+                return Ok((to, error));
+            }
+            forces.clear();
+            system.forces(time, &to.q, &to.v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
+            let rest = system.mass() * &to.a - &forces.conservative - &forces.other;
+            let matrix = mass_share * system.mass() + gamma / (beta * h) * &forces.damping + &forces.stiffness;
+            let mut step = newton::solve(matrix, &rest).ok_or(MotionError::Singular { time, which: "iteration" })?;
+            step *= newton::damping(iteration);
+            to.q -= &step;
+            change = newton::change(&step, &to.q, scale);
+        }
+        Err(MotionError::NotConverged { time: from.time, step: h, iterations: newton::ITERATIONS, change })
+    }
+}

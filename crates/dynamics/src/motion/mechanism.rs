@@ -1,0 +1,109 @@
+//! What an integrator must know of a system.
+
+use nalgebra::{DMatrix, DVector};
+
+/// A mechanical system in generalised coordinates q with a constant mass matrix.
+///
+/// Any consistent units; ale-gear's own are mm, rad, t, s, N, N mm.
+pub trait Mechanism {
+    /// What can go wrong when forces are asked for.
+    type Error;
+
+    /// Mass matrix M, n x n, symmetric positive definite.
+    fn mass(&self) -> &DMatrix<f64>;
+
+    /// Generalised forces at a state, and their exact tangents where `out.tangents` asks for them.
+    ///
+    /// # Errors
+    /// The system's own.
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error>;
+
+    /// Potential energy V(t, q) of the conservative forces.
+    ///
+    /// # Errors
+    /// The system's own.
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
+
+    /// Functions whose changes of sign are events: contact gained (from below) or lost. None unless a system has some.
+    fn events(&self) -> usize {
+        0
+    }
+
+    /// Values of the event functions.
+    ///
+    /// # Errors
+    /// The system's own.
+    fn event_values(
+        &mut self,
+        _t: f64,
+        _q: &DVector<f64>,
+        _v: &DVector<f64>,
+        _out: &mut [f64],
+    ) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    /// Called when a step has been taken for good: the place for a tooth change, which must leave q, v and forces as they are.
+    ///
+    /// # Errors
+    /// The system's own.
+    fn accepted(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+/// Generalised forces of a system of n coordinates at one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forces {
+    /// -dV/dq, the part that has a potential.
+    pub conservative: DVector<f64>,
+    /// All the rest: dampers, friction, drives and loads.
+    pub other: DVector<f64>,
+    /// -df/dq, n x n.
+    pub stiffness: DMatrix<f64>,
+    /// -df/dv, n x n.
+    pub damping: DMatrix<f64>,
+    /// Whether the tangents are wanted.
+    pub tangents: bool,
+    /// Power of drives and loads into the system.
+    pub supplied: f64,
+    /// Explicit change of the potential with time at fixed coordinates, dV/dt; asked for together with no tangents only.
+    pub parametric: f64,
+    /// Power that dampers and friction take.
+    pub dissipated: f64,
+}
+
+impl Forces {
+    /// No forces on `n` coordinates.
+    pub fn zeros(n: usize) -> Self {
+        Self {
+            conservative: DVector::zeros(n),
+            other: DVector::zeros(n),
+            stiffness: DMatrix::zeros(n, n),
+            damping: DMatrix::zeros(n, n),
+            tangents: true,
+            supplied: 0.0,
+            parametric: 0.0,
+            dissipated: 0.0,
+        }
+    }
+
+    /// All to zero, `tangents` as it is.
+    pub fn clear(&mut self) {
+        self.conservative.fill(0.0);
+        self.other.fill(0.0);
+        self.stiffness.fill(0.0);
+        self.damping.fill(0.0);
+        (self.supplied, self.parametric, self.dissipated) = (0.0, 0.0, 0.0);
+    }
+
+    /// Powers supplied and dissipated.
+    pub(super) fn powers(&self) -> [f64; 2] {
+        [self.supplied, self.dissipated]
+    }
+
+    /// f, coordinate `i`.
+    pub fn total(&self, i: usize) -> f64 {
+        self.conservative[i] + self.other[i]
+    }
+}

@@ -1,0 +1,24 @@
+//! Integration in time of mechanical systems with a constant mass matrix.
+//!
+//! ```text
+//! M q'' = f(t, q, q')
+//! ```
+//! The same integrators run the meshed pair, the lumped models and a one-degree oscillator: what is shown for one holds for all.
+
+mod dormand_prince;
+mod energy;
+mod error;
+mod events;
+mod generalised_alpha;
+mod integrator;
+mod ledger;
+mod mechanism;
+mod newton;
+mod state;
+
+pub use error::MotionError;
+pub use events::{Crossing, Direction};
+pub use integrator::{Integrator, Progress, Scheme, StepControl};
+pub use ledger::Ledger;
+pub use mechanism::{Forces, Mechanism};
+pub use state::State;

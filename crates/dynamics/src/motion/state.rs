@@ -1,0 +1,31 @@
+//! All that a motion is at one time: enough to go on from, bit by bit.
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+/// State of a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Time.
+    pub time: f64,
+    /// Coordinates.
+    pub q: DVector<f64>,
+    /// Velocities.
+    pub v: DVector<f64>,
+    /// Accelerations: M a = f.
+    pub a: DVector<f64>,
+    /// The integrator's own acceleration (generalised-alpha); equal to `a` at a start.
+    pub averaged: DVector<f64>,
+    /// Powers of drives and loads, and of dampers: at this state, where the integrator books work by them.
+    pub powers: [f64; 2],
+    /// Step that the step control would take next; 0 at a start.
+    pub next_step: f64,
+}
+
+impl State {
+    /// At rest or moving, accelerations still to be found by the integrator.
+    pub fn new(time: f64, q: DVector<f64>, v: DVector<f64>) -> Self {
+        let n = q.len();
+        Self { time, q, v, a: DVector::zeros(n), averaged: DVector::zeros(n), powers: [0.0; 2], next_step: 0.0 }
+    }
+}

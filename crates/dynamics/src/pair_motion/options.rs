@@ -1,0 +1,52 @@
+//! What is asked of a motion.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Bearing, RigidBody, Speed, Torque, body::COORDINATES};
+use crate::StaticOptions;
+
+/// How the driver is driven.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Drive {
+    /// Its angle is prescribed.
+    Speed(Speed),
+    /// It starts at a speed (rad/s) and a torque (N mm, in the running sense) acts on it.
+    Torque {
+        /// Speed at the start, rad/s.
+        start: f64,
+        /// Torque.
+        torque: Torque,
+    },
+}
+
+/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach; never a pull.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum MeshDamping {
+    /// Damping ratio zeta of the two gears turning against each other: c = 2 zeta sqrt(k_m m_e), shared over the mean length of contact lines.
+    Ratio(f64),
+    /// N s/mm per mm of contact line.
+    PerLength(f64),
+}
+
+/// Bodies, bearings, drives of a pair in motion; contact as in the static options.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionOptions {
+    /// Driver, sense, contact, friction, window. Its torque is the reference for start and scales.
+    pub contact: StaticOptions,
+    /// Pinion and wheel.
+    pub bodies: [RigidBody; 2],
+    /// Their bearings.
+    pub bearings: [Bearing; 2],
+    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's always.
+    pub free: [[bool; COORDINATES]; 2],
+    /// Driver.
+    pub drive: Drive,
+    /// Load torque on the driven gear against its turn, N mm.
+    pub load: Torque,
+    /// Mesh damping.
+    pub damping: MeshDamping,
+    /// Let the coast flanks touch when the teeth have separated (backlash); needs both flanks in the reduction.
+    pub coast_flanks: bool,
+    /// Mesh cycles at t = 0: where the run begins.
+    pub start_cycles: f64,
+}

@@ -1,0 +1,104 @@
+//! Dense kernels: column blocks in parallel, each block sequential, so that the bits are the same for any number of threads.
+
+use dyn_stack::{MemBuffer, MemStack};
+use faer::{
+    Accum, Mat, MatMut, MatRef, Par, Spec,
+    linalg::{
+        cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch},
+        matmul::matmul,
+        triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place},
+    },
+    reborrow::ReborrowMut,
+};
+use rayon::prelude::*;
+
+use crate::FemError;
+
+/// Columns of a task: wide enough for fast products, narrow enough to spread evenly over the threads.
+const BLOCK: usize = 96;
+
+/// L of A = L L', n x n, zeros above the diagonal; of A (symmetric positive definite) the lower triangle is read.
+///
+/// # Errors
+/// [`FemError::NotPositiveDefinite`] with the row of the pivot that is not positive, [`FemError::OutOfMemory`].
+pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
+    let n = a.nrows();
+    let mut l = Mat::from_fn(n, n, |i, j| if i < j { 0.0 } else { a[(i, j)] });
+    let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default());
+    let mut memory =
+        MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+    let stack = MemStack::new(&mut memory);
+    match cholesky_in_place(l.as_mut(), Default::default(), Par::Seq, stack, Spec::default()) {
+        Err(LltError::NonPositivePivot { index }) => {
+            Err(FemError::NotPositiveDefinite { dof: index, pivot_ratio: 0.0 })
+        }
+        Ok(_) if l.as_ref().diagonal().column_vector().iter().all(|d| d.is_finite()) => Ok(l),
+        Ok(_) => Err(FemError::NotPositiveDefinite { dof: 0, pivot_ratio: f64::NAN }),
+    }
+}
+
+/// L^-1 B in place for a lower triangle L, n x n; B n x k.
+pub fn solve_lower(l: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+    rhs.par_col_chunks_mut(BLOCK).for_each(|rhs| solve_lower_triangular_in_place(l, rhs, Par::Seq));
+}
+
+/// L^-T B in place for a lower triangle L, n x n; B n x k.
+pub fn solve_lower_transposed(l: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+    rhs.par_col_chunks_mut(BLOCK).for_each(|rhs| solve_upper_triangular_in_place(l.transpose(), rhs, Par::Seq));
+}
+
+/// A B, m x k.
+pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut result = Mat::zeros(a.nrows(), b.ncols());
+    result.as_mut().par_col_chunks_mut(BLOCK).zip(b.par_col_chunks(BLOCK)).for_each(|(result, b)| {
+        matmul(result, Accum::Replace, a, b, 1.0, Par::Seq);
+    });
+    result
+}
+
+/// Z' Z for Z m x n, both triangles.
+pub fn gram(z: MatRef<'_, f64>) -> Mat<f64> {
+    by_lower_blocks(z.ncols(), |start, width, below| {
+        let (rows, own) = (z.subcols(start, z.ncols() - start), z.subcols(start, width));
+        matmul(below, Accum::Replace, rows.transpose(), own, 1.0, Par::Seq);
+    })
+}
+
+/// S = L L' for a lower triangle L, both triangles of S.
+pub fn times_transpose(l: MatRef<'_, f64>) -> Mat<f64> {
+    by_lower_blocks(l.nrows(), |start, width, below| {
+        // rows from `start` on: row i of L times the block's own rows of L, which end at its last column
+        let end = start + width;
+        let (rows, own) = (l.get(start.., ..end), l.get(start..end, ..end));
+        matmul(below, Accum::Replace, rows, own.transpose(), 1.0, Par::Seq);
+    })
+}
+
+/// C = (L L')^-1 for a lower triangle L, both triangles of C.
+///
+/// Rows from j on of columns from j on need only the part of L below and right of (j, j).
+pub fn inverse_of_product(l: MatRef<'_, f64>) -> Mat<f64> {
+    by_lower_blocks(l.nrows(), |start, width, mut below| {
+        let l = l.get(start.., start..);
+        for c in 0..width {
+            below[(c, c)] = 1.0;
+        }
+        solve_lower_triangular_in_place(l, below.rb_mut(), Par::Seq);
+        solve_upper_triangular_in_place(l.transpose(), below, Par::Seq);
+    })
+}
+
+/// A symmetric matrix from its lower triangle, computed by blocks: `fill(start, width, rows from start on)`.
+fn by_lower_blocks(n: usize, fill: impl Fn(usize, usize, MatMut<'_, f64>) + Sync) -> Mat<f64> {
+    let mut result = Mat::zeros(n, n);
+    result.as_mut().par_col_chunks_mut(BLOCK).enumerate().for_each(|(k, block)| {
+        let (start, width) = (k * BLOCK, block.ncols());
+        fill(start, width, block.subrows_mut(start, n - start));
+    });
+    for j in 0..n {
+        for i in j + 1..n {
+            result[(j, i)] = result[(i, j)];
+        }
+    }
+    result
+}

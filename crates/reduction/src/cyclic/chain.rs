@@ -1,0 +1,168 @@
+//! Identical super-elements joined by doubling.
+
+use std::collections::BTreeMap;
+
+use faer::{Mat, MatRef};
+use fem::{FemError, dense};
+
+/// A row of equal sectors as one super-element between its first and its last cut.
+///
+/// ```text
+///  l     m     r        K_mm = A_rr + B_ll,   K_me = [A_rl  B_lr]
+///  |--A--|--B--|        u_m = -K_mm^-1 K_me u_e,   K_e = diag(A_ll, B_rr) - K_me' K_mm^-1 K_me,   u_e = [u_l; u_r]
+/// ```
+/// Every cut's unknowns are in the frame of the sector on its counter-clockwise side, so that equal rows have equal matrices wherever
+/// they are and no join turns anything. n sectors take about log2 n joins for the powers of two and as many as n has binary ones.
+/// Eliminating free cuts is exact, so the row answers as its sectors would.
+#[derive(Debug)]
+pub(super) struct Chain {
+    /// Shorter rows first; the last one is the whole.
+    links: Vec<Link>,
+    /// Stiffness between first and last cut, 2c x 2c, N/mm.
+    pub(super) stiffness: Mat<f64>,
+}
+
+#[derive(Debug)]
+struct Link {
+    sectors: usize,
+    join: Option<Join>,
+}
+
+/// Two rows made one.
+#[derive(Debug)]
+struct Join {
+    left: usize,
+    right: usize,
+    /// L of K_mm = L L', c x c.
+    factor: Mat<f64>,
+    /// Z = L^-1 K_me, c x 2c.
+    ends: Mat<f64>,
+}
+
+impl Join {
+    /// Displacement of the middle cut for that of the ends, 2c x k.
+    fn middle(&self, ends: MatRef<'_, f64>) -> Mat<f64> {
+        let mut middle = dense::product(self.ends.as_ref(), ends);
+        dense::solve_lower_transposed(self.factor.as_ref(), middle.as_mut());
+        middle *= faer::Scale(-1.0);
+        middle
+    }
+}
+
+/// Both cuts' displacements, one above the other.
+pub(super) fn stacked(above: MatRef<'_, f64>, below: MatRef<'_, f64>) -> Mat<f64> {
+    let mut both = Mat::zeros(above.nrows() + below.nrows(), above.ncols());
+    both.as_mut().subrows_mut(0, above.nrows()).copy_from(above);
+    both.as_mut().subrows_mut(above.nrows(), below.nrows()).copy_from(below);
+    both
+}
+
+impl Chain {
+    /// `count` > 0 sectors of stiffness `sector` (2c x 2c, left cut before right cut).
+    pub(super) fn new(sector: &Mat<f64>, count: usize) -> Result<Self, FemError> {
+        let mut links = vec![Link { sectors: 1, join: None }];
+        let (mut power, mut power_stiffness) = (0, sector.clone());
+        let mut whole: Option<(usize, Mat<f64>)> = None;
+        let mut rest = count;
+        loop {
+            if rest % 2 == 1 {
+                whole = Some(match whole {
+                    None => (power, power_stiffness.clone()),
+                    Some((left, stiffness)) => {
+                        let (link, joined) =
+                            join(&links, [left, power], [stiffness.as_ref(), power_stiffness.as_ref()])?;
+                        links.push(link);
+                        (links.len() - 1, joined)
+                    }
+                });
+            }
+            rest /= 2;
+            if rest == 0 {
+                break;
+            }
+            let (link, joined) = join(&links, [power, power], [power_stiffness.as_ref(), power_stiffness.as_ref()])?;
+            links.push(link);
+            (power, power_stiffness) = (links.len() - 1, joined);
+        }
+        let (last, stiffness) = whole.unwrap_or((power, power_stiffness));
+        links.truncate(last + 1);
+        Ok(Self { links, stiffness })
+    }
+
+    /// Displacements of the cuts `wanted` (0 the first, n the last; ascending) for those of the ends, 2c x k.
+    pub(super) fn cuts(&self, ends: MatRef<'_, f64>, wanted: &[usize]) -> BTreeMap<usize, Mat<f64>> {
+        let c = self.stiffness.nrows() / 2;
+        let mut found = BTreeMap::new();
+        let last = self.links.len() - 1;
+        found.insert(0, ends.subrows(0, c).to_owned());
+        found.insert(self.links[last].sectors, ends.subrows(c, c).to_owned());
+        self.descend(last, 0, ends, wanted, &mut found);
+        found
+    }
+
+    fn descend(
+        &self,
+        link: usize,
+        start: usize,
+        ends: MatRef<'_, f64>,
+        wanted: &[usize],
+        found: &mut BTreeMap<usize, Mat<f64>>,
+    ) {
+        let Link { sectors, join: Some(join) } = &self.links[link] else { return };
+        if !wanted.iter().any(|&w| start < w && w < start + sectors) {
+            return;
+        }
+        let c = ends.nrows() / 2;
+        let middle = join.middle(ends);
+        let at = start + self.links[join.left].sectors;
+        let left = stacked(ends.subrows(0, c), middle.as_ref());
+        let right = stacked(middle.as_ref(), ends.subrows(c, c));
+        self.descend(join.left, start, left.as_ref(), wanted, found);
+        self.descend(join.right, at, right.as_ref(), wanted, found);
+        found.insert(at, middle);
+    }
+
+    /// Mass (t) of the row between its ends, T' M T, from that of one sector, 2c x 2c.
+    pub(super) fn mass(&self, sector: &Mat<f64>) -> Mat<f64> {
+        let c = sector.nrows() / 2;
+        let mut masses: Vec<Mat<f64>> = Vec::with_capacity(self.links.len());
+        for link in &self.links {
+            masses.push(match &link.join {
+                None => sector.clone(),
+                Some(join) => {
+                    let (a, b) = (&masses[join.left], &masses[join.right]);
+                    let unit = Mat::<f64>::identity(2 * c, 2 * c);
+                    let middle = join.middle(unit.as_ref());
+                    let left = stacked(unit.get(..c, ..), middle.as_ref());
+                    let right = stacked(middle.as_ref(), unit.get(c.., ..));
+                    congruent(a, &left) + congruent(b, &right)
+                }
+            });
+        }
+        masses.pop().unwrap_or_else(|| sector.clone())
+    }
+}
+
+/// T' M T.
+pub(super) fn congruent(m: &Mat<f64>, t: &Mat<f64>) -> Mat<f64> {
+    let product = dense::product(m.as_ref(), t.as_ref());
+    dense::product(t.transpose(), product.as_ref())
+}
+
+/// The row of two rows.
+fn join(links: &[Link], [left, right]: [usize; 2], [a, b]: [MatRef<'_, f64>; 2]) -> Result<(Link, Mat<f64>), FemError> {
+    let c = a.nrows() / 2;
+    let factor = dense::cholesky((a.get(c.., c..) + b.get(..c, ..c)).as_ref())?;
+    let mut ends = Mat::zeros(c, 2 * c);
+    ends.as_mut().subcols_mut(0, c).copy_from(a.get(c.., ..c));
+    ends.as_mut().subcols_mut(c, c).copy_from(b.get(..c, c..));
+    dense::solve_lower(factor.as_ref(), ends.as_mut());
+    let mut stiffness = dense::gram(ends.as_ref());
+    stiffness *= faer::Scale(-1.0);
+    let mut outer = stiffness.as_mut().submatrix_mut(0, 0, c, c);
+    outer += a.get(..c, ..c);
+    let mut outer = stiffness.as_mut().submatrix_mut(c, c, c, c);
+    outer += b.get(c.., c..);
+    let sectors = links[left].sectors + links[right].sectors;
+    Ok((Link { sectors, join: Some(Join { left, right, factor, ends }) }, stiffness))
+}

@@ -1,0 +1,258 @@
+//! One sector, condensed to its cuts and its loads.
+
+use faer::{Mat, MatMut, MatRef};
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, dense};
+use mesh::Mesh;
+
+use super::{SectorMesh, chain::stacked};
+use crate::{ReductionError, load::Load};
+
+/// Columns of full length that are held at a time: 256 of 10^5 freedoms are 200 MB.
+const COLUMNS: usize = 256;
+
+/// A sector as its cuts and its loads see it.
+///
+/// ```text
+/// u_I = X f + T u_c,   X = K_II^-1 P,   T = -K_II^-1 K_Ic
+/// ends: K_c u_c = ends of others + H f,   H = T' P,   displacement under the loads: P' u = A f + H' u_c,   A = P' X
+/// ```
+/// | name | shape   | unit | meaning                                                                     |
+/// |------|---------|------|-----------------------------------------------------------------------------|
+/// | P    | n x 3m  | 1    | m unit loads, three directions each                                         |
+/// | u_c  | 2c      | mm   | left cut in the sector's frame, right cut in the next sector's (same place)  |
+/// | K_c  | 2c x 2c | N/mm | stiffness between the cuts, loads free                                      |
+/// | H    | 2c x 3m | 1    | force on the held cuts for a unit load, taken as a load on them             |
+/// | A    | 3m x 3m | mm/N | displacement under the loads with the cuts held                             |
+///
+/// Loads on single nodes (`kept`) stand beside the cuts at the end of the factor, so that everything is read off its last triangle.
+/// Source: static condensation, Guyan, AIAA J. 3(2), 1965; the flexibility form of it.
+#[derive(Debug)]
+pub(super) struct Sector {
+    mesh: Mesh,
+    pub(super) dofs: DofMap,
+    factor: BoundaryLastFactor,
+    /// L' of the sparse loads, by matrix row; empty when nodes are kept.
+    spread: Vec<Load>,
+    /// Freedoms of the nodes that are kept.
+    kept: usize,
+    /// Freedoms of one cut.
+    pub(super) cut: usize,
+    turn: [f64; 2],
+    pub(super) stiffness: Mat<f64>,
+    pub(super) transfer: Mat<f64>,
+    pub(super) own: Mat<f64>,
+}
+
+impl Sector {
+    /// Factors a sector under loads on nodes of its inside; each load on one node makes that node a kept one.
+    pub(super) fn new(
+        part: &SectorMesh,
+        material: &Material,
+        elements: &ElementOptions,
+        loads: &[Load],
+        keep: bool,
+    ) -> Result<Self, ReductionError> {
+        let dofs = DofMap::new(part.mesh.nodes.len(), &part.held);
+        let rows = |n: u32| (0..3).filter_map(move |axis| Some((n, axis))).collect::<Vec<_>>();
+        let place = |nodes: &mut dyn Iterator<Item = u32>| -> Vec<usize> {
+            nodes.flat_map(rows).filter_map(|(n, axis)| dofs.dof(n, axis)).collect()
+        };
+        let free: Vec<[u32; 2]> = part.cuts.iter().filter(|c| dofs.position(c[0]).is_some()).copied().collect();
+        let mut boundary = Vec::new();
+        if keep {
+            boundary = place(&mut loads.iter().flatten().map(|&(n, _)| n));
+        }
+        let kept = boundary.len();
+        boundary.extend(place(&mut free.iter().map(|c| c[0])));
+        boundary.extend(place(&mut free.iter().map(|c| c[1])));
+        let cut = 3 * free.len();
+        let factor = {
+            let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
+            BoundaryLastFactor::new(&stiffness, &boundary)?
+        };
+        let spread = if keep { Vec::new() } else { loads.to_vec() };
+        let (sin, cos) = (std::f64::consts::TAU / f64::from(part.teeth)).sin_cos();
+        let mut sector = Self {
+            mesh: part.mesh.clone(),
+            dofs,
+            factor,
+            spread,
+            kept,
+            cut,
+            turn: [sin, cos],
+            stiffness: Mat::new(),
+            transfer: Mat::new(),
+            own: Mat::new(),
+        };
+        sector.condense(keep)?;
+        Ok(sector)
+    }
+
+    /// K_c, H and A.
+    fn condense(&mut self, keep: bool) -> Result<(), ReductionError> {
+        let (kept, ends) = (self.kept, 2 * self.cut);
+        let l = self.factor.boundary_factor();
+        let mut stiffness = dense::times_transpose(l.get(kept.., kept..));
+        self.next_frame(stiffness.as_mut());
+        stiffness = stiffness.transpose().to_owned();
+        self.next_frame(stiffness.as_mut());
+        self.stiffness = stiffness;
+        if keep {
+            // K = L L' with the kept nodes before the cuts: A = (L_FF L_FF')^-1, H = -L_cF L_FF^-1.
+            self.own = dense::inverse_of_product(l.get(..kept, ..kept));
+            let mut adjoint = l.get(kept.., ..kept).transpose().to_owned();
+            dense::solve_lower_transposed(l.get(..kept, ..kept), adjoint.as_mut());
+            let mut transfer = Mat::from_fn(ends, kept, |i, j| -adjoint[(j, i)]);
+            self.next_frame(transfer.as_mut());
+            self.transfer = transfer;
+            return Ok(());
+        }
+        let count = 3 * self.spread.len();
+        let (mut own, mut transfer) = (Mat::<f64>::zeros(count, count), Mat::zeros(ends, count));
+        for start in (0..count).step_by(COLUMNS) {
+            let width = (count - start).min(COLUMNS);
+            let unit = unit_columns(count, start, width);
+            let answer = self.adjoint(self.force(unit.as_ref()).as_ref())?;
+            own.as_mut().subcols_mut(start, width).copy_from(answer.get(..count, ..));
+            transfer.as_mut().subcols_mut(start, width).copy_from(answer.get(count.., ..));
+        }
+        self.own = Mat::from_fn(count, count, |i, j| 0.5 * (own[(i, j)] + own[(j, i)]));
+        self.transfer = transfer;
+        Ok(())
+    }
+
+    /// Freedoms of the loads, 3m.
+    pub(super) fn loads(&self) -> usize {
+        self.own.nrows()
+    }
+
+    /// Rows of the right cut (the last ones) from the sector's frame into that of the next sector.
+    fn next_frame(&self, ends: MatMut<'_, f64>) {
+        self.turn_right(ends, -1.0);
+    }
+
+    /// Back from the frame of the next sector.
+    fn own_frame(&self, ends: MatMut<'_, f64>) {
+        self.turn_right(ends, 1.0);
+    }
+
+    fn turn_right(&self, mut ends: MatMut<'_, f64>, sense: f64) {
+        let ([sin, cos], start) = ([sense * self.turn[0], self.turn[1]], ends.nrows() - self.cut);
+        for j in 0..ends.ncols() {
+            for i in (start..ends.nrows()).step_by(3) {
+                let (x, y) = (ends[(i, j)], ends[(i + 1, j)]);
+                ends[(i, j)] = cos * x - sin * y;
+                ends[(i + 1, j)] = sin * x + cos * y;
+            }
+        }
+    }
+
+    /// Nodal forces P f, n x k, of loads that are not on kept nodes.
+    fn force(&self, f: MatRef<'_, f64>) -> Mat<f64> {
+        let mut force = Mat::zeros(self.dofs.free_count(), f.ncols());
+        for (i, load) in self.spread.iter().enumerate() {
+            for (row, weight, axis) in self.rows(load) {
+                (0..f.ncols()).for_each(|j| force[(row, j)] += weight * f[(3 * i + axis, j)]);
+            }
+        }
+        force
+    }
+
+    /// Matrix row, weight and axis of a load's parts.
+    fn rows<'a>(&'a self, load: &'a Load) -> impl Iterator<Item = (usize, f64, usize)> + 'a {
+        let row = |&(node, weight): &(u32, f64), axis| self.dofs.dof(node, axis).map(|row| (row, weight, axis));
+        load.iter().flat_map(move |part| (0..3).filter_map(move |axis| row(part, axis)))
+    }
+
+    /// What a field is made of, from loads (3m x k, N) and cuts (2c x k, mm): displacements of kept nodes or loads, then cuts.
+    pub(super) fn basis(&self, f: MatRef<'_, f64>, ends: MatRef<'_, f64>) -> Mat<f64> {
+        if self.kept == 0 {
+            return stacked(f, ends);
+        }
+        let kept = dense::product(self.own.as_ref(), f) + dense::product(self.transfer.transpose(), ends);
+        stacked(kept.as_ref(), ends)
+    }
+
+    /// Displacement of all free freedoms, n x k, mm, in the sector's frame, of [`Sector::basis`].
+    pub(super) fn field(&self, basis: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
+        let mut basis = basis.to_owned();
+        self.own_frame(basis.as_mut());
+        if self.kept > 0 {
+            return Ok(self.factor.expand(basis.as_ref())?);
+        }
+        let count = self.spread.len() * 3;
+        Ok(self.factor.solve_held(self.force(basis.get(..count, ..)).as_ref(), basis.get(count.., ..))?)
+    }
+
+    /// Transpose of [`Sector::field`]: from forces on all freedoms (n x k, N) to those on the basis.
+    pub(super) fn adjoint(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
+        let mut ends = self.factor.condense(force)?;
+        self.next_frame(ends.as_mut());
+        if self.kept > 0 {
+            return Ok(ends);
+        }
+        let held = Mat::zeros(2 * self.cut, force.ncols());
+        let field = self.factor.solve_held(force, held.as_ref())?;
+        let mut own = Mat::<f64>::zeros(3 * self.spread.len(), force.ncols());
+        for (i, load) in self.spread.iter().enumerate() {
+            for (row, weight, axis) in self.rows(load) {
+                (0..field.ncols()).for_each(|j| own[(3 * i + axis, j)] += weight * field[(row, j)]);
+            }
+        }
+        Ok(stacked(own.as_ref(), ends.as_ref()))
+    }
+
+    /// Stress at some nodes for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts (6q x 2c, MPa/mm); components in the sector's
+    /// frame, the mean over the elements of this sector alone.
+    pub(super) fn stress(
+        &self,
+        material: &Material,
+        elements: &ElementOptions,
+        nodes: &[u32],
+    ) -> Result<[Mat<f64>; 2], ReductionError> {
+        let operator = StressOperator::new(&self.mesh, material, elements, &self.dofs, nodes)?;
+        let (m, ends) = (self.loads(), 2 * self.cut);
+        let (mut by_load, mut by_cut) = (Mat::zeros(6 * nodes.len(), m), Mat::zeros(6 * nodes.len(), ends));
+        for start in (0..nodes.len()).step_by(COLUMNS / 6) {
+            let end = nodes.len().min(start + COLUMNS / 6);
+            let answer = self.adjoint(operator.transposed(start..end)?.as_ref())?;
+            let (own, cuts) = answer.as_ref().split_at_row(m);
+            let (rows, count) = (6 * start, 6 * (end - start));
+            if self.kept == 0 {
+                by_load.as_mut().subrows_mut(rows, count).copy_from(own.transpose());
+                by_cut.as_mut().subrows_mut(rows, count).copy_from(cuts.transpose());
+                continue;
+            }
+            by_load.as_mut().subrows_mut(rows, count).copy_from(dense::product(own.transpose(), self.own.as_ref()));
+            let through = dense::product(own.transpose(), self.transfer.transpose());
+            by_cut.as_mut().subrows_mut(rows, count).copy_from(through + cuts.transpose());
+        }
+        Ok([by_load, by_cut])
+    }
+
+    /// Mass (t) on the basis: the field's mass by congruence, column block by column block.
+    pub(super) fn mass(&self, material: &Material) -> Result<Mat<f64>, ReductionError> {
+        let mass = fem::assemble_mass(&self.mesh, material, &self.dofs)?;
+        let n = self.loads() + 2 * self.cut;
+        let mut condensed = Mat::<f64>::zeros(n, n);
+        for start in (0..n).step_by(COLUMNS) {
+            let width = (n - start).min(COLUMNS);
+            let field = self.field(unit_columns(n, start, width).as_ref())?;
+            let block = self.adjoint(mass.multiply(field.as_ref())?.as_ref())?;
+            condensed.as_mut().subcols_mut(start, width).copy_from(&block);
+        }
+        Ok(Mat::from_fn(n, n, |i, j| 0.5 * (condensed[(i, j)] + condensed[(j, i)])))
+    }
+
+    /// Number of elements about each node.
+    pub(super) fn touching(&self) -> Vec<u32> {
+        let mut count = vec![0; self.mesh.nodes.len()];
+        self.mesh.blocks.iter().flat_map(|b| &b.connectivity).for_each(|&n| count[n as usize] += 1);
+        count
+    }
+}
+
+/// Columns start .. start + width of the identity, n x width.
+fn unit_columns(n: usize, start: usize, width: usize) -> Mat<f64> {
+    Mat::from_fn(n, width, |i, j| f64::from(u8::from(i == start + j)))
+}

@@ -1,0 +1,198 @@
+//! One sparse factor of a whole gear, cyclic or not.
+
+use faer::Mat;
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, dense};
+use mesh::Mesh;
+
+use crate::{ReductionError, load::Load};
+
+/// Columns of all free degrees of freedom held at a time: 256 of 10^5 freedoms are 200 MB.
+const COLUMNS: usize = 256;
+
+/// A gear whose stiffness is factored as a whole, with the nodes of one window last if they are its coordinates.
+#[derive(Debug)]
+pub(crate) struct GeneralGear {
+    dofs: DofMap,
+    factor: BoundaryLastFactor,
+}
+
+/// A window as the factor sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Seen<'a> {
+    /// Its nodes are last in the factor.
+    Last,
+    /// Under these loads.
+    Loads(&'a [Load]),
+}
+
+impl GeneralGear {
+    /// Assembles and factors with the nodes `last` (ascending) last.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        held: &[u32],
+        material: &Material,
+        elements: &ElementOptions,
+        last: &[u32],
+    ) -> Result<Self, ReductionError> {
+        let dofs = DofMap::new(mesh.nodes.len(), held);
+        let stiffness = fem::assemble_stiffness(mesh, material, &dofs, elements)?;
+        let factor = BoundaryLastFactor::new(&stiffness, &node_dofs(&dofs, last))?;
+        Ok(Self { dofs, factor })
+    }
+
+    /// C of a window, mm/N.
+    pub(crate) fn compliance(&self, seen: Seen) -> Result<Mat<f64>, ReductionError> {
+        match seen {
+            Seen::Last => Ok(self.factor.compliance()),
+            Seen::Loads(loads) => load_compliance(&self.factor, loads, |n| self.dofs.position(n)),
+        }
+    }
+
+    /// Displacement of all free freedoms, n x k, for coordinates u (mm) of a window, which the forces f (N) hold.
+    pub(crate) fn fields(&self, seen: Seen, u: &Mat<f64>, f: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
+        match seen {
+            Seen::Last => Ok(self.factor.expand(u.as_ref())?),
+            Seen::Loads(loads) => {
+                let mut field = spread(loads, f, self.factor.n(), |n| self.dofs.position(n));
+                self.factor.solve(field.as_mut())?;
+                Ok(field)
+            }
+        }
+    }
+
+    /// Forces on a window's coordinates that do the work of given ones, n x k: T' force for a window that is last, else P' K^-1 force,
+    /// which is their displacement.
+    fn adjoint(&self, seen: Seen, force: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
+        match seen {
+            Seen::Last => Ok(self.factor.condense(force.as_ref())?),
+            Seen::Loads(loads) => {
+                let (wanted, loads) = self.on_support(loads);
+                let field = self.factor.solve_rows(force.as_ref(), &wanted)?;
+                Ok(means(&loads, &field))
+            }
+        }
+    }
+
+    /// Freedoms under some loads, and the loads on these alone: number of the node among them, and share.
+    fn on_support(&self, loads: &[Load]) -> (Vec<usize>, Vec<Vec<(usize, f64)>>) {
+        let mut nodes: Vec<usize> = loads.iter().flatten().filter_map(|&(n, _)| self.dofs.position(n)).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let number = |&(n, w): &(u32, f64)| Some((nodes.binary_search(&self.dofs.position(n)?).ok()?, w));
+        let loads = loads.iter().map(|load| load.iter().filter_map(number).collect()).collect();
+        (nodes.iter().flat_map(|&p| 3 * p..3 * p + 3).collect(), loads)
+    }
+
+    /// Stress at some nodes, 6 rows a node: for unit coordinates (MPa/mm) of a window that is last, else for unit forces (MPa/N).
+    ///
+    /// Made from whichever has fewer columns: the rows of D B, sparse vectors that go through the forward substitution once
+    /// (the adjoint way, `S' = T' (D B)'`), or the columns of T, of which back substitution finds what D B asks for. Either way the
+    /// branches of the factor that neither window nor nodes are in are passed over, so put nodes in the order of their place.
+    pub(crate) fn stress(
+        &self,
+        seen: Seen,
+        coordinates: usize,
+        operator: &StressOperator,
+    ) -> Result<Mat<f64>, ReductionError> {
+        let m = operator.node_count();
+        let mut stress = Mat::<f64>::zeros(6 * m, coordinates);
+        if 6 * m <= coordinates {
+            for start in (0..m).step_by(COLUMNS / 6) {
+                let end = m.min(start + COLUMNS / 6);
+                let rows = self.adjoint(seen, &operator.transposed(start..end)?)?;
+                stress.as_mut().subrows_mut(6 * start, 6 * (end - start)).copy_from(rows.transpose());
+            }
+            return Ok(stress);
+        }
+        let (support, operator) = operator.on_support();
+        for start in (0..coordinates).step_by(COLUMNS) {
+            let width = (coordinates - start).min(COLUMNS);
+            let unit = unit_columns(coordinates, start, width);
+            let field = match seen {
+                Seen::Last => self.factor.expand_rows(unit.as_ref(), &support)?,
+                Seen::Loads(loads) => {
+                    let force = spread(loads, &unit, self.factor.n(), |n| self.dofs.position(n));
+                    self.factor.solve_rows(force.as_ref(), &support)?
+                }
+            };
+            stress.as_mut().subcols_mut(start, width).copy_from(operator.apply(field.as_ref())?);
+        }
+        Ok(stress)
+    }
+
+    /// M^ = T' M T (t) of a window with `stiffness` K^.
+    ///
+    /// Column block by column block: T c by back-substitution, M times that, T' by forward substitution. Phi_IC is never
+    /// held as a whole.
+    pub(crate) fn mass(
+        &self,
+        seen: Seen,
+        mesh: &Mesh,
+        material: &Material,
+        stiffness: &Mat<f64>,
+    ) -> Result<Mat<f64>, ReductionError> {
+        let mass = fem::assemble_mass(mesh, material, &self.dofs)?;
+        let n = stiffness.nrows();
+        let mut condensed = Mat::<f64>::zeros(n, n);
+        for start in (0..n).step_by(COLUMNS) {
+            let width = (n - start).min(COLUMNS);
+            let forces = stiffness.subcols(start, width).to_owned();
+            let modes = self.fields(seen, &unit_columns(n, start, width), &forces)?;
+            let mut block = self.adjoint(seen, &mass.multiply(modes.as_ref())?)?;
+            if matches!(seen, Seen::Loads(_)) {
+                block = dense::product(stiffness.as_ref(), block.as_ref());
+            }
+            condensed.as_mut().subcols_mut(start, width).copy_from(&block);
+        }
+        Ok(Mat::from_fn(n, n, |i, j| 0.5 * (condensed[(i, j)] + condensed[(j, i)])))
+    }
+}
+
+/// Matrix rows of the nodes' free freedoms, x, y, z of each node in turn.
+fn node_dofs(dofs: &DofMap, nodes: &[u32]) -> Vec<usize> {
+    nodes.iter().flat_map(|&n| (0..3).filter_map(move |axis| dofs.dof(n, axis))).collect()
+}
+
+/// Columns start .. start + width of the identity, n x width.
+pub(crate) fn unit_columns(n: usize, start: usize, width: usize) -> Mat<f64> {
+    Mat::from_fn(n, width, |i, j| f64::from(u8::from(i == start + j)))
+}
+
+/// P f, `free` x k; `position` places a mesh node among the free ones.
+fn spread(loads: &[Load], f: &Mat<f64>, free: usize, position: impl Fn(u32) -> Option<usize>) -> Mat<f64> {
+    let mut force = Mat::zeros(free, f.ncols());
+    for (i, load) in loads.iter().enumerate() {
+        for (at, weight) in load.iter().filter_map(|&(n, w)| Some((3 * position(n)?, w))) {
+            for j in 0..f.ncols() {
+                (0..3).for_each(|axis| force[(at + axis, j)] += weight * f[(3 * i + axis, j)]);
+            }
+        }
+    }
+    force
+}
+
+/// P' u for loads on nodes by their place among the free ones.
+fn means(loads: &[Vec<(usize, f64)>], field: &Mat<f64>) -> Mat<f64> {
+    Mat::from_fn(3 * loads.len(), field.ncols(), |i, j| {
+        loads[i / 3].iter().map(|&(at, w)| w * field[(3 * at + i % 3, j)]).sum()
+    })
+}
+
+/// P' K^-1 P for the loads P, three directions each, mm/N; `position` places a mesh node among the free ones.
+pub(crate) fn load_compliance(
+    factor: &BoundaryLastFactor,
+    loads: &[Load],
+    position: impl Fn(u32) -> Option<usize>,
+) -> Result<Mat<f64>, ReductionError> {
+    let placed: Vec<Vec<(usize, f64)>> =
+        loads.iter().map(|load| load.iter().filter_map(|&(n, w)| Some((position(n)?, w))).collect()).collect();
+    let n = 3 * loads.len();
+    let mut compliance = Mat::<f64>::zeros(n, n);
+    for start in (0..n).step_by(COLUMNS) {
+        let width = (n - start).min(COLUMNS);
+        let mut columns = spread(loads, &unit_columns(n, start, width), factor.n(), &position);
+        factor.solve(columns.as_mut())?;
+        compliance.as_mut().subcols_mut(start, width).copy_from(means(&placed, &columns));
+    }
+    Ok(Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)])))
+}
