@@ -39,6 +39,7 @@ pub struct Headline {
     pub worst_complementarity_residual: f64,
     pub worst_action_reaction_residual: f64,
     pub worst_window_edge_load: f64,
+    pub bulk_compliance_error: f64,
     pub iterations: usize,
 }
 
@@ -80,6 +81,7 @@ pub fn headline(scene: &Scene, history: &StaticHistory) -> Result<Headline, Stud
         worst_complementarity_residual: worst(&|p| p.certificate.complementarity_residual),
         worst_action_reaction_residual: worst(&|p| p.certificate.action_reaction_residual),
         worst_window_edge_load: worst(&|p| p.certificate.window_edge_load),
+        bulk_compliance_error: worst(&|p| p.certificate.bulk_compliance_error),
         iterations: positions.iter().map(|p| p.certificate.iterations).sum(),
     })
 }
