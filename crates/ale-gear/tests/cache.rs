@@ -47,6 +47,9 @@ impl Cached {
     }
 }
 
+/// What is done to the bytes of a file.
+type Damage = fn(&mut Vec<u8>);
+
 #[test]
 fn a_second_run_gives_the_same_to_the_bit() {
     // Fields and root stress need the factor, which the record does not have.
@@ -71,7 +74,7 @@ fn a_spoilt_file_is_told_of_and_replaced() {
     let cached = Cached::new("");
     cached.run("first");
     let sound: Vec<Vec<u8>> = cached.files().iter().map(|f| fs::read(f).unwrap()).collect();
-    let spoil: [(&str, fn(&mut Vec<u8>)); 5] = [
+    let spoil: [(&str, Damage); 5] = [
         ("checksum is wrong", |b| {
             let middle = b.len() / 2;
             b[middle] ^= 1;
