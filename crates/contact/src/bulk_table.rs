@@ -81,9 +81,9 @@ impl BulkCompliance<'_> {
     }
 }
 
-/// Normal and direction of the profile at a place of a flank.
+/// Normal and direction of the profile at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
 fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; 2] {
-    let normal = patch.surface().normal(at);
+    let normal = patch.surface().nominal_normal(at);
     let profile = patch.surface().profile_tangent(at);
     let along = profile - normal * normal.dot(&profile);
     [normal, along / along.norm().max(f64::MIN_POSITIVE)]

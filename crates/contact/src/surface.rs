@@ -29,6 +29,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
+    /// Unit normal of the nominal surface, without micro-geometry: smooth wherever that has kinks.
+    fn nominal_normal(&self, at: [f64; 2]) -> Vec3 {
+        self.normal(at)
+    }
     /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place, and any
     /// search that goes downhill finds it.
     fn is_single_arc(&self) -> bool {
@@ -99,6 +103,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn depth(&self, [u, z]: [f64; 2]) -> f64 {
         geometry::ModifiedFlank::depth(self, u, z).value
+    }
+
+    fn nominal_normal(&self, [u, z]: [f64; 2]) -> Vec3 {
+        self.nominal().normal(u, z)
     }
 
     fn is_single_arc(&self) -> bool {
