@@ -99,8 +99,8 @@ fn print(rows: &[Row]) {
 
 /// Exponents p of time ~ x^p, least squares of the logarithms.
 fn slopes<'a>(x: &str, rows: impl Iterator<Item = (f64, &'a Row)> + Clone) {
-    let times: [(&str, fn(&Row) -> Option<f64>); 3] =
-        [("sector", |r| Some(r.sector)), ("found", |r| Some(r.found)), ("general", |r| r.general)];
+    type Time = (&'static str, fn(&Row) -> Option<f64>);
+    let times: [Time; 3] = [("sector", |r| Some(r.sector)), ("found", |r| Some(r.found)), ("general", |r| r.general)];
     for (name, time) in times {
         let points: Vec<(f64, f64)> = rows.clone().filter_map(|(x, r)| Some((x.ln(), time(r)?.ln()))).collect();
         let n = points.len() as f64;

@@ -80,7 +80,8 @@ fn table(title: &str, rows: &[Row], x_name: &str, x: fn(&Row) -> f64) {
             r.full / r.position
         );
     }
-    let columns: [(&str, fn(&Row) -> f64); 3] =
+    type Column = (&'static str, fn(&Row) -> f64);
+    let columns: [Column; 3] =
         [("full", |r| r.full), ("reduction", |r| r.reduce), ("reduced position", |r| r.position)];
     for (name, y) in columns {
         let points: Vec<(f64, f64)> = rows.iter().map(|r| (x(r), y(r))).collect();

@@ -53,7 +53,8 @@ impl Coordinates {
                 } else {
                     continue;
                 }
-                let name = if axis == COORDINATES - 1 && gear == driven { "transmission error" } else { NAMES[gear][axis] };
+                let name =
+                    if axis == COORDINATES - 1 && gear == driven { "transmission error" } else { NAMES[gear][axis] };
                 columns.push((column, name));
             }
         }

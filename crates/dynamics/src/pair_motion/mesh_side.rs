@@ -1,14 +1,13 @@
 //! Contact of the flanks on one side of the teeth, in motion.
 
-use contact::{ContactError, Pose};
 use ale::ToothWindow;
+use contact::{ContactError, Pose};
 use geometry::GearPair;
 use nalgebra::{SMatrix, Translation3, UnitQuaternion, Vector3};
 
 use super::{COORDINATES, Displacement};
 use crate::{
-    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench,
-    equilibrium::frames, pose,
+    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames, pose,
 };
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
