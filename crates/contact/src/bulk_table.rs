@@ -20,16 +20,16 @@ pub struct BulkCompliance<'a> {
 /// ```text
 /// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
 /// ```
-/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal and along its profile; w interpolates between
+/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its generator; w interpolates between
 /// them, cubic along the profile and quadratic along the face, in cells that are the faces of the mesh where these form a grid: what
-/// shape functions make of D is then met almost exactly. The component of a force along the generator, which neither edges nor
-/// friction of parallel axes have, is left out. [`BulkTable::error`] says how far from A D A' that is.
+/// shape functions make of D is then met almost exactly. Normal forces need the first direction alone. [`BulkTable::error`] says how
+/// far from A D A' that is.
 #[derive(Debug, Clone)]
 pub struct BulkTable {
     lines: Vec<FlankGridLines>,
     /// First point of each patch; the last entry is the number of points.
     first: Vec<usize>,
-    /// T, mm/N, column by column: all points along the normal, then all along the profile.
+    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
     table: Vec<f64>,
     error: f64,
 }
@@ -37,18 +37,19 @@ pub struct BulkTable {
 /// Points and weights of one row in a table.
 #[derive(Debug, Clone, Copy)]
 pub struct TablePlace {
-    /// First entries along the normal, the rest along the profile.
-    points: [u32; 2 * CELL],
-    weights: [f64; 2 * CELL],
+    points: [u32; DIRECTIONS * CELL],
+    weights: [f64; DIRECTIONS * CELL],
     count: usize,
 }
 
 /// Points of a cell: four along the profile, three along the face.
 const CELL: usize = 12;
-/// Share of the force along the profile that counts as none.
-const NORMAL_ONLY: f64 = 1e-6;
-/// Points of a table at most, both directions: 128 MiB.
-const MOST_POINTS: usize = 4096;
+/// Normal, profile, generator.
+const DIRECTIONS: usize = 3;
+/// Share of the force along one of the others that counts as none.
+const NONE: f64 = 1e-6;
+/// Points of a table at most, all directions: 288 MiB.
+const MOST_POINTS: usize = 6144;
 /// Uniform grids to try, each twice as fine as the one before.
 const REFINEMENTS: usize = 3;
 /// Places of each patch at which a table is held against the matrices, either way.
@@ -71,22 +72,23 @@ impl BulkCompliance<'_> {
         });
     }
 
-    /// Supports of unit forces along normal and profile at a place of a patch.
-    fn supports(&self, patch: usize, at: [f64; 2]) -> Option<[Support; 2]> {
+    /// Supports of unit forces along the three directions at a place of a patch.
+    fn supports(&self, patch: usize, at: [f64; 2]) -> Option<[Support; DIRECTIONS]> {
         let flank = &self.patches[patch];
         let mut face: Option<FacePoint> = None;
-        let [n, t] = directions(flank, at);
-        let support = crate::closest_point::support_at(flank, at, n, &mut face)?;
-        Some([support, Support { direction: t, load: t, ..support }])
+        let along = directions(flank, at);
+        let support = crate::closest_point::support_at(flank, at, along[0], &mut face)?;
+        Some(along.map(|d| Support { direction: d, load: d, ..support }))
     }
 }
 
-/// Normal and direction of the profile at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
-fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; 2] {
+/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
+fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
     let normal = patch.surface().nominal_normal(at);
     let profile = patch.surface().profile_tangent(at);
     let along = profile - normal * normal.dot(&profile);
-    [normal, along / along.norm().max(f64::MIN_POSITIVE)]
+    let along = along / along.norm().max(f64::MIN_POSITIVE);
+    [normal, along, normal.cross(&along)]
 }
 
 impl BulkTable {
@@ -95,8 +97,9 @@ impl BulkTable {
     pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
         let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
         let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
-        let small =
-            |lines: &Vec<FlankGridLines>| 2 * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS;
+        let small = |lines: &Vec<FlankGridLines>| {
+            DIRECTIONS * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS
+        };
         let candidates = of_faces.into_iter().chain((0..REFINEMENTS).map(uniform));
         candidates.filter(small).map(|lines| Self::on(bulk, lines)).find(|table| table.error <= tolerance)
     }
@@ -105,23 +108,24 @@ impl BulkTable {
         let mut first = vec![0];
         lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
         let count = first.last().copied().unwrap_or(0);
-        let mut supports: Vec<Option<[Support; 2]>> = Vec::with_capacity(count);
+        let mut supports: Vec<Option<[Support; DIRECTIONS]>> = Vec::with_capacity(count);
         for (patch, grid) in lines.iter().enumerate() {
             supports.extend((0..grid.count()).map(|p| bulk.supports(patch, grid.point(p))));
         }
         let along = |p: usize| supports[p % count].as_ref().map(|s| &s[p / count]);
-        let mut table = vec![0.0; 4 * count * count];
+        let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
         let mut u = Vec::new();
-        for (q, column) in table.chunks_mut((2 * count).max(1)).enumerate() {
+        for (q, column) in table.chunks_mut((DIRECTIONS * count).max(1)).enumerate() {
             let Some(load) = along(q) else { continue };
             bulk.displacement(load, &mut u);
             for (p, entry) in column.iter_mut().enumerate().skip(q) {
                 *entry = along(p).map_or(0.0, |s| opening(s, &u));
             }
         }
-        for q in 0..2 * count {
-            for p in q + 1..2 * count {
-                table[p * 2 * count + q] = table[q * 2 * count + p];
+        let all = DIRECTIONS * count;
+        for q in 0..all {
+            for p in q + 1..all {
+                table[p * all + q] = table[q * all + p];
             }
         }
         let mut made = Self { lines, first, table, error: 0.0 };
@@ -162,9 +166,9 @@ impl BulkTable {
         self.error
     }
 
-    /// Number of points, both directions.
+    /// Number of points, all directions.
     pub fn points(&self) -> usize {
-        2 * self.first.last().copied().unwrap_or(0)
+        DIRECTIONS * self.first.last().copied().unwrap_or(0)
     }
 
     /// Size of the table, bytes.
@@ -181,14 +185,15 @@ impl BulkTable {
         direction: Option<&Vec3>,
     ) -> Option<TablePlace> {
         let (points, weights) = self.lines.get(patch)?.weights(at);
-        let [n, t] = direction.map_or([1.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
-        let count = if t.abs() > NORMAL_ONLY { 2 * CELL } else { CELL };
-        let mut place = TablePlace { points: [0; 2 * CELL], weights: [0.0; 2 * CELL], count };
-        let half = self.points() / 2;
-        for (k, (p, w)) in points.iter().zip(weights).enumerate() {
-            let point = self.first[patch] + p;
-            (place.points[k], place.weights[k]) = (point as u32, n * w);
-            (place.points[CELL + k], place.weights[CELL + k]) = ((half + point) as u32, t * w);
+        let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
+        let mut place = TablePlace { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
+        let all = self.points() / DIRECTIONS;
+        for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
+            for (p, w) in points.iter().zip(weights) {
+                place.points[place.count] = (k * all + self.first[patch] + p) as u32;
+                place.weights[place.count] = part * w;
+                place.count += 1;
+            }
         }
         Some(place)
     }
@@ -236,7 +241,7 @@ impl BulkTable {
 }
 
 impl TablePlace {
-    /// Number of points that it stands on: 12, and 12 more where it is loaded along the profile.
+    /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub fn points(&self) -> usize {
         self.count
     }
@@ -261,7 +266,7 @@ pub struct TableWork {
 impl TableWork {
     /// Memory for `rows` rows on a table.
     pub fn new(table: &BulkTable, rows: usize) -> Self {
-        let most = table.points().min(rows * 2 * CELL);
+        let most = table.points().min(rows * DIRECTIONS * CELL);
         Self {
             used: Vec::with_capacity(most),
             rank: Vec::with_capacity(table.points()),
