@@ -111,7 +111,7 @@ fn flat(wrench: &[dynamics::Wrench; 2]) -> [f64; 12] {
 }
 
 /// The tangent is the derivative of the forces: central differences along all twelve coordinates, forces and moments scaled by the base radius.
-/// What it leaves out (contact wandering over the flanks, directions that turn) is some thousandths.
+/// What it leaves out (contact wandering over the flanks, directions that turn) is a thousandth.
 #[test]
 fn tangent_is_derivative_of_forces() {
     for friction in [0.0, 0.06] {
@@ -135,7 +135,7 @@ fn tangent_is_derivative_of_forces() {
             }
         }
         println!("friction {friction}: tangent off by {worst:.1e} of its largest entry");
-        assert!(worst < 1e-2, "friction {friction}: {worst:e}");
+        assert!(worst < 3e-3, "friction {friction}: {worst:e}");
         let skew = (0..12)
             .flat_map(|i| (0..i).map(move |j| (i, j)))
             .map(|(i, j)| (tangent[i][j] - tangent[j][i]).abs() / scale(i) / scale(j) / largest)

@@ -20,7 +20,7 @@ pub struct MeshForce {
     /// ```text
     /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
     /// ```
-    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by some thousandths of its largest entries.
+    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a thousandth of its largest entries.
     /// Symmetric and negative semi-definite without friction.
     pub tangent: [[f64; 12]; 12],
     /// Normal force of each pair of the window, N, in order of running numbers.
