@@ -20,9 +20,10 @@ const MESHES: [[u32; 2]; 4] = [[2, 6], [4, 12], [8, 24], [16, 48]];
 /// Above as many nodes a flank, slices are reduced to grids of this many quadratic faces.
 const GRID: [usize; 2] = [8, 24];
 
+/// Fillet, tooth thickness and rim in four elements or more: they bend.
 fn case([profile, face]: [u32; 2]) -> Case {
-    let half = (profile / 2).max(2);
-    let counts = [profile, half, half, face, (profile / 4).max(2)];
+    let half = (profile / 2).max(4);
+    let counts = [profile, half, half, face, 4];
     quadratic(default_data(20.0), None, 150e3, counts, Extent::Periodic)
 }
 

@@ -28,7 +28,7 @@ pub(super) fn step<M: Mechanism>(
     let mut to = from.clone();
     to.time = end;
     to.q = &from.q + h * &from.v + 0.5 * h * h * &from.a;
-    let mut change = f64::INFINITY;
+    let (mut change, mut last) = (f64::INFINITY, f64::INFINITY);
     forces.tangents = true;
     for iteration in 0..newton::ITERATIONS {
         let moved = &to.q - &from.q;
@@ -41,7 +41,7 @@ pub(super) fn step<M: Mechanism>(
         let after = system.potential(middle, &to.q).map_err(fail(middle))?;
         let c = if length > 0.0 { -(after - before + forces.conservative.dot(&moved)) / length } else { 0.0 };
         to.v = 2.0 * &velocity - &from.v;
-        if change <= 1.0 {
+        if newton::settled(change, last) {
             to.a = (&to.v - &from.v) / h;
             to.averaged.copy_from(&to.a);
             to.next_step = h;
@@ -60,7 +60,7 @@ pub(super) fn step<M: Mechanism>(
             newton::solve(matrix, &rest).ok_or(MotionError::Singular { time: middle, which: "iteration" })?;
         step *= newton::damping(iteration);
         to.q -= &step;
-        change = newton::change(&step, &to.q, scale);
+        (last, change) = (change, newton::change(&step, &to.q, scale));
     }
     Err(MotionError::NotConverged { time: start, step: h, iterations: newton::ITERATIONS, change })
 }

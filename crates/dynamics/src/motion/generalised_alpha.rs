@@ -52,13 +52,13 @@ impl Coefficients {
         to.time = time;
         to.q = &from.q + h * &from.v + 0.5 * h * h * &b0;
         let mass_share = (1.0 - a_m) / ((1.0 - a_f) * beta * h * h);
-        let mut change = f64::INFINITY;
+        let (mut change, mut last) = (f64::INFINITY, f64::INFINITY);
         forces.tangents = true;
         for iteration in 0..newton::ITERATIONS {
             to.averaged = (&to.q - &from.q - h * &from.v) / (beta * h * h) - (0.5 - beta) / beta * &b0;
             to.v = &from.v + h * ((1.0 - gamma) * &b0 + gamma * &to.averaged);
             to.a = ((1.0 - a_m) * &to.averaged + a_m * &b0 - a_f * &from.a) / (1.0 - a_f);
-            if change <= 1.0 {
+            if newton::settled(change, last) {
                 let error = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h * (&to.a - &from.a);
                 to.next_step = h;
                 return Ok((to, error));
@@ -70,7 +70,7 @@ impl Coefficients {
             let mut step = newton::solve(matrix, &rest).ok_or(MotionError::Singular { time, which: "iteration" })?;
             step *= newton::damping(iteration);
             to.q -= &step;
-            change = newton::change(&step, &to.q, scale);
+            (last, change) = (change, newton::change(&step, &to.q, scale));
         }
         Err(MotionError::NotConverged { time: from.time, step: h, iterations: newton::ITERATIONS, change })
     }

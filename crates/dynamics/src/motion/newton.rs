@@ -19,6 +19,14 @@ pub(super) fn damping(iteration: usize) -> f64 {
     if iteration < PATIENCE { 1.0 } else { 0.5 }
 }
 
+/// Changes up to this many times round-off that do not fall any more are the noise of the forces themselves.
+const NOISE: f64 = 1e4;
+
+/// Whether the iteration is over: by the last change, or because changes are noise. Forces from a contact solver are good to some 1e-11.
+pub(super) fn settled(change: f64, before: f64) -> bool {
+    change <= 1.0 || (change <= NOISE && change > 0.5 * before)
+}
+
 /// Largest change of a coordinate over what is round-off for it; done at 1 or below.
 pub(super) fn change(step: &DVector<f64>, q: &DVector<f64>, scale: &DVector<f64>) -> f64 {
     let one = |i: usize| step[i].abs() / (TOLERANCE * scale[i]).max(8.0 * f64::EPSILON * q[i].abs());
