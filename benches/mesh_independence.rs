@@ -1,6 +1,7 @@
 //! Transmission error over mesh density: slices, pressed points with exact contact, pressed points with a penalty; see `benches/README.md`.
 //!
-//! `cargo bench -p dynamics --bench mesh_independence` takes the three coarser meshes for all methods and the finest for slices; `-- --quick` leaves the finest out.
+//! `cargo bench -p dynamics --bench mesh_independence` takes the three coarser meshes for all methods and the finest for slices; `-- --quick` leaves the finest
+//! out, `-- --points` the slices.
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
 #[path = "../tests/verification/support/mod.rs"]
@@ -14,7 +15,8 @@ use mesh::Extent;
 use reduction::{GearReducer, ReductionOptions};
 use support::{Case, default_data, quadratic, steel, summary};
 
-const POSITIONS: usize = 64;
+/// Positions of a mesh cycle for slices, and for points, which take long.
+const POSITIONS: [usize; 2] = [64, 16];
 /// Elements along the active profile and across the face.
 const MESHES: [[u32; 2]; 4] = [[2, 6], [4, 12], [8, 24], [16, 48]];
 /// Above as many nodes a flank, slices are reduced to grids of this many quadratic faces.
@@ -53,7 +55,12 @@ fn gears(case: &Case, options: &StaticOptions, on_grid: bool) -> [ElasticGear; 2
 }
 
 /// Mean and peak to peak of STE, um; seconds of reduction and run.
-fn run(mesh: [u32; 2], options: impl Fn(&Case) -> StaticOptions, on_grid: bool) -> ([f64; 2], [f64; 2]) {
+fn run(
+    mesh: [u32; 2],
+    positions: usize,
+    options: impl Fn(&Case) -> StaticOptions,
+    on_grid: bool,
+) -> ([f64; 2], [f64; 2]) {
     let case = case(mesh);
     let options = options(&case);
     let started = Instant::now();
@@ -61,7 +68,7 @@ fn run(mesh: [u32; 2], options: impl Fn(&Case) -> StaticOptions, on_grid: bool) 
     let reduced = started.elapsed().as_secs_f64();
     let started = Instant::now();
     let mut model = StaticModel::new(case.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"));
-    let history = model.run(POSITIONS, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    let history = model.run(positions, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
     let (mean, swing) = summary(history.positions.iter().map(|p| 1e3 * p.transmission_error));
     ([mean, swing], [reduced, started.elapsed().as_secs_f64()])
 }
@@ -74,13 +81,13 @@ fn order(values: &[f64]) -> String {
     if ratio > 0.0 { format!("{:.1}", ratio.log2()) } else { "none".into() }
 }
 
-fn table(name: &str, meshes: &[[u32; 2]], options: impl Fn(&Case) -> StaticOptions) {
+fn table(name: &str, meshes: &[[u32; 2]], positions: usize, options: impl Fn(&Case) -> StaticOptions) {
     println!(
-        "\n{name}\n| elements | mean STE, um | peak to peak, um | reduction, s | {POSITIONS} positions, s |\n|---|---|---|---|---|"
+        "\n{name}\n| elements | mean STE, um | peak to peak, um | reduction, s | {positions} positions, s |\n|---|---|---|---|---|"
     );
     let mut all: Vec<[f64; 2]> = Vec::new();
     for mesh in meshes {
-        let (ste, time) = run(*mesh, &options, mesh[0] >= 16);
+        let (ste, time) = run(*mesh, positions, &options, mesh[0] >= 16);
         println!("| {} x {} | {:.4} | {:.4} | {:.2} | {:.2} |", mesh[0], mesh[1], ste[0], ste[1], time[0], time[1]);
         all.push(ste);
     }
@@ -94,9 +101,12 @@ fn table(name: &str, meshes: &[[u32; 2]], options: impl Fn(&Case) -> StaticOptio
 
 fn main() {
     let quick = std::env::args().any(|a| a == "--quick");
-    table("slices", if quick { &MESHES[..3] } else { &MESHES }, Case::slice_options);
-    table("points, exact contact", &MESHES[..3], Case::options);
-    table("points, penalty 1e6 MPa/mm", &MESHES[..3], |case| StaticOptions {
+    let points_only = std::env::args().any(|a| a == "--points");
+    if !points_only {
+        table("slices", if quick { &MESHES[..3] } else { &MESHES }, POSITIONS[0], Case::slice_options);
+    }
+    table("points, exact contact", &MESHES[..3], POSITIONS[1], Case::options);
+    table("points, penalty 1e6 MPa/mm", &MESHES[..3], POSITIONS[1], |case| StaticOptions {
         law: Law::Penalty(1e6),
         ..case.options()
     });

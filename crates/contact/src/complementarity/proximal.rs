@@ -15,7 +15,7 @@ const LAST_COMPLIANCE: f64 = 1e-6;
 /// Residual of a proximal step relative to the one before from which on it creeps.
 const SLOW: f64 = 0.5;
 /// Proximal steps before giving up.
-const PROXIMAL_STEPS: usize = 1000;
+const PROXIMAL_STEPS: usize = 300;
 /// Violation of the penalty law that is still an answer.
 const PENALTY_TOLERANCE: f64 = 1e-9;
 
