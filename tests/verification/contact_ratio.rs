@@ -81,6 +81,12 @@ fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -
     assert!(drift < 1e-8, "{name}: cycles differ by {drift:e}");
     assert!(history.positions.iter().all(|p| p.certificate.torque_residual < 1e-8), "{name}: torque");
     assert!(step < steepest(mean, swing), "{name}: STE steps by {step} um, p-p {swing} um");
+    // Four times as many positions, smaller steps: STE has no jump, however steep it is.
+    let fine = model.run(4 * positions, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let finer: Vec<f64> = fine.positions.iter().map(|p| 1e3 * p.transmission_error).collect();
+    let fine_step = finer.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+    println!("   with four times the positions the largest step is {fine_step:.4} um");
+    assert!(fine_step < 0.6 * step, "{name}: steps of {step} um shrink to {fine_step} um only");
 }
 
 #[test]

@@ -32,7 +32,6 @@ fn options(case: &Case, contact: StaticOptions, speed: f64, zeta: f64) -> Motion
         drive: Drive::Speed(Speed::Constant(speed)),
         load: Torque::Constant(TORQUE),
         damping: MeshDamping::Ratio(zeta),
-        coast_flanks: false,
         start_cycles: 0.0,
     }
 }

@@ -92,14 +92,11 @@ pub(crate) fn solve_and_keep(
 ///
 /// # Errors
 /// Those of [`solve`].
-pub(crate) fn time_again(scene: &Scene, model: StaticModel) -> Result<f64, CommandError> {
-    let (pair, options) = (model.pair().clone(), model.options().clone());
+pub(crate) fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, CommandError> {
     let complain = |e: StaticError| complaint(scene, &e);
-    // The window stands where the last run left it; a new model begins at the start again.
-    let mut again = StaticModel::new(pair, model.into_gears(), options).map_err(complain)?;
     let start = std::time::Instant::now();
     let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
-    again.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ()).map_err(complain)?;
+    model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ()).map_err(complain)?;
     Ok(start.elapsed().as_secs_f64())
 }
 

@@ -147,7 +147,7 @@ impl StaticModel {
         walk.advance(&fixed, station, seen)
     }
 
-    /// Runs `cycles` mesh cycles of `positions` stations each; `seen` is told of each result in order (for progress), the model standing
+    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told of each result in order (for progress), the model standing
     /// where that result was found.
     ///
     /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are the same for any number of
@@ -164,6 +164,9 @@ impl StaticModel {
         let stations: Vec<Station> = (0..positions * cycles)
             .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
             .collect();
+        let start = first_window(&self.pair, &self.options)?;
+        let (fixed, walk) = self.split();
+        walk.begin(&fixed, start)?;
         let mut history = StaticHistory::default();
         let mut left = &stations[..];
         while !left.is_empty() {

@@ -165,6 +165,21 @@ impl Walk {
         position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
     }
 
+    /// Back to a window to begin from, nothing remembered: a run does not depend on those before it.
+    ///
+    /// # Errors
+    /// [`StaticError`] when the window cannot be entered.
+    pub fn begin(&mut self, fixed: &Fixed<'_>, window: ToothWindow) -> Result<(), StaticError> {
+        if self.window != window {
+            self.enter(fixed, window)?;
+        }
+        if let Some(mesh) = &mut self.mesh {
+            mesh.forget();
+        }
+        (self.last, self.changes) = (None, 0);
+        Ok(())
+    }
+
     fn enter(&mut self, fixed: &Fixed<'_>, window: ToothWindow) -> Result<(), StaticError> {
         if self.set.move_to(fixed.gears, &window)? {
             if let Some(mesh) = &mut self.mesh {

@@ -59,14 +59,6 @@ impl Speed {
             }
         }
     }
-
-    /// Fastest speed, rad/s.
-    pub fn largest(&self) -> f64 {
-        match *self {
-            Self::Constant(omega) => omega.abs(),
-            Self::Ramp { from, to, .. } => from.abs().max(to.abs()),
-        }
-    }
 }
 
 /// Torque over time, N mm.
@@ -111,15 +103,6 @@ impl Torque {
                     (None, None) => 0.0,
                 }
             }
-        }
-    }
-
-    /// Largest amount it can have, N mm.
-    pub fn largest(&self) -> f64 {
-        match self {
-            Self::Constant(value) => value.abs(),
-            Self::Harmonic { mean, amplitude, .. } => mean.abs() + amplitude.abs(),
-            Self::Table { values, .. } => values.iter().fold(0.0, |m, v| m.max(v.abs())),
         }
     }
 }

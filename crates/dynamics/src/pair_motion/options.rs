@@ -45,8 +45,6 @@ pub struct MotionOptions {
     pub load: Torque,
     /// Mesh damping.
     pub damping: MeshDamping,
-    /// Let the coast flanks touch when the teeth have separated (backlash); needs both flanks in the reduction.
-    pub coast_flanks: bool,
     /// Mesh cycles at t = 0: where the run begins.
     pub start_cycles: f64,
 }
