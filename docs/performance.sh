@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Fills docs/performance.md: runs the work-precision charts of both pairs. Up to a quarter of an hour each on two quiet cores.
+# Fills docs/performance.md: runs the work-precision charts of both pairs (up to a quarter of an hour each on two quiet cores), then
+# the tables of the benches. `--benches` alone leaves the charts as they are; other arguments go to `ale-gear chart`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [ "${1:-}" != --benches ]; then
 cargo build --release -p ale-gear
 program=${CARGO_TARGET_DIR:-target}/release/ale-gear
 mkdir -p docs/performance
@@ -13,3 +15,18 @@ for scene in default:helical-30x30-beta20 iso_tr_6336_30:iso-tr-6336-30; do
     done
     cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
 done
+fi
+
+# Puts what a bench prints between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/performance.md.
+put() {
+    local name=$1 text
+    shift
+    text=$("$@" 2>/dev/null)
+    TEXT=$text perl -0pi -e "s/(<!-- $name -->\n).*?(<!-- end $name -->)/\$1\n\$ENV{TEXT}\n\n\$2/s" docs/performance.md
+}
+# 24 GiB are what a gear may take, whatever the machine has.
+ulimit -v "${MEMORY_KIB:-25165824}"
+put offline cargo bench -p reduction --bench offline -- --largest
+put ways cargo bench -p reduction --bench reduction
+put contact cargo bench -p dynamics --bench contact_solve
+put motion cargo bench -p dynamics --bench dynamic_step
