@@ -10,7 +10,6 @@ mod error;
 mod flank_pattern;
 mod harmonics;
 mod power_law;
-mod spectrum;
 mod work_precision;
 
 pub use cycle::{CycleStatistics, cycle_statistics};
@@ -18,5 +17,4 @@ pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};
 pub use harmonics::{Harmonic, mesh_harmonics};
 pub use power_law::{PowerLaw, power_law};
-pub use spectrum::{Taper, amplitude_spectrum};
 pub use work_precision::{Answer, AnswerError, Work};
