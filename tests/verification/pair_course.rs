@@ -10,8 +10,8 @@ use dynamics::{
     Driver, ElasticGear, StaticOptions,
     motion::Scheme,
     pair_motion::{
-        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, SHOTS,
-        Speed, SteadyBy, SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
+        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody,
+        SHOTS, Speed, SteadyBy, SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
     },
 };
 use nalgebra::Matrix6;
@@ -131,7 +131,10 @@ fn shooting_finds_what_waiting_finds() {
         let shot = shoot(&mut shot_at, 1, 1e-8, SHOTS).unwrap();
         let [a, b] = [rows(&mut waited, 1), rows(&mut shot_at, 1)];
         let off = worst(&a, &b) / bench.ste[0];
-        println!("{scheme:?}: {cycles} cycles waited, {} shot ({} steps); multiplier {:.4}; off by {off:.1e}", shot.periods, shot.iterations, shot.multiplier);
+        println!(
+            "{scheme:?}: {cycles} cycles waited, {} shot ({} steps); multiplier {:.4}; off by {off:.1e}",
+            shot.periods, shot.iterations, shot.multiplier
+        );
         assert!(shot.residual <= 1e-8 && shot.multiplier < 1.0, "{shot:?}");
         assert!((shot.periods as u64) < cycles, "{} periods, waiting took {cycles}", shot.periods);
         assert!(off < 1e-5, "{scheme:?}: the answers differ by {off:e} of the transmission error");
@@ -203,7 +206,9 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     let mut motion = bench.motion(system, Scheme::Energy);
     let (mut last, mut turned) = ([0.0; 2], 0.0);
     for _ in 0..6 {
-        motion.run_cycle(Some(&mut |now, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles))).unwrap_or_else(|e| panic!("{e}"));
+        motion
+            .run_cycle(Some(&mut |now, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles)))
+            .unwrap_or_else(|e| panic!("{e}"));
     }
     let expected = start + excess / inertia * last[0];
     let cycles = (start * last[0] + 0.5 * excess / inertia * last[0].powi(2)) / bench.case.pair.pinion.pitch_angle();

@@ -54,7 +54,8 @@ fn a_motion_settles_and_its_certificate_holds() {
     let history = scratch.read("o/history.csv");
     let torque = column(&history, "wheel_moment_z_nmm");
     let mean = torque.iter().sum::<f64>() / torque.len() as f64;
-    assert!((mean.abs() - 150e3).abs() < 1e-6 * 150e3, "{mean} N mm");
+    // Sixteen rows a cycle at the ends of steps: their mean is not quite that over time.
+    assert!((mean.abs() - 150e3).abs() < 5e-4 * 150e3, "{mean} N mm");
     assert_eq!(torque.len(), 32);
     // Whole cycles of a periodic motion: the spectrum's lines at mesh orders are the harmonics of the headline.
     let spectrum = scratch.read("o/spectrum.csv");
@@ -101,14 +102,14 @@ fn a_run_that_was_cut_goes_on_byte_for_byte() {
 /// Any number of threads, the same bytes.
 #[test]
 fn a_sweep_does_not_see_the_number_of_threads() {
-    let sweep = "run = \"sweep\"\nperiodic_tolerance = 1e-4\n\
-                 sweep = { from_rpm = 3000, to_rpm = 5000, speeds = 3, ways = [\"up\", \"down\", \"apart\"] }\n";
+    let sweep = "run = \"sweep\"\nperiodic_tolerance = 1e-3\n\
+                 sweep = { from_rpm = 3000, to_rpm = 5000, speeds = 2, ways = [\"up\", \"down\", \"apart\"] }\n";
     let scratch = Scratch::new().file("a.toml", scene(1, sweep));
     let summary = run(&scratch, "one", &["-j", "1"]);
     run(&scratch, "two", &["-j", "2"]);
     let csv = scratch.read("one/resonance.csv");
     assert!(csv == scratch.read("two/resonance.csv"), "{csv}\n{}", scratch.read("two/resonance.csv"));
-    assert_eq!(csv.lines().count(), 10);
+    assert_eq!(csv.lines().count(), 7);
     assert_eq!(summary["headline"]["largest"].as_array().unwrap().len(), 3);
 }
 
@@ -116,7 +117,7 @@ fn a_sweep_does_not_see_the_number_of_threads() {
 #[test]
 fn contact_passes_to_the_coast_flanks_when_the_torque_reverses() {
     let motion = "run = \"span\"\nmesh_damping_ratio = 0.3\n[load]\ntable_s_nm = [[0.002, 150.0], [0.004, -100.0]]\n";
-    let scratch = Scratch::new().file("a.toml", scene(10, motion).replace("resonance = 0", "resonance = 12"));
+    let scratch = Scratch::new().file("a.toml", scene(7, motion).replace("resonance = 0", "resonance = 12"));
     let summary = run(&scratch, "o", &[]);
     let certificate = &summary["headline"]["certificate"];
     assert!(certificate["least_contact_force_n"].as_f64().unwrap() >= 0.0, "a flank pulls: {certificate}");
@@ -162,54 +163,54 @@ fn wrong_motions_are_told_with_line_and_hint() {
         assert_eq!((run.code, scratch.names().len()), (Some(2), 1));
     };
     let of = |motion: &str| scene(2, motion);
-    says(of("spectral_radus = 0.8\n"), "25: unknown key `spectral_radus`\nhint: did you mean `spectral_radius`?");
+    says(of("spectral_radus = 0.8\n"), "24: unknown key `spectral_radus`\nhint: did you mean `spectral_radius`?");
     says(
         of("spectral_radius = 0.8\n"),
-        "25: `spectral_radius` belongs to `method = \"generalised-alpha\"`\nhint: leave it out: this method has none",
+        "24: `spectral_radius` belongs to `method = \"generalised-alpha\"`\nhint: leave it out: this method has none",
     );
     says(
         of("run = \"sweep\"\n"),
-        "25: [motion.sweep] has no `from_rpm`, no `to_rpm`\nhint: from where to where has no default",
+        "24: [motion.sweep] has no `from_rpm`, no `to_rpm`\nhint: from where to where has no default",
     );
     says(
         of("duration_s = 0.1\n"),
-        "25: `duration_s` belongs to `run = \"span\"`\nhint: leave it out, or say so in `run`",
+        "24: `duration_s` belongs to `run = \"span\"`\nhint: leave it out, or say so in `run`",
     );
     says(
         of("mesh_damping_ratio = 0.1\nmesh_damping_ns_per_mm2 = 1.0\n"),
-        "26: `mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped\nhint: keep one of them",
+        "25: `mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped\nhint: keep one of them",
     );
     says(
         of("[wheel.body]\nfree = [\"x\", \"turn\"]\n"),
-        "26: `free` lists \"turn\", which is no choice\nhint: leave it out: the driven gear's turn is always free, the \
+        "25: `free` lists \"turn\", which is no choice\nhint: leave it out: the driven gear's turn is always free, the \
          driver's when a torque drives it",
     );
     says(
         of("[wheel.body]\nfree = [\"x\"]\n"),
-        "25: \"x\" of the wheel is free, but no bearing holds it\nhint: give `stiffness_x_n_per_mm` in [wheel.bearing]",
+        "24: \"x\" of the wheel is free, but no bearing holds it\nhint: give `stiffness_x_n_per_mm` in [wheel.bearing]",
     );
     says(
         of("[wheel.bearing]\nstiffness_y_n_per_mm = 1e5\n"),
-        "26: `stiffness_y_n_per_mm` holds a coordinate of the wheel that is not free\nhint: add \"y\" to `free` in \
+        "25: `stiffness_y_n_per_mm` holds a coordinate of the wheel that is not free\nhint: add \"y\" to `free` in \
          [wheel.body], or leave it out",
     );
     says(
         of("[drive]\ntorque_nm = 100.0\n"),
-        "26: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
+        "25: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
          leave the torque out",
     );
     says(
         of("[load]\ntable_s_nm = [[0.1, 3.0], [0.1, 4.0]]\n"),
-        "26: `table_s_nm` goes back to 0.1 s\nhint: rows of time (s, ascending) and torque (N m): table_s_nm = [[0.0, \
+        "25: `table_s_nm` goes back to 0.1 s\nhint: rows of time (s, ascending) and torque (N m): table_s_nm = [[0.0, \
          150.0], [0.1, -20.0]]",
     );
     says(
         of("").replace("kind = \"dynamic\"", "kind = \"static\""),
-        "22: [motion] belongs to an analysis in time\nhint: leave it out, or say `kind = \"dynamic\"` in [analysis]",
+        "21: [motion] belongs to an analysis in time\nhint: leave it out, or say `kind = \"dynamic\"` in [analysis]",
     );
     says(
         of("[output]\nroot_stress = true\n"),
-        "26: `root_stress = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
+        "25: `root_stress = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
          hint: leave it out, or use `kind = \"static\"` for them",
     );
 }

@@ -23,7 +23,7 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use dynamics::pair_motion::Drive;
-use study::{StudyError, Taper};
+use study::{StudyError, Window};
 
 use course::{Finished, Places};
 use prepare::{Inputs, Prepared, prepare};
@@ -211,9 +211,9 @@ fn write_motion(
             results.write("waterfall.csv", spectra::write_waterfall(&waterfall, per_cycle).as_bytes())?;
         }
         None => {
-            let taper = taper(words, &headline);
+            let window = window(words, &headline);
             let of =
-                spectra::spectrum(&rows, headline.cycles, headline.mesh_frequency_hz, taper).map_err(no_statistics)?;
+                spectra::spectrum(&rows, headline.cycles, headline.mesh_frequency_hz, window).map_err(no_statistics)?;
             results.write("spectrum.csv", spectra::write_spectrum(&of).as_bytes())?;
             spectrum = Some(of);
         }
@@ -237,11 +237,11 @@ fn write_motion(
 }
 
 /// None for a record that repeats itself, where every line stands in one bin.
-fn taper(words: &MotionScene, headline: &MotionHeadline) -> Taper {
+fn window(words: &MotionScene, headline: &MotionHeadline) -> Window {
     let tolerance = words.periodic_tolerance.unwrap_or(1e-6);
     let whole = headline.certificate.period_cycles.is_some_and(|p| headline.cycles % p as u64 == 0);
     let periodic = headline.certificate.periodicity.is_some_and(|r| r <= 10.0 * tolerance);
-    if periodic && whole { Taper::None } else { Taper::Hann }
+    if periodic && whole { Window::Rectangular } else { Window::Hann }
 }
 
 /// What the certificate says that a user should hear.

@@ -1,6 +1,6 @@
 //! `spectrum.csv` of a motion at constant speed, `waterfall.csv` of one whose speed changes.
 
-use study::{StudyError, Taper, amplitude_spectrum};
+use study::{StudyError, Window, spectrum as record_spectrum};
 
 use super::table::Columns;
 use crate::output::push_row;
@@ -20,7 +20,7 @@ pub(crate) struct Spectrum {
     pub amplitudes: Vec<Vec<f64>>,
 }
 
-/// Spectra of the whole record of `cycles` mesh cycles.
+/// Spectra of the whole record of `cycles` mesh cycles; line 0 is the mean.
 ///
 /// # Errors
 /// [`StudyError`] for a record that holds what is no number.
@@ -28,13 +28,22 @@ pub(crate) fn spectrum(
     rows: &Columns,
     cycles: u64,
     mesh_frequency_hz: f64,
-    taper: Taper,
+    window: Window,
 ) -> Result<Spectrum, StudyError> {
     let amplitudes: Vec<Vec<f64>> =
-        SPECTRA.iter().map(|n| amplitude_spectrum(rows.get(n), taper)).collect::<Result<_, _>>()?;
+        SPECTRA.iter().map(|n| amplitudes(rows.get(n), window)).collect::<Result<_, _>>()?;
     let orders: Vec<f64> = (0..amplitudes[0].len()).map(|k| k as f64 / cycles as f64).collect();
     let frequencies = orders.iter().map(|o| o * mesh_frequency_hz).collect();
     Ok(Spectrum { orders, frequencies, amplitudes })
+}
+
+/// Amplitudes at 0 (the mean), 1, 2, ... periods a record.
+fn amplitudes(samples: &[f64], window: Window) -> Result<Vec<f64>, StudyError> {
+    let mut of = record_spectrum(samples, samples.len() as f64, window)?;
+    if let Some(first) = of.amplitudes.first_mut() {
+        *first = of.mean.abs();
+    }
+    Ok(of.amplitudes)
 }
 
 /// `spectrum.csv`.
@@ -60,7 +69,7 @@ pub(crate) struct WaterfallLine {
     pub amplitudes: Vec<f64>,
 }
 
-/// Order spectra of the DTE over stretches of `stretch` mesh cycles, each half over the one before, with a taper of Hann.
+/// Order spectra of the DTE over stretches of `stretch` mesh cycles, each half over the one before, with a window of Hann.
 ///
 /// Rows are evenly spaced in time within each mesh cycle and equally many in all of them, so orders stay in their bins as the speed changes.
 ///
@@ -83,7 +92,7 @@ pub(crate) fn waterfall(
             time: 0.5 * (time[from] + time[from + length - 1]),
             speed_rpm,
             mesh_frequency_hz: speed_rpm * f64::from(pinion_teeth) / 60.0,
-            amplitudes: amplitude_spectrum(&dte[part], Taper::Hann)?,
+            amplitudes: amplitudes(&dte[part], Window::Hann)?,
         });
         from += (length / 2 / per_cycle).max(1) * per_cycle;
     }

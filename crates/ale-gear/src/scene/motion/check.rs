@@ -292,7 +292,7 @@ pub(in crate::scene) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) 
         run,
         method,
         spectral_radius: alpha.then(|| s.number("spectral_radius", &raw.spectral_radius, 0.9, 0.0, 1.0)).transpose()?,
-        steps_per_mesh_cycle: s.whole("steps_per_mesh_cycle", &raw.steps_per_mesh_cycle, 64, 4, 100_000)?,
+        steps_per_mesh_cycle: s.whole("steps_per_mesh_cycle", &raw.steps_per_mesh_cycle, 64, 8, 100_000)?,
         steps_per_resonance: s.whole("steps_per_resonance", &raw.steps_per_resonance, 16, 0, 100_000)?,
         error_tolerance: optional(s, "error_tolerance", &raw.error_tolerance, 1e-12, 0.1)?,
         stop_at_events: raw.stop_at_events.as_ref().is_some_and(|on| *on.get_ref()),
