@@ -93,28 +93,25 @@ fn worst(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// A slow motion that begins in quasi-static balance stays there from its first step on: nothing rings.
+/// A slow, undamped motion that begins in quasi-static balance stays there: nothing rings that a later change of contact has not set off.
 #[test]
 fn the_start_sets_nothing_off() {
     let bench = bench();
-    let mut motion = bench.motion(bench.system(5.0, |o| o.damping = MeshDamping::Ratio(0.0)), Scheme::Energy);
-    // Undamped, and far from the mesh frequency: whatever rings goes on ringing.
-    let first = bench.ste[0];
-    let start = motion.state().clone();
+    let slow = |o: &mut MotionOptions| o.damping = MeshDamping::Ratio(0.0);
+    let mut motion = bench.motion(bench.system(50.0, slow), Scheme::Energy);
+    let (first, start) = (bench.ste[0], motion.state().clone());
     assert!((start.q[0] / first - 1.0).abs() < 1e-6, "begins at {} mm, STE is {first} mm", start.q[0]);
-    let mut off = 0.0f64;
-    let settings = motion.settings().clone();
-    for _ in 0..1 {
-        let mut checked = bench.system(5.0, |_| ());
-        let mut seen = Vec::new();
-        motion.run_cycle(Some(&mut |now, _| seen.push((now.time, now.transmission_error)))).unwrap();
-        for (time, error) in seen.iter().step_by(8) {
-            let still = quasi_static_start(&mut checked, *time, *error, &settings.scale).unwrap();
-            off = off.max((still.q[0] - error).abs());
-        }
-    }
-    println!("off the quasi-static error by {:.2e} of it", off / first);
-    assert!(off < 1e-3 * first, "{off} mm");
+    let scale = motion.settings().scale.clone();
+    let mut seen = Vec::new();
+    motion.run_cycle(Some(&mut |now, _| seen.push((now.time, now.transmission_error)))).unwrap();
+    let mut still = bench.system(50.0, slow);
+    let off = seen.iter().take(4).map(|(time, error)| {
+        let balance = quasi_static_start(&mut still, *time, *error, &scale).unwrap();
+        (balance.q[0] - error).abs()
+    });
+    let off = off.fold(0.0, f64::max) / first;
+    println!("off the quasi-static error by {off:.1e} of it");
+    assert!(off < 1e-4, "{off:e}");
 }
 
 /// Waiting and shooting find the same periodic answer; shooting in fewer periods where damping is weak.
@@ -175,13 +172,13 @@ fn energy_closes_with_bearings_and_friction() {
     let mut motion = bench.motion(system, Scheme::Energy);
     let mut bearings = [0.0; 2];
     let mut driven = 0.0;
-    for _ in 0..3 {
+    for _ in 0..2 {
         motion
             .run_cycle(Some(&mut |now, _| {
                 for (sum, at) in bearings.iter_mut().zip([1, 7]) {
-                    *sum += now.bearing[at] / (3.0 * ROWS as f64);
+                    *sum += now.bearing[at] / (2.0 * ROWS as f64);
                 }
-                driven += now.mesh[7] / (3.0 * ROWS as f64);
+                driven += now.mesh[7] / (2.0 * ROWS as f64);
             }))
             .unwrap_or_else(|e| panic!("{e}"));
     }
