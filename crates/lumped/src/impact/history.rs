@@ -1,0 +1,163 @@
+//! A motion of rigid gears as rows of results.
+
+use dynamics::{
+    motion::{Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl},
+    pair_motion::Displacement,
+};
+use nalgebra::{DVector, Dyn, LU};
+use serde::{Deserialize, Serialize};
+
+use super::ImpactMechanism;
+use crate::LumpedError;
+
+/// One instant of a pair of rigid gears.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ImpactRow {
+    /// Time, s.
+    pub time: f64,
+    /// Phase of the mesh cycle, 0 .. 1.
+    pub mesh_phase: f64,
+    /// Speed of pinion and wheel about +z, rad/s.
+    pub speed: [f64; 2],
+    /// Dynamic transmission error, um; positive when the driven gear lags.
+    pub transmission_error_um: f64,
+    /// Sum of normal forces on driving and coast flanks, N.
+    pub normal_force: [f64; 2],
+    /// Smallest normal force of a slice in contact, N: never below zero.
+    pub least_slice_force: f64,
+    /// Deepest overlap of driving and coast flanks, mm; below zero where they are apart.
+    pub overlap: [f64; 2],
+    /// Length of driving slices in contact, mm.
+    pub contact_line_length: f64,
+    /// Pairs in contact on the driving side, by the running number of the pinion's tooth, and their normal forces, N.
+    pub pair_forces: Vec<(i64, f64)>,
+    /// Forces x, y, z (N) and moments about x, y, z (N mm) of the flanks on pinion and wheel, about their centres.
+    pub wrench: [[f64; 6]; 2],
+    /// The part of them that is friction.
+    pub friction: [[f64; 6]; 2],
+}
+
+/// What is to be run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImpactRun {
+    /// Method.
+    pub scheme: Scheme,
+    /// Steps.
+    pub control: StepControl,
+    /// Time before rows are kept, s.
+    pub settle: f64,
+    /// Time over which rows are kept, s.
+    pub duration: f64,
+    /// Every how many steps a row is kept; 0 counts as 1.
+    pub every: u64,
+}
+
+/// Newton steps to the equilibrium before giving up.
+const STEPS: usize = 200;
+/// Last step that is none, of the scale.
+const SETTLED: f64 = 1e-12;
+
+fn halves(d: &Displacement) -> [[f64; 6]; 2] {
+    [0, 1].map(|g| std::array::from_fn(|i| d[6 * g + i]))
+}
+
+impl ImpactMechanism {
+    /// The instant at a state.
+    pub fn row(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ImpactRow {
+        let (d, rate) = (self.coordinates().displacement(q), self.coordinates().displacement(v));
+        let [driving, coast] = self.flank_forces(t, &d, &rate);
+        let moment = self.moment(t);
+        let cycles = self.cycles(t);
+        let least = match (driving.length > 0.0, coast.length > 0.0) {
+            (true, true) => driving.least_force.min(coast.least_force),
+            (true, false) => driving.least_force,
+            (false, _) => coast.least_force,
+        };
+        ImpactRow {
+            time: t,
+            mesh_phase: cycles - cycles.floor(),
+            speed: [0, 1].map(|g| moment.velocity[g] + rate[6 * g + 5]),
+            transmission_error_um: 1e3 * q[self.coordinates().lag()],
+            normal_force: [driving.normal_force, coast.normal_force],
+            least_slice_force: least,
+            overlap: [driving.overlap, coast.overlap],
+            contact_line_length: driving.length,
+            wrench: halves(&(driving.wrench() + coast.wrench())),
+            friction: halves(&(driving.friction + coast.friction)),
+            pair_forces: driving.pairs,
+        }
+    }
+
+    /// What counts as a large motion of each coordinate, for an integrator: a tenth of a millimetre, or the turn that moves a flank by as much.
+    pub fn scale(&self) -> DVector<f64> {
+        let radius = self.pair().pinion.base_radius().max(self.pair().wheel.base_radius());
+        let names = self.coordinates().names();
+        DVector::from_fn(names.len(), |i, _| {
+            if names[i].contains("tilt") || names[i].contains("turn") { 0.1 / radius } else { 0.1 }
+        })
+    }
+
+    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt.
+    ///
+    /// Newton's method from flanks that overlap by the scale, steps no longer than that.
+    ///
+    /// # Errors
+    /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on: a driver turned by a torque, for one, is given its drive's speed and no equilibrium
+    /// of its own, and its turn is held.
+    pub fn static_state(&mut self) -> Result<DVector<f64>, LumpedError> {
+        let scale = self.scale();
+        let n = scale.len();
+        let mut q = DVector::zeros(n);
+        q[self.coordinates().lag()] = scale[self.coordinates().lag()];
+        let held: Vec<usize> = (0..n).filter(|&i| self.coordinates().names()[i].ends_with("turn")).collect();
+        let still = DVector::zeros(n);
+        let mut forces = Forces::zeros(n);
+        for _ in 0..STEPS {
+            forces.clear();
+            let Ok(()) = self.forces(0.0, &q, &still, &mut forces);
+            let mut rest = &forces.conservative + &forces.other;
+            let mut k = forces.stiffness.clone();
+            for &i in &held {
+                k.row_mut(i).fill(0.0);
+                k[(i, i)] = 1.0;
+                rest[i] = 0.0;
+            }
+            let step = LU::<f64, Dyn, Dyn>::new(k).solve(&rest).filter(|x| x.iter().all(|x| x.is_finite()));
+            let mut step = step.ok_or(LumpedError::NoEquilibrium)?;
+            let longest = step.component_div(&scale).amax();
+            if longest > 1.0 {
+                step /= longest;
+            }
+            q += &step;
+            if longest < SETTLED {
+                return Ok(q);
+            }
+        }
+        Err(LumpedError::NoEquilibrium)
+    }
+
+    /// Runs from the static equilibrium and returns rows, the state at the end and the energy.
+    ///
+    /// # Errors
+    /// Those of [`ImpactMechanism::static_state`], and [`LumpedError::Motion`].
+    pub fn history(&mut self, run: &ImpactRun) -> Result<(Vec<ImpactRow>, State, Ledger), LumpedError> {
+        let q = self.static_state()?;
+        let n = q.len();
+        let mut state = State::new(0.0, q, DVector::zeros(n));
+        let mut integrator = Integrator::new(run.scheme, run.control, self.scale());
+        let (mut rows, mut count) = (Vec::new(), 0);
+        let every = run.every.max(1);
+        let failed = |e: MotionError<std::convert::Infallible>| LumpedError::Motion(e.to_string());
+        integrator.advance(self, &mut state, run.settle, |_, _| ()).map_err(failed)?;
+        let end = run.settle + run.duration;
+        integrator
+            .advance(self, &mut state, end, |system, seen| {
+                count += 1;
+                if count % every == 0 {
+                    rows.push(system.row(seen.state.time, &seen.state.q, &seen.state.v));
+                }
+            })
+            .map_err(failed)?;
+        Ok((rows, state, integrator.ledger().copied().unwrap_or_default()))
+    }
+}

@@ -1,0 +1,344 @@
+//! Equations of motion of rigid gears on their true flanks.
+
+use std::convert::Infallible;
+
+use contact::Pose;
+use dynamics::{
+    StaticOptions, Station,
+    motion::{Forces, Mechanism},
+    pair_motion::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed},
+};
+use geometry::GearPair;
+use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3};
+
+use super::{
+    ImpactOptions,
+    flanks::{FlankSide, Overlap, Standing},
+};
+use crate::LumpedError;
+
+type Square = SMatrix<f64, 12, 12>;
+
+/// A pair of rigid gears as an integrator sees it.
+///
+/// ```text
+/// M q'' = T' [sum of slices (F J_n + R) - K_b d - C_b d' - G d' + loads - M a_nominal],   d = T q
+/// F = w max(0, K delta^e + C s delta'),  delta = -g(d),  delta' = -J_n . (d' + v_nominal),   w = l_slice / (b / cos b_b)
+/// R = -mu(|v_t|) F J_t' v_t / |v_t|,   v_t sliding velocity of the flanks in their tangent plane
+/// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
+/// ```
+/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly, since its place is one of least gap or an edge.
+#[derive(Debug)]
+pub struct ImpactMechanism {
+    pair: GearPair,
+    options: ImpactOptions,
+    /// Driver and sense, as the coordinates of pair motion want them.
+    pub(super) running: StaticOptions,
+    coordinates: Coordinates,
+    mass: DMatrix<f64>,
+    nominal: Nominal,
+    sides: [FlankSide; 2],
+    bearing: [Square; 2],
+    share: f64,
+}
+
+/// What the flanks of one side do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankForce {
+    /// Normal forces on the twelve coordinates of both gears, elastic part: N, N mm.
+    pub elastic: Displacement,
+    /// The same of damping.
+    pub damping: Displacement,
+    /// Friction.
+    pub friction: Displacement,
+    /// Sum of normal forces, N.
+    pub normal_force: f64,
+    /// Smallest normal force of a slice that overlaps, N; 0 without any.
+    pub least_force: f64,
+    /// Deepest overlap, mm; below zero where flanks are apart.
+    pub overlap: f64,
+    /// Length of the slices that overlap, mm.
+    pub length: f64,
+    /// Normal force of each pair that overlaps, by the running number of its pinion tooth.
+    pub pairs: Vec<(i64, f64)>,
+    /// Potential, mJ.
+    pub potential: f64,
+    /// dV/dt by the nominal motion.
+    parametric: f64,
+    stiffness: Square,
+    rates: Square,
+}
+
+impl FlankForce {
+    fn none() -> Self {
+        let zero = Displacement::zeros();
+        Self {
+            elastic: zero,
+            damping: zero,
+            friction: zero,
+            normal_force: 0.0,
+            least_force: 0.0,
+            overlap: f64::NEG_INFINITY,
+            length: 0.0,
+            pairs: Vec::new(),
+            potential: 0.0,
+            parametric: 0.0,
+            stiffness: Square::zeros(),
+            rates: Square::zeros(),
+        }
+    }
+
+    /// All forces of the flanks on both gears.
+    pub fn wrench(&self) -> Displacement {
+        self.elastic + self.damping + self.friction
+    }
+}
+
+impl ImpactMechanism {
+    /// A pair with its line of centres along +x.
+    ///
+    /// # Errors
+    /// [`LumpedError`] when an option has no meaning.
+    pub fn new(pair: GearPair, options: ImpactOptions) -> Result<Self, LumpedError> {
+        options.check()?;
+        let running =
+            StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
+        let (speed, by_torque) = match &options.drive {
+            Drive::Speed(speed) => (*speed, false),
+            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
+        };
+        let mut free = options.free;
+        free[1 - running.driven()][COORDINATES - 1] = by_torque;
+        let coordinates = Coordinates::new(&pair, &running, free);
+        let mass = coordinates.mass(&options.bodies);
+        let nominal = Nominal { speed, start: options.start_cycles };
+        let sides = [running.side(), running.side().opposite()].map(|s| FlankSide::new(&pair, s, options.slices));
+        let mut bearing = [Square::zeros(); 2];
+        for (g, b) in options.bearings.iter().enumerate() {
+            let at = COORDINATES * g;
+            bearing[0].fixed_view_mut::<6, 6>(at, at).copy_from(&b.stiffness);
+            bearing[1].fixed_view_mut::<6, 6>(at, at).copy_from(&b.damping);
+        }
+        let share = 1.0 / options.slices as f64;
+        Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
+    }
+
+    /// The pair.
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    /// Free coordinates.
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// Nominal motion at a time, s.
+    pub fn moment(&self, t: f64) -> Moment {
+        self.nominal.at(&self.pair, &self.running, t)
+    }
+
+    /// Mesh cycles at a time, s.
+    pub fn cycles(&self, t: f64) -> f64 {
+        self.nominal.cycles(&self.pair, &self.running, t)
+    }
+
+    fn standing(&self, t: f64) -> Standing {
+        let station = Station::at_cycles(self.cycles(t));
+        let sign = self.running.sense.sign();
+        let side = self.running.side();
+        let pinion_angle =
+            self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
+        Standing {
+            pinion_angle,
+            shift: -sign * station.cycle,
+            wheel_angle: self.pair.wheel_angle(side, pinion_angle),
+        }
+    }
+
+    fn poses(&self, at: &Standing, d: &Displacement) -> [Pose; 2] {
+        let angles = at.frame_angles(&self.pair);
+        [0, 1].map(|g| {
+            let i = COORDINATES * g;
+            let place = Vector3::new([0.0, self.pair.centre_distance()][g] + d[i], d[i + 1], d[i + 2]);
+            let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[i + 3], d[i + 4], 0.0));
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[g] + d[i + 5]);
+            Pose::from_parts(Translation3::from(place), tilt * turn)
+        })
+    }
+
+    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal motion.
+    pub fn flank_forces(&mut self, t: f64, d: &Displacement, rate: &Displacement) -> [FlankForce; 2] {
+        let at = self.standing(t);
+        let poses = self.poses(&at, d);
+        let moment = self.moment(t);
+        let mut nominal = Displacement::zeros();
+        (nominal[COORDINATES - 1], nominal[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
+        let velocity = rate + nominal;
+        let Self { pair, options, sides, share, .. } = self;
+        let whole = pair.face_width() / pair.base_helix_angle().cos();
+        sides.each_mut().map(|side| {
+            let mut sum = FlankForce::none();
+            side.search(pair, &at, &poses, |slice| {
+                add_slice(&mut sum, &slice, &poses, options, *share, &velocity, &nominal);
+                if slice.place.gap < 0.0 {
+                    sum.length += *share * whole;
+                }
+            });
+            sum
+        })
+    }
+
+    /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
+    fn external(&self, t: f64, moment: &Moment) -> Displacement {
+        let driven = self.running.driven();
+        let turn = |g: usize| COORDINATES * (g + 1) - 1;
+        let mut f = Displacement::zeros();
+        f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
+        if let Drive::Torque { torque, .. } = &self.options.drive {
+            f[turn(1 - driven)] += self.sense_of_driver() * torque.at(t);
+        }
+        for (g, body) in self.options.bodies.iter().enumerate() {
+            f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
+        }
+        f
+    }
+
+    /// +1 where the driver turns counter-clockwise.
+    fn sense_of_driver(&self) -> f64 {
+        let of_pinion = self.running.sense.sign() as f64;
+        if self.running.driven() == 1 { of_pinion } else { -of_pinion }
+    }
+
+    fn gyroscopic(&self, moment: &Moment) -> Square {
+        let mut g = Square::zeros();
+        for (i, body) in self.options.bodies.iter().enumerate() {
+            let at = COORDINATES * i + 3;
+            g.fixed_view_mut::<3, 3>(at, at).copy_from(&body.gyroscopic(moment.velocity[i]));
+        }
+        g
+    }
+}
+
+/// Adds what one slice does.
+fn add_slice(
+    sum: &mut FlankForce,
+    slice: &Overlap,
+    poses: &[Pose; 2],
+    options: &ImpactOptions,
+    share: f64,
+    velocity: &Displacement,
+    nominal: &Displacement,
+) {
+    let place = &slice.place;
+    sum.overlap = sum.overlap.max(-place.gap);
+    if place.gap >= 0.0 {
+        return;
+    }
+    let row = |direction: &Vector3<f64>| {
+        let mut j = Displacement::zeros();
+        for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let moment = (place.position - poses[g].translation.vector).cross(direction);
+            for i in 0..3 {
+                j[COORDINATES * g + i] = sign * direction[i];
+                j[COORDINATES * g + 3 + i] = sign * moment[i];
+            }
+        }
+        j
+    };
+    let normal = row(&place.normal);
+    let force = options.law.at(-place.gap, -normal.dot(velocity));
+    let total = share * force.total();
+    sum.elastic += share * force.elastic * normal;
+    sum.damping += share * force.damping * normal;
+    sum.potential += share * force.potential;
+    sum.parametric -= share * force.elastic * normal.dot(nominal);
+    sum.least_force = if sum.normal_force == 0.0 { total } else { sum.least_force.min(total) };
+    sum.normal_force += total;
+    match sum.pairs.last_mut() {
+        Some((tooth, f)) if *tooth == slice.tooth => *f += total,
+        _ => sum.pairs.push((slice.tooth, total)),
+    }
+    // -dF/dd and -dF/dd' along the normal: F grows as the gap falls.
+    let (by_gap, by_rate) = (share * force.by_overlap, share * force.by_rate);
+    sum.stiffness.ger(by_gap, &normal, &normal, 1.0);
+    sum.rates.ger(by_rate, &normal, &normal, 1.0);
+    let Some(friction) = &options.friction else { return };
+    // Sliding velocity of body 1 on body 2: what is left of the relative velocity without its normal part.
+    let along: [Displacement; 3] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| row(&axis));
+    let relative = Vector3::from(along.map(|j| j.dot(velocity)));
+    let sliding = relative - place.normal * place.normal.dot(&relative);
+    let speed = sliding.norm();
+    let [mu, slope] = friction.at(speed);
+    // At rest mu/v has the limit dmu/dv.
+    let over_speed = if speed > 0.0 { mu / speed } else { slope };
+    let direction = if speed > 0.0 { sliding / speed } else { Vector3::zeros() };
+    let pull = row(&direction);
+    sum.friction -= total * over_speed * row(&sliding);
+    // Friction follows the normal force, and the sliding velocity within the tangent plane.
+    sum.stiffness.ger(-mu * by_gap, &pull, &normal, 1.0);
+    sum.rates.ger(-mu * by_rate, &pull, &normal, 1.0);
+    let mut plane = Square::zeros();
+    along.iter().for_each(|j| plane.ger(1.0, j, j, 1.0));
+    plane.ger(-1.0, &normal, &normal, 1.0);
+    plane.ger(-1.0, &pull, &pull, 1.0);
+    sum.rates += total * over_speed * plane;
+    sum.rates.ger(total * slope, &pull, &pull, 1.0);
+}
+
+impl Mechanism for ImpactMechanism {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
+        let moment = self.moment(t);
+        let [driving, coast] = self.flank_forces(t, &d, &rate);
+        let external = self.external(t, &moment);
+        let gyroscopic = self.gyroscopic(&moment);
+        let lossy = driving.damping + driving.friction + coast.damping + coast.friction - self.bearing[1] * rate;
+        out.supplied = external.dot(&rate);
+        // Power against the deviations; what friction takes of the nominal motion the drive replaces.
+        out.dissipated = -lossy.dot(&rate);
+        out.parametric = driving.parametric + coast.parametric;
+        let conservative = driving.elastic + coast.elastic - self.bearing[0] * d;
+        self.coordinates.add_force(&conservative, &mut out.conservative);
+        self.coordinates.add_force(&(external + lossy - gyroscopic * rate), &mut out.other);
+        if out.tangents {
+            let stiffness = driving.stiffness + coast.stiffness + self.bearing[0];
+            let rates = driving.rates + coast.rates + self.bearing[1] + gyroscopic;
+            self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
+            self.coordinates.add_matrix(&rates, 1.0, &mut out.damping);
+        }
+        Ok(())
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
+        let d = self.coordinates.displacement(q);
+        let flanks: f64 = self.flank_forces(t, &d, &Displacement::zeros()).iter().map(|f| f.potential).sum();
+        Ok(flanks + 0.5 * d.dot(&(self.bearing[0] * d)))
+    }
+
+    fn events(&self) -> usize {
+        2
+    }
+
+    /// Deepest overlap of the driving and of the coast flanks, mm: positive in contact.
+    fn event_values(
+        &mut self,
+        t: f64,
+        q: &DVector<f64>,
+        _: &DVector<f64>,
+        out: &mut [f64],
+    ) -> Result<(), Infallible> {
+        let d = self.coordinates.displacement(q);
+        for (force, value) in self.flank_forces(t, &d, &Displacement::zeros()).iter().zip(out) {
+            // Teeth so far apart that no slice faces another are a whole module away.
+            *value = force.overlap.max(-self.pair.pinion.data().normal_module);
+        }
+        Ok(())
+    }
+}
