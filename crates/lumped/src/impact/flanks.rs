@@ -17,9 +17,9 @@ pub(super) struct FlankSide {
     hints: Vec<SliceHint>,
 }
 
-/// A slice whose flanks overlap.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Overlap {
+/// Where the flanks of one slice are nearest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slice {
     /// Running number of the pinion tooth.
     pub tooth: i64,
     pub place: NearestPlace,
@@ -61,10 +61,21 @@ impl FlankSide {
     }
 
     /// Calls `found` for every slice near the path of contact, by tooth and height, the gears' own frames at `poses`.
-    pub fn search(&mut self, pair: &GearPair, at: &Standing, poses: &[Pose; 2], mut found: impl FnMut(Overlap)) {
+    pub fn search(&mut self, pair: &GearPair, at: &Standing, poses: &[Pose; 2], found: impl FnMut(Slice)) {
+        self.search_within(BEYOND, pair, at, poses, found);
+    }
+
+    fn search_within(
+        &mut self,
+        beyond: f64,
+        pair: &GearPair,
+        at: &Standing,
+        poses: &[Pose; 2],
+        mut found: impl FnMut(Slice),
+    ) {
         let [start, end] = pair.path_of_contact();
         let pitch = pair.transverse_base_pitch();
-        let (low, high) = (start - BEYOND * pitch, end + BEYOND * pitch);
+        let (low, high) = (start - beyond * pitch, end + beyond * pitch);
         let reach = 0.5 * pair.face_width() * pair.base_helix_angle().tan().abs();
         let s = self.side.sign();
         // xi(tooth) = xi_0 + s tooth p_bt at mid-face.
@@ -86,8 +97,50 @@ impl FlankSide {
                     continue;
                 }
                 if let Some(place) = flanks.nearest(z, &mut hints[own * stations.len() + i]) {
-                    found(Overlap { tooth: tooth + at.shift, place });
+                    found(Slice { tooth: tooth + at.shift, place });
                 }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use contact::Vec3;
+    use geometry::{Gear, GearData};
+    use nalgebra::{Translation3, UnitQuaternion};
+
+    use super::*;
+
+    /// Flanks that overlap by a fiftieth of the module, a heavy load, touch early at their tips; no slice in contact lies beyond where the search looks, at any phase.
+    #[test]
+    fn no_contact_is_missed_beyond_the_path() {
+        let data = GearData { thickness_allowance: 0.0, ..GearData::default() };
+        let wheel = GearData { helix_angle: -data.helix_angle, teeth: 41, ..data.clone() };
+        let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+        for side in [Side::Left, Side::Right] {
+            let mut flanks = FlankSide::new(&pair, side, 15);
+            for phase in 0..20 {
+                let pinion_angle =
+                    pair.middle_angle(side) + pair.pinion.pitch_angle() * (f64::from(phase) / 20.0 - 0.5);
+                let wheel_angle = pair.wheel_angle(side, pinion_angle);
+                let at = Standing { pinion_angle, shift: 7, wheel_angle };
+                let overlap = 0.02 * pair.pinion.data().normal_module;
+                let lag = side.sign() * overlap / pair.wheel.base_radius();
+                let angles = at.frame_angles(&pair);
+                let about = |angle: f64| UnitQuaternion::from_axis_angle(&Vec3::z_axis(), angle);
+                let poses = [
+                    Pose::from_parts(Translation3::identity(), about(angles[0])),
+                    Pose::from_parts(Translation3::new(pair.centre_distance(), 0.0, 0.0), about(angles[1] + lag)),
+                ];
+                let [some, more] = [BEYOND, 2.0 * BEYOND].map(|beyond| {
+                    let mut all = Vec::new();
+                    flanks.search_within(beyond, &pair, &at, &poses, |s| all.push(s));
+                    all.retain(|s| s.place.gap < 0.0);
+                    all.iter().map(|s| (s.tooth, (1e6 * s.place.gap).round())).collect::<Vec<_>>()
+                });
+                assert!(!some.is_empty(), "{side:?}, phase {phase}: nothing touches");
+                assert_eq!(some, more, "{side:?}, phase {phase}");
             }
         }
     }

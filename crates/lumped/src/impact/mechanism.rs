@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3}
 
 use super::{
     ImpactOptions,
-    flanks::{FlankSide, Overlap, Standing},
+    flanks::{FlankSide, Slice, Standing},
 };
 use crate::LumpedError;
 
@@ -27,13 +27,14 @@ type Square = SMatrix<f64, 12, 12>;
 /// R = -mu(|v_t|) F J_t' v_t / |v_t|,   v_t sliding velocity of the flanks in their tangent plane
 /// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
 /// ```
-/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly, since its place is one of least gap or an edge.
+/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where its place is one of least gap or on the pinion's tip edge, since
+/// slices stand on the pinion; at the wheel's edge, which then slides along, to a ten-thousandth of the largest force.
 #[derive(Debug)]
 pub struct ImpactMechanism {
     pair: GearPair,
     options: ImpactOptions,
     /// Driver and sense, as the coordinates of pair motion want them.
-    pub(super) running: StaticOptions,
+    running: StaticOptions,
     coordinates: Coordinates,
     mass: DMatrix<f64>,
     nominal: Nominal,
@@ -223,7 +224,7 @@ impl ImpactMechanism {
 /// Adds what one slice does.
 fn add_slice(
     sum: &mut FlankForce,
-    slice: &Overlap,
+    slice: &Slice,
     poses: &[Pose; 2],
     options: &ImpactOptions,
     share: f64,

@@ -3,7 +3,7 @@
 use ale::Sense;
 use dynamics::{
     Driver,
-    pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Torque},
+    pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque},
 };
 use serde::{Deserialize, Serialize};
 
@@ -56,10 +56,13 @@ impl ImpactOptions {
             all.copied().try_for_each(|x| finite("entry of a bearing's matrices", x))?;
         }
         match &self.drive {
-            Drive::Speed(speed) => finite("speed, rad/s", speed.at(0.0) + speed.angle(1.0) + speed.acceleration(0.0))?,
-            Drive::Torque { start, torque } => finite("speed or torque at the start", start + torque.at(0.0))?,
+            Drive::Speed(speed) => check_speed(speed)?,
+            Drive::Torque { start, torque } => {
+                finite("speed at the start, rad/s", *start)?;
+                check_torque("driving torque, N mm", torque)?;
+            }
         }
-        finite("load torque, N mm", self.load.at(0.0))?;
+        check_torque("load torque, N mm", &self.load)?;
         self.law.check()?;
         self.friction.iter().try_for_each(StickSlip::check)?;
         finite("mesh cycles at the start", self.start_cycles)?;
@@ -72,5 +75,35 @@ impl ImpactOptions {
             method: "the search for contact",
             allowed: "1 to 1000",
         })
+    }
+}
+
+fn check_speed(speed: &Speed) -> Result<(), LumpedError> {
+    match *speed {
+        Speed::Constant(omega) => finite("speed, rad/s", omega),
+        Speed::Ramp { from, to, start, duration } => {
+            [from, to].into_iter().try_for_each(|omega| finite("speed, rad/s", omega))?;
+            finite("begin of the ramp, s", start)?;
+            positive("duration of the ramp, s", duration)
+        }
+    }
+}
+
+fn check_torque(quantity: &'static str, torque: &Torque) -> Result<(), LumpedError> {
+    match torque {
+        Torque::Constant(value) => finite(quantity, *value),
+        Torque::Harmonic { mean, amplitude, frequency_hz, phase } => {
+            [mean, amplitude, frequency_hz, phase].into_iter().try_for_each(|x| finite(quantity, *x))
+        }
+        Torque::Table { times, values } => {
+            if times.is_empty() {
+                return Err(LumpedError::Empty { quantity });
+            }
+            if times.len() != values.len() {
+                return Err(LumpedError::Lengths { quantity, found: values.len(), wanted: times.len() });
+            }
+            times.iter().chain(values).try_for_each(|x| finite(quantity, *x))?;
+            times.windows(2).try_for_each(|t| positive("time between entries of a torque's table, s", t[1] - t[0]))
+        }
     }
 }
