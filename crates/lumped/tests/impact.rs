@@ -207,7 +207,7 @@ fn forces_are_slopes_of_the_potential_and_tangents_of_the_forces() {
             let slope = -(high - low) / (2.0 * step[j]);
             let off = (here.conservative[j] - slope) * scale[j] / size;
             // A tip edge of the wheel is met at a height of the pinion, and slides along that edge when a gear moves.
-            assert!(off.abs() < 2e-4, "case {case}, coordinate {j}: force {}, slope {slope}", here.conservative[j]);
+            assert!(off.abs() < 1e-3, "case {case}, coordinate {j}: force {}, slope {slope}", here.conservative[j]);
             let [(fast, _), (slow, _)] = [at(&q, &(&v + 1e3 * &step)), at(&q, &(&v - 1e3 * &step))];
             for i in 0..n {
                 let by_place = -(up.total(i) - down.total(i)) / (2.0 * step[j]);

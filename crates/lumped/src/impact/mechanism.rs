@@ -28,7 +28,7 @@ type Square = SMatrix<f64, 12, 12>;
 /// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
 /// ```
 /// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where its place is one of least gap or on the pinion's tip edge, since
-/// slices stand on the pinion; at the wheel's edge, which then slides along, to a ten-thousandth of the largest force.
+/// slices stand on the pinion; at the wheel's edge, which then slides along, to a thousandth of the largest force.
 #[derive(Debug)]
 pub struct ImpactMechanism {
     pair: GearPair,
