@@ -123,8 +123,8 @@ pub enum LumpedError {
     #[error("no static equilibrium: something is free to move, or contact does not settle")]
     NoEquilibrium,
     /// The integrator stopped.
-    #[error("{0}")]
-    Motion(String),
+    #[error(transparent)]
+    Motion(#[from] dynamics::motion::MotionError<std::convert::Infallible>),
 }
 
 impl LumpedError {
@@ -145,7 +145,7 @@ impl LumpedError {
             Self::Free { .. } => "give the shaft two supports and a thrust bearing, or keep the coordinate".into(),
             Self::NotBalanced { .. } => "torques times speed ratios must add up to zero, or one shaft must be held in turning".into(),
             Self::NoEquilibrium => "is every shaft held in x, y, z and against tilting?".into(),
-            Self::Motion(_) => "take smaller steps".into(),
+            Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),
         })
     }

@@ -25,6 +25,7 @@ mod mesh_cycle;
 pub mod modes;
 mod pair;
 mod plane_of_action;
+mod recording;
 pub mod shaft18;
 mod statics;
 
@@ -37,4 +38,5 @@ pub use history::{HistoryRow, LumpedHistory, LumpedModel, RunPlan, run, starting
 pub use mesh_cycle::MeshCycle;
 pub use pair::{LumpedPair, Operation};
 pub use plane_of_action::{LineMeans, PlaneOfAction};
+pub use recording::{Recorded, Recording};
 pub use statics::equilibrium;

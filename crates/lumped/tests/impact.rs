@@ -10,7 +10,8 @@ use ale::Sense;
 use dynamics::motion::{Forces, Mechanism, Scheme, StepControl};
 use dynamics::pair_motion::{Drive, Speed, Torque};
 use dynamics::Driver;
-use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, ImpactRun, contact_stiffness};
+use lumped::{Recorded, Recording};
+use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness};
 use nalgebra::{DVector, Matrix6, SVector};
 
 mod mill;
@@ -21,8 +22,8 @@ fn normal_force() -> f64 {
     mill::LOAD / (pair.pinion.base_radius() * pair.base_helix_angle().cos())
 }
 
-fn run(h: f64, settle: f64, duration: f64) -> ImpactRun {
-    ImpactRun { scheme: Scheme::GeneralisedAlpha { rho: 0.8 }, control: StepControl::Fixed(h), settle, duration, every: 1 }
+fn run(h: f64, settle: f64, duration: f64) -> Recording {
+    Recording { scheme: Scheme::GeneralisedAlpha { rho: 0.8 }, control: StepControl::Fixed(h), settle, duration, every: 1 }
 }
 
 fn model(change: impl FnOnce(&mut ImpactOptions)) -> ImpactMechanism {
@@ -129,7 +130,7 @@ fn seed_001_shortened() {
         o.slices = 13;
     });
     let h = 360.0 / (41.0 * 6000.0 * 16.0);
-    let (rows, _, _) = model.history(&run(h, 0.0, 0.45)).unwrap();
+    let rows = model.history(&run(h, 0.0, 0.45)).unwrap().rows;
     judge(&rows, h, 0.2);
 }
 
@@ -137,7 +138,7 @@ fn seed_001_shortened() {
 #[test]
 #[ignore = "half a minute: run once, figures in docs/validation.md"]
 fn seed_001_whole() {
-    let (rows, _, _) = model(|o| o.slices = 33).history(&run(1e-4, 0.0, 2.0)).unwrap();
+    let rows = model(|o| o.slices = 33).history(&run(1e-4, 0.0, 2.0)).unwrap().rows;
     assert_eq!(rows.len(), 20_000);
     judge_ramp(&rows, 0.3);
     judge(&rows, 1e-4, 0.4);
@@ -146,7 +147,7 @@ fn seed_001_whole() {
 /// Ramp of the seed, 7 slices.
 #[test]
 fn start_is_without_a_jolt() {
-    let (rows, _, _) = model(|o| o.slices = 7).history(&run(2e-4, 0.0, 0.3)).unwrap();
+    let rows = model(|o| o.slices = 7).history(&run(2e-4, 0.0, 0.3)).unwrap().rows;
     judge_ramp(&rows, 0.3);
 }
 
@@ -162,7 +163,7 @@ fn friction_raises_the_mean_force() {
             }
         });
         let cycle = 1.0 / (41.0 * 6000.0 / 360.0);
-        let (rows, _, _) = model.history(&run(cycle / 16.0, 100.0 * cycle, 20.0 * cycle)).unwrap();
+        let rows = model.history(&run(cycle / 16.0, 100.0 * cycle, 20.0 * cycle)).unwrap().rows;
         rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / rows.len() as f64 / normal_force()
     };
     let [without, with] = [false, true].map(mean);
@@ -254,7 +255,7 @@ fn turns_and_mirrors_change_nothing() {
             o.drive = Drive::Speed(Speed::Constant(mill::SPEED));
             change(o);
         });
-        model.history(&run(1e-4, 0.0, 0.01)).unwrap().0
+        model.history(&run(1e-4, 0.0, 0.01)).unwrap().rows
     };
     let given = rows(&|o| o.start_cycles = 0.25);
     let later = rows(&|o| o.start_cycles = 0.25 + 41.0 * 30.0 * 1e4);
@@ -283,8 +284,8 @@ fn torque_reversal_strikes_the_coast_flanks() {
     });
     let schemes = [(Scheme::Energy, 1e-4, 1e-8), (Scheme::GeneralisedAlpha { rho: 1.0 }, 5e-5, 2e-2)];
     for (scheme, h, tolerance) in schemes {
-        let run = ImpactRun { scheme, control: StepControl::Fixed(h), settle: 0.0, duration: 0.1, every: 1 };
-        let (rows, _, ledger) = model.history(&run).unwrap();
+        let run = Recording { scheme, control: StepControl::Fixed(h), settle: 0.0, duration: 0.1, every: 1 };
+        let Recorded { rows, ledger, .. } = model.history(&run).unwrap();
         let last = &rows[rows.len() - 1];
         let open = ledger.relative_residual();
         let struck = rows.iter().map(|r| r.normal_force[1]).fold(0.0, f64::max);
@@ -303,7 +304,7 @@ fn twelve_coordinates_run() {
         free(o);
         o.slices = 7;
     });
-    let (rows, state, _) = model.history(&run(1e-4, 0.0, 0.03)).unwrap();
+    let Recorded { rows, state, .. } = model.history(&run(1e-4, 0.0, 0.03)).unwrap();
     let mean = rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / rows.len() as f64;
     println!("mean {mean:.0} N; axial displacement {:.3} mm", state.q[2]);
     assert!((mean / normal_force() - 1.0).abs() < 0.05 && rows.iter().all(|r| r.normal_force[0] > 0.0), "{mean}");

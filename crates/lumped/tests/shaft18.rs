@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use dynamics::motion::{Integrator, Mechanism, Scheme, State, StepControl};
 use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
-use lumped::LumpedError;
+use lumped::{LumpedError, Recording};
 use lumped::shaft18::{
-    Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftRun, ShaftSystem, Station, Support,
+    Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
@@ -345,14 +345,14 @@ fn three_shafts_make_a_train() {
         println!("train, mode {mode}: {:.1} Hz, {:+.2} %", lumped[mode] / TAU, 100.0 * off);
         assert!(off.abs() < 0.08, "mode {mode}: {} and {} rad/s", lumped[mode], continuum[mode]);
     }
-    let run = ShaftRun {
+    let run = Recording {
         scheme: Scheme::RungeKutta4,
         control: StepControl::Fixed(TAU / (200.0 * 30.0) / 200.0),
         settle: 0.0,
         duration: 0.01,
         every: 1,
     };
-    assert!(model.history(1, &run).unwrap().0.iter().all(|r| r.normal_force.is_finite() && r.normal_force > 0.0));
+    assert!(model.history(1, &run).unwrap().rows.iter().all(|r| r.normal_force.is_finite() && r.normal_force > 0.0));
 }
 
 /// Runge-Kutta 4, Dormand-Prince with error control and generalised-alpha tell the same story; energy closes.
@@ -400,14 +400,14 @@ fn reversed(system: &ShaftSystem) -> ShaftSystem {
 /// Both hands and both senses of rotation mirrored: the same compression, forces mirrored.
 #[test]
 fn mirrored_systems_answer_mirrored() {
-    let run = ShaftRun {
+    let run = Recording {
         scheme: Scheme::RungeKutta4,
         control: StepControl::Fixed(5e-6),
         settle: 0.0,
         duration: 4e-3,
         every: 50,
     };
-    let rows = |system: &ShaftSystem| ShaftMechanism::new(system).unwrap().history(0, &run).unwrap().0;
+    let rows = |system: &ShaftSystem| ShaftMechanism::new(system).unwrap().history(0, &run).unwrap().rows;
     let mut system = gearbox(300.0, 0.01);
     system.gravity = [0.0; 3];
     let given = rows(&system);
@@ -442,15 +442,14 @@ fn slow_running_is_static() {
     system.meshes[0].damping_ratio = 0.3;
     let mut model = ShaftMechanism::new(&system).unwrap();
     let period = TAU / (0.5 * 30.0);
-    let run = ShaftRun {
+    let run = Recording {
         scheme: Scheme::GeneralisedAlpha { rho: 0.5 },
         control: StepControl::Fixed(period / 400.0),
         settle: 0.25 * period,
         duration: period,
         every: 20,
     };
-    let (rows, _) = model.history(0, &run).unwrap();
-    for row in rows {
+    for row in model.history(0, &run).unwrap().rows {
         let q = model.static_state(row.time).unwrap();
         let expected = model.row(0, row.time, &q, &DVector::zeros(q.len())).unwrap().compression;
         assert!((row.compression / expected - 1.0).abs() < 1e-3, "{} s: {}, not {expected}", row.time, row.compression);

@@ -1,14 +1,11 @@
 //! A motion of rigid gears as rows of results.
 
-use dynamics::{
-    motion::{Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl},
-    pair_motion::Displacement,
-};
-use nalgebra::{DVector, Dyn, LU};
+use dynamics::{motion::State, pair_motion::Displacement};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ImpactMechanism;
-use crate::LumpedError;
+use crate::{LumpedError, Recorded, Recording, equilibrium, recording::record};
 
 /// One instant of a pair of rigid gears.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,26 +33,6 @@ pub struct ImpactRow {
     /// The part of them that is friction.
     pub friction: [[f64; 6]; 2],
 }
-
-/// What is to be run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImpactRun {
-    /// Method.
-    pub scheme: Scheme,
-    /// Steps.
-    pub control: StepControl,
-    /// Time before rows are kept, s.
-    pub settle: f64,
-    /// Time over which rows are kept, s.
-    pub duration: f64,
-    /// Every how many steps a row is kept; 0 counts as 1.
-    pub every: u64,
-}
-
-/// Newton steps to the equilibrium before giving up.
-const STEPS: usize = 200;
-/// Last step that is none, of the scale.
-const SETTLED: f64 = 1e-12;
 
 fn halves(d: &Displacement) -> [[f64; 6]; 2] {
     [0, 1].map(|g| std::array::from_fn(|i| d[6 * g + i]))
@@ -97,67 +74,28 @@ impl ImpactMechanism {
         })
     }
 
-    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt.
-    ///
-    /// Newton's method from flanks that overlap by the scale, steps no longer than that.
+    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt. A driver that a torque turns is held.
     ///
     /// # Errors
-    /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on: a driver turned by a torque, for one, is given its drive's speed and no equilibrium
-    /// of its own, and its turn is held.
+    /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on.
     pub fn static_state(&mut self) -> Result<DVector<f64>, LumpedError> {
-        let scale = self.scale();
-        let n = scale.len();
-        let mut q = DVector::zeros(n);
-        q[self.coordinates().lag()] = scale[self.coordinates().lag()];
-        let held: Vec<usize> = (0..n).filter(|&i| self.coordinates().names()[i].ends_with("turn")).collect();
-        let still = DVector::zeros(n);
-        let mut forces = Forces::zeros(n);
-        for _ in 0..STEPS {
-            forces.clear();
-            let Ok(()) = self.forces(0.0, &q, &still, &mut forces);
-            let mut rest = &forces.conservative + &forces.other;
-            let mut k = forces.stiffness.clone();
-            for &i in &held {
-                k.row_mut(i).fill(0.0);
-                k[(i, i)] = 1.0;
-                rest[i] = 0.0;
-            }
-            let step = LU::<f64, Dyn, Dyn>::new(k).solve(&rest).filter(|x| x.iter().all(|x| x.is_finite()));
-            let mut step = step.ok_or(LumpedError::NoEquilibrium)?;
-            let longest = step.component_div(&scale).amax();
-            if longest > 1.0 {
-                step /= longest;
-            }
-            q += &step;
-            if longest < SETTLED {
-                return Ok(q);
-            }
-        }
-        Err(LumpedError::NoEquilibrium)
+        let names = self.coordinates().names();
+        let held: Vec<usize> = (0..names.len()).filter(|&i| names[i].ends_with("turn")).collect();
+        let mut start = DVector::zeros(names.len());
+        start[self.coordinates().lag()] = self.guessed_lag();
+        let Ok(found) = equilibrium(self, 0.0, &start, &held);
+        found.ok_or(LumpedError::NoEquilibrium)
     }
 
-    /// Runs from the static equilibrium and returns rows, the state at the end and the energy.
+    /// Runs from the static equilibrium.
     ///
     /// # Errors
     /// Those of [`ImpactMechanism::static_state`], and [`LumpedError::Motion`].
-    pub fn history(&mut self, run: &ImpactRun) -> Result<(Vec<ImpactRow>, State, Ledger), LumpedError> {
+    pub fn history(&mut self, plan: &Recording) -> Result<Recorded<ImpactRow>, LumpedError> {
         let q = self.static_state()?;
         let n = q.len();
-        let mut state = State::new(0.0, q, DVector::zeros(n));
-        let mut integrator = Integrator::new(run.scheme, run.control, self.scale());
-        let (mut rows, mut count) = (Vec::new(), 0);
-        let every = run.every.max(1);
-        let failed = |e: MotionError<std::convert::Infallible>| LumpedError::Motion(e.to_string());
-        integrator.advance(self, &mut state, run.settle, |_, _| ()).map_err(failed)?;
-        let end = run.settle + run.duration;
-        integrator
-            .advance(self, &mut state, end, |system, seen| {
-                count += 1;
-                if count % every == 0 {
-                    rows.push(system.row(seen.state.time, &seen.state.q, &seen.state.v));
-                }
-            })
-            .map_err(failed)?;
-        Ok((rows, state, integrator.ledger().copied().unwrap_or_default()))
+        let scale = self.scale();
+        let start = State::new(0.0, q, DVector::zeros(n));
+        record(self, start, scale, plan, |system, state| system.row(state.time, &state.q, &state.v))
     }
 }

@@ -190,6 +190,17 @@ impl ImpactMechanism {
         })
     }
 
+    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero when the load drives.
+    pub(super) fn guessed_lag(&self) -> f64 {
+        let driven = self.running.driven();
+        let radius = [&self.pair.pinion, &self.pair.wheel][driven].base_radius();
+        let cos = self.pair.base_helix_angle().cos();
+        let force = self.options.load.at(0.0) / (radius * cos);
+        let overlap = (0.5 * force.abs() / self.options.law.stiffness).powf(self.options.law.exponent.recip()) / cos;
+        // The coast flanks begin where the backlash ends.
+        if force < 0.0 { -overlap - self.pair.backlash() } else { overlap }
+    }
+
     /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
     fn external(&self, t: f64, moment: &Moment) -> Displacement {
         let driven = self.running.driven();

@@ -21,7 +21,7 @@ mod mechanism;
 mod options;
 
 pub use friction::StickSlip;
-pub use history::{ImpactRow, ImpactRun};
+pub use history::ImpactRow;
 pub use law::{ImpactLaw, contact_stiffness};
 pub use mechanism::{FlankForce, ImpactMechanism};
 pub use options::ImpactOptions;

@@ -1,11 +1,11 @@
 //! A motion of shafts as rows of results.
 
-use dynamics::motion::{Integrator, MotionError, Scheme, State, StepControl};
+use dynamics::motion::{Integrator, Scheme, State, StepControl};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ShaftMechanism;
-use crate::LumpedError;
+use crate::{LumpedError, Recorded, Recording, error::finite, recording::record};
 
 /// One instant of one mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,21 +26,6 @@ pub struct ShaftRow {
     pub normal_force: f64,
     /// Forces x, y, z (N) and moments about x, y, z (N mm) of the mesh on gear 1 and gear 2, about their centres.
     pub wrench: [[f64; 6]; 2],
-}
-
-/// What is to be run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ShaftRun {
-    /// Method.
-    pub scheme: Scheme,
-    /// Steps.
-    pub control: StepControl,
-    /// Time that passes before rows are kept, s.
-    pub settle: f64,
-    /// Time over which rows are kept, s.
-    pub duration: f64,
-    /// Every how many steps a row is kept; 0 counts as 1.
-    pub every: u64,
 }
 
 impl ShaftMechanism {
@@ -69,31 +54,45 @@ impl ShaftMechanism {
         DVector::from_fn(all.len(), |i, _| if all[i].2 < 3 { 1.0 } else { 1.0 / radius })
     }
 
-    /// Runs from the static equilibrium and returns rows of mesh `mesh` and the state at the end.
+    /// Period of mesh `mesh`, s; infinite at rest, `None` where there is no such mesh.
+    pub fn mesh_period(&self, mesh: usize) -> Option<f64> {
+        self.meshes.get(mesh).map(|m| std::f64::consts::TAU / m.rate)
+    }
+
+    /// Carries a state that stands at a whole number of periods of mesh `mesh` on by one, in `steps` fixed steps, and returns what is there: a stroboscopic section, for bifurcation
+    /// diagrams and Lyapunov exponents.
+    ///
+    /// # Errors
+    /// [`LumpedError::NoMesh`], [`LumpedError::NotFinite`] at rest, [`LumpedError::Motion`].
+    pub fn strobe(
+        &mut self,
+        mesh: usize,
+        scheme: Scheme,
+        steps: u32,
+        state: &mut State,
+    ) -> Result<ShaftRow, LumpedError> {
+        let none = LumpedError::NoMesh { mesh, count: self.meshes.len() };
+        let period = self.mesh_period(mesh).ok_or(none.clone())?;
+        finite("period of the mesh, s", period)?;
+        let until = ((state.time / period).round() + 1.0) * period;
+        let control = StepControl::Fixed(period / f64::from(steps.max(1)));
+        let mut integrator = Integrator::new(scheme, control, self.scale());
+        integrator.advance(self, state, until, |_, _| ())?;
+        self.row(mesh, state.time, &state.q, &state.v).ok_or(none)
+    }
+
+    /// Runs from the static equilibrium at t = 0 and keeps rows of mesh `mesh`.
     ///
     /// # Errors
     /// [`LumpedError::NoMesh`], those of [`ShaftMechanism::static_state`], and [`LumpedError::Motion`].
-    pub fn history(&mut self, mesh: usize, run: &ShaftRun) -> Result<(Vec<ShaftRow>, State), LumpedError> {
-        if mesh >= self.meshes.len() {
-            return Err(LumpedError::NoMesh { mesh, count: self.meshes.len() });
-        }
+    pub fn history(&mut self, mesh: usize, plan: &Recording) -> Result<Recorded<ShaftRow>, LumpedError> {
         let q = self.static_state(0.0)?;
         let n = q.len();
-        let mut state = State::new(0.0, q, DVector::zeros(n));
-        let mut integrator = Integrator::new(run.scheme, run.control, self.scale());
-        let (mut rows, mut count) = (Vec::new(), 0);
-        let every = run.every.max(1);
-        let failed = |e: MotionError<std::convert::Infallible>| LumpedError::Motion(e.to_string());
-        integrator.advance(self, &mut state, run.settle, |_, _| ()).map_err(failed)?;
-        let end = run.settle + run.duration;
-        integrator
-            .advance(self, &mut state, end, |system, seen| {
-                count += 1;
-                if count % every == 0 {
-                    rows.extend(system.row(mesh, seen.state.time, &seen.state.q, &seen.state.v));
-                }
-            })
-            .map_err(failed)?;
-        Ok((rows, state))
+        let still = DVector::zeros(n);
+        let first = self.row(mesh, 0.0, &q, &still).ok_or(LumpedError::NoMesh { mesh, count: self.meshes.len() })?;
+        let scale = self.scale();
+        record(self, State::new(0.0, q, still), scale, plan, |system, state| {
+            system.row(mesh, state.time, &state.q, &state.v).unwrap_or(first)
+        })
     }
 }

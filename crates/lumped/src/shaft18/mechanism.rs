@@ -21,8 +21,6 @@ use crate::{DeadZone, Fourier, LumpedError};
 #[derive(Debug, Clone)]
 pub struct ShaftMechanism {
     pub(super) shafts: Vec<LumpedShaft>,
-    /// First coordinate of each shaft.
-    pub(super) first: Vec<usize>,
     mass: DMatrix<f64>,
     pub(super) stiffness: DMatrix<f64>,
     /// Damping of shafts and supports, and gyroscopic forces.
@@ -171,7 +169,7 @@ impl ShaftMechanism {
                 rate: f64::from(mesh.geometry.teeth[0]) * speeds[0],
             });
         }
-        Ok(Self { shafts, first, mass, stiffness, damping, gyroscopic, load, meshes, imbalance, held })
+        Ok(Self { shafts, mass, stiffness, damping, gyroscopic, load, meshes, imbalance, held })
     }
 
     /// Number of coordinates.

@@ -29,7 +29,7 @@ mod static_load;
 pub use continuum::{Continuum, continuum_modes};
 pub use coupling::{MeshGeometry, MeshLine};
 pub use flexibility::{Influence, bending_influence, equivalent_torsional_stiffness};
-pub use history::{ShaftRow, ShaftRun};
+pub use history::ShaftRow;
 pub use lumping::LumpedShaft;
 pub use mechanism::ShaftMechanism;
 pub use parameters::{Mesh, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};

@@ -97,3 +97,18 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
         gravity: [0.0, -9810.0, 0.0],
     }
 }
+
+/// The same with little load, a transmission error of 5 um and a drive that holds the mean turn: teeth separate. `half_backlash` in mm.
+pub fn light(speed: f64, half_backlash: f64) -> ShaftSystem {
+    let mut system = gearbox(speed, half_backlash);
+    for (t, torque) in system.torques.iter_mut().zip([2e4, 2e4 * 46.0 / 30.0]) {
+        t.torque = torque;
+    }
+    let mesh = &mut system.meshes[0];
+    mesh.stiffness = Fourier::first_order(4.5e5, 0.9e5, 0.0);
+    mesh.error = Fourier::first_order(0.0, 0.005, 0.0);
+    mesh.damping_ratio = 0.03;
+    let drive = &mut system.shafts[0].supports[0];
+    (drive.stiffness[5], drive.damping[5]) = (1e7, 2e3);
+    system
+}
