@@ -139,11 +139,15 @@ impl LumpedError {
             Self::Beam(source) => return source.hint(),
             Self::OffShaft { .. } => "positions count from the beginning of the shaft's first segment".into(),
             Self::SameStation { .. } => "put both masses into one station".into(),
-            Self::NoStation { .. } | Self::NoMesh { .. } => "count them from 0, in the order in which they are given".into(),
+            Self::NoStation { .. } | Self::NoMesh { .. } => {
+                "count them from 0, in the order in which they are given".into()
+            }
             Self::NotConnected { .. } => "add the mesh that drives it, or leave the shaft out".into(),
             Self::Ratios { .. } => "numbers of teeth around a closed train must agree".into(),
             Self::Free { .. } => "give the shaft two supports and a thrust bearing, or keep the coordinate".into(),
-            Self::NotBalanced { .. } => "torques times speed ratios must add up to zero, or one shaft must be held in turning".into(),
+            Self::NotBalanced { .. } => {
+                "torques times speed ratios must add up to zero, or one shaft must be held in turning".into()
+            }
             Self::NoEquilibrium => "is every shaft held in x, y, z and against tilting?".into(),
             Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),

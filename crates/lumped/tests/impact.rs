@@ -7,11 +7,11 @@
 use std::f64::consts::{PI, TAU};
 
 use ale::Sense;
+use dynamics::Driver;
 use dynamics::motion::{Forces, Mechanism, Scheme, StepControl};
 use dynamics::pair_motion::{Drive, Speed, Torque};
-use dynamics::Driver;
-use lumped::{Recorded, Recording};
 use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness};
+use lumped::{Recorded, Recording};
 use nalgebra::{DVector, Matrix6, SVector};
 
 mod mill;
@@ -23,7 +23,13 @@ fn normal_force() -> f64 {
 }
 
 fn run(h: f64, settle: f64, duration: f64) -> Recording {
-    Recording { scheme: Scheme::GeneralisedAlpha { rho: 0.8 }, control: StepControl::Fixed(h), settle, duration, every: 1 }
+    Recording {
+        scheme: Scheme::GeneralisedAlpha { rho: 0.8 },
+        control: StepControl::Fixed(h),
+        settle,
+        duration,
+        every: 1,
+    }
 }
 
 fn model(change: impl FnOnce(&mut ImpactOptions)) -> ImpactMechanism {
@@ -66,7 +72,10 @@ fn judge(rows: &[ImpactRow], h: f64, from: f64) {
     let mean = force.iter().sum::<f64>() / force.len() as f64;
     let turning = steady.iter().map(|r| r.speed[0]).sum::<f64>() / steady.len() as f64 / TAU;
     let (low, high) = force.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &f| (a.min(f), b.max(f)));
-    println!("mean {mean:.0} N ({:+.2} % of {wanted:.0}), {low:.0} .. {high:.0} N, output {turning:.3} Hz", 100.0 * (mean / wanted - 1.0));
+    println!(
+        "mean {mean:.0} N ({:+.2} % of {wanted:.0}), {low:.0} .. {high:.0} N, output {turning:.3} Hz",
+        100.0 * (mean / wanted - 1.0)
+    );
     assert!((mean / 7.378e5 - 1.0).abs() < 0.01, "mean normal force {mean} N");
     assert!((turning.abs() - 22.78).abs() < 0.005, "output {turning} Hz");
     assert!(rows.iter().all(|r| r.least_slice_force >= 0.0), "flanks pull");
@@ -214,7 +223,11 @@ fn forces_are_slopes_of_the_potential_and_tangents_of_the_forces() {
                 let by_place = -(up.total(i) - down.total(i)) / (2.0 * step[j]);
                 let off = (here.stiffness[(i, j)] - by_place) * scale[i] * scale[j] / size;
                 // Levers and normals that turn with the gears are left out of the tangent.
-                assert!(off.abs() < 0.02, "case {case}, stiffness {i}, {j}: {}, not {by_place}", here.stiffness[(i, j)]);
+                assert!(
+                    off.abs() < 0.02,
+                    "case {case}, stiffness {i}, {j}: {}, not {by_place}",
+                    here.stiffness[(i, j)]
+                );
                 let by_rate = -(fast.total(i) - slow.total(i)) / (2e3 * step[j]);
                 let off = (here.damping[(i, j)] - by_rate) * scale[i] * scale[j] * 1e3 / size;
                 assert!(off.abs() < 1e-4, "case {case}, damping {i}, {j}: {}, not {by_rate}", here.damping[(i, j)]);
@@ -266,7 +279,13 @@ fn turns_and_mirrors_change_nothing() {
     {
         for (a, b) in given.iter().zip(other) {
             let off = a.transmission_error_um / b.transmission_error_um - 1.0;
-            assert!(off.abs() < tolerance, "{name}, {} s: {} and {} um", a.time, a.transmission_error_um, b.transmission_error_um);
+            assert!(
+                off.abs() < tolerance,
+                "{name}, {} s: {} and {} um",
+                a.time,
+                a.transmission_error_um,
+                b.transmission_error_um
+            );
         }
     }
     let pinion = rows(&|o| (o.start_cycles, o.driver) = (0.25, Driver::Pinion));
@@ -289,8 +308,14 @@ fn torque_reversal_strikes_the_coast_flanks() {
         let last = &rows[rows.len() - 1];
         let open = ledger.relative_residual();
         let struck = rows.iter().map(|r| r.normal_force[1]).fold(0.0, f64::max);
-        println!("{scheme:?}: coast flanks up to {struck:.0} N, {:.0} N at the end; energy open by {open:.1e}", last.normal_force[1]);
-        assert!(rows.iter().all(|r| r.least_slice_force >= 0.0 && r.normal_force.iter().all(|f| *f >= 0.0)), "flanks pull");
+        println!(
+            "{scheme:?}: coast flanks up to {struck:.0} N, {:.0} N at the end; energy open by {open:.1e}",
+            last.normal_force[1]
+        );
+        assert!(
+            rows.iter().all(|r| r.least_slice_force >= 0.0 && r.normal_force.iter().all(|f| *f >= 0.0)),
+            "flanks pull"
+        );
         assert!(rows[10].normal_force[1] == 0.0 && last.normal_force[0] == 0.0 && last.normal_force[1] > 0.0);
         assert!(rows.iter().any(|r| r.normal_force == [0.0, 0.0]) || struck > 1.2 * normal_force(), "no impact at all");
         assert!(open.abs() < tolerance, "{scheme:?}: energy open by {open:e}");

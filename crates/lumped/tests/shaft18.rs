@@ -6,11 +6,11 @@ use std::f64::consts::TAU;
 use dynamics::motion::{Integrator, Mechanism, Scheme, State, StepControl};
 use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
-use lumped::{LumpedError, Recording};
 use lumped::shaft18::{
     Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
+use lumped::{LumpedError, Recording};
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
 
 mod gearbox;
@@ -60,9 +60,8 @@ fn influence_coefficients_of_one_disc_are_the_seeds() {
     let under = 3.0 * e3 * e4 * l * l;
     let rr = a * b * (2.0 * a.powi(3) * (e3 - e4) + a * a * (2.0 * e4 * l - 3.0 * e3 * l) + e3 * l * (l * l - b * b))
         / (2.0 * under);
-    let printed = |exponent: i32| {
-        a * (l - a) * (a * a * (e3 - e4) - 2.0 * a.powi(exponent) * e3 * l + e3 * l * l) / under
-    };
+    let printed =
+        |exponent: i32| a * (l - a) * (a * a * (e3 - e4) - 2.0 * a.powi(exponent) * e3 * l + e3 * l * l) / under;
     let pp = -(a.powi(3) * (e3 - e4) - 3.0 * a * a * e3 * l + 3.0 * a * e3 * l * l - e3 * l.powi(3)) / under;
     let places = [Influence::Shift(a), Influence::Turn(a)];
     let found = bending_influence(&pieces, [0.0, l], &places, BeamTheory::Euler);
@@ -86,8 +85,7 @@ fn by_elements(shaft: &Shaft, theory: BeamTheory) -> DMatrix<f64> {
     }
     // Flexibility at the stations, and its inverse.
     let n = 6 * shaft.stations.len();
-    let nodes: Vec<usize> =
-        (0..n).map(|i| 6 * line.node_at(shaft.stations[i / 6].position) + i % 6).collect();
+    let nodes: Vec<usize> = (0..n).map(|i| 6 * line.node_at(shaft.stations[i / 6].position) + i % 6).collect();
     let loads = DMatrix::from_fn(k.nrows(), n, |i, j| f64::from(u8::from(i == nodes[j])));
     let moved = k.lu().solve(&loads).unwrap();
     DMatrix::from_fn(n, n, |i, j| moved[(nodes[i], j)]).try_inverse().unwrap()
@@ -156,8 +154,7 @@ fn mesh_line_is_the_slope_of_the_true_gap() {
         let line = MeshGeometry::of_pair(&pair, side).line().unwrap();
         // Pinion angle at which the flanks of teeth 0 touch at the pitch point at mid-face.
         let roll = pair.working_pressure_angle().tan();
-        let theta1 = side.sign()
-            * (roll - pair.pinion.profile().base_half_angle() - pair.working_pressure_angle());
+        let theta1 = side.sign() * (roll - pair.pinion.profile().base_half_angle() - pair.working_pressure_angle());
         let angles = [theta1, pair.wheel_angle(side, theta1)];
         let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, 0.0)];
         let flanks = [pair.pinion.flank(side), pair.wheel.flank(side)];
@@ -271,7 +268,9 @@ fn frequencies_agree_with_the_continuum() {
     let slender = continuum_modes(&system, 6.0, BeamTheory::Euler).unwrap().frequencies;
     // The free turn of both shafts.
     assert!(lumped[0] < 1.0 && continuum[0] < 1.0, "{} and {} rad/s", lumped[0], continuum[0]);
-    println!("| mode | lumped, 18 DOF (Hz) | Timoshenko beams (Hz) | off by (%) | Euler beams (Hz) |\n|---|---|---|---|---|");
+    println!(
+        "| mode | lumped, 18 DOF (Hz) | Timoshenko beams (Hz) | off by (%) | Euler beams (Hz) |\n|---|---|---|---|---|"
+    );
     for mode in 1..18 {
         let [a, b, c] = [&lumped, &continuum, &slender].map(|f| f[mode] / TAU);
         let off = a / b - 1.0;
@@ -376,7 +375,10 @@ fn methods_agree_and_energy_closes() {
         integrator.advance(&mut model, &mut state, 5.0 * period, |_, _| ()).unwrap();
         let row = model.row(0, state.time, &state.q, &state.v).unwrap();
         let open = integrator.ledger().unwrap().relative_residual();
-        println!("{scheme:?}: {:.6} um, {:.3} N, energy open by {open:.1e}", row.transmission_error_um, row.normal_force);
+        println!(
+            "{scheme:?}: {:.6} um, {:.3} N, energy open by {open:.1e}",
+            row.transmission_error_um, row.normal_force
+        );
         assert!(open.abs() < 2e-5, "{scheme:?}: {open:e}");
         ends.push(row.compression);
     }

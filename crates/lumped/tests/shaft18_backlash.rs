@@ -65,7 +65,11 @@ fn diagram(speeds: &[f64], half_backlash: f64) -> Vec<Branch> {
     for branch in &all {
         let [low, high] = branch.extent().unwrap();
         let points = branch.distinct(0.05);
-        println!("2 b_n = {} um, {} rad/s: {points} points in {low:.2} .. {high:.2} um", 2e3 * half_backlash, branch.value);
+        println!(
+            "2 b_n = {} um, {} rad/s: {points} points in {low:.2} .. {high:.2} um",
+            2e3 * half_backlash,
+            branch.value
+        );
     }
     all
 }
@@ -87,8 +91,8 @@ fn with_backlash_chaos_and_windows_alternate() {
     let speeds = [250.0, 350.0, 450.0, 500.0, 550.0, 600.0, 650.0, 750.0, 850.0, 950.0, 1100.0, 1250.0, 1400.0, 1600.0];
     let all = diagram(&speeds, HALF_BACKLASH);
     let many = |b: &&Branch| b.distinct(0.05) > 20;
-    let [slow, fast] = [250.0..700.0, 800.0..1700.0]
-        .map(|range| all.iter().filter(|b| range.contains(&b.value)).filter(many).count());
+    let [slow, fast] =
+        [250.0..700.0, 800.0..1700.0].map(|range| all.iter().filter(|b| range.contains(&b.value)).filter(many).count());
     assert!((2..6).contains(&slow) && fast >= 5, "{slow} of 7 speeds below and {fast} of 6 above the mesh resonance");
     for (speed, chaotic) in [(500.0, false), (600.0, true), (750.0, false), (1250.0, true)] {
         let found = Settled::new(speed, HALF_BACKLASH, 240).unwrap().lyapunov(200);
@@ -123,8 +127,12 @@ fn backlash_brings_sidebands_at_shaft_frequency() {
         for (a, line) in a.pairs[0].iter().zip(&b.pairs[0]) {
             let (place, with, without) = (line.frequency, line.amplitude, a.amplitude);
             println!("{place:.2} Hz: {without:.3} N without, {with:.3} N with backlash, floor {:.3} N", b.floor);
-            assert!((( place - carrier).abs() - 50.0).abs() < 1.7, "{place} Hz beside {carrier} Hz");
-            assert!(with > 10.0 * without && with > 3.0 * b.floor, "{place} Hz: {without} N, {with} N, floor {} N", b.floor);
+            assert!(((place - carrier).abs() - 50.0).abs() < 1.7, "{place} Hz beside {carrier} Hz");
+            assert!(
+                with > 10.0 * without && with > 3.0 * b.floor,
+                "{place} Hz: {without} N, {with} N, floor {} N",
+                b.floor
+            );
         }
     }
 }

@@ -43,7 +43,11 @@ pub(super) fn step<M: Mechanism>(
         let length = moved.dot(&weighted);
         let after = system.potential(middle, &to.q).map_err(fail(middle))?;
         let defect = after - before + forces.conservative.dot(&moved);
-        let c = if length > 0.0 && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) { -defect / length } else { 0.0 };
+        let c = if length > 0.0 && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) {
+            -defect / length
+        } else {
+            0.0
+        };
         to.v = 2.0 * &velocity - &from.v;
         if newton::settled(change, last) {
             to.a = (&to.v - &from.v) / h;

@@ -42,7 +42,10 @@ impl StickSlip {
         not_negative("static coefficient of friction", self.static_coefficient)?;
         not_negative("dynamic coefficient of friction", self.dynamic_coefficient)?;
         positive("sliding speed of static friction, mm/s", self.static_speed)?;
-        positive("sliding speed of dynamic friction above that of static friction, mm/s", self.dynamic_speed - self.static_speed)
+        positive(
+            "sliding speed of dynamic friction above that of static friction, mm/s",
+            self.dynamic_speed - self.static_speed,
+        )
     }
 }
 
@@ -53,12 +56,8 @@ mod tests {
     /// The seed's numbers: 0 at rest, 0.08 at 0.1 mm/s, 0.05 from 10 mm/s on, smooth in between.
     #[test]
     fn coefficient_rises_and_falls_without_a_jump() {
-        let law = StickSlip {
-            static_coefficient: 0.08,
-            dynamic_coefficient: 0.05,
-            static_speed: 0.1,
-            dynamic_speed: 10.0,
-        };
+        let law =
+            StickSlip { static_coefficient: 0.08, dynamic_coefficient: 0.05, static_speed: 0.1, dynamic_speed: 10.0 };
         let [at_rest, sticking, slipping, fast] = [0.0, 0.1, 10.0, 1e4].map(|v| law.at(v)[0]);
         assert_eq!([at_rest, sticking], [0.0, 0.08]);
         assert!((slipping - 0.05).abs() < 1e-15 && (fast - 0.05).abs() < 1e-15);

@@ -106,8 +106,8 @@ pub fn contact_stiffness(
     };
     let ratio = f64::from(gears[1].teeth()) / f64::from(gears[0].teeth());
     let along = 2.0 * gears[0].reference_radius() * gears[0].transverse_pressure_angle().cos();
-    let radius = ratio * along * pair.working_pressure_angle().tan()
-        / (2.0 * (1.0 + ratio) * pair.base_helix_angle().cos());
+    let radius =
+        ratio * along * pair.working_pressure_angle().tan() / (2.0 * (1.0 + ratio) * pair.base_helix_angle().cos());
     let modulus = young / (2.0 * (1.0 - poisson * poisson));
     let stiffness = 4.0 / 3.0 * radius.sqrt() * modulus;
     positive("impact stiffness, N/mm^e", stiffness)?;

@@ -102,8 +102,7 @@ impl ImpactMechanism {
     /// [`LumpedError`] when an option has no meaning.
     pub fn new(pair: GearPair, options: ImpactOptions) -> Result<Self, LumpedError> {
         options.check()?;
-        let running =
-            StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
+        let running = StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
         let (speed, by_torque) = match &options.drive {
             Drive::Speed(speed) => (*speed, false),
             Drive::Torque { start, .. } => (Speed::Constant(*start), true),
@@ -150,11 +149,7 @@ impl ImpactMechanism {
         let side = self.running.side();
         let pinion_angle =
             self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
-        Standing {
-            pinion_angle,
-            shift: -sign * station.cycle,
-            wheel_angle: self.pair.wheel_angle(side, pinion_angle),
-        }
+        Standing { pinion_angle, shift: -sign * station.cycle, wheel_angle: self.pair.wheel_angle(side, pinion_angle) }
     }
 
     fn poses(&self, at: &Standing, d: &Displacement) -> [Pose; 2] {
@@ -339,13 +334,7 @@ impl Mechanism for ImpactMechanism {
     }
 
     /// Deepest overlap of the driving and of the coast flanks, mm: positive in contact.
-    fn event_values(
-        &mut self,
-        t: f64,
-        q: &DVector<f64>,
-        _: &DVector<f64>,
-        out: &mut [f64],
-    ) -> Result<(), Infallible> {
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
         let d = self.coordinates.displacement(q);
         for (force, value) in self.flank_forces(t, &d, &Displacement::zeros()).iter().zip(out) {
             // Teeth so far apart that no slice faces another are a whole module away.

@@ -44,8 +44,7 @@ impl Continuum {
             mass.view_mut((at, at), (size, size)).copy_from(&line.mass);
             for s in &shaft.stations {
                 let node = at + NODE_COORDINATES * line.node_at(s.position);
-                let inertia =
-                    [s.mass, s.mass, s.mass, s.transverse_inertia, s.transverse_inertia, s.polar_inertia];
+                let inertia = [s.mass, s.mass, s.mass, s.transverse_inertia, s.transverse_inertia, s.polar_inertia];
                 inertia.into_iter().enumerate().for_each(|(axis, m)| mass[(node + axis, node + axis)] += m);
             }
             for s in &shaft.supports {

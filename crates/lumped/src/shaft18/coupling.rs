@@ -87,8 +87,7 @@ impl MeshGeometry {
         finite("direction of the line of centres, rad", self.direction)?;
         let (beta, alpha_n, s) = (self.helix_angle, self.normal_pressure_angle, self.side.sign());
         let alpha_t = (alpha_n.tan() / beta.cos()).atan();
-        let base_radii =
-            self.teeth.map(|z| 0.5 * self.normal_module * f64::from(z) / beta.cos() * alpha_t.cos());
+        let base_radii = self.teeth.map(|z| 0.5 * self.normal_module * f64::from(z) / beta.cos() * alpha_t.cos());
         let least = base_radii[0] + base_radii[1];
         inside("centre distance, mm", self.centre_distance, least, f64::INFINITY, "above the sum of the base radii")?;
         let working = (least / self.centre_distance).acos();

@@ -84,9 +84,8 @@ impl LumpedShaft {
         let numbers: Vec<usize> = kept.iter().map(|&(i, axis)| AXES * points.stations[i] + axis).collect();
         let by = Condensation::new(&stiffness, &numbers, number)?;
         let rows = shaft.stations.len() * AXES;
-        let stations = DMatrix::from_fn(rows, kept.len(), |i, j| {
-            by.map[(AXES * points.stations[i / AXES] + i % AXES, j)]
-        });
+        let stations =
+            DMatrix::from_fn(rows, kept.len(), |i, j| by.map[(AXES * points.stations[i / AXES] + i % AXES, j)]);
         Ok(Self {
             stiffness: by.of(&stiffness),
             mass: by.of(&mass),

@@ -259,13 +259,7 @@ impl Mechanism for ShaftMechanism {
         2 * self.meshes.len()
     }
 
-    fn event_values(
-        &mut self,
-        t: f64,
-        q: &DVector<f64>,
-        _: &DVector<f64>,
-        out: &mut [f64],
-    ) -> Result<(), Infallible> {
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
         for (mesh, values) in self.meshes.iter().zip(out.chunks_mut(2)) {
             let compression = mesh.lever.dot(q) + mesh.excess(t)[0];
             values[0] = compression - mesh.zone.half_width;

@@ -260,9 +260,8 @@ impl ShaftSystem {
                 }
             }
         }
-        let speed = |(shaft, r): (usize, Option<f64>)| {
-            r.map(|r| r * self.speed).ok_or(LumpedError::NotConnected { shaft })
-        };
+        let speed =
+            |(shaft, r): (usize, Option<f64>)| r.map(|r| r * self.speed).ok_or(LumpedError::NotConnected { shaft });
         ratios.into_iter().enumerate().map(speed).collect()
     }
 }

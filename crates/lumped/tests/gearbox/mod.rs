@@ -3,9 +3,7 @@
 
 use geometry::Side;
 use lumped::Fourier;
-use lumped::shaft18::{
-    Mesh, MeshGeometry, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support,
-};
+use lumped::shaft18::{Mesh, MeshGeometry, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};
 
 pub const ALL: [bool; 6] = [true; 6];
 /// What a coupled end keeps: x, y and turn.
