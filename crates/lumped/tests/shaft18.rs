@@ -10,7 +10,7 @@ use lumped::shaft18::{
     Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
-use lumped::{LumpedError, Recording};
+use lumped::{Fourier, LumpedError, MeshCycle, Recording};
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
 
 mod gearbox;
@@ -458,10 +458,39 @@ fn slow_running_is_static() {
     }
 }
 
+/// Fed by another model's cycle on the transverse line of action: the same static transmission error under the same torque.
+#[test]
+fn a_fed_mesh_has_the_transmission_error_of_its_source() {
+    let mut system = gearbox(100.0, 0.0);
+    // Rigid but for the mesh: shafts of a diameter that yields nothing.
+    for shaft in &mut system.shafts {
+        shaft.segments.iter_mut().for_each(|s| (s.outer_diameter, s.density) = (2000.0, 0.0));
+        shaft.supports.iter_mut().for_each(|s| s.stiffness[..3].fill(1e12));
+        shaft.stations.retain(|s| s.mass > 0.0);
+    }
+    let cycle = MeshCycle::new(Fourier::first_order(4e5, 3e4, 1e4), Fourier::first_order(0.004, 0.001, -0.002));
+    system.meshes[0] = system.meshes[0].clone().fed(&cycle).unwrap();
+    let model = ShaftMechanism::new(&system).unwrap();
+    let line = system.meshes[0].geometry.line().unwrap();
+    let force = 1e5 / line.base_radii[0];
+    for i in 0..8 {
+        let t = model.mesh_period(0).unwrap() * f64::from(i) / 8.0;
+        let q = model.static_state(t).unwrap();
+        let found = model.row(0, t, &q, &DVector::zeros(q.len())).unwrap().transmission_error_um;
+        let phase = TAU * f64::from(i) / 8.0;
+        let expected = 1e3 * (force / cycle.stiffness.at(phase) + cycle.error.at(phase));
+        assert!((found / expected - 1.0).abs() < 1e-3, "phase {phase}: {found} um, not {expected}");
+    }
+}
+
 #[test]
 fn nonsense_is_refused() {
     type Change = fn(&mut ShaftSystem);
-    let cases: [(&str, Change); 22] = [
+    let cases: [(&str, Change); 23] = [
+        ("coordinate without mass", |s| {
+            s.shafts[0].segments.iter_mut().for_each(|x| x.density = 0.0);
+            s.shafts[0].stations[3].kept[3] = true;
+        }),
         ("no shafts", |s| s.shafts.clear()),
         ("length", |s| s.shafts[0].segments[0].length = -1.0),
         ("length nan", |s| s.shafts[0].segments[0].length = f64::NAN),

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use dynamics::motion::{Forces, Mechanism};
 use fem::{Modes, beam::BeamTheory, natural_modes};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{LumpedShaft, MeshLine, RunOut, ShaftSystem};
 use crate::{DeadZone, Fourier, LumpedError};
@@ -121,8 +121,10 @@ impl ShaftMechanism {
         let supports = diagonal(&|s| shafts[s].damping.clone());
         let gyroscopic = diagonal(&|s| speeds[s] * &shafts[s].gyroscopic);
         let damping = supports + system.mass_damping * &mass + system.stiffness_damping * &stiffness;
-        // Every coordinate needs mass, or nothing can be integrated.
-        natural_modes(&stiffness, &mass)?;
+        if Cholesky::new(mass.clone()).is_none() {
+            let quantity = "mass or inertia of every kept coordinate, t or t mm^2";
+            return Err(LumpedError::NotPositive { quantity, value: 0.0 });
+        }
         let mut load = DVector::zeros(n);
         for (s, shaft) in shafts.iter().enumerate() {
             let mut own = load.rows_mut(first[s], shaft.kept.len());

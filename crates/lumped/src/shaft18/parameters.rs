@@ -1,5 +1,6 @@
 //! What the user says of shafts, gears on them and meshes between them.
 
+use dynamics::pair_motion::RigidBody;
 use fem::{
     Material,
     beam::{BeamPiece, BeamSection},
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MeshGeometry;
 use crate::{
-    Fourier, LumpedError,
+    Fourier, LumpedError, MeshCycle,
     error::{finite, not_negative, positive},
 };
 
@@ -146,6 +147,14 @@ impl Segment {
     }
 }
 
+impl Station {
+    /// With mass and inertia of a gear as another model has them.
+    #[must_use]
+    pub fn bearing(self, body: &RigidBody) -> Self {
+        Self { mass: body.mass, polar_inertia: body.polar_inertia, transverse_inertia: body.transverse_inertia, ..self }
+    }
+}
+
 impl Shaft {
     /// Segments as pieces of a beam.
     ///
@@ -193,6 +202,20 @@ impl Shaft {
 }
 
 impl Mesh {
+    /// Excitation of another model of the same pair instead of the given one.
+    ///
+    /// ```text
+    /// k_n = k / cos^2 b_b,   excess = -e cos b_b
+    /// ```
+    /// The cycle is stated on the transverse line of action, where e > 0 lets the driven gear lag; here along the normal, where an excess presses.
+    ///
+    /// # Errors
+    /// Those of [`MeshGeometry::line`].
+    pub fn fed(self, cycle: &MeshCycle) -> Result<Self, LumpedError> {
+        let cos = self.geometry.line()?.cos_base_helix;
+        Ok(Self { stiffness: cycle.stiffness.scaled(1.0 / (cos * cos)), error: cycle.error.scaled(-cos), ..self })
+    }
+
     fn check(&self) -> Result<(), LumpedError> {
         self.stiffness.check_positive("mesh stiffness, N/mm")?;
         self.error.check("mesh error, mm")?;
