@@ -37,7 +37,7 @@ impl BeamLine {
         }
         // Places nearer than this are one.
         let near = 1e-9 * total;
-        if !(longest > near) {
+        if longest.is_nan() || longest <= near {
             return Err(bad(longest));
         }
         if let Some(&place) = places.iter().find(|p| !(-near..=total + near).contains(*p)) {
@@ -45,7 +45,7 @@ impl BeamLine {
         }
         let (mut positions, mut elements, mut start) = (vec![0.0], Vec::new(), 0.0);
         for piece in pieces {
-            if !(piece.length > near) {
+            if piece.length.is_nan() || piece.length <= near {
                 return Err(bad(piece.length));
             }
             let end = start + piece.length;

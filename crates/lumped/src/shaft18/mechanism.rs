@@ -110,9 +110,9 @@ impl ShaftMechanism {
         }
         let diagonal = |of: &dyn Fn(usize) -> DMatrix<f64>| {
             let mut all = DMatrix::zeros(n, n);
-            for s in 0..shafts.len() {
+            for (s, &at) in first[..shafts.len()].iter().enumerate() {
                 let own = of(s);
-                all.view_mut((first[s], first[s]), own.shape()).copy_from(&own);
+                all.view_mut((at, at), own.shape()).copy_from(&own);
             }
             all
         };
