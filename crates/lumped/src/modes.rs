@@ -96,7 +96,11 @@ pub fn damped_modes(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMa
             let s = s * unit;
             let dynamic = k.map(|x| Complex::new(x, 0.0)) + c.map(|x| s * x);
             let raw = null_vector(dynamic + DMatrix::identity(n, n) * (s * s), unit * unit);
-            Mode { frequency_hz: s.im / TAU, growth: s.re, shape: inverse.transpose().map(|x| Complex::new(x, 0.0)) * raw }
+            Mode {
+                frequency_hz: s.im / TAU,
+                growth: s.re,
+                shape: inverse.transpose().map(|x| Complex::new(x, 0.0)) * raw,
+            }
         })
         .collect();
     sort(&mut modes);
@@ -123,12 +127,7 @@ fn eigenvalues(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(schur.complex_eigenvalues().iter().copied().collect())
 }
 
-fn shape(
-    inverse: &DMatrix<f64>,
-    scaled: &DMatrix<f64>,
-    value: Complex<f64>,
-    largest: f64,
-) -> DVector<Complex<f64>> {
+fn shape(inverse: &DMatrix<f64>, scaled: &DMatrix<f64>, value: Complex<f64>, largest: f64) -> DVector<Complex<f64>> {
     let n = scaled.nrows();
     let matrix = scaled.map(|x| Complex::new(x, 0.0)) - DMatrix::identity(n, n) * value;
     inverse.transpose().map(|x| Complex::new(x, 0.0)) * null_vector(matrix, largest)

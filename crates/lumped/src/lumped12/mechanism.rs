@@ -48,9 +48,12 @@ impl Motion12 {
     pub fn new(parameters: Lumped12) -> Result<Self, LumpedError> {
         parameters.check()?;
         let bodies = parameters.pair.bodies;
-        let mass = DVector::from_iterator(12, bodies.iter().flat_map(|b| {
-            [b.mass, b.mass, b.mass, b.transverse_inertia, b.transverse_inertia, b.polar_inertia]
-        }));
+        let mass = DVector::from_iterator(
+            12,
+            bodies
+                .iter()
+                .flat_map(|b| [b.mass, b.mass, b.mass, b.transverse_inertia, b.transverse_inertia, b.polar_inertia]),
+        );
         let stiffness = std::array::from_fn(|i| parameters.supports[i / 6].stiffness[i % 6]);
         Ok(Self { parameters, mass: DMatrix::from_diagonal(&mass), stiffness })
     }
@@ -87,11 +90,8 @@ impl Motion12 {
 
     fn energy(&self, t: f64, q: &DVector<f64>) -> f64 {
         let supports: f64 = self.stiffness.iter().zip(q.iter()).map(|(k, q)| 0.5 * k * q * q).sum();
-        let mesh: f64 = self
-            .springs(t)
-            .iter()
-            .map(|s| 0.5 * s.stiffness * (s.vector.dot(q) - s.error[0]).powi(2))
-            .sum();
+        let mesh: f64 =
+            self.springs(t).iter().map(|s| 0.5 * s.stiffness * (s.vector.dot(q) - s.error[0]).powi(2)).sum();
         supports + mesh
     }
 
@@ -194,7 +194,8 @@ impl LumpedModel for Motion12 {
         let [r, big_r] = pair.base_radii;
         let te = pair.frame.sign() * (r * q[5] + big_r * q[11]);
         let cos = pair.frame.base_helix_angle.cos();
-        let rubbed: f64 = springs.iter().zip(forces).map(|(s, f)| f * s.rubbing.fixed_rows::<3>(0).dot(&pair.frame.across())).sum();
+        let rubbed: f64 =
+            springs.iter().zip(forces).map(|(s, f)| f * s.rubbing.fixed_rows::<3>(0).dot(&pair.frame.across())).sum();
         let state = MeshState {
             te,
             deflection: springs[0].vector.dot(q) / cos,

@@ -98,7 +98,8 @@ impl Lumped8 {
         let equations = Equations18 {
             support_damping: [0, 1].map(|i| each(i).damping.map(|c| xi(c, mass[i]))),
             support_stiffness: [0, 1].map(|i| each(i).stiffness.map(|k| eta(k, mass[i]))),
-            turning: [0, 1].map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
+            turning: [0, 1]
+                .map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
             mesh_damping: mass.map(|m| [self.mesh_damping, self.mesh_damping * tan].map(|c| xi(c, m))),
             mesh_stiffness: mass.map(|m| [k, k * tan].map(|k| eta(k, m))),
             kappa,
@@ -209,7 +210,8 @@ impl Mechanism for Dimensionless {
         let tan = self.model.pair.frame.local_helix().tan();
         // Gradients of p_11 and p_12.
         let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
-        let across = std::array::from_fn::<f64, 8, _>(|i| [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0][i] - tan * along[i]);
+        let across =
+            std::array::from_fn::<f64, 8, _>(|i| [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0][i] - tan * along[i]);
         let gradients = [along, across];
         let (x, dx) = (self.relative(p), self.relative(v));
         let beyond = [0, 1].map(|k| DeadZone::new(eq.clearances[k]).at(x[k] - now.error[k][0]));
@@ -238,7 +240,8 @@ impl Mechanism for Dimensionless {
                 let (eta, xi) = (eq.mesh_stiffness[gear][k] * now.stiffness, eq.mesh_damping[gear][k]);
                 let (elastic, viscous) = (mass * eta * beyond[k].value, mass * 2.0 * xi * slip[k]);
                 // Rows that the force enters, and by how much: y and turn for p_11, z for p_12, friction by the bracket of p_11.
-                let rows: &[(usize, f64)] = if k == 0 { &[(first + 1, side), (turn, 1.0)] } else { &[(first + 2, side)] };
+                let rows: &[(usize, f64)] =
+                    if k == 0 { &[(first + 1, side), (turn, 1.0)] } else { &[(first + 2, side)] };
                 for &(i, share) in rows {
                     let held = if k == 0 { &mut out.conservative } else { &mut out.other };
                     held[i] -= share * elastic;
@@ -257,7 +260,8 @@ impl Mechanism for Dimensionless {
                     continue;
                 }
                 let bracket = elastic + viscous;
-                let levers = [(first, side * now.lines[0]), (turn, if gear == 0 { -now.lines[1] } else { now.lines[2] })];
+                let levers =
+                    [(first, side * now.lines[0]), (turn, if gear == 0 { -now.lines[1] } else { now.lines[2] })];
                 for (i, lever) in levers {
                     out.other[i] += lever * bracket.abs();
                     out.supplied += lever * bracket.abs() * v[i];

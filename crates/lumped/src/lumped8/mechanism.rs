@@ -141,7 +141,8 @@ impl Motion8 {
         let supports: f64 = self.stiffness.iter().zip(q).map(|(k, q)| 0.5 * k * q * q).sum();
         let conservative = |s: &Spring| s.action == s.jacobian;
         let springs = self.springs(t);
-        let mesh: f64 = springs.iter().flatten().filter(|s| conservative(s)).map(|s| s.at(q, &[0.0; 8]).potential).sum();
+        let mesh: f64 =
+            springs.iter().flatten().filter(|s| conservative(s)).map(|s| s.at(q, &[0.0; 8]).potential).sum();
         supports + mesh
     }
 }
