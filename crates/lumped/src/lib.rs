@@ -23,6 +23,7 @@ pub mod modes;
 mod pair;
 mod plane_of_action;
 mod statics;
+mod terms;
 
 pub use clock::MeshClock;
 pub use dead_zone::{Beyond, DeadZone};
@@ -32,5 +33,5 @@ pub use frame::MeshFrame;
 pub use history::{HistoryRow, LumpedHistory, LumpedModel, RunPlan, run, starting_state};
 pub use mesh_cycle::MeshCycle;
 pub use pair::{LumpedPair, Operation};
-pub use plane_of_action::{LineMeans, PlaneOfAction};
+pub use plane_of_action::{LineMeans, LineSharing, PlaneOfAction};
 pub use statics::equilibrium;

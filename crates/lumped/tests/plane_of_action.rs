@@ -7,7 +7,7 @@ use ale::Sense;
 use common::{gears_003, gears_004, pair_003};
 use dynamics::Driver;
 use geometry::Side;
-use lumped::{MeshFrame, PlaneOfAction};
+use lumped::{LineSharing, MeshFrame, PlaneOfAction};
 
 /// The total length is that of `geometry` at every phase, whichever gear drives and whichever way; friction's split is that of the lines.
 #[test]
@@ -105,6 +105,7 @@ fn spread_of_one_line_is_that_of_a_bar() {
         face_width: 24.0,
         helix: 0.0,
         base_pitch: 9.999,
+        sharing: LineSharing::ByLength,
     };
     let means = plane.at(0.0);
     assert!((means.length - 24.0).abs() < 1e-12 && (means.spread - 48.0).abs() < 1e-10, "{means:?}");
