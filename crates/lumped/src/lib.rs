@@ -28,6 +28,7 @@ mod plane_of_action;
 mod recording;
 pub mod shaft18;
 mod statics;
+mod terms;
 
 pub use clock::MeshClock;
 pub use dead_zone::{Beyond, DeadZone};
@@ -37,6 +38,6 @@ pub use frame::MeshFrame;
 pub use history::{HistoryRow, LumpedHistory, LumpedModel, RunPlan, run, starting_state};
 pub use mesh_cycle::MeshCycle;
 pub use pair::{LumpedPair, Operation};
-pub use plane_of_action::{LineMeans, PlaneOfAction};
+pub use plane_of_action::{LineMeans, LineSharing, PlaneOfAction};
 pub use recording::{Recorded, Recording};
 pub use statics::equilibrium;
