@@ -101,7 +101,7 @@ pub(crate) fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, C
 }
 
 /// Why an attempt with one width of the window failed.
-enum Failure {
+pub(crate) enum Failure {
     /// The solver's own error, which another width may cure.
     Static(StaticError),
     /// Anything else.
@@ -121,7 +121,7 @@ impl From<StaticError> for Failure {
 }
 
 /// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the teeth.
-fn wider_window(
+pub(crate) fn wider_window(
     scene: &Scene,
     pair: &GearPair,
     meshes: &[SceneMesh; 2],
@@ -188,7 +188,7 @@ fn attempt(
 
 /// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector of 8 000 degrees of
 /// freedom 0.4 s, a whole gear of 86 000 degrees of freedom 4 s and of 338 000 35 s.
-fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
+pub(crate) fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
     let of = |m: &SceneMesh| {
         let gear = &m.gear;
         let dof = 3 * gear.mesh().nodes.len();
@@ -249,21 +249,21 @@ pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     }
 }
 
-fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
+pub(crate) fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
     match gear {
         ElasticGear::Reduced(r) => Some(r),
         ElasticGear::Full(_) => None,
     }
 }
 
-fn free_dofs(gear: &ElasticGear) -> usize {
+pub(crate) fn free_dofs(gear: &ElasticGear) -> usize {
     match gear {
         ElasticGear::Reduced(r) => r.free_count(),
         ElasticGear::Full(f) => f.dofs.free_count(),
     }
 }
 
-fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
+pub(crate) fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
     match model.contact_set().windows() {
         Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
         None => before,
@@ -271,7 +271,7 @@ fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
 }
 
 /// A free-cut sector is softer than the gear it was cut from.
-fn sector_warnings(model: &StaticModel) -> Vec<String> {
+pub(crate) fn sector_warnings(model: &StaticModel) -> Vec<String> {
     let name = ["pinion", "wheel"];
     (0..2)
         .filter_map(|i| {

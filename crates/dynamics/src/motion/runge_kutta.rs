@@ -88,7 +88,7 @@ impl<const S: usize> Table<S> {
         }
         to.a.copy_from(&rates[S - 1].1);
         to.averaged.copy_from(&to.a);
-        to.next_step = h;
+        to.last_step = h;
         let time = to.time;
         book.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
         Ok((to, error))

@@ -68,10 +68,7 @@ impl ImpactMechanism {
     /// What counts as a large motion of each coordinate, for an integrator: a tenth of a millimetre, or the turn that moves a flank by as much.
     pub fn scale(&self) -> DVector<f64> {
         let radius = self.pair().pinion.base_radius().max(self.pair().wheel.base_radius());
-        let names = self.coordinates().names();
-        DVector::from_fn(names.len(), |i, _| {
-            if names[i].contains("tilt") || names[i].contains("turn") { 0.1 / radius } else { 0.1 }
-        })
+        self.coordinates().scales(0.1, radius)
     }
 
     /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt. A driver that a torque turns is held.
@@ -79,9 +76,8 @@ impl ImpactMechanism {
     /// # Errors
     /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on.
     pub fn static_state(&mut self) -> Result<DVector<f64>, LumpedError> {
-        let names = self.coordinates().names();
-        let held: Vec<usize> = (0..names.len()).filter(|&i| names[i].ends_with("turn")).collect();
-        let mut start = DVector::zeros(names.len());
+        let held: Vec<usize> = self.coordinates().driver_turn().into_iter().collect();
+        let mut start = DVector::zeros(self.coordinates().count());
         start[self.coordinates().lag()] = self.guessed_lag();
         let Ok(found) = equilibrium(self, 0.0, &start, &held);
         found.ok_or(LumpedError::NoEquilibrium)

@@ -203,18 +203,12 @@ impl ImpactMechanism {
         let mut f = Displacement::zeros();
         f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
         if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += self.sense_of_driver() * torque.at(t);
+            f[turn(1 - driven)] += moment.running_sense(1 - driven) * torque.at(t);
         }
         for (g, body) in self.options.bodies.iter().enumerate() {
             f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
         }
         f
-    }
-
-    /// +1 where the driver turns counter-clockwise.
-    fn sense_of_driver(&self) -> f64 {
-        let of_pinion = self.running.sense.sign() as f64;
-        if self.running.driven() == 1 { of_pinion } else { -of_pinion }
     }
 
     fn gyroscopic(&self, moment: &Moment) -> Square {
