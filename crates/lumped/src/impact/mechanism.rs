@@ -9,15 +9,14 @@ use dynamics::{
     pair_motion::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed},
 };
 use geometry::GearPair;
-use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     ImpactOptions,
-    flanks::{FlankSide, Slice, Standing},
+    flanks::{FlankSide, Standing},
+    forces::{FlankForce, Square},
 };
 use crate::LumpedError;
-
-type Square = SMatrix<f64, 12, 12>;
 
 /// A pair of rigid gears as an integrator sees it.
 ///
@@ -41,58 +40,6 @@ pub struct ImpactMechanism {
     sides: [FlankSide; 2],
     bearing: [Square; 2],
     share: f64,
-}
-
-/// What the flanks of one side do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlankForce {
-    /// Normal forces on the twelve coordinates of both gears, elastic part: N, N mm.
-    pub elastic: Displacement,
-    /// The same of damping.
-    pub damping: Displacement,
-    /// Friction.
-    pub friction: Displacement,
-    /// Sum of normal forces, N.
-    pub normal_force: f64,
-    /// Smallest normal force of a slice that overlaps, N; 0 without any.
-    pub least_force: f64,
-    /// Deepest overlap, mm; below zero where flanks are apart.
-    pub overlap: f64,
-    /// Length of the slices that overlap, mm.
-    pub length: f64,
-    /// Normal force of each pair that overlaps, by the running number of its pinion tooth.
-    pub pairs: Vec<(i64, f64)>,
-    /// Potential, mJ.
-    pub potential: f64,
-    /// dV/dt by the nominal motion.
-    parametric: f64,
-    stiffness: Square,
-    rates: Square,
-}
-
-impl FlankForce {
-    fn none() -> Self {
-        let zero = Displacement::zeros();
-        Self {
-            elastic: zero,
-            damping: zero,
-            friction: zero,
-            normal_force: 0.0,
-            least_force: 0.0,
-            overlap: f64::NEG_INFINITY,
-            length: 0.0,
-            pairs: Vec::new(),
-            potential: 0.0,
-            parametric: 0.0,
-            stiffness: Square::zeros(),
-            rates: Square::zeros(),
-        }
-    }
-
-    /// All forces of the flanks on both gears.
-    pub fn wrench(&self) -> Displacement {
-        self.elastic + self.damping + self.friction
-    }
 }
 
 impl ImpactMechanism {
@@ -176,7 +123,7 @@ impl ImpactMechanism {
         sides.each_mut().map(|side| {
             let mut sum = FlankForce::none();
             side.search(pair, &at, &poses, |slice| {
-                add_slice(&mut sum, &slice, &poses, options, *share, &velocity, &nominal);
+                sum.add(&slice, &poses, options, *share, [&velocity, &nominal]);
                 if slice.place.gap < 0.0 {
                     sum.length += *share * whole;
                 }
@@ -219,72 +166,6 @@ impl ImpactMechanism {
         }
         g
     }
-}
-
-/// Adds what one slice does.
-fn add_slice(
-    sum: &mut FlankForce,
-    slice: &Slice,
-    poses: &[Pose; 2],
-    options: &ImpactOptions,
-    share: f64,
-    velocity: &Displacement,
-    nominal: &Displacement,
-) {
-    let place = &slice.place;
-    sum.overlap = sum.overlap.max(-place.gap);
-    if place.gap >= 0.0 {
-        return;
-    }
-    let row = |direction: &Vector3<f64>| {
-        let mut j = Displacement::zeros();
-        for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
-            let moment = (place.position - poses[g].translation.vector).cross(direction);
-            for i in 0..3 {
-                j[COORDINATES * g + i] = sign * direction[i];
-                j[COORDINATES * g + 3 + i] = sign * moment[i];
-            }
-        }
-        j
-    };
-    let normal = row(&place.normal);
-    let force = options.law.at(-place.gap, -normal.dot(velocity));
-    let total = share * force.total();
-    sum.elastic += share * force.elastic * normal;
-    sum.damping += share * force.damping * normal;
-    sum.potential += share * force.potential;
-    sum.parametric -= share * force.elastic * normal.dot(nominal);
-    sum.least_force = if sum.normal_force == 0.0 { total } else { sum.least_force.min(total) };
-    sum.normal_force += total;
-    match sum.pairs.last_mut() {
-        Some((tooth, f)) if *tooth == slice.tooth => *f += total,
-        _ => sum.pairs.push((slice.tooth, total)),
-    }
-    // -dF/dd and -dF/dd' along the normal: F grows as the gap falls.
-    let (by_gap, by_rate) = (share * force.by_overlap, share * force.by_rate);
-    sum.stiffness.ger(by_gap, &normal, &normal, 1.0);
-    sum.rates.ger(by_rate, &normal, &normal, 1.0);
-    let Some(friction) = &options.friction else { return };
-    // Sliding velocity of body 1 on body 2: what is left of the relative velocity without its normal part.
-    let along: [Displacement; 3] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| row(&axis));
-    let relative = Vector3::from(along.map(|j| j.dot(velocity)));
-    let sliding = relative - place.normal * place.normal.dot(&relative);
-    let speed = sliding.norm();
-    let [mu, slope] = friction.at(speed);
-    // At rest mu/v has the limit dmu/dv.
-    let over_speed = if speed > 0.0 { mu / speed } else { slope };
-    let direction = if speed > 0.0 { sliding / speed } else { Vector3::zeros() };
-    let pull = row(&direction);
-    sum.friction -= total * over_speed * row(&sliding);
-    // Friction follows the normal force, and the sliding velocity within the tangent plane.
-    sum.stiffness.ger(-mu * by_gap, &pull, &normal, 1.0);
-    sum.rates.ger(-mu * by_rate, &pull, &normal, 1.0);
-    let mut plane = Square::zeros();
-    along.iter().for_each(|j| plane.ger(1.0, j, j, 1.0));
-    plane.ger(-1.0, &normal, &normal, 1.0);
-    plane.ger(-1.0, &pull, &pull, 1.0);
-    sum.rates += total * over_speed * plane;
-    sum.rates.ger(total * slope, &pull, &pull, 1.0);
 }
 
 impl Mechanism for ImpactMechanism {

@@ -14,14 +14,16 @@
 //! law slice by slice, so that a pair comes in and goes out with the length of its contact line.
 
 mod flanks;
+mod forces;
 mod friction;
 mod history;
 mod law;
 mod mechanism;
 mod options;
 
+pub use forces::FlankForce;
 pub use friction::StickSlip;
 pub use history::ImpactRow;
 pub use law::{ImpactLaw, contact_stiffness};
-pub use mechanism::{FlankForce, ImpactMechanism};
+pub use mechanism::ImpactMechanism;
 pub use options::ImpactOptions;

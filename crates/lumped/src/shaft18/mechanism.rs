@@ -6,7 +6,7 @@ use dynamics::motion::{Forces, Mechanism};
 use fem::{Modes, beam::BeamTheory, natural_modes};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{LumpedShaft, MeshLine, RunOut, ShaftSystem};
+use super::{LumpedShaft, Mesh, MeshLine, RunOut, ShaftSystem};
 use crate::{DeadZone, Fourier, LumpedError};
 
 /// A system of lumped shafts as an integrator sees it: deviations q from the steady turn of all shafts in the ratios of their teeth.
@@ -66,6 +66,38 @@ pub(super) struct MeshState {
 }
 
 impl LiveMesh {
+    fn new(mesh: &Mesh, shafts: &[LumpedShaft], first: &[usize], speeds: &[f64]) -> Result<Self, LumpedError> {
+        let line = mesh.geometry.line()?;
+        let n = first[shafts.len()];
+        let (mut lever, mut turns) = (DVector::zeros(n), DVector::zeros(n));
+        let mut inverse_mass = 0.0;
+        for (i, place) in mesh.gears.iter().enumerate() {
+            let shaft = &shafts[place.shaft];
+            let mut own = lever.rows_mut(first[place.shaft], shaft.kept.len());
+            own += shaft.stations.rows(6 * place.station, 6).transpose() * line.levers[i];
+            let mut own = turns.rows_mut(first[place.shaft], shaft.kept.len());
+            own += line.levers[i][5] * shaft.stations.row(6 * place.station + 5).transpose();
+            let radius = line.base_radii[i] * line.cos_base_helix;
+            inverse_mass += radius * radius / shaft.polar_inertia[place.station];
+        }
+        if !(inverse_mass.is_finite() && inverse_mass > 0.0) {
+            return Err(LumpedError::NotPositive { quantity: "polar inertia of a gear, t mm^2", value: 0.0 });
+        }
+        let speeds = mesh.gears.map(|g| speeds[g.shaft].abs());
+        Ok(Self {
+            line,
+            lever,
+            turns,
+            damping: 2.0 * mesh.damping_ratio * (mesh.stiffness.mean / inverse_mass).sqrt(),
+            stiffness: mesh.stiffness.clone(),
+            zone: DeadZone::new(mesh.half_backlash),
+            error: mesh.error.clone(),
+            run_out: mesh.run_out,
+            speeds,
+            rate: f64::from(mesh.geometry.teeth[0]) * speeds[0],
+        })
+    }
+
     /// Error and run-out and their rates, mm and mm/s.
     pub fn excess(&self, t: f64) -> [f64; 2] {
         let [mut e, slope] = self.error.with_slope(self.rate * t);
@@ -86,6 +118,25 @@ impl LiveMesh {
         let beyond = self.zone.at(compression[0]);
         MeshState { stiffness: [k, slope * self.rate], compression, error_rate, beyond }
     }
+}
+
+/// Torques and weight on the coordinates; power that the torques leave over by speed ratios, and the largest of a single one.
+fn loads(system: &ShaftSystem, shafts: &[LumpedShaft], first: &[usize], speeds: &[f64]) -> (DVector<f64>, [f64; 2]) {
+    let mut load = DVector::zeros(first[shafts.len()]);
+    for (s, shaft) in shafts.iter().enumerate() {
+        let mut own = load.rows_mut(first[s], shaft.kept.len());
+        own += &shaft.gravity * DVector::from_row_slice(&system.gravity);
+    }
+    let mut imbalance = [0.0, 0.0f64];
+    for t in &system.torques {
+        let s = t.place.shaft;
+        let mut own = load.rows_mut(first[s], shafts[s].kept.len());
+        own += t.torque * shafts[s].stations.row(6 * t.place.station + 5).transpose();
+        // By ratios rather than by speeds: a system at rest is in balance or not as well.
+        let power = t.torque * if system.speed == 0.0 { 1.0 } else { speeds[s] / system.speed };
+        imbalance = [imbalance[0] + power, imbalance[1].max(power.abs())];
+    }
+    (load, imbalance)
 }
 
 impl ShaftMechanism {
@@ -125,51 +176,11 @@ impl ShaftMechanism {
             let quantity = "mass or inertia of every kept coordinate, t or t mm^2";
             return Err(LumpedError::NotPositive { quantity, value: 0.0 });
         }
-        let mut load = DVector::zeros(n);
-        for (s, shaft) in shafts.iter().enumerate() {
-            let mut own = load.rows_mut(first[s], shaft.kept.len());
-            own += &shaft.gravity * DVector::from_row_slice(&system.gravity);
-        }
-        let mut imbalance = [0.0, 0.0f64];
-        for t in &system.torques {
-            let s = t.place.shaft;
-            let mut own = load.rows_mut(first[s], shafts[s].kept.len());
-            own += t.torque * shafts[s].stations.row(6 * t.place.station + 5).transpose();
-            // By ratios rather than by speeds: a system at rest is in balance or not as well.
-            let power = t.torque * if system.speed == 0.0 { 1.0 } else { speeds[s] / system.speed };
-            imbalance = [imbalance[0] + power, imbalance[1].max(power.abs())];
-        }
+        let (load, imbalance) = loads(system, &shafts, &first, &speeds);
         let held = system.shafts.iter().any(|s| s.supports.iter().any(|b| b.stiffness[5] > 0.0));
         let mut meshes = Vec::new();
         for mesh in &system.meshes {
-            let line = mesh.geometry.line()?;
-            let (mut lever, mut turns) = (DVector::zeros(n), DVector::zeros(n));
-            let mut inverse_mass = 0.0;
-            for (i, place) in mesh.gears.iter().enumerate() {
-                let shaft = &shafts[place.shaft];
-                let mut own = lever.rows_mut(first[place.shaft], shaft.kept.len());
-                own += shaft.stations.rows(6 * place.station, 6).transpose() * line.levers[i];
-                let mut own = turns.rows_mut(first[place.shaft], shaft.kept.len());
-                own += line.levers[i][5] * shaft.stations.row(6 * place.station + 5).transpose();
-                let radius = line.base_radii[i] * line.cos_base_helix;
-                inverse_mass += radius * radius / shaft.polar_inertia[place.station];
-            }
-            if !(inverse_mass.is_finite() && inverse_mass > 0.0) {
-                return Err(LumpedError::NotPositive { quantity: "polar inertia of a gear, t mm^2", value: 0.0 });
-            }
-            let speeds = mesh.gears.map(|g| speeds[g.shaft].abs());
-            meshes.push(LiveMesh {
-                line,
-                lever,
-                turns,
-                damping: 2.0 * mesh.damping_ratio * (mesh.stiffness.mean / inverse_mass).sqrt(),
-                stiffness: mesh.stiffness.clone(),
-                zone: DeadZone::new(mesh.half_backlash),
-                error: mesh.error.clone(),
-                run_out: mesh.run_out,
-                speeds,
-                rate: f64::from(mesh.geometry.teeth[0]) * speeds[0],
-            });
+            meshes.push(LiveMesh::new(mesh, &shafts, &first, &speeds)?);
         }
         Ok(Self { shafts, mass, stiffness, damping, gyroscopic, load, meshes, imbalance, held })
     }
