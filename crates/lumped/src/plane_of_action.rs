@@ -47,23 +47,25 @@ pub enum LineSharing {
     ByLine,
 }
 
-/// Integrals over all contact lines at one phase, for load spread evenly over their length (`split` with [`LineSharing::ByLine`]: over the lines).
+/// Means over all contact lines at one phase, for load spread evenly over their length (`split` with [`LineSharing::ByLine`]: over the lines).
 ///
-/// With s = sign(xi - xi_C), w = -(sgn xi sin(b_b) + z cos(b_b)) the place along a line (lever of the normal force about the direction across the plane of action),
-/// and <f> the mean of f over the length of all lines:
+/// ```text
+/// s = sign(xi - xi_C),   w = -(sgn xi sin(b_b) + z cos(b_b)),   v = w - mean(w)
+/// ```
+/// w (mm) is the place along a line and the lever of the normal force about the direction across the plane of action.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LineMeans {
     /// L, mm: sum of the lengths.
     pub length: f64,
     /// Longest single line, mm.
     pub longest: f64,
-    /// [xi], [z]: centre of the load, mm.
+    /// mean(xi), mean(z): centre of the load, mm.
     pub centre: [f64; 2],
-    /// [(w - [w])^2], mm^2: the tilt stiffness over the mesh stiffness.
+    /// mean(v^2), mm^2: the tilt stiffness over the mesh stiffness.
     pub spread: f64,
-    /// [s], [s xi], [s z]: friction force and its levers (1, mm, mm) over mu F. [s] is lambda_1 - lambda_2 of seed 003 and L_F of seed 004.
+    /// mean(s), mean(s xi), mean(s z): friction force and its levers (1, mm, mm) over mu F. The first is lambda_1 - lambda_2 of seed 003 and L_F of seed 004.
     pub split: [f64; 3],
-    /// [s v], [s v xi], [s v z] with v = w - [w]: the same for a load that grows along the lines.
+    /// mean(s v), mean(s v xi), mean(s v z) (mm, mm^2, mm^2): the same for a load that grows along the lines.
     pub tilt_split: [f64; 3],
 }
 
