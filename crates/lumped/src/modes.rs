@@ -69,7 +69,10 @@ pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<V
             let root = (-value).sqrt();
             let s = if root.re < 0.0 { -root } else { root };
             let s = if value.im == 0.0 && value.re > 0.0 { Complex::new(0.0, value.re.sqrt()) } else { s };
-            Mode { frequency_hz: s.im.abs() / TAU, growth: s.re, shape: shape(&inverse, &scaled, value, largest) }
+            let shape = shape(&inverse, &scaled, value, largest);
+            // The motion is told by the root with positive imaginary part.
+            let shape = if s.im < 0.0 { shape.conjugate() } else { shape };
+            Mode { frequency_hz: s.im.abs() / TAU, growth: s.re, shape }
         })
         .collect();
     sort(&mut modes);

@@ -18,7 +18,8 @@ pub enum Window {
     Hann,
     /// Four-term Blackman-Harris: side lobes 92 dB down, so that a small sideband stands out beside a large carrier; resolves eight bins.
     BlackmanHarris,
-    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins.
+    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins, and because its top is flat the frequency of a peak is
+    /// good to half a bin only.
     FlatTop,
 }
 
@@ -234,9 +235,9 @@ pub fn scalloping_loss(window: Window) -> f64 {
     let [first, rest @ ..] = window.terms() else { return 0.0 };
     let mut sum = first * sinc(0.5);
     for (k, a) in (1..).zip(rest) {
+        // The window's sign (-1)^k and that of the kernel k bins away cancel.
         let k = f64::from(k);
-        let sign = if k as u32 % 2 == 0 { 1.0 } else { -1.0 };
-        sum += 0.5 * sign * a * (sinc(0.5 - k) + sinc(0.5 + k));
+        sum += 0.5 * a * (sinc(0.5 - k) + sinc(0.5 + k));
     }
     1.0 - sum.abs() / first
 }

@@ -12,6 +12,7 @@ use crate::{
     history::{MeshState, STANDING, row_of, scale},
     modes::{Mode, undamped_modes},
     statics::equilibrium,
+    terms::{add_load, add_support, slope_in_time},
 };
 
 /// The model in motion.
@@ -133,12 +134,8 @@ impl Mechanism for Motion12 {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
         let [a, b] = self.parameters.rayleigh;
         for i in 0..12 {
-            let c = a * self.mass[(i, i)] + b * self.stiffness[i];
-            out.conservative[i] -= self.stiffness[i] * q[i];
-            out.other[i] -= c * v[i];
-            out.dissipated += c * v[i] * v[i];
-            out.stiffness[(i, i)] += self.stiffness[i];
-            out.damping[(i, i)] += c;
+            let k = self.stiffness[i];
+            add_support(out, i, [k, a * self.mass[(i, i)] + b * k], [q[i], v[i]]);
         }
         for spring in self.springs(t) {
             let [elastic, viscous, rate] = spring.at(q, v);
@@ -159,13 +156,10 @@ impl Mechanism for Motion12 {
         let sign = self.parameters.pair.frame.sign();
         for (i, torque) in [5, 11].into_iter().zip(&self.parameters.pair.torques) {
             // Both about +z in the driver's sense: the load turns the driven gear back.
-            let torque = sign * torque.at(t);
-            out.other[i] += torque;
-            out.supplied += torque * v[i];
+            add_load(out, i, sign * torque.at(t), v[i]);
         }
         if !out.tangents {
-            let h = 1e-6 / self.parameters.pair.clock.mesh_frequency();
-            out.parametric = (self.energy(t + h, q) - self.energy(t - h, q)) / (2.0 * h);
+            out.parametric = slope_in_time(|t| self.energy(t, q), t, self.parameters.pair.clock.mesh_frequency());
         }
         Ok(())
     }
