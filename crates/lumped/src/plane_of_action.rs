@@ -35,6 +35,9 @@ pub struct PlaneOfAction {
     pub sharing: LineSharing,
 }
 
+/// More lines at once than any gear has.
+const MOST_LINES: f64 = 2e4;
+
 /// How load is shared between the lines where friction is concerned.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -104,7 +107,7 @@ impl PlaneOfAction {
         self.transverse_contact_ratio() * self.face_width / self.helix.cos()
     }
 
-    /// All integrals at `cycles` mesh cycles; zero where nothing touches.
+    /// All means at `cycles` mesh cycles; zero where nothing touches, or where the data are no plane of action.
     pub fn at(&self, cycles: f64) -> LineMeans {
         let mut means = LineMeans::default();
         let (mut first, mut lines) = ([0.0; 2], 0.0);
@@ -151,9 +154,13 @@ impl PlaneOfAction {
         let (half, slope) = (0.5 * self.face_width, self.helix.tan());
         let zero = 0.5 * (start + end) + cycles.rem_euclid(1.0) * self.base_pitch;
         let reach = half * slope.abs();
-        let low = ((start - reach - zero) / self.base_pitch).ceil() as i64;
-        let high = ((end + reach - zero) / self.base_pitch).floor() as i64;
-        for j in low..=high {
+        let low = ((start - reach - zero) / self.base_pitch).ceil();
+        let high = ((end + reach - zero) / self.base_pitch).floor();
+        // Plain data that were never checked may hold anything.
+        if !(high - low).is_finite() || high - low > MOST_LINES {
+            return;
+        }
+        for j in low as i64..=high as i64 {
             let middle = zero + j as f64 * self.base_pitch;
             let (z0, z1) = if slope == 0.0 {
                 (-half, half)
@@ -197,7 +204,7 @@ impl PlaneOfAction {
         finite("pitch point in mm", self.pitch_point)?;
         finite("helix in rad", self.helix)?;
         let ratio = self.transverse_contact_ratio() + self.overlap_ratio();
-        if (1.0..1e4).contains(&ratio) {
+        if (1.0..0.5 * MOST_LINES).contains(&ratio) {
             return Ok(());
         }
         Err(LumpedError::OutOfRange {

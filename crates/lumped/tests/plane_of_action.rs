@@ -110,4 +110,8 @@ fn spread_of_one_line_is_that_of_a_bar() {
     let means = plane.at(0.0);
     assert!((means.length - 24.0).abs() < 1e-12 && (means.spread - 48.0).abs() < 1e-10, "{means:?}");
     assert_eq!(plane.at(0.1).split[0], 1.0, "after the pitch point");
+    for base_pitch in [0.0, 1e-300, f64::NAN] {
+        let nonsense = PlaneOfAction { base_pitch, ..plane };
+        assert_eq!(nonsense.at(0.3).length, 0.0, "base pitch {base_pitch}");
+    }
 }

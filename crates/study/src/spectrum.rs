@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use serde::Serialize;
 
 use crate::{
-    error::{StudyError, check},
+    error::{StudyError, check, positive},
     transform::real_transform,
 };
 
@@ -102,7 +102,8 @@ pub struct Sidebands {
 /// Spectrum of `samples`, taken `rate` times a second.
 ///
 /// # Errors
-/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample or rate that is not a number (or not above 0).
+/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample that is not a number, [`StudyError::NotPositive`] for a rate
+/// that is not above 0.
 ///
 /// # Example
 /// ```
@@ -119,9 +120,7 @@ pub fn spectrum(samples: &[f64], rate: f64, window: Window) -> Result<Spectrum, 
         return Err(StudyError::TooFewSamples { samples: n, least: 8 });
     }
     check(samples, 1)?;
-    if !(rate > 0.0 && rate.is_finite()) {
-        return Err(StudyError::NotFinite { index: 0, value: rate });
-    }
+    positive("sampling rate", rate)?;
     let weights: Vec<f64> = (0..n).map(|j| window.at(j as f64 / n as f64)).collect();
     let sum: f64 = weights.iter().sum();
     // The weighted mean leaves nothing at f = 0 that would leak into low lines.

@@ -146,6 +146,9 @@ fn sections_of_a_cosine() {
     }
     let (back, short) = ([0.0, 2.0, 1.0], [0.0; 2]);
     assert!(matches!(stroboscopic_section(&back, &[&[0.0; 3]], 1.0, 0.0), Err(StudyError::NotAscending { index: 2 })));
+    let dense = stroboscopic_section(&[0.0, 1.0], &[], 1e-300, 0.0);
+    assert!(matches!(dense, Err(StudyError::TooFewSamples { .. })));
+    assert!(stroboscopic_section(&[0.0, 1.0], &[], 0.0, 0.0).is_err());
     assert!(matches!(crossing_section(&[0.0, 1.0, 2.0], &short, &[]), Err(StudyError::Lengths { .. })));
 }
 
