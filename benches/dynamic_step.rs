@@ -76,12 +76,8 @@ fn run(free: [bool; 6], scheme: Scheme) -> (f64, f64) {
     let [warm, timed] = CYCLES.map(|n| n as f64 * period);
 
     integrator.advance(&mut system, &mut state, warm, |_, _| ()).unwrap_or_else(|e| panic!("{e}"));
-    dynamics::DBG.iter().for_each(|d| d.store(0, std::sync::atomic::Ordering::Relaxed));
     let start = Instant::now();
     integrator.advance(&mut system, &mut state, warm + timed, |_, _| ()).unwrap_or_else(|e| panic!("{e}"));
-    let d: Vec<f64> = dynamics::DBG.iter().map(|d| d.load(std::sync::atomic::Ordering::Relaxed) as f64).collect();
-    let n = (CYCLES[1] * STEPS_PER_CYCLE) as f64;
-    println!("per step: {:.2} prepared, {:.0} us each; {:.2} solved, {:.0} us each, {:.2} newton, {:.0} rows {:.0} active", d[1] / n, 1e-3 * d[0] / d[1], d[3] / n, 1e-3 * d[2] / d[3], d[4] / d[3], d[5] / d[3], d[6] / d[3]);
     let wall = start.elapsed().as_secs_f64();
     (wall / (CYCLES[1] * STEPS_PER_CYCLE) as f64, timed / wall)
 }
