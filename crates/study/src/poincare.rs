@@ -80,9 +80,10 @@ pub fn iterated_section<S, P, E>(
 /// Columns that do not move at all count as coming back.
 pub fn section_period(points: &[Vec<f64>], tolerance: f64, scale: &[f64]) -> Option<usize> {
     let comes_back = |m: usize| {
-        points.iter().zip(&points[m..]).all(|(a, b)| {
-            a.iter().zip(b).zip(scale).all(|((a, b), s)| (a - b).abs() <= tolerance * s)
-        })
+        points
+            .iter()
+            .zip(&points[m..])
+            .all(|(a, b)| a.iter().zip(b).zip(scale).all(|((a, b), s)| (a - b).abs() <= tolerance * s))
     };
     (1..=points.len() / 3).find(|&m| comes_back(m))
 }

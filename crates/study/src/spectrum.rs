@@ -235,7 +235,7 @@ pub fn scalloping_loss(window: Window) -> f64 {
     let mut sum = first * sinc(0.5);
     for (k, a) in (1..).zip(rest) {
         let k = f64::from(k);
-        let sign = if k as u32 % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if (k as u32).is_multiple_of(2) { 1.0 } else { -1.0 };
         sum += 0.5 * sign * a * (sinc(0.5 - k) + sinc(0.5 + k));
     }
     1.0 - sum.abs() / first
