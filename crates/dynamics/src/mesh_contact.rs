@@ -2,7 +2,7 @@
 
 use contact::{
     Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalLaw, LocalState, Pose, Slice,
-    SliceHint, SlicePlace, TablePlace, TableWork,
+    SliceHint, SlicePlace, TablePlace, TableWork, Vec3,
 };
 use faer::MatRef;
 use geometry::GearPair;
@@ -50,6 +50,8 @@ pub struct ContactWork {
 pub struct MeshContact {
     set: ContactSet,
     friction: Option<Friction>,
+    /// Of the larger gear's tip, mm.
+    radius: f64,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
     /// How body 1 stood at the last search.
@@ -57,11 +59,9 @@ pub struct MeshContact {
     /// Force of each station of each pair at the last solution, N.
     memory: Vec<f64>,
     places: Vec<(usize, SlicePlace)>,
-    /// Station of each row, counted over all pairs.
-    keys: Vec<usize>,
-    rows: Vec<ContactRow>,
-    slices: Vec<Slice>,
-    laws: Vec<LocalLaw>,
+    /// What was found at the last poses, and at others before these.
+    found: Found,
+    before: Found,
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
@@ -69,9 +69,80 @@ pub struct MeshContact {
     openings: Vec<TablePlace>,
     loads: Vec<TablePlace>,
     work: [TableWork; 2],
-    compliance: Vec<f64>,
     solver: DenseSolver,
     force: MeshForce,
+}
+
+/// Rows and their compliance at some poses.
+#[derive(Debug, Default)]
+struct Found {
+    /// The poses, once there are rows of them.
+    at: Option<[Pose; 2]>,
+    /// Station of each row, counted over all pairs.
+    keys: Vec<usize>,
+    rows: Vec<ContactRow>,
+    slices: Vec<Slice>,
+    laws: Vec<LocalLaw>,
+    /// Gaps at these poses, mm; those of the rows follow small motions from there.
+    gaps: Vec<f64>,
+    compliance: Vec<f64>,
+}
+
+/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
+/// um then.
+const NEAR: f64 = 1e-3;
+
+impl Found {
+    fn with_capacity(most: usize) -> Self {
+        Self {
+            at: None,
+            keys: Vec::with_capacity(most),
+            rows: Vec::with_capacity(most),
+            slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
+            gaps: Vec::with_capacity(most),
+            compliance: Vec::with_capacity(most * most),
+        }
+    }
+
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small.
+    fn motion_to(&self, poses: &[Pose; 2], radius: f64) -> Option<[f64; 12]> {
+        let at = self.at.as_ref()?;
+        let mut motion = [0.0; 12];
+        for g in 0..2 {
+            let moved = poses[g].translation.vector - at[g].translation.vector;
+            let turned = (poses[g].rotation * at[g].rotation.inverse()).scaled_axis();
+            motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
+            motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
+            if !(moved.norm() + radius * turned.norm() <= NEAR) {
+                return None;
+            }
+        }
+        Some(motion)
+    }
+
+    /// Gaps after a small motion from here.
+    fn follow(&mut self, motion: &[f64; 12]) {
+        let Self { at, rows, gaps, .. } = self;
+        let Some(at) = at else { return };
+        let centres = at.map(|p| p.translation.vector);
+        for (row, &gap) in rows.iter_mut().zip(gaps.iter()) {
+            let opening: f64 = opening(row, &row.normal, &centres).iter().zip(motion).map(|(j, d)| j * d).sum();
+            row.gap = gap + opening;
+        }
+    }
+}
+
+/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its normal, how they open its gap.
+fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+    let mut j = [0.0; 12];
+    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+        let force = sign * direction;
+        let moment = (row.position - centres[body]).cross(&force);
+        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+    }
+    j
 }
 
 impl MeshContact {
@@ -96,23 +167,22 @@ impl MeshContact {
             iterations: 0,
             residual: 0.0,
         };
+        let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
         Ok(Self {
             friction,
+            radius,
             hints: vec![SliceHint::default(); most],
             stood: None,
             memory: vec![0.0; most],
             places: Vec::with_capacity(most),
-            keys: Vec::with_capacity(most),
-            rows: Vec::with_capacity(most),
-            slices: Vec::with_capacity(most),
-            laws: Vec::with_capacity(most),
+            found: Found::with_capacity(most),
+            before: Found::with_capacity(most),
             gaps: Vec::with_capacity(most),
             levers: Vec::with_capacity(most),
             torque_levers: Vec::with_capacity(most),
             openings: Vec::with_capacity(most),
             loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
             work,
-            compliance: Vec::with_capacity(most * most),
             solver: DenseSolver::new(most),
             force,
             pairs,
@@ -130,6 +200,7 @@ impl MeshContact {
         self.memory.fill(0.0);
         self.hints.fill(SliceHint::default());
         self.stood = None;
+        (self.found.at, self.before.at) = (None, None);
         if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
             self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
         }
@@ -147,22 +218,50 @@ impl MeshContact {
     /// [`ContactError`] when the contact problem cannot be solved.
     pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, None);
+        self.forces()
+    }
+
+    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these: rows that were found for poses next to them, up to a um away, are kept
+    /// with their places and compliance, and their gaps follow the motion to first order.
+    ///
+    /// Forces are then the exact derivative of the strain energy, and the tangent that of the forces.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate_near(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
+        let motions = [self.found.motion_to(poses, self.radius), self.before.motion_to(poses, self.radius)];
+        let motion = match motions {
+            [Some(motion), _] => Some(motion),
+            [None, other] => {
+                std::mem::swap(&mut self.found, &mut self.before);
+                other
+            }
+        };
+        match motion {
+            Some(motion) => {
+                self.found.follow(&motion);
+                self.gaps.clear();
+                self.gaps.extend(self.found.rows.iter().map(|r| r.gap));
+            }
+            None => {
+                self.find_places(poses);
+                let deepest = self.deepest();
+                self.rows_within(poses, deepest + 2.0 * NEAR);
+            }
+        }
+        self.forces()
+    }
+
+    /// Forces of the rows as they are.
+    fn forces(&mut self) -> Result<&MeshForce, ContactError> {
         self.solve(Balance::Held, 0)?;
-        let Self { force, rows, solver, set, .. } = self;
-        force.wrench = wrenches(poses, rows, solver.forces());
+        let Self { force, found: Found { rows, at, .. }, solver, set, .. } = self;
+        let poses = at.unwrap_or([Pose::identity(); 2]);
+        force.wrench = wrenches(&poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
         force.tangent = solver.tangent(|i| {
             let row = &rows[i];
-            [row.normal, row.traction].map(|direction| {
-                let mut j = [0.0; 12];
-                for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
-                    let force = sign * direction;
-                    let moment = (row.position - centres[body]).cross(&force);
-                    j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
-                    j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
-                }
-                j
-            })
+            [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
         });
         force.pair_forces.fill(0.0);
         for (row, f) in rows.iter().zip(solver.forces()) {
@@ -182,6 +281,11 @@ impl MeshContact {
     /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         self.find_places(poses);
+        self.deepest()
+    }
+
+    /// Deepest overlap at the places found, mm.
+    fn deepest(&self) -> f64 {
         self.places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
     }
 
@@ -212,7 +316,15 @@ impl MeshContact {
     /// more stay open.
     pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         self.find_places(poses);
-        let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
+        let reach = reach.unwrap_or_else(|| self.deepest());
+        self.rows_within(poses, reach);
+    }
+
+    /// Rows of the places found that are no farther apart than `reach`, mm, and their compliance.
+    fn rows_within(&mut self, poses: &[Pose; 2], reach: f64) {
+        let Self { set, pairs, hints, places, found, friction, .. } = self;
+        let Found { at, keys, rows, slices, .. } = found;
+        *at = Some(*poses);
         keys.clear();
         rows.clear();
         slices.clear();
@@ -221,7 +333,6 @@ impl MeshContact {
         let stations = of_window.stations();
         let tabulated = of_window.bulk().is_some();
         let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
-        let reach = reach.unwrap_or_else(|| places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap())));
         for of_pair in places.chunk_by(|a, b| a.0 / stations.len() == b.0 / stations.len()) {
             let numbers = pairs[of_pair[0].0 / stations.len()];
             let pair = pair_at(numbers);
@@ -240,16 +351,18 @@ impl MeshContact {
                 slices.push(slice);
             }
         }
+        found.laws.clear();
+        found.laws.extend(found.slices.iter().map(|s| s.local.law()));
+        found.gaps.clear();
+        found.gaps.extend(found.rows.iter().map(|r| r.gap));
         self.gaps.clear();
-        self.gaps.extend(self.rows.iter().map(|r| r.gap));
-        self.laws.clear();
-        self.laws.extend(self.slices.iter().map(|s| s.local.law()));
+        self.gaps.extend_from_slice(&self.found.gaps);
         self.compliance();
     }
 
     /// S between the rows, from both gears' tables or matrices.
     fn compliance(&mut self) {
-        let Self { set, rows, slices, openings, loads, work, compliance, friction, .. } = self;
+        let Self { set, found: Found { rows, slices, compliance, .. }, openings, loads, work, friction, .. } = self;
         let n = rows.len();
         let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
             set.exact_compliance(rows, compliance);
@@ -287,7 +400,8 @@ impl MeshContact {
 
     /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
     pub(crate) fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
-        let Self { rows, slices, laws, gaps, levers, torque_levers, compliance, keys, memory, solver, .. } = self;
+        let Self { found, gaps, levers, torque_levers, memory, solver, .. } = self;
+        let Found { keys, rows, slices, laws, compliance, .. } = found;
         let n = rows.len();
         levers.clear();
         torque_levers.clear();
@@ -313,7 +427,7 @@ impl MeshContact {
 
     /// What the last evaluation passed over and did, from the sizes of its arrays.
     pub fn work(&self) -> ContactWork {
-        let (n, m) = (self.rows.len() as f64, self.solver.active().len() as f64);
+        let (n, m) = (self.found.rows.len() as f64, self.solver.active().len() as f64);
         let steps = self.solver.iterations() as f64;
         let touched = self.work.each_ref().map(|w| w.touched() as f64);
         let places: f64 = self.openings.iter().chain(&self.loads).map(|p| p.points() as f64).sum::<f64>() / n.max(1.0);
@@ -331,16 +445,17 @@ impl MeshContact {
 
     /// Rows of the last solution, in order of pair and height.
     pub fn rows(&self) -> &[ContactRow] {
-        &self.rows
+        &self.found.rows
     }
 
     /// The rows with the nodes that they rest on, at the poses of the last evaluation.
     pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
-        let Self { set, pairs, hints, keys, rows, slices, .. } = self;
+        let Self { set, pairs, hints, found: Found { keys, rows, slices, .. }, .. } = self;
         let mut rows = rows.clone();
         let Some(of_window) = set.slices() else { return rows };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
-        for ((row, slice), &key) in rows.iter_mut().zip(slices).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
+        for ((row, slice), &key) in
+            rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
         {
             let numbers = pairs[key / of_window.stations().len()];
             FlankPair::new(of_window.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
@@ -350,7 +465,7 @@ impl MeshContact {
 
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
-        &self.slices
+        &self.found.slices
     }
 
     /// Forces, openings and active rows of the last solution.

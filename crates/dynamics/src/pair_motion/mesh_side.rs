@@ -153,15 +153,20 @@ impl MeshSide {
     /// Contact with the gears displaced by `d`.
     pub fn evaluate(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<SideForce, ContactError> {
         let poses = self.poses(pair, cycles, d);
-        let force = self.contact.evaluate(&poses)?;
+        let force = self.contact.evaluate_near(&poses)?;
         let all = vector(&force.wrench);
         let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
         let friction = self.friction(&poses);
         Ok(SideForce { normal: all - friction, friction, stiffness })
     }
 
-    /// Deepest overlap of the undeformed flanks, mm; negative where they are apart.
+    /// Deepest overlap of the undeformed flanks at the place of the last evaluation, mm; negative where they are apart.
     pub fn overlap(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> f64 {
+        // Where flanks overlap the deepest place is among the rows.
+        let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));
+        if deepest > 0.0 {
+            return deepest;
+        }
         let poses = self.poses(pair, cycles, d);
         self.contact.overlap(&poses)
     }
