@@ -214,8 +214,10 @@ impl MeshSide {
     /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
     ///
     /// ```text
-    /// F_d = -c h dg/dt,  F + F_d >= 0
+    /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
+    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no harder than they press, so that the force
+    /// does not jump where contact begins.
     pub fn damping(
         &self,
         poses: &[Pose; 2],
@@ -225,14 +227,11 @@ impl MeshSide {
         let (mut force, mut matrix, mut power) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
         for (f, length, j, opening) in self.pressed(poses, velocity) {
             let c = per_length * length;
-            // Parting flanks let go at most as much as they press.
-            if c * opening <= f {
-                force -= c * opening * j;
+            let damped = limited(c * opening, f);
+            force -= damped * j;
+            power += damped * opening;
+            if damped == c * opening {
                 matrix += c * j * j.transpose();
-                power += c * opening * opening;
-            } else {
-                force -= f * j;
-                power += f * opening;
             }
         }
         (force, matrix, power)
@@ -242,7 +241,7 @@ impl MeshSide {
     pub fn normal_forces(&self, poses: &[Pose; 2], velocity: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
         for (f, length, _, opening) in self.pressed(poses, velocity) {
-            let total = f - (per_length * length * opening).min(f);
+            let total = f - limited(per_length * length * opening, f);
             sum += total;
             least = least.min(total);
         }
@@ -318,6 +317,11 @@ impl MeshSide {
         let after = self.contact.force().pair_forces.iter().sum::<f64>();
         self.changes.jump = self.changes.jump.max((after - before).abs());
     }
+}
+
+/// Damping of a slice that carries `force`, between -force and force.
+fn limited(damping: f64, force: f64) -> f64 {
+    damping.clamp(-force, force)
 }
 
 fn opposite(sense: ale::Sense) -> ale::Sense {

@@ -23,7 +23,7 @@ pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
 pub use mesh_side::{Changes, SidePlace};
 pub use nominal::{Moment, Nominal};
 pub use options::{Drive, MeshDamping, MotionOptions};
-pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Swing};
+pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Seen, Swing};
 pub use shooting::{Shot, shoot};
 pub use start::quasi_static_start;
 pub use steady::{LONGEST_PERIOD, Periodicity, Returns, run_to_steady};
