@@ -93,6 +93,11 @@ impl CyclicGear {
         self.part.places.get(node as usize).copied()
     }
 
+    /// Loads on nodes of the larger mesh as those of one sector, each different one once.
+    pub(crate) fn own_loads(&self, loads: &[Load]) -> Vec<Load> {
+        placed(&self.part, loads).map(|p| p.own).unwrap_or_default()
+    }
+
     /// C (mm/N), in the frame of copy 0.
     pub(crate) fn compliance(&self) -> Mat<f64> {
         let mut through = self.forces_on_cuts(None);

@@ -67,6 +67,14 @@ pub enum ReductionError {
         /// Vectors that the search held.
         vectors: usize,
     },
+    /// Flanks with more coordinates than a consistent boundary can have.
+    #[error("a consistent boundary would have {coordinates} coordinates, {most} at most")]
+    LargeBoundary {
+        /// Coordinates of all flanks.
+        coordinates: usize,
+        /// Most that are possible.
+        most: usize,
+    },
     /// Normal modes of one gear asked for on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -96,6 +104,9 @@ impl ReductionError {
             Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
             Self::WrongLength { .. } => None,
             Self::ModesNotConverged { .. } => Some("ask for fewer modes, or for a lower bound of their frequencies".into()),
+            Self::LargeBoundary { .. } => {
+                Some("take the massless boundary, or coarse grids over the flanks, or a mesh that is cyclic".into())
+            }
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }

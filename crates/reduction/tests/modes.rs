@@ -279,6 +279,34 @@ fn modes_and_residual_make_the_compliance() {
     assert!(last.abs() < 1e-6, "all modes leave {last}");
 }
 
+/// Craig and Bampton's reduction stiffens: its frequencies come down to the gear's with every fixed-boundary mode, and its modes make up the whole compliance.
+#[test]
+fn craig_bampton_comes_from_above() {
+    let mesh = meshed(&gear(11, 20.0), 2, Extent::Whole);
+    let options = options(&[Side::Left, Side::Right], 3, 0);
+    let reducer = GearReducer::new(mesh.clone(), Material::STEEL, options.clone()).unwrap();
+    let wanted = reducer.modes(ModeChoice::Count(16)).unwrap().frequencies_hz();
+    let window = reducer.window(7).unwrap();
+    let mut last: Vec<f64> = vec![f64::INFINITY; 16];
+    for fixed in [0, 1, 2, 4, 8, 16] {
+        let found = reducer.craig_bampton_modes(ModeChoice::Count(16), fixed).unwrap().frequencies_hz();
+        println!("{fixed} fixed modes a harmonic: off by {:.1e} at most, lowest by {:.1e}", worst(&found, &wanted), found[0] / wanted[0] - 1.0);
+        for (j, ((f, l), w)) in found.iter().zip(&last).zip(&wanted).enumerate() {
+            assert!(*f <= l * (1.0 + 1e-11) && *f >= w * (1.0 - 1e-11), "mode {j}, {fixed} fixed: {f} Hz, {l} before, {w} wanted");
+        }
+        last = found;
+    }
+    assert!(worst(&last, &wanted) < 3e-3, "{:e}", worst(&last, &wanted));
+    let all = reducer.craig_bampton_modes(ModeChoice::Count(usize::MAX), 2).unwrap();
+    let whole = off(&modal_compliance(&all, &reducer, &window), &window.reduced.compliance);
+    println!("all {} modes: compliance off by {whole:.1e}", all.count());
+    assert!(whole < 1e-9, "{whole:e}");
+    // The whole gear at once has the same space, fixed modes or none.
+    let general = GearReducer::general(mesh, Material::STEEL, options).unwrap();
+    let [a, b] = [&reducer, &general].map(|r| r.craig_bampton_modes(ModeChoice::Count(16), 0).unwrap().frequencies_hz());
+    assert!(worst(&a, &b) < 1e-9, "{:e}", worst(&a, &b));
+}
+
 /// One thread or two, the same bits.
 #[test]
 fn threads_change_nothing() {

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 use fem::dense;
 
-use super::krylov::{Eigenpairs, Pencil};
+use super::krylov::Pencil;
 use crate::ReductionError;
 
 /// V with V' M V = 1, block by block.
@@ -87,27 +87,5 @@ impl Basis {
             self.inertia.push(inertia);
         }
         Ok(added)
-    }
-
-    /// What a basis knows of the modes: V' K V s = omega^2 s (Rayleigh and Ritz), from above; the first ones good to the square of their shapes' error.
-    /// `stiffness` is K times columns.
-    pub fn ritz(
-        &self,
-        stiffness: impl Fn(MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError>,
-    ) -> Result<Eigenpairs, ReductionError> {
-        let mut reduced = Mat::<f64>::zeros(self.size, self.size);
-        let mut column = 0;
-        for block in &self.blocks {
-            let forces = stiffness(block.as_ref())?;
-            let mut row = 0;
-            for other in &self.blocks {
-                let own = dense::product(other.transpose(), forces.as_ref());
-                reduced.as_mut().submatrix_mut(row, column, other.ncols(), block.ncols()).copy_from(own);
-                row += other.ncols();
-            }
-            column += block.ncols();
-        }
-        let (squares, vectors) = dense::symmetric_eigen(reduced.as_ref())?;
-        Ok(Eigenpairs { squares, shapes: self.combined(vectors.as_ref()) })
     }
 }

@@ -40,9 +40,9 @@ enum Shapes {
 }
 
 /// Columns of a Lanczos step for a whole gear.
-const WHOLE_BLOCK: usize = 8;
+pub(super) const WHOLE_BLOCK: usize = 8;
 /// The same for one harmonic.
-const HARMONIC_BLOCK: usize = 4;
+pub(super) const HARMONIC_BLOCK: usize = 4;
 
 impl GearReducer {
     /// Normal modes of the gear with its bore held and all flanks free.
@@ -57,18 +57,27 @@ impl GearReducer {
             Method::General(gear, _) => {
                 let mesh = self.gear().mesh();
                 let body = Whole { gear, mass: fem::assemble_mass(mesh, self.material(), self.dofs())? };
-                let Eigenpairs { mut squares, shapes } = lowest(&body, choice.until(), WHOLE_BLOCK)?;
-                squares.truncate(choice.cut(&squares));
-                let shapes = shapes.get(.., ..squares.len()).to_owned();
-                let of_motion = rigid_inertia(mesh, self.material(), self.dofs())?;
-                let coupling = products(&of_motion, shapes.as_ref());
-                Ok(GearModes { squares, waves: None, coupling, shapes: Shapes::Whole(shapes) })
+                of_whole(self, choice, lowest(&body, choice.until(), WHOLE_BLOCK)?)
             }
         }
     }
 }
 
-/// Modes by harmonics, the lowest of all first.
+/// The modes of a gear that is known as a whole.
+pub(super) fn of_whole(
+    reducer: &GearReducer,
+    choice: ModeChoice,
+    found: Eigenpairs,
+) -> Result<GearModes, ReductionError> {
+    let Eigenpairs { mut squares, shapes } = found;
+    squares.truncate(choice.cut(&squares));
+    let shapes = shapes.get(.., ..squares.len()).to_owned();
+    let of_motion = rigid_inertia(reducer.gear().mesh(), reducer.material(), reducer.dofs())?;
+    let coupling = products(&of_motion, shapes.as_ref());
+    Ok(GearModes { squares, waves: None, coupling, shapes: Shapes::Whole(shapes) })
+}
+
+/// Modes by harmonics.
 fn of_sector(
     sector: &VibratingSector,
     material: &Material,
@@ -97,8 +106,19 @@ fn of_sector(
         }
         until => all(until)?,
     };
+    of_harmonics(sector, material, choice, &found)
+}
+
+/// The modes of a gear from those of its harmonics 0 .. z/2, the lowest first.
+pub(super) fn of_harmonics(
+    sector: &VibratingSector,
+    material: &Material,
+    choice: ModeChoice,
+    found: &[Eigenpairs],
+) -> Result<GearModes, ReductionError> {
+    let z = sector.teeth;
     let mut order: Vec<(f64, u32, usize)> = Vec::new();
-    for (n, pairs) in (0..).zip(&found) {
+    for (n, pairs) in (0..).zip(found) {
         order.extend(pairs.squares.iter().enumerate().map(|(i, &s)| (s, n, i)));
     }
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));

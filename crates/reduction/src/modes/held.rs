@@ -4,7 +4,10 @@ use faer::{Mat, MatRef};
 use fem::dense;
 
 use super::krylov::Pencil;
-use crate::ReductionError;
+use crate::{ReductionError, load::Load};
+
+/// Rows of a body's vectors that a unit load acts on, and their shares.
+pub(super) type Rows = Vec<(usize, f64)>;
 
 /// A body whose coordinates P'u are held at zero.
 ///
@@ -13,8 +16,7 @@ use crate::ReductionError;
 /// ```
 pub(super) struct Held<'a> {
     body: &'a dyn Pencil,
-    /// Rows and shares of each coordinate.
-    loads: Vec<Vec<(usize, f64)>>,
+    loads: Vec<Rows>,
     /// L of C = L L'.
     factor: Mat<f64>,
 }
@@ -23,35 +25,47 @@ pub(super) struct Held<'a> {
 const COLUMNS: usize = 128;
 
 impl<'a> Held<'a> {
-    /// With the compliance C (mm/N) of the coordinates, if it is known.
-    pub fn new(
-        body: &'a dyn Pencil,
-        loads: Vec<Vec<(usize, f64)>>,
-        compliance: Option<MatRef<'_, f64>>,
-    ) -> Result<Self, ReductionError> {
-        let factor = match compliance {
-            Some(c) => dense::cholesky(c)?,
-            None => dense::cholesky(compliance_of(body, &loads)?.as_ref())?,
-        };
-        Ok(Self { body, loads, factor })
+    /// Holds the coordinates that `loads` work on.
+    pub fn new(body: &'a dyn Pencil, loads: Vec<Rows>) -> Result<Self, ReductionError> {
+        let n = loads.len();
+        let mut compliance = Mat::<f64>::zeros(n, n);
+        for start in (0..n).step_by(COLUMNS) {
+            let width = (n - start).min(COLUMNS);
+            let field = unit_fields(body, &loads, start, width)?;
+            compliance.as_mut().subcols_mut(start, width).copy_from(means(&loads, &field));
+        }
+        let compliance = Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)]));
+        Ok(Self { body, factor: dense::cholesky(compliance.as_ref())?, loads })
+    }
+
+    /// K^-1 P L^-T: motion of the body under forces on the coordinates alone, each of unit strain energy and none doing work on another's.
+    pub fn constraint_modes(&self) -> Result<Mat<f64>, ReductionError> {
+        let n = self.loads.len();
+        let mut modes = Mat::zeros(n, self.order());
+        for start in (0..n).step_by(COLUMNS) {
+            let width = (n - start).min(COLUMNS);
+            let field = unit_fields(self.body, &self.loads, start, width)?;
+            modes.as_mut().subrows_mut(start, width).copy_from(field.transpose());
+        }
+        dense::solve_lower(self.factor.as_ref(), modes.as_mut());
+        Ok(modes.transpose().to_owned())
     }
 }
 
-/// C = P' K^-1 P, mm/N.
-pub(super) fn compliance_of(body: &dyn Pencil, loads: &[Vec<(usize, f64)>]) -> Result<Mat<f64>, ReductionError> {
-    let n = loads.len();
-    let mut compliance = Mat::<f64>::zeros(n, n);
-    for start in (0..n).step_by(COLUMNS) {
-        let width = (n - start).min(COLUMNS);
-        let unit = Mat::from_fn(n, width, |i, j| f64::from(u8::from(i == start + j)));
-        let field = body.follow(spread(loads, &unit, body.order()).as_ref())?;
-        compliance.as_mut().subcols_mut(start, width).copy_from(means(loads, &field));
-    }
-    Ok(Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)])))
+/// Each load along three axes, on the rows that `row` gives its nodes.
+pub(super) fn on_rows(loads: &[Load], row: impl Fn(u32, usize) -> Option<usize>) -> Vec<Rows> {
+    let along = |load: &Load, axis: usize| load.iter().filter_map(|&(n, w)| Some((row(n, axis)?, w))).collect();
+    loads.iter().flat_map(|load| [0, 1, 2].map(|axis| along(load, axis))).collect()
+}
+
+/// K^-1 P for the loads start .. start + width.
+fn unit_fields(body: &dyn Pencil, loads: &[Rows], start: usize, width: usize) -> Result<Mat<f64>, ReductionError> {
+    let unit = Mat::from_fn(loads.len(), width, |i, j| f64::from(u8::from(i == start + j)));
+    body.follow(spread(loads, &unit, body.order()).as_ref())
 }
 
 /// P f.
-pub(super) fn spread(loads: &[Vec<(usize, f64)>], f: &Mat<f64>, rows: usize) -> Mat<f64> {
+fn spread(loads: &[Rows], f: &Mat<f64>, rows: usize) -> Mat<f64> {
     let mut force = Mat::zeros(rows, f.ncols());
     for (i, load) in loads.iter().enumerate() {
         for &(row, weight) in load {
@@ -62,7 +76,7 @@ pub(super) fn spread(loads: &[Vec<(usize, f64)>], f: &Mat<f64>, rows: usize) -> 
 }
 
 /// P' u.
-pub(super) fn means(loads: &[Vec<(usize, f64)>], u: &Mat<f64>) -> Mat<f64> {
+fn means(loads: &[Rows], u: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(loads.len(), u.ncols(), |i, j| loads[i].iter().map(|&(row, w)| w * u[(row, j)]).sum())
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     choice::ModeChoice,
-    held::Held,
+    held::{Held, Rows, on_rows},
     krylov::{Pencil, Until, lowest},
     whole::Whole,
 };
@@ -38,32 +38,23 @@ impl GearReducer {
                 let sector = cyclic.vibrating()?;
                 let ring = sector.ring()?;
                 let rows = sector.dofs().free_count();
-                // Every direction of the window's frame is one of the sector's: all three are held.
-                let of_load = |load: &Vec<(u32, f64)>, axis: usize| {
-                    let row = |&(node, w): &(u32, f64)| {
-                        let place = cyclic.place(node)?;
-                        Some((place.copy as usize * rows + sector.dofs().dof(place.node, axis)?, w))
-                    };
-                    load.iter().filter_map(row).collect::<Vec<_>>()
+                // All three directions are held, so it does not matter whose frame they are in.
+                let row = |node: u32, axis: usize| {
+                    let place = cyclic.place(node)?;
+                    Some(place.copy as usize * rows + sector.dofs().dof(place.node, axis)?)
                 };
-                let loads = loads.iter().flat_map(|l| (0..3).map(move |axis| of_load(l, axis))).collect();
-                held(&ring, loads)?
+                held(&ring, on_rows(&loads, row))?
             }
             Method::General(gear, _) => {
                 let mass = fem::assemble_mass(self.gear().mesh(), self.material(), self.dofs())?;
-                let row = |&(node, w): &(u32, f64), axis| self.dofs().dof(node, axis).map(|row| (row, w));
-                let of_load =
-                    |load: &Vec<(u32, f64)>, axis| load.iter().filter_map(|part| row(part, axis)).collect::<Vec<_>>();
-                let loads = loads.iter().flat_map(|l| (0..3).map(move |axis| of_load(l, axis))).collect();
-                held(&Whole { gear, mass }, loads)?
+                held(&Whole { gear, mass }, on_rows(&loads, |node, axis| self.dofs().dof(node, axis)))?
             }
         };
         Ok(LowestFrequencies { flanks_free_hz, flanks_held_hz: square.sqrt() / TAU })
     }
 }
 
-fn held(body: &dyn Pencil, loads: Vec<Vec<(usize, f64)>>) -> Result<f64, ReductionError> {
-    let body = Held::new(body, loads, None)?;
-    let pairs = lowest(&body, Until::Count(1), BLOCK)?;
+fn held(body: &dyn Pencil, loads: Vec<Rows>) -> Result<f64, ReductionError> {
+    let pairs = lowest(&Held::new(body, loads)?, Until::Count(1), BLOCK)?;
     Ok(pairs.squares.first().copied().unwrap_or(f64::INFINITY))
 }

@@ -9,6 +9,7 @@
 
 mod basis;
 mod choice;
+mod craig_bampton;
 mod gear_modes;
 mod held;
 mod krylov;
