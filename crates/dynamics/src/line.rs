@@ -2,13 +2,14 @@
 
 use std::cell::Cell;
 
+use ale::ToothWindow;
 use contact::{
-    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, SliceHint, contact_intervals, contact_row, covered,
-    hertz, least_gap, opening,
+    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, Pose, SliceHint, contact_intervals, contact_row,
+    covered, hertz, least_gap, opening,
 };
 use geometry::GearPair;
 
-use crate::{Equilibrium, SliceSet, parts::Parts};
+use crate::{ContactSet, Equilibrium, SliceSet, StaticOptions, Station, parts::Parts};
 
 /// Axial stations at which the least gap of a pair is looked at.
 const LINE_SAMPLES: usize = 97;
@@ -135,9 +136,29 @@ fn slice_line(parts: &Parts, e: &Equilibrium, slices: &SliceSet, pair: (usize, u
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, samples, SLICE_TOUCHING * e.approach(parts.pair))
 }
 
+/// A window at given poses, for a look at the pairs beside it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Standing<'a> {
+    pub pair: &'a GearPair,
+    pub options: &'a StaticOptions,
+    pub set: &'a ContactSet,
+    pub window: &'a ToothWindow,
+    pub station: Station,
+    pub poses: &'a [Pose; 2],
+}
+
+impl Standing<'_> {
+    /// The first of the two pairs beside the window whose undeformed flanks overlap by more than `allowed` (mm), and by how much.
+    pub fn overlap_beside(&self, allowed: f64) -> Option<(i64, f64)> {
+        let pairs = self.window.pairs();
+        let beside = [pairs.start - 1, pairs.end];
+        beside.into_iter().map(|running| (running, -outside_gap(self, running))).find(|(_, overlap)| *overlap > allowed)
+    }
+}
+
 /// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
-pub(crate) fn outside_gap(parts: &Parts, e: &Equilibrium, running: i64) -> f64 {
-    let Parts { pair, set, window, options, .. } = *parts;
+fn outside_gap(standing: &Standing<'_>, running: i64) -> f64 {
+    let Standing { pair, options, set, window, station, poses } = *standing;
     let side = options.side();
     let [f1, f2] = set.first_teeth();
     let last = window.first() + window.count() as i64 - 1;
@@ -146,8 +167,8 @@ pub(crate) fn outside_gap(parts: &Parts, e: &Equilibrium, running: i64) -> f64 {
     let flank2 = pair.wheel.modified_flank_at(side, i64::from(f2) + last - running, -running);
     let base_radius = pair.pinion.base_radius();
     let [start, end] = pair.path_of_contact();
-    let theta1 = e.station.pinion_angle(pair, options);
-    let tooth = running - e.station.middle_pair(options);
+    let theta1 = station.pinion_angle(pair, options);
+    let tooth = running - station.middle_pair(options);
     let half = 0.5 * pair.face_width();
     let (w_low, w_high) = (flank2.nominal().roll_form, flank2.nominal().roll_tip);
     (0..=32)
@@ -155,8 +176,8 @@ pub(crate) fn outside_gap(parts: &Parts, e: &Equilibrium, running: i64) -> f64 {
             let z = half * (f64::from(i) / 16.0 - 1.0);
             let xi = pair.path_coordinate(side, theta1, tooth, z);
             let u = xi.clamp(start, end) / base_radius;
-            let point = e.poses[0].transform_point(&flank1.point(u, z).into());
-            let seen = e.poses[1].inverse_transform_point(&point).coords;
+            let point = poses[0].transform_point(&flank1.point(u, z).into());
+            let seen = poses[1].inverse_transform_point(&point).coords;
             match flank2.locate(&seen) {
                 Some(foot) if foot.roll >= w_low - 1e-6 && foot.roll <= w_high + 1e-6 => foot.distance,
                 _ => f64::INFINITY,

@@ -110,6 +110,15 @@ impl StaticOptions {
         }
     }
 
+    /// The same with the other gear as the driver: the options of the coast flanks.
+    pub(crate) fn driven_backwards(&self) -> Self {
+        let driver = match self.driver {
+            Driver::Pinion => Driver::Wheel,
+            Driver::Wheel => Driver::Pinion,
+        };
+        Self { driver, ..self.clone() }
+    }
+
     /// Sides of the teeth whose flanks are kept.
     pub fn sides(&self) -> Vec<Side> {
         if self.both_flanks { vec![self.side(), self.side().opposite()] } else { vec![self.side()] }

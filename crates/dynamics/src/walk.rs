@@ -75,18 +75,17 @@ impl Walk {
 
     /// A pair beside the window that overlaps at the loaded pose.
     fn starved(&self, fixed: &Fixed<'_>, e: &Equilibrium) -> Option<StaticError> {
-        let pairs = self.window.pairs();
-        let least = 1e-3 * e.elastic_error().abs();
-        [pairs.start - 1, pairs.end].into_iter().find_map(|running| {
-            let gap = line::outside_gap(&self.parts(fixed), e, running);
-            (gap < -least).then(|| StaticError::Starved {
-                cycle: e.station.cycle,
-                phase: e.station.phase,
-                pair: running,
-                window: self.window.count(),
-                overlap_um: -1e3 * gap,
-                torque_nm: 1e-3 * fixed.options.torque,
-            })
+        let Fixed { pair, options, .. } = *fixed;
+        let Self { set, window, .. } = self;
+        let standing = line::Standing { pair, options, set, window, station: e.station, poses: &e.poses };
+        let (running, overlap) = standing.overlap_beside(1e-3 * e.elastic_error().abs())?;
+        Some(StaticError::Starved {
+            cycle: e.station.cycle,
+            phase: e.station.phase,
+            pair: running,
+            window: window.count(),
+            overlap_um: 1e3 * overlap,
+            torque_nm: 1e-3 * options.torque,
         })
     }
 

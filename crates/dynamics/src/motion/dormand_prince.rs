@@ -59,7 +59,7 @@ pub(super) fn step<M: Mechanism>(
     // The last stage stands at the end of the step.
     to.a.copy_from(&rates[6].1);
     to.averaged.copy_from(&to.a);
-    to.next_step = h;
+    to.last_step = h;
     let time = to.time;
     book.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
     Ok((to, error))

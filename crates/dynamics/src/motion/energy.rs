@@ -44,7 +44,7 @@ pub(super) fn step<M: Mechanism>(
         if newton::settled(change, last) {
             to.a = (&to.v - &from.v) / h;
             to.averaged.copy_from(&to.a);
-            to.next_step = h;
+            to.last_step = h;
             book.supplied += h * forces.supplied;
             book.dissipated += h * forces.dissipated;
             let known = system.potential(start, &from.q).map_err(fail(start))?;

@@ -46,7 +46,7 @@ impl Coefficients {
         let Self { a_m, a_f, beta, gamma } = *self;
         let time = from.time + h;
         // The averaged acceleration belongs to a place within the step: a new step moves it.
-        let stretch = if from.next_step > 0.0 { h / from.next_step } else { 1.0 };
+        let stretch = if from.last_step > 0.0 { h / from.last_step } else { 1.0 };
         let b0 = &from.a + (&from.averaged - &from.a) * stretch;
         let mut to = from.clone();
         to.time = time;
@@ -60,7 +60,7 @@ impl Coefficients {
             to.a = ((1.0 - a_m) * &to.averaged + a_m * &b0 - a_f * &from.a) / (1.0 - a_f);
             if newton::settled(change, last) {
                 let error = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h * (&to.a - &from.a);
-                to.next_step = h;
+                to.last_step = h;
                 return Ok((to, error));
             }
             forces.clear();

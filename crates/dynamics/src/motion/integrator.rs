@@ -126,6 +126,7 @@ impl Integrator {
             };
             let before = state.clone();
             let h = wanted.min(until - state.time);
+            let shortened = h < wanted;
             // A sliver at the end would be a step of its own.
             let h = if until - state.time - h < 1e-9 * h { until - state.time } else { h };
             let (mut to, mut book, next) = self.accepted_step(system, &mass, &before, h)?;
@@ -137,7 +138,8 @@ impl Integrator {
                 now = self.event_values(system, to.time, &to.q, &to.v)?;
                 crossings.retain(|c| c.time <= first);
             }
-            to.next_step = next;
+            // A step that was short because the time was up says nothing against the length wanted.
+            to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
             let opened = self.ledger.unwrap_or_default();
             book.close_step(&opened, system.mass(), &to.v);
             self.ledger = Some(book);
@@ -280,9 +282,10 @@ impl Integrator {
         let mut potential =
             |time: f64, q| system.potential(time, q).map_err(|source| MotionError::Mechanism { time, source });
         let known = book.potential;
+        // What V changes by with the coordinates held, at either end of the step. Where the step ends comes last: a system may keep it.
+        let [still, moved] = [potential(to.time, &from.q)?, potential(from.time, &to.q)?];
         book.potential = potential(to.time, &to.q)?;
-        // What V changes by with the coordinates held, at either end of the step.
-        let held = [potential(to.time, &from.q)? - known, book.potential - potential(from.time, &to.q)?];
+        let held = [still - known, book.potential - moved];
         book.parametric += 0.5 * (held[0] + held[1]);
         Ok((to, error, book))
     }

@@ -20,12 +20,15 @@ pub struct State {
     pub powers: [f64; 2],
     /// Step that the step control would take next; 0 at a start.
     pub next_step: f64,
+    /// Step that led here; 0 at a start.
+    pub last_step: f64,
 }
 
 impl State {
     /// At rest or moving, accelerations still to be found by the integrator.
     pub fn new(time: f64, q: DVector<f64>, v: DVector<f64>) -> Self {
         let n = q.len();
-        Self { time, q, v, a: DVector::zeros(n), averaged: DVector::zeros(n), powers: [0.0; 2], next_step: 0.0 }
+        let rest = || DVector::zeros(n);
+        Self { time, q, v, a: rest(), averaged: rest(), powers: [0.0; 2], next_step: 0.0, last_step: 0.0 }
     }
 }

@@ -22,6 +22,7 @@ pub struct Coordinates {
     map: DMatrix<f64>,
     names: Vec<&'static str>,
     lag: usize,
+    driver_turn: Option<usize>,
 }
 
 const NAMES: [[&str; COORDINATES]; 2] = [
@@ -34,7 +35,7 @@ impl Coordinates {
     pub fn new(pair: &GearPair, options: &StaticOptions, free: [[bool; COORDINATES]; 2]) -> Self {
         let driven = options.driven();
         let mut columns: Vec<(SVector<f64, 12>, &'static str)> = Vec::new();
-        let mut lag = 0;
+        let (mut lag, mut driver_turn) = (0, None);
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
         let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
         for gear in 0..2 {
@@ -47,6 +48,7 @@ impl Coordinates {
                 } else if free[gear][axis] {
                     column[own] = 1.0;
                     if axis == COORDINATES - 1 {
+                        driver_turn = Some(columns.len());
                         // The driver turns on: the driven gear follows in the ratio of the teeth.
                         column[COORDINATES * driven + axis] = -teeth[gear] / teeth[driven];
                     }
@@ -59,7 +61,7 @@ impl Coordinates {
             }
         }
         let map = DMatrix::from_fn(12, columns.len(), |i, j| columns[j].0[i]);
-        Self { map, names: columns.iter().map(|c| c.1).collect(), lag }
+        Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
     /// Number of free coordinates n.
@@ -75,6 +77,20 @@ impl Coordinates {
     /// Number of the coordinate that is the driven gear's lag, mm.
     pub fn lag(&self) -> usize {
         self.lag
+    }
+
+    /// Number of the coordinate that is the driver's turn (rad), where a torque drives it.
+    pub fn driver_turn(&self) -> Option<usize> {
+        self.driver_turn
+    }
+
+    /// Sizes of the coordinates that belong to a displacement of `length` (mm) at the flanks: turns are taken over a lever of `lever` (mm).
+    pub fn scales(&self, length: f64, lever: f64) -> DVector<f64> {
+        let is_turn = |name: &&str| name.contains("tilt") || name.contains("turn");
+        DVector::from_iterator(
+            self.count(),
+            self.names.iter().map(|n| if is_turn(n) { length / lever } else { length }),
+        )
     }
 
     /// d = T q, and the same for velocities.

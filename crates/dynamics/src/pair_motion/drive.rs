@@ -61,6 +61,30 @@ impl Speed {
     }
 }
 
+impl Speed {
+    /// Time (s, >= 0) at which `angle` (rad, >= 0) has been turned; `None` where the motion stops before that.
+    pub fn time_at(&self, angle: f64) -> Option<f64> {
+        let end = match *self {
+            Self::Constant(omega) => return (omega > 0.0).then(|| angle / omega),
+            Self::Ramp { start, duration, .. } => start + duration,
+        };
+        let beyond = angle - self.angle(end);
+        if beyond >= 0.0 {
+            let omega = self.at(end);
+            return if omega > 0.0 { Some(end + beyond / omega) } else { (beyond == 0.0).then_some(end) };
+        }
+        // The angle never falls: bisect to the last bit.
+        let (mut low, mut high) = (0.0, end);
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return Some(high);
+            }
+            if self.angle(middle) < angle { low = middle } else { high = middle }
+        }
+    }
+}
+
 /// Torque over time, N mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Torque {
@@ -122,6 +146,12 @@ mod tests {
             assert!((ramp.at(t) - speed).abs() < 1e-6, "{t} s: {}, not {speed}", ramp.at(t));
             assert!((ramp.acceleration(t) - acceleration).abs() < 1e-4, "{t} s: {acceleration}");
         }
+        for angle in [0.0, 0.2, 5.0, 16.0, 20.0] {
+            let found = ramp.time_at(angle).map_or(f64::NAN, |t| ramp.angle(t));
+            assert!((found - angle).abs() < 1e-12, "{found} rad, not {angle}");
+        }
+        let stop = Speed::Ramp { from: 10.0, to: 0.0, start: 0.0, duration: 1.0 };
+        assert_eq!(stop.time_at(5.1), None, "it stops after 5 rad");
         assert!((ramp.angle(0.4) - (0.1 * 3.0 + 0.3 * 0.5 * 107.0)).abs() < 1e-12);
     }
 

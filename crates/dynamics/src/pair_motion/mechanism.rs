@@ -1,14 +1,18 @@
 //! Equations of motion of a pair.
 
+use std::sync::Arc;
+
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Drive, MeshDamping, Moment, MotionOptions, Nominal, RigidBody, Speed,
+    COORDINATES, Changes, Coordinates, Displacement, Drive, Instant, MeshDamping, Moment, MotionOptions, Nominal,
+    RigidBody, SidePlace, Speed, contact_line,
     mesh_side::{MeshSide, SideForce},
 };
 use crate::{
-    ElasticGear, StaticError, StaticOptions,
+    ElasticGear, StaticError,
     motion::{Forces, Mechanism},
 };
 
@@ -32,52 +36,85 @@ pub struct PairMechanism {
     bearing: [SMatrix<f64, 12, 12>; 2],
     /// Mesh damping per length of contact line, N s/mm^2.
     damping: f64,
+    /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
+    means: [f64; 2],
+    last: Option<Touching>,
+    extremes: Extremes,
 }
 
-/// What the results hold of one instant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Instant {
-    /// Time, s.
-    pub time: f64,
-    /// Nominal motion.
-    pub nominal: Moment,
-    /// Mesh cycles since the start of counting.
-    pub cycles: f64,
-    /// Lag of the driven gear behind the nominal motion on its base circle, mm: the dynamic transmission error.
-    pub transmission_error: f64,
-    /// Displacements of both gears.
-    pub displacement: Displacement,
-    /// Forces (N) and moments (N mm) of the mesh on both gears: normal, friction and damping.
-    pub mesh: Displacement,
-    /// Forces of the bearings on both gears.
-    pub bearing: Displacement,
-    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic part.
-    pub pair_forces: Vec<f64>,
-    /// Running number of the first pair of the window.
-    pub first_pair: i64,
-    /// Sum of normal forces on driving and coast flanks, N.
-    pub normal_forces: [f64; 2],
-    /// Length of loaded slices, driving side, mm.
-    pub contact_line_length: f64,
-    /// Largest pressure, MPa.
-    pub max_pressure: f64,
-    /// Tooth changes so far.
-    pub tooth_changes: u64,
+/// Contact of both sides at one time and displacement.
+#[derive(Debug, Clone)]
+struct Touching {
+    at: (f64, Displacement),
+    driving: SideForce,
+    coast: Option<SideForce>,
+}
+
+/// What is worth knowing of a whole motion, gathered step by step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Extremes {
+    /// Least normal force of a slice in contact, damping included, N; none before the first step in contact. Below 0 a flank would pull.
+    pub least_force: Option<f64>,
+    /// Largest sum of normal forces on the driving flanks, damping included, N.
+    pub largest_force: f64,
+    /// Largest gap between the driving flanks of all pairs, mm; 0 when contact was never lost at the end of a step.
+    pub largest_gap: f64,
+    /// Steps whose end has no contact on the driving flanks.
+    pub steps_apart: u64,
+    /// Steps whose end has contact on the coast flanks.
+    pub steps_on_coast: u64,
+}
+
+/// Where both windows stand and what has been gathered: with a [`crate::motion::State`] all that a motion is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Driving flanks.
+    pub driving: SidePlace,
+    /// Coast flanks.
+    pub coast: Option<SidePlace>,
+    /// Gathered so far.
+    pub extremes: Extremes,
 }
 
 impl PairMechanism {
-    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `mesh_stiffness` (N/mm on the base circle)
-    /// and `line_length` (mm) are means that a damping ratio refers to.
+    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `means`: mesh stiffness (N/mm on the base
+    /// circle) and length of contact lines (mm) that a damping ratio refers to.
     ///
     /// # Errors
     /// [`StaticError`].
     pub fn new(
         pair: GearPair,
-        driving: [ElasticGear; 2],
-        coast: Option<[ElasticGear; 2]>,
+        driving: impl Into<Arc<[ElasticGear; 2]>>,
+        coast: Option<Arc<[ElasticGear; 2]>>,
         options: MotionOptions,
-        [mesh_stiffness, line_length]: [f64; 2],
+        means: [f64; 2],
     ) -> Result<Self, StaticError> {
+        let cycles = options.start_cycles;
+        let drive_side = MeshSide::new(&pair, driving.into(), options.contact.clone(), &options.contact, cycles)?;
+        let coast_side = coast
+            .map(|gears| MeshSide::new(&pair, gears, options.contact.driven_backwards(), &options.contact, cycles))
+            .transpose()?;
+        Ok(Self::of(pair, drive_side, coast_side, options, means))
+    }
+
+    /// The same pair at its beginning with another drive; gears and tables are shared.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
+        let options = MotionOptions { drive, ..self.options.clone() };
+        let drive_side = self.drive_side.again(&self.pair)?;
+        let coast_side = self.coast_side.as_ref().map(|side| side.again(&self.pair)).transpose()?;
+        Ok(Self::of(self.pair.clone(), drive_side, coast_side, options, self.means))
+    }
+
+    fn of(
+        pair: GearPair,
+        drive_side: MeshSide,
+        coast_side: Option<MeshSide>,
+        options: MotionOptions,
+        means: [f64; 2],
+    ) -> Self {
         let mut free = options.free;
         let driver = 1 - options.contact.driven();
         let (speed, by_torque) = match &options.drive {
@@ -88,18 +125,6 @@ impl PairMechanism {
         let coordinates = Coordinates::new(&pair, &options.contact, free);
         let mass = coordinates.mass(&options.bodies);
         let nominal = Nominal { speed, start: options.start_cycles };
-        let cycles = options.start_cycles;
-        let drive_side = MeshSide::new(&pair, driving, options.contact.clone(), &options.contact, cycles)?;
-        let coast_side = coast
-            .map(|gears| {
-                let driver = match options.contact.driver {
-                    crate::Driver::Pinion => crate::Driver::Wheel,
-                    crate::Driver::Wheel => crate::Driver::Pinion,
-                };
-                let own = StaticOptions { driver, ..options.contact.clone() };
-                MeshSide::new(&pair, gears, own, &options.contact, cycles)
-            })
-            .transpose()?;
         let both = |part: fn(&super::Bearing) -> nalgebra::Matrix6<f64>| {
             let mut all = SMatrix::<f64, 12, 12>::zeros();
             for (g, b) in options.bearings.iter().enumerate() {
@@ -108,19 +133,78 @@ impl PairMechanism {
             all
         };
         let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
+        let equivalent = equivalent_mass_of(&pair, &options);
         let damping = match options.damping {
             MeshDamping::PerLength(c) => c,
             MeshDamping::Ratio(zeta) => {
-                let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
-                let inertia = [0, 1].map(|i| options.bodies[i].polar_inertia / (base[i] * base[i]));
-                let held = !free[driver][COORDINATES - 1];
-                let equivalent = equivalent_mass(inertia, held.then_some(driver));
                 // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
                 let cos = pair.base_helix_angle().cos();
-                2.0 * zeta * (mesh_stiffness * equivalent).sqrt() / (line_length * cos * cos)
+                2.0 * zeta * (means[0] * equivalent).sqrt() / (means[1] * cos * cos)
             }
         };
-        Ok(Self { pair, options, coordinates, mass, nominal, drive_side, coast_side, bearing, damping })
+        let (last, extremes) = (None, Extremes::default());
+        Self {
+            pair,
+            options,
+            coordinates,
+            mass,
+            nominal,
+            drive_side,
+            coast_side,
+            bearing,
+            damping,
+            means,
+            last,
+            extremes,
+        }
+    }
+
+    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by bit.
+    pub fn forget(&mut self) {
+        self.drive_side.forget();
+        if let Some(side) = &mut self.coast_side {
+            side.forget();
+        }
+        self.last = None;
+    }
+
+    /// Where the windows stand.
+    pub fn place(&self) -> Place {
+        let coast = self.coast_side.as_ref().map(MeshSide::place);
+        Place { driving: self.drive_side.place(), coast, extremes: self.extremes }
+    }
+
+    /// Puts the windows where they stood; what contact remembers is forgotten.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn stand(&mut self, place: &Place) -> Result<(), StaticError> {
+        self.drive_side.stand(&self.pair, place.driving)?;
+        if let (Some(side), Some(place)) = (&mut self.coast_side, place.coast) {
+            side.stand(&self.pair, place)?;
+        }
+        (self.last, self.extremes) = (None, place.extremes);
+        Ok(())
+    }
+
+    /// What has been gathered since the start.
+    pub fn extremes(&self) -> &Extremes {
+        &self.extremes
+    }
+
+    /// Tooth changes of the driving flanks.
+    pub fn changes(&self) -> Changes {
+        self.drive_side.place().changes
+    }
+
+    /// What is asked of the motion.
+    pub fn options(&self) -> &MotionOptions {
+        &self.options
+    }
+
+    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean tangent stiffness.
+    pub fn mesh_resonance_hz(&self) -> f64 {
+        (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
     }
 
     /// Free coordinates.
@@ -138,6 +222,12 @@ impl PairMechanism {
         &self.pair
     }
 
+    /// Force of the load torque along the driven gear's lag, N.
+    pub(super) fn load_on_lag(&self, t: f64) -> f64 {
+        let driven = self.options.contact.driven();
+        self.options.load.at(t) / [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven]
+    }
+
     fn cycles(&self, t: f64) -> f64 {
         self.nominal.cycles(&self.pair, &self.options.contact, t)
     }
@@ -146,15 +236,34 @@ impl PairMechanism {
         self.nominal.at(&self.pair, &self.options.contact, t)
     }
 
-    /// Contact of both sides.
-    fn contact(&mut self, t: f64, d: &Displacement) -> Result<(SideForce, Option<SideForce>), StaticError> {
+    /// Mesh cycles that the gears have turned, a driver's own deviation from its nominal turn included.
+    fn turned_cycles(&self, t: f64, d: &Displacement) -> f64 {
+        let contact = &self.options.contact;
+        if self.coordinates.driver_turn().is_none() {
+            return self.cycles(t);
+        }
+        let driver = 1 - contact.driven();
+        let gear = [&self.pair.pinion, &self.pair.wheel][driver];
+        // The wheel turns against the pinion's sense.
+        let sense = contact.sense.sign() as f64 * [1.0, -1.0][driver];
+        self.cycles(t) + sense * d[COORDINATES * (driver + 1) - 1] / gear.pitch_angle()
+    }
+
+    /// Contact of both sides; the last one is kept, since a step ends where several look.
+    fn contact(&mut self, t: f64, d: &Displacement) -> Result<Touching, StaticError> {
+        if let Some(last) = self.last.as_ref().filter(|last| last.at == (t, *d)) {
+            return Ok(last.clone());
+        }
         let cycles = self.cycles(t);
-        let Self { pair, drive_side, coast_side, .. } = self;
+        let Self { pair, drive_side, coast_side, last, .. } = self;
         let station = crate::Station::at_cycles(cycles);
         let fail = |source| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
+        *last = None;
         let driving = drive_side.evaluate(pair, cycles, d).map_err(fail)?;
         let coast = coast_side.as_mut().map(|side| side.evaluate(pair, cycles, d)).transpose().map_err(fail)?;
-        Ok((driving, coast))
+        let touching = Touching { at: (t, *d), driving, coast };
+        *last = Some(touching.clone());
+        Ok(touching)
     }
 
     /// Loads and drive torque as forces on the twelve coordinates, and inertia of a nominal motion that is not steady.
@@ -166,7 +275,7 @@ impl PairMechanism {
         // The load lets the driven gear lag; its turn is positive when it lags towards the side's sign.
         f[turn(driven)] += contact.side().sign() * self.options.load.at(t);
         if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += moment.velocity[1 - driven].signum() * torque.at(t);
+            f[turn(1 - driven)] += moment.running_sense(1 - driven) * torque.at(t);
         }
         for (g, body) in self.options.bodies.iter().enumerate() {
             f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
@@ -190,39 +299,64 @@ impl PairMechanism {
     /// [`StaticError`].
     pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
         let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
-        let (driving, coast) = self.contact(t, &d)?;
+        let Touching { driving, coast, .. } = self.contact(t, &d)?;
         let cycles = self.cycles(t);
         let poses = self.drive_side.poses(&self.pair, cycles, &d);
         let mut mesh = driving.normal + driving.friction + self.drive_side.damping(&poses, &rate, self.damping).0;
+        let mut normal_forces = [self.drive_side.normal_forces(&poses, &rate, self.damping)[0], 0.0];
         if let (Some(side), Some(force)) = (&self.coast_side, &coast) {
             let poses = side.poses(&self.pair, cycles, &d);
             mesh += force.normal + force.friction + side.damping(&poses, &rate, self.damping).0;
+            normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
         }
-        let sum = |side: &MeshSide| side.contact().solver().forces().iter().sum::<f64>();
         let contact = self.drive_side.contact();
         let loaded = contact.slices().iter().zip(contact.solver().forces()).filter(|(_, f)| **f > 0.0);
-        let (mut length, mut pressure) = (0.0, 0.0f64);
-        for (slice, f) in loaded {
-            length += slice.length;
-            pressure = pressure.max(slice.local.under(f / slice.length).pressure);
-        }
+        let pressure = loaded.fold(0.0, |m: f64, (slice, f)| m.max(slice.local.under(f / slice.length).pressure));
         let (window, tooth_changes) = self.drive_side.window();
+        let moment = self.moment(t);
+        let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
+        let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
         Ok(Instant {
             time: t,
-            nominal: self.moment(t),
-            cycles,
+            cycles: self.turned_cycles(t, &d),
+            speeds,
             transmission_error: q[self.coordinates.lag()],
+            transmission_error_rate: v[self.coordinates.lag()],
             displacement: d,
-            mesh,
+            drive_torque: self.drive_torque(t, &moment, &mesh),
+            load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
             pair_forces: contact.force().pair_forces.clone(),
             first_pair: window.first(),
-            normal_forces: [sum(&self.drive_side), self.coast_side.as_ref().map_or(0.0, sum)],
-            contact_line_length: length,
+            normal_forces,
+            contact_line_length: contact_line::length(&self.pair, contact),
             max_pressure: pressure,
             tooth_changes,
+            mesh,
         })
     }
+
+    /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed.
+    fn drive_torque(&self, t: f64, moment: &Moment, mesh: &Displacement) -> f64 {
+        let driver = 1 - self.options.contact.driven();
+        let running = moment.running_sense(driver);
+        match &self.options.drive {
+            Drive::Torque { torque, .. } => torque.at(t),
+            Drive::Speed(_) => {
+                let inertia = self.options.bodies[driver].polar_inertia * moment.acceleration[driver];
+                running * (inertia - mesh[COORDINATES * (driver + 1) - 1])
+            }
+        }
+    }
+}
+
+/// Reduced mass of the pair's turns on the base circles, t: the driven gear's alone where the driver's angle is prescribed.
+fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
+    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
+    let inertia = [0, 1].map(|i| options.bodies[i].polar_inertia / (base[i] * base[i]));
+    let driver = 1 - options.contact.driven();
+    let held = matches!(options.drive, Drive::Speed(_));
+    equivalent_mass(inertia, held.then_some(driver))
 }
 
 /// Reduced mass on the base circles of two inertias, one of them perhaps held, t.
@@ -255,7 +389,7 @@ impl Mechanism for PairMechanism {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), StaticError> {
         let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
         let moment = self.moment(t);
-        let (driving, coast) = self.contact(t, &d)?;
+        let Touching { driving, coast, .. } = self.contact(t, &d)?;
         let cycles = self.cycles(t);
         let mut normal = Displacement::zeros();
         let mut other = self.external(t, &moment);
@@ -318,13 +452,63 @@ impl Mechanism for PairMechanism {
         Ok(())
     }
 
-    fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), StaticError> {
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
+        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
+        let turned = self.turned_cycles(t, &d);
+        // Several teeth may be due after a long step.
+        loop {
+            let before = self.contact(t, &d)?;
+            let Self { pair, drive_side, coast_side, .. } = self;
+            let loads = |side: &MeshSide| side.contact().force().pair_forces.iter().sum::<f64>();
+            let sums = [Some(loads(drive_side)), coast_side.as_ref().map(loads)];
+            let moved = [
+                drive_side.follow(pair, turned)?,
+                coast_side.as_mut().map_or(Ok(false), |side| side.follow(pair, turned))?,
+            ];
+            if moved == [false; 2] {
+                self.gather(t, &before.at.1, &rate, turned)?;
+                return Ok(());
+            }
+            self.last = None;
+            self.contact(t, &d)?;
+            for ((side, moved), sum) in
+                [Some(&mut self.drive_side), self.coast_side.as_mut()].into_iter().zip(moved).zip(sums)
+            {
+                if let (Some(side), true, Some(sum)) = (side, moved, sum) {
+                    side.book_jump(sum);
+                }
+            }
+        }
+    }
+}
+
+impl PairMechanism {
+    /// Extremes of the step that has just been taken; and whether a pair beside a window ought to carry load.
+    fn gather(&mut self, t: f64, d: &Displacement, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
         let cycles = self.cycles(t);
-        let d = self.coordinates.displacement(q);
-        self.contact(t, &d)?;
-        self.drive_side.follow(&self.pair, cycles)?;
-        if let Some(side) = &mut self.coast_side {
-            side.follow(&self.pair, cycles)?;
+        let poses = self.drive_side.poses(&self.pair, cycles, d);
+        self.drive_side.check_beside(&self.pair, turned, &poses)?;
+        let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
+        let mut least = f64::INFINITY;
+        if touches(&self.drive_side) {
+            let [sum, smallest] = self.drive_side.normal_forces(&poses, rate, self.damping);
+            self.extremes.largest_force = self.extremes.largest_force.max(sum);
+            least = smallest;
+        } else {
+            self.extremes.steps_apart += 1;
+            let gap = -self.drive_side.overlap(&self.pair, cycles, d);
+            self.extremes.largest_gap = self.extremes.largest_gap.max(gap);
+        }
+        if let Some(side) = &self.coast_side
+            && touches(side)
+        {
+            let poses = side.poses(&self.pair, cycles, d);
+            side.check_beside(&self.pair, turned, &poses)?;
+            least = least.min(side.normal_forces(&poses, rate, self.damping)[1]);
+            self.extremes.steps_on_coast += 1;
+        }
+        if least.is_finite() {
+            self.extremes.least_force = Some(self.extremes.least_force.map_or(least, |f| f.min(least)));
         }
         Ok(())
     }

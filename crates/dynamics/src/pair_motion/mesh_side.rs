@@ -1,27 +1,53 @@
 //! Contact of the flanks on one side of the teeth, in motion.
 
+use std::sync::Arc;
+
 use ale::ToothWindow;
 use contact::{ContactError, Pose};
 use geometry::GearPair;
 use nalgebra::{SMatrix, Translation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::{COORDINATES, Displacement};
 use crate::{
-    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames, pose,
+    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames,
+    line::Standing, pose,
 };
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
 #[derive(Debug)]
 pub(super) struct MeshSide {
     options: StaticOptions,
-    gears: [ElasticGear; 2],
+    gears: Arc<[ElasticGear; 2]>,
     window: ToothWindow,
     contact: MeshContact,
+    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from there.
+    home: (ToothWindow, ContactSet),
     /// Mesh cycles that this side is ahead of the pair's counting.
     ahead: f64,
     /// Turn of the wheel from where these flanks touch to where the driving ones do, rad: backlash on the coast side.
     slack: f64,
-    changes: u64,
+    changes: Changes,
+}
+
+/// Tooth changes of one side so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Changes {
+    /// How many.
+    pub count: u64,
+    /// Largest force that an outgoing tooth carried when it left, N: 0, or a force was dropped.
+    pub dropped: f64,
+    /// Largest difference of the sum of normal forces before and after a change at the same place, N.
+    pub jump: f64,
+}
+
+/// Where the window of one side stands; all that contact remembers from step to step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SidePlace {
+    /// First running number of the window.
+    pub first: i64,
+    /// Tooth changes so far.
+    pub changes: Changes,
 }
 
 /// Forces of one side on the twelve coordinates.
@@ -39,7 +65,7 @@ impl MeshSide {
     /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the pair's counting.
     pub fn new(
         pair: &GearPair,
-        gears: [ElasticGear; 2],
+        gears: Arc<[ElasticGear; 2]>,
         options: StaticOptions,
         reference: &StaticOptions,
         cycles: f64,
@@ -58,8 +84,55 @@ impl MeshSide {
         let first = ToothWindow::nominal_first(own.centre(&options), count);
         let window = ToothWindow::new(first, count, teeth)?;
         let set = ContactSet::new(pair, &gears, &window, &options)?;
-        let contact = MeshContact::new(pair, set, &options)?;
-        Ok(Self { options, gears, window, contact, ahead, slack, changes: 0 })
+        let contact = MeshContact::new(pair, set.clone(), &options)?;
+        let home = (window, set);
+        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default() })
+    }
+
+    /// The same side at its beginning, with the same gears and tables.
+    pub fn again(&self, pair: &GearPair) -> Result<Self, StaticError> {
+        let (window, set) = self.home.clone();
+        Ok(Self {
+            options: self.options.clone(),
+            gears: Arc::clone(&self.gears),
+            contact: MeshContact::new(pair, set.clone(), &self.options)?,
+            window,
+            home: (window, set),
+            ahead: self.ahead,
+            slack: self.slack,
+            changes: Changes::default(),
+        })
+    }
+
+    /// Forgets forces and places of the last solution: what comes then depends on the state alone.
+    pub fn forget(&mut self) {
+        self.contact.enter(self.contact.contact_set().clone());
+    }
+
+    /// Where the window stands.
+    pub fn place(&self) -> SidePlace {
+        SidePlace { first: self.window.first(), changes: self.changes }
+    }
+
+    /// Puts the window where it stood.
+    pub fn stand(&mut self, pair: &GearPair, place: SidePlace) -> Result<(), StaticError> {
+        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+        let window = ToothWindow::new(place.first, self.window.count(), teeth)?;
+        self.enter(pair, window, self.home.1.clone())?;
+        self.changes = place.changes;
+        Ok(())
+    }
+
+    /// Goes over to a window, with the matrices of `set` where they serve it.
+    fn enter(&mut self, pair: &GearPair, window: ToothWindow, mut set: ContactSet) -> Result<(), StaticError> {
+        if set.move_to(&self.gears, &window)? {
+            self.contact.enter(set);
+        } else {
+            let set = ContactSet::new(pair, &self.gears, &window, &self.options)?;
+            self.contact = MeshContact::new(pair, set, &self.options)?;
+        }
+        self.window = window;
+        Ok(())
     }
 
     /// Frames of the matrices with the gears displaced by `d` from their nominal places.
@@ -113,6 +186,26 @@ impl MeshSide {
         sum
     }
 
+    /// Slices that carry force: what it is, dg/dd, and how fast the gap opens.
+    fn pressed<'a>(
+        &'a self,
+        poses: &'a [Pose; 2],
+        velocity: &'a Displacement,
+    ) -> impl Iterator<Item = (f64, f64, Displacement, f64)> + 'a {
+        let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
+        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| {
+            let mut j = Displacement::zeros();
+            for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let moment = (row.position - poses[g].translation.vector).cross(&row.normal);
+                for i in 0..3 {
+                    j[COORDINATES * g + i] = sign * row.normal[i];
+                    j[COORDINATES * g + 3 + i] = sign * moment[i];
+                }
+            }
+            (f, slice.length, j, j.dot(velocity))
+        })
+    }
+
     /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
     ///
     /// ```text
@@ -125,18 +218,8 @@ impl MeshSide {
         per_length: f64,
     ) -> (Displacement, SMatrix<f64, 12, 12>, f64) {
         let (mut force, mut matrix, mut power) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
-        let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        for ((row, slice), &f) in rows.filter(|(_, f)| **f > 0.0) {
-            let mut j = Displacement::zeros();
-            for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
-                let moment = (row.position - poses[g].translation.vector).cross(&row.normal);
-                for i in 0..3 {
-                    j[COORDINATES * g + i] = sign * row.normal[i];
-                    j[COORDINATES * g + 3 + i] = sign * moment[i];
-                }
-            }
-            let c = per_length * slice.length;
-            let opening = j.dot(velocity);
+        for (f, length, j, opening) in self.pressed(poses, velocity) {
+            let c = per_length * length;
             // Parting flanks let go at most as much as they press.
             if c * opening <= f {
                 force -= c * opening * j;
@@ -150,6 +233,17 @@ impl MeshSide {
         (force, matrix, power)
     }
 
+    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
+    pub fn normal_forces(&self, poses: &[Pose; 2], velocity: &Displacement, per_length: f64) -> [f64; 2] {
+        let (mut sum, mut least) = (0.0, f64::INFINITY);
+        for (f, length, _, opening) in self.pressed(poses, velocity) {
+            let total = f - (per_length * length * opening).min(f);
+            sum += total;
+            least = least.min(total);
+        }
+        [sum, if least.is_finite() { least } else { 0.0 }]
+    }
+
     /// The last evaluation.
     pub fn contact(&self) -> &MeshContact {
         &self.contact
@@ -157,10 +251,37 @@ impl MeshSide {
 
     /// The window, and how often it has moved.
     pub fn window(&self) -> (&ToothWindow, u64) {
-        (&self.window, self.changes)
+        (&self.window, self.changes.count)
     }
 
-    /// Moves the window where that is due and the outgoing tooth carries nothing, by the forces of the last evaluation.
+    /// A pair beside the window whose undeformed flanks overlap, by the poses of the last evaluation.
+    ///
+    /// # Errors
+    /// [`StaticError::Starved`].
+    pub fn check_beside(&self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
+        // Nothing is pressed where nothing overlaps, and a pair beside the window comes last.
+        let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
+        if deepest == 0.0 {
+            return Ok(());
+        }
+        let Self { options, window, ahead, .. } = self;
+        let (set, station) = (self.contact.contact_set(), Station::at_cycles(cycles + ahead));
+        let standing = Standing { pair, options, set, window, station, poses };
+        match standing.overlap_beside(1e-3 * deepest) {
+            None => Ok(()),
+            Some((running, overlap)) => Err(StaticError::Starved {
+                cycle: station.cycle,
+                phase: station.phase,
+                pair: running,
+                window: window.count(),
+                overlap_um: 1e3 * overlap,
+                torque_nm: 1e-3 * options.torque,
+            }),
+        }
+    }
+
+    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last evaluation; `cycles` are those that
+    /// the gears have turned.
     ///
     /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change leaves no trace
     /// in the motion as long as no force is dropped.
@@ -176,20 +297,21 @@ impl MeshSide {
         let outgoing = self.window.outgoing(going);
         let forces = self.contact.force().pair_forces.clone();
         let index = usize::try_from(outgoing - self.window.first()).unwrap_or(0);
-        if forces.get(index).is_some_and(|f| *f != 0.0) {
+        let carried = forces.get(index).copied().unwrap_or(0.0);
+        if carried != 0.0 {
             return Ok(false);
         }
         let next = self.window.change(going, &forces)?;
-        let mut set = self.contact.contact_set().clone();
-        if set.move_to(&self.gears, &next)? {
-            self.contact.enter(set);
-        } else {
-            let set = ContactSet::new(pair, &self.gears, &next, &self.options)?;
-            self.contact = MeshContact::new(pair, set, &self.options)?;
-        }
-        self.window = next;
-        self.changes += 1;
+        self.enter(pair, next, self.contact.contact_set().clone())?;
+        self.changes.count += 1;
+        self.changes.dropped = self.changes.dropped.max(carried.abs());
         Ok(true)
+    }
+
+    /// Books what a change has done to the sum of normal forces, N.
+    pub fn book_jump(&mut self, before: f64) {
+        let after = self.contact.force().pair_forces.iter().sum::<f64>();
+        self.changes.jump = self.changes.jump.max((after - before).abs());
     }
 }
 

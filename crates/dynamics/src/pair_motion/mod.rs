@@ -1,16 +1,30 @@
 //! A pair in motion: rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between them.
 
 mod body;
+mod contact_line;
 mod coordinates;
 mod drive;
+mod instant;
 mod mechanism;
 mod mesh_side;
 mod nominal;
 mod options;
+mod run;
+mod shooting;
+mod start;
+mod steady;
+mod sweep;
 
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
-pub use mechanism::{Instant, PairMechanism, equivalent_mass};
+pub use instant::Instant;
+pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
+pub use mesh_side::{Changes, SidePlace};
 pub use nominal::{Moment, Nominal};
 pub use options::{Drive, MeshDamping, MotionOptions};
+pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Swing};
+pub use shooting::{Shot, shoot};
+pub use start::quasi_static_start;
+pub use steady::{LONGEST_PERIOD, Periodicity, Returns, run_to_steady};
+pub use sweep::{SHOTS, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way, sweep};

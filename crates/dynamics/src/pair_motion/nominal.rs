@@ -24,16 +24,31 @@ pub struct Moment {
     pub velocity: [f64; 2],
     /// Angular acceleration of both gears about +z, rad/s^2.
     pub acceleration: [f64; 2],
+    /// Sense in which the pinion runs, +1 counter-clockwise.
+    pub sense: f64,
+}
+
+impl Moment {
+    /// Sense in which a gear runs, +1 counter-clockwise; also where it stands still.
+    pub fn running_sense(&self, gear: usize) -> f64 {
+        if gear == 0 { self.sense } else { -self.sense }
+    }
 }
 
 impl Nominal {
+    /// Mesh cycles a second at time `t` (s).
+    pub fn cycles_per_second(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> f64 {
+        self.speed.at(t) / driver_pitch(pair, options)
+    }
+
+    /// Time (s, >= 0) at which `cycles` mesh cycles have passed since t = 0; `None` where the gears stop before that.
+    pub fn time_at(&self, pair: &GearPair, options: &StaticOptions, cycles: f64) -> Option<f64> {
+        self.speed.time_at(cycles * driver_pitch(pair, options))
+    }
+
     /// Mesh cycles since the start of counting at time `t` (s).
     pub fn cycles(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> f64 {
-        let driver = match options.driver {
-            Driver::Pinion => pair.pinion.pitch_angle(),
-            Driver::Wheel => pair.wheel.pitch_angle(),
-        };
-        self.start + self.speed.angle(t) / driver
+        self.start + self.speed.angle(t) / driver_pitch(pair, options)
     }
 
     /// The moment at time `t` (s).
@@ -50,6 +65,14 @@ impl Nominal {
             station: Station::at_cycles(cycles),
             velocity: both(self.speed.at(t)),
             acceleration: both(self.speed.acceleration(t)),
+            sense,
         }
+    }
+}
+
+fn driver_pitch(pair: &GearPair, options: &StaticOptions) -> f64 {
+    match options.driver {
+        Driver::Pinion => pair.pinion.pitch_angle(),
+        Driver::Wheel => pair.wheel.pitch_angle(),
     }
 }

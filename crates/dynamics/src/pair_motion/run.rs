@@ -1,0 +1,280 @@
+//! A pair in motion, mesh cycle by mesh cycle.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use super::{Instant, PairMechanism, Place};
+use crate::{
+    StaticError,
+    motion::{Integrator, Ledger, MotionError, Scheme, State, StepControl},
+};
+
+/// Why a pair's motion could not go on.
+pub type PairMotionError = MotionError<StaticError>;
+
+/// How a pair's motion is integrated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionSettings {
+    /// Method.
+    pub scheme: Scheme,
+    /// Rows of the results in a mesh cycle, evenly spaced in time, and least number of steps, >= 1.
+    pub rows: usize,
+    /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0: rows are the steps.
+    pub steps_per_resonance: usize,
+    /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
+    pub tolerance: Option<f64>,
+    /// Ends a step wherever contact is lost or gained.
+    pub stop_at_events: bool,
+    /// Size of each coordinate, mm and rad: what errors are relative to.
+    pub scale: DVector<f64>,
+}
+
+/// All that a motion is at the end of a mesh cycle: it goes on from here to the same bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Mesh cycles done.
+    pub cycle: u64,
+    /// Coordinates and what integrator and step control carry along.
+    pub state: State,
+    /// Energy.
+    pub ledger: Ledger,
+    /// Windows and extremes.
+    pub place: Place,
+    /// What else was counted.
+    pub counts: Counts,
+}
+
+/// Counts of a motion.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps taken back because their error was too large.
+    pub refused: u64,
+    /// How often contact of the driving flanks was lost as a whole.
+    pub losses: u64,
+    /// How often the coast flanks came into contact.
+    pub coast_contacts: u64,
+    /// Work that the load took from the driven gear in its nominal motion, N mm: what goes through the pair.
+    pub throughput: f64,
+}
+
+/// Least and largest coordinates and velocities of a mesh cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Swing {
+    low: [DVector<f64>; 2],
+    high: [DVector<f64>; 2],
+}
+
+impl Swing {
+    fn new(state: &State) -> Self {
+        let both = [state.q.clone(), state.v.clone()];
+        Self { low: both.clone(), high: both }
+    }
+
+    fn widen(&mut self, state: &State) {
+        for (i, x) in [&state.q, &state.v].into_iter().enumerate() {
+            self.low[i] = self.low[i].inf(x);
+            self.high[i] = self.high[i].sup(x);
+        }
+    }
+
+    /// Peak to peak of coordinates and velocities.
+    pub fn peak_to_peak(&self) -> [DVector<f64>; 2] {
+        [0, 1].map(|i| &self.high[i] - &self.low[i])
+    }
+}
+
+/// A motion under way.
+#[derive(Debug)]
+pub struct Motion {
+    system: PairMechanism,
+    settings: MotionSettings,
+    state: State,
+    ledger: Option<Ledger>,
+    cycle: u64,
+    counts: Counts,
+}
+
+impl Motion {
+    /// At the start of mesh cycle 0 in this state.
+    pub fn new(mut system: PairMechanism, settings: MotionSettings, state: State) -> Self {
+        system.forget();
+        Self { system, settings, state, ledger: None, cycle: 0, counts: Counts::default() }
+    }
+
+    /// Goes on from a checkpoint.
+    ///
+    /// # Errors
+    /// [`MotionError::Options`] for a checkpoint of another pair, [`MotionError::Mechanism`] when its windows cannot be entered.
+    pub fn resume(
+        mut system: PairMechanism,
+        settings: MotionSettings,
+        from: Checkpoint,
+    ) -> Result<Self, PairMotionError> {
+        if from.state.q.len() != system.coordinates().count() {
+            return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
+        }
+        let Checkpoint { cycle, state, ledger, place, counts } = from;
+        system.stand(&place).map_err(|source| MotionError::Mechanism { time: state.time, source })?;
+        Ok(Self { system, settings, state, ledger: Some(ledger), cycle, counts })
+    }
+
+    /// To go on from later; `None` before the first cycle.
+    pub fn checkpoint(&self) -> Option<Checkpoint> {
+        Some(Checkpoint {
+            cycle: self.cycle,
+            state: self.state.clone(),
+            ledger: self.ledger?,
+            place: self.system.place(),
+            counts: self.counts,
+        })
+    }
+
+    /// The pair.
+    pub fn system(&self) -> &PairMechanism {
+        &self.system
+    }
+
+    /// Method, rows and scales.
+    pub fn settings(&self) -> &MotionSettings {
+        &self.settings
+    }
+
+    /// State at the end of the last cycle.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Energy so far; `None` before the first cycle.
+    pub fn ledger(&self) -> Option<&Ledger> {
+        self.ledger.as_ref()
+    }
+
+    /// Mesh cycles done.
+    pub fn cycle(&self) -> u64 {
+        self.cycle
+    }
+
+    /// What was counted.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Back to the start of cycle 0 with another state; carried accelerations stay those of `state`.
+    pub(super) fn rewind(&mut self, start: &Place, state: State) -> Result<(), PairMotionError> {
+        let time = state.time;
+        self.system.stand(start).map_err(|source| MotionError::Mechanism { time, source })?;
+        (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
+        Ok(())
+    }
+
+    /// Keeps the accelerations of the state instead of finding them from the forces: the ledger counts from here.
+    pub(super) fn keep_accelerations(&mut self) {
+        self.ledger = Some(Ledger::default());
+    }
+
+    /// Whether there is a further mesh cycle: a run-down may end before it.
+    pub fn goes_on(&self) -> bool {
+        self.end_of_cycle().is_some()
+    }
+
+    fn end_of_cycle(&self) -> Option<f64> {
+        let (pair, contact) = (self.system.pair(), &self.system.options().contact);
+        self.system.nominal().time_at(pair, contact, (self.cycle + 1) as f64)
+    }
+
+    /// Steps between two rows of a cycle of `duration` (s).
+    fn steps_per_row(&self, duration: f64) -> usize {
+        let wanted = self.settings.steps_per_resonance as f64 * self.system.mesh_resonance_hz() * duration;
+        let steps = (wanted / self.settings.rows as f64).ceil();
+        // More than this is a standstill, not a motion.
+        if steps.is_finite() { (steps as usize).clamp(1, 1_000_000) } else { 1 }
+    }
+
+    /// One mesh cycle of the nominal motion; `seen` gets every row.
+    ///
+    /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same way to the last bit.
+    ///
+    /// # Errors
+    /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
+    pub fn run_cycle(&mut self, mut seen: Option<&mut dyn FnMut(&Instant, &Ledger)>) -> Result<Swing, PairMotionError> {
+        let Some(end) = self.end_of_cycle() else {
+            return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
+        };
+        self.system.forget();
+        let begin = self.state.time;
+        let rows = self.settings.rows.max(1);
+        let per_row = self.steps_per_row(end - begin);
+        let row_time = |i: usize| if i == rows { end } else { begin + (end - begin) * i as f64 / rows as f64 };
+        let mut swing = Swing::new(&self.state);
+        let mut integrator = self.integrator((end - begin) / (rows * per_row) as f64);
+        let equal = self.settings.tolerance.is_none() && !self.settings.stop_at_events;
+        let mut failed = None;
+        let mut steps = 0usize;
+        // Steps of equal length meet the rows by themselves.
+        let stops: Vec<f64> = if equal { vec![end] } else { (1..=rows).map(row_time).collect() };
+        let Self { system, state, counts, .. } = self;
+        for until in stops {
+            integrator.advance(system, state, until, |system, progress| {
+                steps += 1;
+                counts.steps += 1;
+                swing.widen(progress.state);
+                for crossing in progress.crossings {
+                    match (crossing.event, crossing.direction) {
+                        (0, crate::motion::Direction::Down) => counts.losses += 1,
+                        (1, crate::motion::Direction::Up) => counts.coast_contacts += 1,
+                        _ => {}
+                    }
+                }
+                let is_row = if equal {
+                    steps % per_row == 0
+                } else {
+                    (until - progress.state.time).abs() < 1e-9 * (end - begin)
+                };
+                if let Some(seen) = seen.as_mut().filter(|_| is_row && failed.is_none()) {
+                    let State { time, q, v, .. } = progress.state;
+                    match system.instant(*time, q, v) {
+                        Ok(instant) => seen(&instant, progress.ledger),
+                        Err(source) => failed = Some(MotionError::Mechanism { time: *time, source }),
+                    }
+                }
+            })?;
+        }
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        counts.refused += integrator.steps()[1];
+        counts.throughput += throughput(system, begin, end);
+        self.ledger = integrator.ledger().copied();
+        self.cycle += 1;
+        Ok(swing)
+    }
+
+    fn integrator(&self, h: f64) -> Integrator {
+        let MotionSettings { scheme, tolerance, ref scale, stop_at_events, .. } = self.settings;
+        let control = match tolerance {
+            None => StepControl::Fixed(h),
+            Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * h, least: 1e-7 * h, largest: h },
+        };
+        let integrator = Integrator::new(scheme, control, scale.clone()).stopping_at_events(stop_at_events);
+        match self.ledger {
+            Some(ledger) => integrator.resumed(ledger),
+            None => integrator,
+        }
+    }
+}
+
+/// Load torque times the driven gear's nominal turn between two times, N mm (Simpson's rule).
+fn throughput(system: &PairMechanism, begin: f64, end: f64) -> f64 {
+    let options = system.options();
+    let pair = system.pair();
+    let driven = [&pair.pinion, &pair.wheel][options.contact.driven()];
+    let rate = |t: f64| {
+        let cycles = system.nominal().cycles_per_second(pair, &options.contact, t);
+        (options.load.at(t) * cycles * TAU / f64::from(driven.teeth())).abs()
+    };
+    (end - begin) / 6.0 * (rate(begin) + 4.0 * rate(0.5 * (begin + end)) + rate(end))
+}
