@@ -7,7 +7,9 @@ use contact::{
 use faer::MatRef;
 use geometry::GearPair;
 
-use crate::{ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches};
+use crate::{
+    ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches, modal_flanks::ModalFlanks,
+};
 
 /// Forces of the mesh on both gears at given poses, and how they change as the gears move.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +72,8 @@ pub struct MeshContact {
     compliance: Vec<f64>,
     solver: DenseSolver,
     force: MeshForce,
+    /// Normal modes that are coordinates of their own.
+    modal: Option<ModalFlanks>,
 }
 
 impl MeshContact {
@@ -112,6 +116,7 @@ impl MeshContact {
             compliance: Vec::with_capacity(most * most),
             solver: DenseSolver::new(most),
             force,
+            modal: None,
             pairs,
             set,
         })
@@ -129,6 +134,23 @@ impl MeshContact {
         self.set = set;
     }
 
+    /// Takes normal modes of both gears on the flanks of this window out of the compliance; they then deform the gears by the amplitudes given.
+    pub(crate) fn keep_modes(&mut self, modal: Option<ModalFlanks>) {
+        self.modal = modal;
+    }
+
+    /// Sets the amplitudes of the modes, of pinion and wheel in turn.
+    pub(crate) fn deform(&mut self, amplitudes: &[f64]) {
+        if let Some(modal) = &mut self.modal {
+            modal.deform(amplitudes);
+        }
+    }
+
+    /// The modes on the rows of the last evaluation.
+    pub(crate) fn modal(&self) -> Option<&ModalFlanks> {
+        self.modal.as_ref()
+    }
+
     /// Forgets the forces of the last solution.
     pub fn forget(&mut self) {
         self.memory.fill(0.0);
@@ -141,10 +163,10 @@ impl MeshContact {
     pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, None);
         self.solve(Balance::Held, 0)?;
-        let Self { force, rows, slices, solver, set, .. } = self;
+        let Self { force, rows, slices, solver, set, modal, .. } = self;
         force.wrench = wrenches(poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
-        force.tangent = solver.tangent(|i| {
+        let rigid = |i: usize| {
             let row = &rows[i];
             [row.normal, row.traction].map(|direction| {
                 let mut j = [0.0; 12];
@@ -156,7 +178,15 @@ impl MeshContact {
                 }
                 j
             })
-        });
+        };
+        match modal {
+            None => force.tangent = solver.tangent(rigid),
+            Some(modal) => {
+                modal.finish(solver, rigid);
+                let (all, n) = (&modal.forces().tangent, 12 + modal.count());
+                force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
+            }
+        }
         force.pair_forces.fill(0.0);
         for (row, f) in rows.iter().zip(solver.forces()) {
             force.pair_forces[set.pair_of(row.patches.0)] += f;
@@ -173,8 +203,13 @@ impl MeshContact {
         &self.force
     }
 
-    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
+    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Undeformed but for the kept modes, and with these it is
+    /// the last evaluation that is lost.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
+        if self.modal.is_some() {
+            self.prepare(poses, None);
+            return self.gaps.iter().fold(f64::MIN, |m, g| m.max(-g));
+        }
         self.find_places(poses);
         self.places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
     }
@@ -211,7 +246,11 @@ impl MeshContact {
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         let stations = of_window.stations();
         let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
-        let reach = reach.unwrap_or_else(|| places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap())));
+        let reach = reach.unwrap_or_else(|| {
+            let deepest = places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()));
+            // Modes may close a gap, and open the one that would be the deepest overlap.
+            self.modal.as_ref().map_or(deepest, |modal| deepest.abs() + 2.0 * modal.largest())
+        });
         for of_pair in places.chunk_by(|a, b| a.0 / stations.len() == b.0 / stations.len()) {
             let numbers = pairs[of_pair[0].0 / stations.len()];
             let pair = pair_at(numbers);
@@ -226,22 +265,32 @@ impl MeshContact {
                 slices.push(slice);
             }
         }
-        self.gaps.clear();
-        self.gaps.extend(self.rows.iter().map(|r| r.gap));
         self.laws.clear();
         self.laws.extend(self.slices.iter().map(|s| s.local.law()));
         self.compliance();
+        if let Some(modal) = &self.modal {
+            self.rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(i));
+        }
+        self.gaps.clear();
+        self.gaps.extend(self.rows.iter().map(|r| r.gap));
     }
 
     /// S between the rows, from both gears' tables or matrices.
     fn compliance(&mut self) {
-        let Self { set, rows, slices, openings, loads, work, compliance, friction, .. } = self;
+        let Self { set, rows, slices, openings, loads, work, compliance, friction, modal, .. } = self;
         let n = rows.len();
+        let symmetric = friction.is_none();
+        if let Some(modal) = modal {
+            modal.begin(n, !symmetric);
+        }
         let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
             set.exact_compliance(rows, compliance);
+            if let Some(modal) = modal {
+                modal.read_rows(rows);
+                modal.take_from(n, compliance);
+            }
             return;
         };
-        let symmetric = friction.is_none();
         compliance.clear();
         compliance.resize(n * n, 0.0);
         for (b, table) in tables.iter().enumerate() {
@@ -261,6 +310,10 @@ impl MeshContact {
                 places(loads, true);
                 table.add(openings, loads, false, &mut work[b], compliance);
             }
+            if let Some(modal) = modal {
+                modal.read_places(b, openings, false);
+                modal.read_places(b, loads, true);
+            }
         }
         if symmetric {
             for j in 0..n {
@@ -268,6 +321,9 @@ impl MeshContact {
                     compliance[i * n + j] = compliance[j * n + i];
                 }
             }
+        }
+        if let Some(modal) = modal {
+            modal.take_from(n, compliance);
         }
     }
 
