@@ -71,7 +71,6 @@ impl BulkCompliance<'_> {
             }
         });
     }
-
 }
 
 /// Supports of unit forces along the three directions at a place of a patch.

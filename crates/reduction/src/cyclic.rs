@@ -30,8 +30,8 @@ use placement::{Placed, arc, placed};
 use sector::Sector;
 pub(crate) use sector_mesh::SectorMesh;
 pub use turn::pitch_permutation;
-pub(crate) use vibration::VibratingSector;
 pub(crate) use turn::{PitchTurn, face_nodes};
+pub(crate) use vibration::VibratingSector;
 
 /// A cyclic gear with loads on the flanks of some neighbouring teeth.
 #[derive(Debug)]

@@ -6,7 +6,9 @@ use std::f64::consts::{PI, TAU};
 use faer::{Mat, MatRef};
 use fem::{DofMap, ElementOptions, Material};
 use geometry::{Gear, GearData, Side};
-use mesh::{ElementBlock, ElementKind, Extent, Face, FaceKind, GearMesh, GroupNames, Mesh, StructuredOptions, SurfaceGroup};
+use mesh::{
+    ElementBlock, ElementKind, Extent, Face, FaceKind, GearMesh, GroupNames, Mesh, StructuredOptions, SurfaceGroup,
+};
 use nalgebra::{DMatrix, SymmetricEigen};
 use reduction::{GearModes, GearReducer, ModeChoice, ReductionOptions, ReductionWay, Window};
 
@@ -205,7 +207,15 @@ fn bessel(n: i32, x: f64) -> [f64; 2] {
     let simpson = |f: &dyn Fn(f64) -> f64, to: f64| {
         let steps = 2000;
         let h = to / f64::from(steps);
-        let weight = |i| if i == 0 || i == steps { 1.0 } else if i % 2 == 1 { 4.0 } else { 2.0 };
+        let weight = |i| {
+            if i == 0 || i == steps {
+                1.0
+            } else if i % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
         (0..=steps).map(|i| weight(i) * f(h * f64::from(i))).sum::<f64>() * h / 3.0
     };
     let order = f64::from(n);
@@ -271,7 +281,12 @@ fn modes_and_residual_make_the_compliance() {
         let (values, _) = fem::dense::symmetric_eigen(rest.as_ref()).unwrap();
         let trace: f64 = values.iter().sum::<f64>() / (0..compliance.nrows()).map(|i| compliance[(i, i)]).sum::<f64>();
         let most = values[values.len() - 1].max(compliance.norm_max());
-        println!("{} modes leave {:.4} of the trace, least eigenvalue {:.1e} of the largest", modes.count(), trace, values[0] / most);
+        println!(
+            "{} modes leave {:.4} of the trace, least eigenvalue {:.1e} of the largest",
+            modes.count(),
+            trace,
+            values[0] / most
+        );
         assert!(values[0] > -1e-9 * most, "{} modes: {:e}", modes.count(), values[0] / most);
         assert!(trace < last, "{} modes leave {trace} of the trace, fewer left {last}", modes.count());
         last = trace;
@@ -290,9 +305,16 @@ fn craig_bampton_comes_from_above() {
     let mut last: Vec<f64> = vec![f64::INFINITY; 16];
     for fixed in [0, 1, 2, 4, 8, 16] {
         let found = reducer.craig_bampton_modes(ModeChoice::Count(16), fixed).unwrap().frequencies_hz();
-        println!("{fixed} fixed modes a harmonic: off by {:.1e} at most, lowest by {:.1e}", worst(&found, &wanted), found[0] / wanted[0] - 1.0);
+        println!(
+            "{fixed} fixed modes a harmonic: off by {:.1e} at most, lowest by {:.1e}",
+            worst(&found, &wanted),
+            found[0] / wanted[0] - 1.0
+        );
         for (j, ((f, l), w)) in found.iter().zip(&last).zip(&wanted).enumerate() {
-            assert!(*f <= l * (1.0 + 1e-11) && *f >= w * (1.0 - 1e-11), "mode {j}, {fixed} fixed: {f} Hz, {l} before, {w} wanted");
+            assert!(
+                *f <= l * (1.0 + 1e-11) && *f >= w * (1.0 - 1e-11),
+                "mode {j}, {fixed} fixed: {f} Hz, {l} before, {w} wanted"
+            );
         }
         last = found;
     }
@@ -303,7 +325,8 @@ fn craig_bampton_comes_from_above() {
     assert!(whole < 1e-9, "{whole:e}");
     // The whole gear at once has the same space, fixed modes or none.
     let general = GearReducer::general(mesh, Material::STEEL, options).unwrap();
-    let [a, b] = [&reducer, &general].map(|r| r.craig_bampton_modes(ModeChoice::Count(16), 0).unwrap().frequencies_hz());
+    let [a, b] =
+        [&reducer, &general].map(|r| r.craig_bampton_modes(ModeChoice::Count(16), 0).unwrap().frequencies_hz());
     assert!(worst(&a, &b) < 1e-9, "{:e}", worst(&a, &b));
 }
 

@@ -29,12 +29,7 @@ impl DenseSolver {
     /// T = -J_t' (S + diag delta')^-1 J
     /// ```
     /// `row(i, J_i, J_t,i)` fills what the coordinates do to gap i and what a unit normal force does along them, n each; `memory` has room for both, 2n.
-    pub fn tangent_of(
-        &mut self,
-        memory: &mut [f64],
-        row: impl Fn(usize, &mut [f64], &mut [f64]),
-        tangent: &mut [f64],
-    ) {
+    pub fn tangent_of(&mut self, memory: &mut [f64], row: impl Fn(usize, &mut [f64], &mut [f64]), tangent: &mut [f64]) {
         let (m, n) = (self.active.len(), memory.len() / 2);
         tangent.fill(0.0);
         if m == 0 || n == 0 {

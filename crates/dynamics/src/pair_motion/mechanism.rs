@@ -379,17 +379,17 @@ impl PairMechanism {
     /// # Errors
     /// [`StaticError`].
     pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
-        let (at, moving) = (self.posture(t, q), self.posture(t, v));
-        let (d, rate) = (at.d, moving.d);
+        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let d = at.d;
         let Touching { driving, coast, .. } = self.contact(t, &at)?;
         let cycles = self.cycles(t);
         let poses = self.drive_side.poses(&self.pair, cycles, &d);
-        let mut mesh = driving.normal + driving.friction + self.drive_side.damping(&poses, &moving, self.damping).force;
-        let mut normal_forces = [self.drive_side.normal_forces(&poses, &moving, self.damping)[0], 0.0];
+        let mut mesh = driving.normal + driving.friction + self.drive_side.damping(&poses, &rate, self.damping).0;
+        let mut normal_forces = [self.drive_side.normal_forces(&poses, &rate, self.damping)[0], 0.0];
         if let (Some(side), Some(force)) = (&self.coast_side, &coast) {
             let poses = side.poses(&self.pair, cycles, &d);
-            mesh += force.normal + force.friction + side.damping(&poses, &moving, self.damping).force;
-            normal_forces[1] = side.normal_forces(&poses, &moving, self.damping)[0];
+            mesh += force.normal + force.friction + side.damping(&poses, &rate, self.damping).0;
+            normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
         }
         let contact = self.drive_side.contact();
         let loaded = contact.slices().iter().zip(contact.solver().forces()).filter(|(_, f)| **f > 0.0);
@@ -486,17 +486,15 @@ impl Mechanism for PairMechanism {
             normal += force.normal;
             other += force.friction;
             let poses = side.poses(&self.pair, cycles, &d);
-            let damped = side.damping(&poses, &moving, self.damping);
-            other += damped.force;
-            out.dissipated += damped.power;
+            let (damped, matrix, power) = side.damping(&poses, &rate, self.damping);
+            other += damped;
+            damping += matrix;
+            out.dissipated += power;
             // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part that counts.
             out.dissipated -= force.friction.dot(&rate);
             match &mut modal {
-                None => {
-                    stiffness += force.stiffness;
-                    damping += damped.matrix;
-                }
-                Some(modal) => out.dissipated += modal.add(force, &damped, &moving.q),
+                None => stiffness += force.stiffness,
+                Some(modal) => out.dissipated += modal.add(force, &moving.q),
             }
         }
         let gyroscopic = self.gyroscopic(&moment);
@@ -568,7 +566,7 @@ impl Mechanism for PairMechanism {
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-        let (at, rate) = (self.posture(t, q), self.posture(t, v));
+        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
         let turned = self.turned_cycles(t, &at.d);
         // Several teeth may be due after a long step.
         loop {
@@ -599,7 +597,7 @@ impl Mechanism for PairMechanism {
 
 impl PairMechanism {
     /// Extremes of the step that has just been taken; and whether a pair beside a window ought to carry load.
-    fn gather(&mut self, t: f64, at: &Posture, rate: &Posture, turned: f64) -> Result<(), StaticError> {
+    fn gather(&mut self, t: f64, at: &Posture, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
         let (cycles, d) = (self.cycles(t), &at.d);
         let poses = self.drive_side.poses(&self.pair, cycles, d);
         self.drive_side.check_beside(&self.pair, turned, &poses)?;

@@ -77,29 +77,15 @@ pub(super) struct ModalForce {
     pub stiffness: DMatrix<f64>,
 }
 
-/// Damping of the slices.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Damped {
-    /// Force on the coordinates.
-    pub force: Displacement,
-    /// -df/d(velocity).
-    pub matrix: SMatrix<f64, 12, 12>,
-    /// Power taken.
-    pub power: f64,
-    /// Force on the modes and -df/d(velocities) of all coordinates, (12 + m) x (12 + m).
-    pub modal: Option<(DVector<f64>, DMatrix<f64>)>,
-}
-
 /// A slice that carries force.
 struct Pressed {
-    row: usize,
     /// Normal force, N.
     force: f64,
     /// Damping, N s/mm.
     damping: f64,
     /// dg/dd.
     j: Displacement,
-    /// dg/dt, mm/s.
+    /// dg/dt by the rigid bodies, mm/s.
     opening: f64,
 }
 
@@ -282,11 +268,11 @@ impl MeshSide {
     fn pressed<'a>(
         &'a self,
         poses: &'a [Pose; 2],
-        rate: &'a Posture,
+        rate: &'a Displacement,
         per_length: f64,
     ) -> impl Iterator<Item = Pressed> + 'a {
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        rows.enumerate().filter(|(_, (_, f))| **f > 0.0).map(move |(i, ((row, slice), &force))| {
+        rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| {
             let mut j = Displacement::zeros();
             for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
                 let moment = (row.position - poses[g].translation.vector).cross(&row.normal);
@@ -295,47 +281,35 @@ impl MeshSide {
                     j[COORDINATES * g + 3 + i] = sign * moment[i];
                 }
             }
-            let by_modes = |h: &[f64]| h.iter().zip(rate.q.iter()).map(|(h, q)| h * q).sum::<f64>();
-            let opening = j.dot(&rate.d) + self.contact.modal().map_or(0.0, |modal| by_modes(modal.opening(i)));
-            Pressed { row: i, force, damping: per_length * slice.length, j, opening }
+            Pressed { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
         })
     }
 
-    /// Damping of the slices that carry force.
+    /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
     ///
     /// ```text
     /// F_d = -c h dg/dt,  F + F_d >= 0
     /// ```
-    pub fn damping(&self, poses: &[Pose; 2], rate: &Posture, per_length: f64) -> Damped {
-        let m = self.contact.modal().map(ModalFlanks::count);
-        let n = 2 * COORDINATES + m.unwrap_or(0);
-        let mut damped = Damped {
-            force: Displacement::zeros(),
-            matrix: SMatrix::zeros(),
-            power: 0.0,
-            modal: m.map(|m| (DVector::zeros(m), DMatrix::zeros(n, n))),
-        };
+    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole compliance of the mesh, and its ratio does not mean another
+    /// thing with every mode that is taken out of it. Modes have dampers of their own.
+    pub fn damping(
+        &self,
+        poses: &[Pose; 2],
+        rate: &Displacement,
+        per_length: f64,
+    ) -> (Displacement, SMatrix<f64, 12, 12>, f64) {
+        let (mut total, mut matrix, mut taken) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
         for slice in self.pressed(poses, rate, per_length) {
             let [force, slope, power] = slice.resisted();
-            damped.force -= force * slice.j;
-            damped.power += power;
-            match (&mut damped.modal, self.contact.modal()) {
-                (Some((on_modes, matrix)), Some(modal)) => {
-                    let h = modal.opening(slice.row);
-                    on_modes.iter_mut().zip(h).for_each(|(f, h)| *f -= force * h);
-                    if slope != 0.0 {
-                        let all = DVector::from_iterator(n, slice.j.iter().chain(h).copied());
-                        matrix.ger(slope, &all, &all, 1.0);
-                    }
-                }
-                _ => damped.matrix += slope * slice.j * slice.j.transpose(),
-            }
+            total -= force * slice.j;
+            matrix += slope * slice.j * slice.j.transpose();
+            taken += power;
         }
-        damped
+        (total, matrix, taken)
     }
 
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
-    pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Posture, per_length: f64) -> [f64; 2] {
+    pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
         for slice in self.pressed(poses, rate, per_length) {
             let total = slice.force - slice.resisted()[0];

@@ -13,10 +13,7 @@ use std::{f64::consts::TAU, sync::Arc};
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
 use reduction::GearModes;
 
-use super::{
-    COORDINATES, Displacement, Moment,
-    mesh_side::{Damped, SideForce},
-};
+use super::{COORDINATES, Displacement, Moment, mesh_side::SideForce};
 
 /// Normal modes of a gear with their damping.
 #[derive(Debug, Clone)]
@@ -47,9 +44,8 @@ pub(super) struct Modal {
 impl Modal {
     pub fn new(gears: [GearVibration; 2]) -> Self {
         let all = |value: fn(f64, f64) -> f64| {
-            let of_gear = |g: &GearVibration| {
-                g.modes.squares().iter().map(|s| value(*s, g.damping_ratio)).collect::<Vec<_>>()
-            };
+            let of_gear =
+                |g: &GearVibration| g.modes.squares().iter().map(|s| value(*s, g.damping_ratio)).collect::<Vec<_>>();
             DVector::from_vec(gears.iter().flat_map(of_gear).collect())
         };
         let (squares, dampers) = (all(|s, _| s), all(|s, zeta| 2.0 * zeta * s.sqrt()));
@@ -59,11 +55,6 @@ impl Modal {
     /// Number of modes of both gears, m.
     pub fn count(&self) -> usize {
         self.squares.len()
-    }
-
-    /// Modes of either gear.
-    pub fn modes(&self) -> [&GearModes; 2] {
-        self.gears.each_ref().map(|g| &*g.modes)
     }
 
     /// L D of both gears, m x 12, with the gears' own frames turned by `angles` (rad).
@@ -95,8 +86,7 @@ impl Modal {
             });
             let mut round = Matrix6::zeros();
             for (a, b) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-                let (same, across) =
-                    (own[(a, b)] + own[(a + 1, b + 1)], own[(a, b + 1)] - own[(a + 1, b)]);
+                let (same, across) = (own[(a, b)] + own[(a + 1, b + 1)], own[(a, b + 1)] - own[(a + 1, b)]);
                 (round[(a, b)], round[(a + 1, b + 1)]) = (0.5 * same, 0.5 * same);
                 (round[(a, b + 1)], round[(a + 1, b)]) = (0.5 * across, -0.5 * across);
                 round[(a + 2, b + 2)] = own[(a + 2, b + 2)];
@@ -153,19 +143,12 @@ impl<'a> ModalBalance<'a> {
     }
 
     /// Adds what the contact of one side does; the power that friction takes from the modes.
-    pub fn add(&mut self, force: &SideForce, damped: &Damped, rate: &DVector<f64>) -> f64 {
-        let mut taken = 0.0;
-        if let Some(modal) = &force.modal {
-            self.conservative += &modal.normal;
-            self.other += &modal.friction;
-            self.stiffness += &modal.stiffness;
-            taken = -modal.friction.dot(rate);
-        }
-        if let Some((on_modes, matrix)) = &damped.modal {
-            self.other += on_modes;
-            self.damping += matrix;
-        }
-        taken
+    pub fn add(&mut self, force: &SideForce, rate: &DVector<f64>) -> f64 {
+        let Some(modal) = &force.modal else { return 0.0 };
+        self.conservative += &modal.normal;
+        self.other += &modal.friction;
+        self.stiffness += &modal.stiffness;
+        -modal.friction.dot(rate)
     }
 
     /// Adds the inertia of a nominal motion that is not steady, -L D a, which is returned.

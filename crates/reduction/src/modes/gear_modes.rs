@@ -78,11 +78,7 @@ pub(super) fn of_whole(
 }
 
 /// Modes by harmonics.
-fn of_sector(
-    sector: &VibratingSector,
-    material: &Material,
-    choice: ModeChoice,
-) -> Result<GearModes, ReductionError> {
+fn of_sector(sector: &VibratingSector, material: &Material, choice: ModeChoice) -> Result<GearModes, ReductionError> {
     let z = sector.teeth;
     let of_wave = |waves: u32, until: Until| lowest(&sector.harmonic(waves)?, until, HARMONIC_BLOCK);
     let all = |until: Until| -> Result<Vec<Eigenpairs>, ReductionError> {
