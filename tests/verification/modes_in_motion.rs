@@ -212,7 +212,7 @@ fn low_frequency_approximation_ends_where_the_warning_says() {
     });
     let elastic_hz = lowest.map(|l| l.flanks_free_hz);
     println!("lowest elastic frequencies: {lowest:.0?}");
-    let mut systems = both(&case, options(&case, contact, 1e-6, 0.1), means, ModeChoice::Below { hz: 9e4 });
+    let mut systems = both(&case, options(&case, contact, 1e-6, 0.1), means, ModeChoice::Below { hz: 6e4 });
     println!("{} coordinates with modes; mesh resonance {:.0} Hz", systems[1].count(), systems[0].mesh_resonance_hz());
     let states = systems.each_mut().map(|system| {
         let s = scale(system);
@@ -223,21 +223,20 @@ fn low_frequency_approximation_ends_where_the_warning_says() {
         b / a - 1.0
     };
     println!("harmonic / lowest elastic frequency, what modes change in the DTE, warning");
-    let (mut below, mut above) = (0.0f64, f64::INFINITY);
-    for ratio in [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 0.85, 1.0, 1.05, 1.1] {
+    let (mut below, mut above, mut most) = (0.0f64, f64::INFINITY, 0.0f64);
+    for ratio in [0.02, 0.05, 0.1, 0.15, 0.2, 0.249, 0.251, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0, 1.1] {
         let mesh_hz = ratio * elastic_hz[0];
         let off = amplitude(mesh_hz);
         let check = ElasticRatio { mesh_hz, harmonic: 1, elastic_hz };
-        println!("{ratio:5.2} {:8.1} % {}", 100.0 * off, if check.warning().is_some() { "warns" } else { "" });
-        assert_eq!(check.warning().is_some(), check.largest() > LOW_FREQUENCY_LIMIT);
-        if check.warning().is_none() {
-            below = below.max(off.abs());
-        } else if ratio >= 0.85 {
-            above = above.min(off.abs());
+        println!("{ratio:6.3} {:8.1} % {}", 100.0 * off, if check.warning().is_some() { "warns" } else { "" });
+        assert_eq!(check.warning().is_some(), ratio > LOW_FREQUENCY_LIMIT, "{ratio}");
+        match check.warning() {
+            None => below = below.max(off.abs()),
+            Some(_) => (above, most) = (above.min(off.abs()), most.max(off.abs())),
         }
     }
-    assert!(below < 0.1, "modes change the DTE by {below} below the bound");
-    assert!(above > 0.3, "modes change the DTE by no more than {above} above the bound");
+    assert!(below < 0.08, "modes change the DTE by {below} below the bound");
+    assert!(above > 0.07 && most > 0.8, "modes change the DTE by {above} to {most} above the bound");
 }
 
 /// The same in time at two speeds: peak to peak of the last of some mesh cycles.
@@ -248,7 +247,7 @@ fn time_says_the_same_as_linear_response() {
     let (ste, means) = statics(&case, &contact);
     let swing = |mesh_hz: f64| {
         let speed = mesh_hz * case.pair.pinion.pitch_angle();
-        let systems = both(&case, options(&case, contact.clone(), speed, 0.3), means, ModeChoice::Count(30));
+        let systems = both(&case, options(&case, contact.clone(), speed, 0.3), means, ModeChoice::Count(12));
         let [a, b] = systems.map(|mut system| {
             let s = scale(&system);
             let mut state = quasi_static_start(&mut system, 0.0, ste, &s).unwrap();
@@ -271,7 +270,7 @@ fn time_says_the_same_as_linear_response() {
         );
         b / a - 1.0
     };
-    let [slow, fast] = [2e3, 25e3].map(swing);
+    let [slow, fast] = [2e3, 18e3].map(swing);
     assert!(slow.abs() < 0.05, "modes change the DTE by {slow} at 0.07 of the lowest elastic frequency");
-    assert!(fast.abs() > 0.15, "modes change the DTE by {fast} at 0.83 of it");
+    assert!(fast < -0.3, "modes change the DTE by {fast} at 0.6 of it");
 }

@@ -173,8 +173,7 @@ pub(crate) fn levers(poses: &[Pose; 2], position: &Vec3, normal: &Vec3) -> [f64;
     [lever(&poses[0]), -lever(&poses[1])]
 }
 
-/// Row of a pair of points with known surface coordinates and gap; `None` when a patch has no faces near them. `faces`: where on
-/// the faces such points were found before.
+/// Row of a pair of points with known surface coordinates and gap; on which nodes it rests is left open.
 pub(crate) fn row_at(
     patches: [&FlankPatch; 2],
     poses: &[Pose; 2],
@@ -182,12 +181,12 @@ pub(crate) fn row_at(
     point: usize,
     at: [[f64; 2]; 2],
     gap: f64,
-    faces: &mut [Option<FacePoint>; 2],
-) -> Option<ContactRow> {
+) -> ContactRow {
     let position = poses[0].transform_point(&patches[0].surface().point(at[0]).into()).coords;
     let normal_2 = patches[1].surface().normal(at[1]);
     let normal = poses[1].rotation * normal_2;
-    Some(ContactRow {
+    let levers = levers(poses, &position, &normal);
+    ContactRow {
         patches: numbers,
         point,
         gap,
@@ -195,14 +194,11 @@ pub(crate) fn row_at(
         position,
         normal,
         coordinates: at[0],
-        levers: levers(poses, &position, &normal),
-        torque_levers: levers(poses, &position, &normal),
+        levers,
+        torque_levers: levers,
         traction: normal,
-        supports: [
-            support_at(patches[0], at[0], poses[0].inverse_transform_vector(&normal), &mut faces[0])?,
-            support_at(patches[1], at[1], -normal_2, &mut faces[1])?,
-        ],
-    })
+        supports: [Support::free(poses[0].inverse_transform_vector(&normal)), Support::free(-normal_2)],
+    }
 }
 
 /// Loading of a body at surface coordinates; those past the edge of the faces load the edge.
@@ -220,6 +216,17 @@ pub(crate) fn support_at(
 }
 
 impl Support {
+    /// Of a direction alone, without nodes.
+    fn free(direction: Vec3) -> Self {
+        Self { nodes: [0; 9], weights: [0.0; 9], count: 0, direction, load: direction }
+    }
+
+    /// Takes the nodes and weights of a face point.
+    pub(crate) fn rest_on(&mut self, patch: &FlankPatch, at: FacePoint) {
+        let Interpolation { nodes, weights, count } = patch.interpolation(at);
+        (self.nodes, self.weights, self.count) = (nodes, weights, count);
+    }
+
     fn new(i: Interpolation, direction: Vec3) -> Self {
         Self { nodes: i.nodes, weights: i.weights, count: i.count, direction, load: direction }
     }
@@ -236,6 +243,11 @@ impl ContactRow {
         self.supports[0].load = poses[0].inverse_transform_vector(&self.traction);
         self.supports[1].load = -poses[1].inverse_transform_vector(&self.traction);
         self
+    }
+
+    /// Whether the nodes that it rests on are known.
+    pub fn is_supported(&self) -> bool {
+        self.supports.iter().all(|s| s.count > 0)
     }
 
     /// Whether friction acts.

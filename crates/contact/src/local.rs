@@ -175,10 +175,9 @@ impl LocalLaw {
             }
             if eta > 0.0 {
                 let (cut, dcut) = body.edge.cut_off(a);
-                let (ln_l, dln_l) = body.edge.log_reach(a, eta * k / both);
-                let inside = ln_l.exp();
+                let (inside, dln_l) = body.edge.reach(a, eta * k / both);
                 let moved = body.tip_gradient * (inside - body.tip_distance);
-                value += k * (eta * (body.ln_depth - ln_l) + moved) + both * cut;
+                value += k * (eta * (body.ln_depth - inside.ln()) + moved) + both * cut;
                 growth += k * dln_l * (body.tip_gradient * inside - eta) + both * dcut;
             }
         }

@@ -44,6 +44,8 @@ const SCAN: usize = 16;
 const NEWTON_STEPS: usize = 24;
 /// Roll angles nearer than this are one, rad: below it the step of a superlinear search is round-off.
 const RESOLUTION: f64 = 1e-13;
+/// A step longer than this is followed by another look, rad: slopes are not yet straight lines.
+const NEAR: f64 = 1e-6;
 /// Evaluations of a bracketed zero before it is taken as it is; bisection alone needs 50.
 const BRACKET_STEPS: usize = 120;
 /// Turn of the normal within the last bracket that is a kink, rad.
@@ -75,10 +77,9 @@ impl<'a> Facing<'a> {
 
     /// Gap and its slope along the profile; `None` where there is no foot.
     pub fn look(&self, at: [f64; 2]) -> Option<Look> {
-        let other = self.patches[1].surface();
-        let foot = other.locate(&self.carried(at))?;
-        let tangent = self.turn * self.patches[0].surface().profile_tangent(at);
-        Some(Look { gap: foot.distance, slope: other.normal(foot.at).dot(&tangent), foot: foot.at })
+        let [point, tangent] = self.patches[0].surface().point_and_profile(at);
+        let (foot, normal) = self.patches[1].surface().locate_with_normal(&(self.turn * point + self.shift))?;
+        Some(Look { gap: foot.distance, slope: normal.dot(&(self.turn * tangent)), foot: foot.at })
     }
 
     fn rolls(&self, body: usize) -> [f64; 2] {
@@ -124,7 +125,9 @@ impl<'a> Facing<'a> {
             if !step.is_finite() {
                 return Err(());
             }
-            if step.abs() <= RESOLUTION {
+            // What a secant step misses is about itself times the step before it.
+            let missed = before.map_or(step, |(v, _)| step * (u - v));
+            if step.abs() <= RESOLUTION || (step.abs() <= NEAR && missed.abs() <= RESOLUTION) {
                 found = Some((u + step, look.foot[0], false));
                 break;
             }

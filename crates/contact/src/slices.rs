@@ -78,7 +78,18 @@ pub fn slice(
     let pair = FlankPair::new(flanks, poses);
     let mut hint = SliceHint::default();
     let place = pair.place(z, &mut hint)?;
-    pair.slice(&place, patches, point, length, &mut hint)
+    let (mut row, slice) = pair.slice(&place, patches, point, length)?;
+    pair.support(&mut row, &slice, &mut hint).then_some((row, slice))
+}
+
+impl SliceHint {
+    /// Follows body 1's turn about its own axis (rad): contact stays on its line in space, so the place of flank `patch` moves by as
+    /// much in roll angle.
+    pub fn turn(&mut self, side: f64, angle: f64) {
+        if let Some(roll) = &mut self.roll {
+            *roll += side * angle;
+        }
+    }
 }
 
 impl<'a> FlankPair<'a> {
@@ -135,21 +146,21 @@ impl<'a> FlankPair<'a> {
         Some(([seen.foot, edge], seen, off_line([b, a], seen.slope, [edge, seen.foot])))
     }
 
-    /// The slice at a place, standing for `length` mm of contact line, and its gap row.
+    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests on:
+    /// [`FlankPair::support`] finds these for who needs them.
     pub fn slice(
         &self,
         found: &SlicePlace,
         numbers: (usize, usize),
         point: usize,
         length: f64,
-        hint: &mut SliceHint,
     ) -> Option<(ContactRow, Slice)> {
         let SlicePlace { place, look, z } = *found;
         let (patches, poses) = (self.patches(), self.poses);
         let at = [[place.roll(), z], look.foot];
         match place {
             Place::Inside(_) | Place::OwnEnd(_) => {
-                let mut row = row_at(patches, poses, numbers, point, at, look.gap, &mut hint.faces)?;
+                let mut row = row_at(patches, poses, numbers, point, at, look.gap);
                 let inside = matches!(place, Place::Inside(_));
                 let off = if inside { 0.0 } else { off_line(patches, look.slope, at) };
                 let local = local(self.flanks, at, off);
@@ -157,12 +168,12 @@ impl<'a> FlankPair<'a> {
                 Some((row, Slice { z, at, length, local }))
             }
             Place::OtherKink(_) => {
-                let row = self.edge_row(numbers, point, at, look.gap, hint)?;
+                let row = self.edge_row(numbers, point, at, look.gap);
                 Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0) }))
             }
             Place::OtherEnd(_) => {
                 let (at, look, off) = self.other_edge(&look)?;
-                let mut row = self.edge_row(numbers, point, at, look.gap, hint)?;
+                let mut row = self.edge_row(numbers, point, at, look.gap);
                 let local = local(self.flanks, at, off);
                 row.gap += local.edge_opening();
                 Some((row, Slice { z, at, length, local }))
@@ -170,17 +181,21 @@ impl<'a> FlankPair<'a> {
         }
     }
 
+    /// Finds the nodes that a row of [`FlankPair::slice`] rests on, and their weights; whether there are any.
+    pub fn support(&self, row: &mut ContactRow, slice: &Slice, hint: &mut SliceHint) -> bool {
+        let patches = self.patches();
+        (0..2).all(|i| {
+            let Some(found) = patches[i].nearest_face_from(slice.at[i], hint.faces[i]) else { return false };
+            hint.faces[i] = Some(found);
+            row.supports[i].rest_on(patches[i], found);
+            true
+        })
+    }
+
     /// Row of an edge of body 2 that presses on body 1: the force acts along body 1's normal.
-    fn edge_row(
-        &self,
-        numbers: (usize, usize),
-        point: usize,
-        at: [[f64; 2]; 2],
-        gap: f64,
-        hint: &mut SliceHint,
-    ) -> Option<ContactRow> {
+    fn edge_row(&self, numbers: (usize, usize), point: usize, at: [[f64; 2]; 2], gap: f64) -> ContactRow {
         let (patches, poses) = (self.patches(), self.poses);
-        let mut row = row_at(patches, poses, numbers, point, at, gap, &mut hint.faces)?;
+        let mut row = row_at(patches, poses, numbers, point, at, gap);
         let normal = -(poses[0].rotation * patches[0].surface().normal(at[0]));
         row.position = poses[1].transform_point(&patches[1].surface().point(at[1]).into()).coords;
         row.normal = normal;
@@ -191,7 +206,7 @@ impl<'a> FlankPair<'a> {
             let direction = sign * poses[i].inverse_transform_vector(&normal);
             (row.supports[i].direction, row.supports[i].load) = (direction, direction);
         }
-        Some(row)
+        row
     }
 }
 

@@ -20,6 +20,14 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn normal(&self, at: [f64; 2]) -> Vec3;
     /// Derivative of the point by the first surface coordinate.
     fn profile_tangent(&self, at: [f64; 2]) -> Vec3;
+    /// [`Surface::point`] and [`Surface::profile_tangent`] together.
+    fn point_and_profile(&self, at: [f64; 2]) -> [Vec3; 2] {
+        [self.point(at), self.profile_tangent(at)]
+    }
+    /// [`Surface::locate`] and the unit normal at the foot.
+    fn locate_with_normal(&self, p: &Vec3) -> Option<(Foot, Vec3)> {
+        self.locate(p).map(|foot| (foot, self.normal(foot.at)))
+    }
     /// Curvature across the contact line, 1/mm; convex positive.
     fn curvature(&self, at: [f64; 2]) -> f64;
     /// Foot point of `p`; `None` where there is none.
@@ -43,6 +51,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
 /// Half of a usual band of contact, mm.
 const BAND: f64 = 0.1;
 
+fn foot(f: geometry::FlankPoint) -> Foot {
+    Foot { at: [f.roll, f.z], distance: f.distance }
+}
+
 /// Surface coordinates of an involute flank are (roll angle, z).
 impl Surface for geometry::Flank {
     fn point(&self, [u, z]: [f64; 2]) -> Vec3 {
@@ -62,7 +74,15 @@ impl Surface for geometry::Flank {
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
-        geometry::Flank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+        geometry::Flank::locate(self, p).map(foot)
+    }
+
+    fn point_and_profile(&self, [u, z]: [f64; 2]) -> [Vec3; 2] {
+        geometry::Flank::point_and_profile(self, u, z)
+    }
+
+    fn locate_with_normal(&self, p: &Vec3) -> Option<(Foot, Vec3)> {
+        geometry::Flank::locate_with_normal(self, p).map(|(f, normal)| (foot(f), normal))
     }
 
     fn is_single_arc(&self) -> bool {
@@ -98,7 +118,15 @@ impl Surface for geometry::ModifiedFlank {
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
-        geometry::ModifiedFlank::locate(self, p).map(|f| Foot { at: [f.roll, f.z], distance: f.distance })
+        geometry::ModifiedFlank::locate(self, p).map(foot)
+    }
+
+    fn point_and_profile(&self, [u, z]: [f64; 2]) -> [Vec3; 2] {
+        geometry::ModifiedFlank::point_and_profile(self, u, z)
+    }
+
+    fn locate_with_normal(&self, p: &Vec3) -> Option<(Foot, Vec3)> {
+        geometry::ModifiedFlank::locate_with_normal(self, p).map(|(f, normal)| (foot(f), normal))
     }
 
     fn depth(&self, [u, z]: [f64; 2]) -> f64 {

@@ -193,7 +193,7 @@ pub(crate) fn equilibrium(
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
         let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
         if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
-            && let Some(touched) = solver.touched()
+            && let Some(touched) = solver.touched(&poses)
         {
             let Touched { rows, slices, solution, displacements } = *touched;
             return Ok(Equilibrium {

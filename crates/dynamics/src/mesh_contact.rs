@@ -54,6 +54,8 @@ pub struct MeshContact {
     friction: Option<Friction>,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
+    /// How body 1 stood at the last search.
+    stood: Option<Pose>,
     /// Force of each station of each pair at the last solution, N.
     memory: Vec<f64>,
     places: Vec<(usize, SlicePlace)>,
@@ -101,6 +103,7 @@ impl MeshContact {
         Ok(Self {
             friction,
             hints: vec![SliceHint::default(); most],
+            stood: None,
             memory: vec![0.0; most],
             places: Vec::with_capacity(most),
             keys: Vec::with_capacity(most),
@@ -131,6 +134,10 @@ impl MeshContact {
     pub(crate) fn enter(&mut self, set: ContactSet) {
         self.memory.fill(0.0);
         self.hints.fill(SliceHint::default());
+        self.stood = None;
+        if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
+            self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
+        }
         self.set = set;
     }
 
@@ -163,7 +170,7 @@ impl MeshContact {
     pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, None);
         self.solve(Balance::Held, 0)?;
-        let Self { force, rows, slices, solver, set, modal, .. } = self;
+        let Self { force, rows, solver, set, modal, .. } = self;
         force.wrench = wrenches(poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
         let rigid = |i: usize| {
@@ -192,8 +199,7 @@ impl MeshContact {
             force.pair_forces[set.pair_of(row.patches.0)] += f;
         }
         let halves = solver.forces().iter().zip(solver.openings()).map(|(f, o)| 0.5 * f * o).sum::<f64>();
-        let local = slices.iter().zip(solver.forces()).map(|(s, &f)| crate::loads::local_energy(s, f)).sum::<f64>();
-        force.strain_energy = halves + local;
+        force.strain_energy = halves + solver.curved_energy();
         (force.iterations, force.residual) = (solver.iterations(), solver.residual());
         Ok(&self.force)
     }
@@ -216,15 +222,18 @@ impl MeshContact {
 
     /// Where the flanks are nearest, station by station.
     fn find_places(&mut self, poses: &[Pose; 2]) {
-        let Self { set, pairs, hints, places, .. } = self;
+        let Self { set, pairs, hints, places, stood, .. } = self;
         places.clear();
         let Some(of_window) = set.slices() else { return };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         let stations = of_window.stations();
+        let turned = stood.replace(poses[0]).map_or(0.0, |before| turn(&before, &poses[0]));
         for (p, &numbers) in pairs.iter().enumerate() {
             let pair = FlankPair::new(of_window.flanks(patches, numbers), poses);
+            let side = set.side(numbers.0).sign();
             for (i, &z) in stations.iter().enumerate() {
                 let key = p * stations.len() + i;
+                hints[key].turn(side, turned);
                 if let Some(place) = pair.place(z, &mut hints[key]) {
                     places.push((key, place));
                 }
@@ -245,6 +254,7 @@ impl MeshContact {
         let Some(of_window) = set.slices() else { return };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         let stations = of_window.stations();
+        let tabulated = of_window.bulk().is_some();
         let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
         let reach = reach.unwrap_or_else(|| {
             let deepest = places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()));
@@ -256,10 +266,14 @@ impl MeshContact {
             let pair = pair_at(numbers);
             for (key, place) in of_pair.iter().filter(|(_, place)| place.gap() <= reach) {
                 let point = key % stations.len();
-                let made = pair.slice(place, numbers, point, of_window.length(), &mut hints[*key]);
-                let Some((row, slice)) = made.filter(|(row, s)| row.gap <= reach && of_window.may_touch(s)) else {
+                let made = pair.slice(place, numbers, point, of_window.length());
+                let Some((mut row, slice)) = made.filter(|(row, s)| row.gap <= reach && of_window.may_touch(s)) else {
                     continue;
                 };
+                // Tables do not ask which nodes a row rests on.
+                if !tabulated && !pair.support(&mut row, &slice, &mut hints[*key]) {
+                    continue;
+                }
                 keys.push(*key);
                 rows.push(friction.map_or(row, |f| f.on(poses, row)));
                 slices.push(slice);
@@ -376,6 +390,20 @@ impl MeshContact {
         &self.rows
     }
 
+    /// The rows with the nodes that they rest on, at the poses of the last evaluation.
+    pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
+        let Self { set, pairs, hints, keys, rows, slices, .. } = self;
+        let mut rows = rows.clone();
+        let Some(of_window) = set.slices() else { return rows };
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        for ((row, slice), &key) in rows.iter_mut().zip(slices).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
+        {
+            let numbers = pairs[key / of_window.stations().len()];
+            FlankPair::new(of_window.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
+        }
+        rows
+    }
+
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
         &self.slices
@@ -385,4 +413,10 @@ impl MeshContact {
     pub fn solver(&self) -> &DenseSolver {
         &self.solver
     }
+}
+
+/// How far a body has turned about its own axis, rad.
+fn turn(before: &Pose, now: &Pose) -> f64 {
+    let q = (before.rotation.inverse() * now.rotation).into_inner();
+    2.0 * q.k.atan2(q.w)
 }

@@ -77,10 +77,11 @@ impl Solver<'_> {
         }
     }
 
-    pub fn touched(&mut self) -> Option<Box<Touched>> {
+    pub fn touched(&mut self, poses: &[Pose; 2]) -> Option<Box<Touched>> {
         match self {
             Self::General { touched, .. } => touched.take(),
             Self::Mesh(mesh) => {
+                let rows = mesh.supported_rows(poses);
                 let solver = mesh.solver();
                 let solution = Solution {
                     forces: solver.forces().to_vec(),
@@ -91,7 +92,7 @@ impl Solver<'_> {
                     iterations: solver.iterations(),
                     residual: solver.residual(),
                 };
-                let (rows, slices) = (mesh.rows().to_vec(), mesh.slices().to_vec());
+                let slices = mesh.slices().to_vec();
                 Some(Box::new(Touched { rows, slices, solution, displacements: Default::default() }))
             }
         }

@@ -32,5 +32,6 @@ pub use factor::BoundaryLastFactor;
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;
+pub use ordering::Ordering;
 pub use stress::{StressOperator, max_principal, min_principal, nodal_stress, von_mises};
 pub use symmetric::SymmetricMatrix;

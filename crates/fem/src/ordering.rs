@@ -22,9 +22,9 @@ use faer::{
 use crate::{FemError, SymmetricMatrix};
 use graph::Graph;
 
-/// An elimination order and its inverse.
+/// An order of elimination and its inverse.
 #[derive(Debug, Clone)]
-pub(crate) struct Ordering {
+pub struct Ordering {
     /// `forward[new] = old`.
     pub forward: Vec<usize>,
     /// `inverse[old] = new`.
@@ -34,8 +34,11 @@ pub(crate) struct Ordering {
 }
 
 impl Ordering {
-    /// Nested dissection of everything but `last`, then `last` as given.
-    pub(crate) fn new(matrix: &SymmetricMatrix, last: &[usize]) -> Result<Self, FemError> {
+    /// Nested dissection of everything but `last` (matrix rows), then `last` as given.
+    ///
+    /// # Errors
+    /// [`FemError::BadDof`] for a row that does not exist or is named twice, [`FemError::TooLarge`], [`FemError::Ordering`].
+    pub fn new(matrix: &SymmetricMatrix, last: &[usize]) -> Result<Self, FemError> {
         let n = matrix.n();
         let mut is_last = vec![false; n];
         for &dof in last {
@@ -53,6 +56,14 @@ impl Ordering {
             inverse[old] = new;
         }
         Ok(Self { forward, inverse, interior: n - last.len() })
+    }
+
+    /// Doubles that the factor of the matrix takes in this order, what supernodes add to fill themselves included.
+    ///
+    /// # Errors
+    /// [`FemError::OutOfMemory`].
+    pub fn factor_doubles(&self, matrix: &SymmetricMatrix) -> Result<usize, FemError> {
+        Ok(self.symbolic(matrix)?.len_val())
     }
 
     /// Symbolic supernodal factor of the matrix in this order.

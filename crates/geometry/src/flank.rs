@@ -104,6 +104,16 @@ impl Flank {
         self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b)
     }
 
+    /// Surface point (mm) and its derivative by roll angle (mm), with one sine for both.
+    pub fn point_and_profile(&self, u: f64, z: f64) -> [Vec3; 2] {
+        let (sin, cos) = self.generating_angle(u, z).sin_cos();
+        let along = self.side.sign() * u;
+        [
+            Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z),
+            self.base_radius * u * Vec3::new(cos, sin, 0.0),
+        ]
+    }
+
     /// Derivatives of the surface point by roll angle (mm) and by z (1).
     pub fn tangents(&self, u: f64, z: f64) -> [Vec3; 2] {
         let (sin, cos) = self.generating_angle(u, z).sin_cos();
@@ -126,24 +136,43 @@ impl Flank {
     /// ```
     /// `None` below the base cylinder, where the involute has no normal. Check `roll` and `z` against the bounds.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
+        self.locate_with_normal(p).map(|(foot, _)| foot)
+    }
+
+    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there: phi is the direction angle of the base point whose
+    /// generator runs through `p`, so no further angle is needed for it.
+    pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
         let s = self.side.sign();
-        let reach = p.x * p.x + p.y * p.y - self.base_radius * self.base_radius;
+        let square = p.x * p.x + p.y * p.y;
+        let reach = square - self.base_radius * self.base_radius;
         if reach < 0.0 {
             return None;
         }
         let w = reach.sqrt();
-        let (sin_b, cos_b) = self.base_helix_angle.sin_cos();
-        let phi = p.y.atan2(p.x) - s * w.atan2(self.base_radius);
+        let [sin_b, cos_b] = self.base_helix();
+        // R^2 exp(i phi) = (x + i y) (r_b - i s W)
+        let [cos, sin] = [p.x * self.base_radius + s * w * p.y, p.y * self.base_radius - s * w * p.x];
+        let phi = sin.atan2(cos);
+        let normal = s * Vec3::new(-sin * cos_b / square, cos * cos_b / square, -sin_b);
         // The flank's own angle at u = W / r_b; the small difference is what the distance turns the helicoid by.
         let expected = self.centre_angle + self.twist * p.z + s * (self.base_half_angle - w / self.base_radius);
         let turn = wrap(phi - expected);
         let distance = self.base_radius * cos_b * s * turn;
-        Some(FlankPoint { roll: (w - distance * cos_b) / self.base_radius, z: p.z + s * distance * sin_b, distance })
+        let roll = (w - distance * cos_b) / self.base_radius;
+        Some((FlankPoint { roll, z: p.z + s * distance * sin_b, distance }, normal))
+    }
+
+    /// sin b_b and cos b_b, from k r_b = tan b_b.
+    fn base_helix(&self) -> [f64; 2] {
+        let tan = self.twist * self.base_radius;
+        let cos = 1.0 / (1.0 + tan * tan).sqrt();
+        [tan * cos, cos]
     }
 }
 
 /// Angle in (-pi, pi].
 pub(crate) fn wrap(angle: f64) -> f64 {
-    let turned = angle.rem_euclid(2.0 * PI);
-    if turned > PI { turned - 2.0 * PI } else { turned }
+    let turned = angle - (angle / (2.0 * PI)).round() * (2.0 * PI);
+    // Half a turn either way is the positive one.
+    if turned <= -PI { turned + 2.0 * PI } else { turned }
 }

@@ -158,6 +158,53 @@ fn a_sector_has_the_modes_of_the_gear() {
     }
 }
 
+/// Bore-held modes with the inertia that they share with rigid motion are the gear whose bore is rigid and free:
+/// frequencies of the whole mesh with its bore nodes tied to one body, by dense matrices.
+#[test]
+fn modes_and_a_rigid_body_are_the_free_gear() {
+    let mesh = meshed(&gear(11, 20.0), 1, Extent::Whole);
+    let nodes = &mesh.mesh().nodes;
+    let n = 3 * nodes.len();
+    let all = DofMap::new(nodes.len(), &[]);
+    let system = fem::assemble(mesh.mesh(), &Material::STEEL, &all, &ElementOptions::default()).unwrap();
+    let motion = DMatrix::from_fn(n, 6, |row, j| {
+        let (x, axis) = (nalgebra::Vector3::from(nodes[row / 3]), row % 3);
+        let unit = nalgebra::Vector3::from_fn(|i, _| f64::from(u8::from(i == j % 3)));
+        if j < 3 { unit[axis] } else { unit.cross(&x)[axis] }
+    });
+    let is_bore = |row: usize| mesh.bore_nodes().binary_search(&((row / 3) as u32)).is_ok();
+    let free: Vec<usize> = (0..n).filter(|&row| !is_bore(row)).collect();
+    let tied = DMatrix::from_fn(n, 6 + free.len(), |row, j| match j {
+        0..6 if is_bore(row) => motion[(row, j)],
+        0..6 => 0.0,
+        _ => f64::from(u8::from(free[j - 6] == row)),
+    });
+    let [k, m] = [system.stiffness.to_dense(), system.mass.to_dense()]
+        .map(|a| DMatrix::from_fn(n, n, |i, j| a[(i, j)]));
+    let frequencies = |k: DMatrix<f64>, m: DMatrix<f64>| {
+        let l = m.cholesky().unwrap().unpack();
+        let half = l.solve_lower_triangular(&k).unwrap();
+        let full = l.solve_lower_triangular(&half.transpose()).unwrap();
+        let mut all: Vec<f64> = SymmetricEigen::new(0.5 * (&full + full.transpose())).eigenvalues.iter().copied().collect();
+        all.sort_unstable_by(f64::total_cmp);
+        all.iter().skip(6).map(|s| s.sqrt() / TAU).collect::<Vec<_>>()
+    };
+    let wanted = frequencies(tied.tr_mul(&k) * &tied, tied.tr_mul(&m) * &tied);
+    let reducer = GearReducer::new(mesh.clone(), Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
+    let modes = reducer.modes(ModeChoice::Count(usize::MAX)).unwrap();
+    let size = 6 + modes.count();
+    let (mut stiffness, mut mass) = (DMatrix::zeros(size, size), DMatrix::identity(size, size));
+    mass.view_mut((0, 0), (6, 6)).copy_from(&(motion.tr_mul(&m) * &motion));
+    for (j, (square, shared)) in modes.squares().iter().zip(modes.coupling()).enumerate() {
+        stiffness[(6 + j, 6 + j)] = *square;
+        (0..6).for_each(|i| (mass[(i, 6 + j)], mass[(6 + j, i)]) = (shared[i], shared[i]));
+    }
+    let found = frequencies(stiffness, mass);
+    let off = worst(&found[..40], &wanted);
+    println!("bore free: {:.0} .. {:.0} Hz, off by {off:.1e}; bore held from {:.0} Hz on", wanted[0], wanted[39], modes.frequencies_hz()[0]);
+    assert!(off < 1e-7, "{off:e}");
+}
+
 /// A ring of rectangular section, bore held, with patches on its outside for flanks.
 fn ring(inner: f64, outer: f64, width: f64, [around, across, along]: [usize; 3], teeth: u32) -> GearMesh {
     let node = |i: usize, j: usize, k: usize| ((k * (across + 1) + j) * around + i % around) as u32;

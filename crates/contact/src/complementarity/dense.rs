@@ -128,6 +128,13 @@ impl DenseSolver {
         self.residual
     }
 
+    /// Energy of the local compliance beyond half of force times approach, N mm, <= 0: its slope falls as the load grows.
+    ///
+    /// delta = F (b - c ln F) stores (integral of F d delta) F delta / 2 - c F^2 / 4, and c = delta / F - d delta/dF.
+    pub fn curved_energy(&self) -> f64 {
+        self.active.iter().map(|&i| -0.25 * self.forces[i] * (self.approach[i] - self.forces[i] * self.slopes[i])).sum()
+    }
+
     /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start row i from, 0 where
     /// there is none.
     ///

@@ -128,8 +128,8 @@ impl Edge {
         (value, -slope * d)
     }
 
-    /// ln of the distance (mm) between load and corner, and its derivative by ln a; `e` as in [`reach`].
-    pub fn log_reach(&self, a: f64, e: f64) -> Dual {
+    /// Distance (mm) between load and corner, and the derivative of its logarithm by ln a; `e` as in [`reach`].
+    pub fn reach(&self, a: f64, e: f64) -> Dual {
         let tangent = self.tangent_point();
         let from = self.distance - tangent;
         // Past the tangent point the band moves along the arc towards the corner.
@@ -138,7 +138,7 @@ impl Edge {
         let d = from / a;
         let (l, slope) = reach(d, e);
         let distance = start + a * l;
-        (distance.ln(), a * (l - slope * d) / distance)
+        (distance, a * (l - slope * d) / distance)
     }
 
     /// What the arc takes away from under the least gap, mm: the gap to the rounded edge less that to the sharp one.
@@ -187,8 +187,8 @@ mod tests {
                         assert!((slope - wanted).abs() < 1e-6, "{what} {edge:?} a {a}: {slope}, not {wanted}");
                     };
                     check("P", edge.cut_off(a).1, (edge.cut_off(up).0 - edge.cut_off(down).0) / (2.0 * h));
-                    let reach = |a: f64| edge.log_reach(a, 0.24).0;
-                    check("l", edge.log_reach(a, 0.24).1, (reach(up) - reach(down)) / (2.0 * h));
+                    let reach = |a: f64| edge.reach(a, 0.24).0.ln();
+                    check("l", edge.reach(a, 0.24).1, (reach(up) - reach(down)) / (2.0 * h));
                 }
             }
         }

@@ -33,7 +33,10 @@ const WEIGHTS: [[[f64; 2]; LEANS]; POISSON.len()] = [
     [[-1.327, 0.987], [-1.261, 0.991], [-1.134, 0.986], [-0.890, 0.956], [-0.542, 0.968], [-0.068, 1.113], [0.580, 1.581], [1.353, 2.954], [1.542, 7.252]],
 ];
 /// Decay of the two terms, one over depths.
-const DECAY: [f64; 2] = [1.6, 1.2];
+const DECAY: [f64; 2] = [4.0 * UNIT_DECAY, 3.0 * UNIT_DECAY];
+const UNIT_DECAY: f64 = 0.4;
+/// Below this the logarithm's series is exact to round-off.
+const SERIES: f64 = 0.01;
 /// Distance over depth past which no face is felt.
 const FAR: f64 = 20.0;
 /// Part of the half-width within which the band is too wide to feel the face any more.
@@ -70,15 +73,23 @@ impl Softening {
             return (0.0, 0.0);
         }
         let (mut value, mut slope) = (0.0, 0.0);
-        for (weight, k) in self.weights.iter().zip(DECAY) {
+        // DECAY is 4 and 3 times this: one exponential serves both.
+        let less = (-2.0 * UNIT_DECAY * s).exp_m1();
+        let y = 1.0 + less;
+        let powers = [(y.powi(4), -less * (1.0 + y) * (1.0 + y * y)), (y * y * y, -less * (1.0 + y + y * y))];
+        for ((weight, k), (e, rest)) in self.weights.iter().zip(DECAY).zip(powers) {
             // ln coth x = ln((1 + e) / (1 - e)) with e = exp(-2 x), and 1 / sinh(2 x) = 2 e / (1 - e^2).
-            let e = (-2.0 * k * s).exp();
-            let rest = -(-2.0 * k * s).exp_m1();
-            value += weight * ((1.0 + e) / rest).ln();
+            value += weight * if e < SERIES { 2.0 * odd_series(e) } else { ((1.0 + e) / rest).ln() };
             slope -= weight * 4.0 * k * e / ((1.0 + e) * rest);
         }
         (value, slope * blunt * blunt / s)
     }
+}
+
+/// artanh e for a small e.
+fn odd_series(e: f64) -> f64 {
+    let square = e * e;
+    e * (1.0 + square * (1.0 / 3.0 + square * (1.0 / 5.0 + square * (1.0 / 7.0))))
 }
 
 /// Linear between the table's entries, held past its ends.

@@ -79,6 +79,18 @@ impl ModifiedFlank {
         (n + along * e_r + across * generator).normalize()
     }
 
+    /// Surface point (mm) and its derivative by roll angle (mm).
+    pub fn point_and_profile(&self, u: f64, z: f64) -> [Vec3; 2] {
+        if self.is_nominal() {
+            return self.flank.point_and_profile(u, z);
+        }
+        let [point, profile] = self.flank.point_and_profile(u, z);
+        let n = self.flank.normal(u, z);
+        let depth = self.depth(u, z);
+        let shrunk = 1.0 - depth.value * self.flank.base_helix_angle.cos() / (self.flank.base_radius * u);
+        [point - depth.value * n, shrunk * profile - depth.by_roll * n]
+    }
+
     /// Derivatives of the surface point by roll angle (mm) and by z (1).
     ///
     /// ```text
@@ -108,6 +120,16 @@ impl ModifiedFlank {
             return Some(foot);
         }
         Some(FlankPoint { distance: foot.distance + self.depth(foot.roll, foot.z).value, ..foot })
+    }
+
+    /// Foot as [`ModifiedFlank::locate`] finds it, and the unit normal of the modified surface there.
+    pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
+        let (foot, normal) = self.flank.locate_with_normal(p)?;
+        if self.field.is_none() {
+            return Some((FlankPoint { distance: foot.distance + self.pitch, ..foot }, normal));
+        }
+        let distance = foot.distance + self.depth(foot.roll, foot.z).value;
+        Some((FlankPoint { distance, ..foot }, self.normal(foot.roll, foot.z)))
     }
 
     /// Profile direction e_r and direction of the generator, sin(b_b) e_t + cos(b_b) e_z.
