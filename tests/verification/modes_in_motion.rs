@@ -17,7 +17,7 @@ use fem::ElementOptions;
 use geometry::{Gear, GearData, GearPair};
 use mesh::{GearMesh, GroupNames};
 use nalgebra::{DMatrix, DVector};
-use reduction::{GearReducer, ModeChoice};
+use reduction::{GearModes, GearReducer, ModeChoice};
 use support::Case;
 
 const TORQUE: f64 = 150e3;
@@ -99,9 +99,9 @@ impl Pair {
     }
 
     /// Without and with modes.
-    fn both(&self, options: &MotionOptions, choice: ModeChoice) -> [PairMechanism; 2] {
+    fn both(&self, options: &MotionOptions, kept: impl Fn(&GearReducer) -> GearModes) -> [PairMechanism; 2] {
         let modes = self.reducers().map(|reducer| {
-            let modes = Arc::new(reducer.modes(choice).unwrap());
+            let modes = Arc::new(kept(reducer));
             GearVibration { modes, damping_ratio: 0.01 }
         });
         let make = || {
@@ -112,22 +112,30 @@ impl Pair {
     }
 }
 
+/// The gear's own modes.
+fn lowest(count: usize) -> impl Fn(&GearReducer) -> GearModes {
+    move |reducer| reducer.modes(ModeChoice::Count(count)).unwrap()
+}
+
 fn scale(system: &PairMechanism) -> DVector<f64> {
     system.scales(&DVector::from_element(system.coordinates().count(), 1e-2), 1e-2)
 }
 
-/// At rest modes and residual make up the whole compliance: the same transmission error with modes as without, by tables and by matrices, with friction and without.
+/// At rest modes and residual make up the whole compliance: the same transmission error with modes as without, by tables and by matrices, with friction and without, with
+/// the gear's own modes and with those of its Craig-Bampton model.
 #[test]
 fn modes_change_nothing_at_rest() {
     let pair = pair();
     let plain = pair.contact.clone();
-    for (name, contact) in [
-        ("tables", plain.clone()),
-        ("matrices", StaticOptions { bulk: Bulk::Exact, ..plain.clone() }),
-        ("friction", StaticOptions { friction: 0.06, ..plain }),
+    let bampton = |reducer: &GearReducer| reducer.craig_bampton_modes(ModeChoice::Count(12), 2).unwrap();
+    for (name, contact, own) in [
+        ("tables", plain.clone(), true),
+        ("matrices", StaticOptions { bulk: Bulk::Exact, ..plain.clone() }, true),
+        ("friction", StaticOptions { friction: 0.06, ..plain.clone() }, true),
+        ("Craig-Bampton", plain, false),
     ] {
         let options = MotionOptions { contact, ..pair.options(1e-6, 0.05) };
-        let systems = pair.both(&options, ModeChoice::Count(12));
+        let systems = if own { pair.both(&options, lowest(12)) } else { pair.both(&options, bampton) };
         let [a, b] = systems.map(|mut system| {
             let s = scale(&system);
             quasi_static_start(&mut system, 0.0, pair.ste, &s).unwrap_or_else(|e| panic!("{name}: {e}")).q[0]
@@ -145,7 +153,7 @@ fn forces_and_tangents_are_derivatives() {
     let bearing = Bearing { stiffness: k, ..Bearing::default() };
     let held = pair.options(1.0, 0.0);
     let free = MotionOptions { free: [[true; 6]; 2], bearings: [bearing; 2], start_cycles: 7.3, ..held };
-    let [_, mut system] = pair.both(&free, ModeChoice::Count(5));
+    let [_, mut system] = pair.both(&free, lowest(5));
     let n = system.count();
     let rigid = system.coordinates().scales(1e-2, 45.0);
     let s = system.scales(&rigid, 1e-2);
@@ -188,7 +196,7 @@ fn tooth_change_leaves_no_trace_in_the_modes() {
     let pair = pair();
     // Mesh frequency 1 kHz.
     let speed = 1e3 * pair.case.pair.pinion.pitch_angle();
-    let [_, mut system] = pair.both(&pair.options(speed, 0.05), ModeChoice::Count(8));
+    let [_, mut system] = pair.both(&pair.options(speed, 0.05), lowest(8));
     let s = scale(&system);
     let mut state = quasi_static_start(&mut system, 0.0, pair.ste, &s).unwrap();
     let mut integrator = Integrator::new(Scheme::Energy, StepControl::Fixed(1e-3 / 48.0), s);
@@ -249,7 +257,7 @@ fn low_frequency_approximation_ends_where_the_warning_says() {
         let elastic_hz = lowest.map(|l| l.flanks_free_hz);
         // A fifth of a cycle on: there the teeth's stiffness changes fastest.
         let options = MotionOptions { start_cycles: 0.2, ..pair.options(1e-6, 0.1) };
-        let mut systems = pair.both(&options, ModeChoice::Count(16));
+        let mut systems = pair.both(&options, lowest(16));
         println!(
             "bore {bore} mm: lowest {:.0} Hz, flanks held {:.0} Hz, mesh resonance {:.0} Hz",
             elastic_hz[0],
@@ -292,7 +300,7 @@ fn time_says_the_same_as_linear_response() {
     let change = |ratio: f64, cycles: f64| {
         let mesh_hz = ratio * lowest;
         let speed = mesh_hz * pair.case.pair.pinion.pitch_angle();
-        let [a, b] = pair.both(&pair.options(speed, 0.1), ModeChoice::Count(12)).map(|mut system| {
+        let [a, b] = pair.both(&pair.options(speed, 0.1), lowest(12)).map(|mut system| {
             let s = scale(&system);
             let mut state = quasi_static_start(&mut system, 0.0, pair.ste, &s).unwrap();
             let control = StepControl::Fixed(1.0 / (STEPS as f64 * mesh_hz));

@@ -179,13 +179,14 @@ fn modes_and_a_rigid_body_are_the_free_gear() {
         0..6 => 0.0,
         _ => f64::from(u8::from(free[j - 6] == row)),
     });
-    let [k, m] = [system.stiffness.to_dense(), system.mass.to_dense()]
-        .map(|a| DMatrix::from_fn(n, n, |i, j| a[(i, j)]));
+    let [k, m] =
+        [system.stiffness.to_dense(), system.mass.to_dense()].map(|a| DMatrix::from_fn(n, n, |i, j| a[(i, j)]));
     let frequencies = |k: DMatrix<f64>, m: DMatrix<f64>| {
         let l = m.cholesky().unwrap().unpack();
         let half = l.solve_lower_triangular(&k).unwrap();
         let full = l.solve_lower_triangular(&half.transpose()).unwrap();
-        let mut all: Vec<f64> = SymmetricEigen::new(0.5 * (&full + full.transpose())).eigenvalues.iter().copied().collect();
+        let mut all: Vec<f64> =
+            SymmetricEigen::new(0.5 * (&full + full.transpose())).eigenvalues.iter().copied().collect();
         all.sort_unstable_by(f64::total_cmp);
         all.iter().skip(6).map(|s| s.sqrt() / TAU).collect::<Vec<_>>()
     };
@@ -201,7 +202,12 @@ fn modes_and_a_rigid_body_are_the_free_gear() {
     }
     let found = frequencies(stiffness, mass);
     let off = worst(&found[..40], &wanted);
-    println!("bore free: {:.0} .. {:.0} Hz, off by {off:.1e}; bore held from {:.0} Hz on", wanted[0], wanted[39], modes.frequencies_hz()[0]);
+    println!(
+        "bore free: {:.0} .. {:.0} Hz, off by {off:.1e}; bore held from {:.0} Hz on",
+        wanted[0],
+        wanted[39],
+        modes.frequencies_hz()[0]
+    );
     assert!(off < 1e-7, "{off:e}");
 }
 

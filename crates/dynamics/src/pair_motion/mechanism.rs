@@ -396,6 +396,7 @@ impl PairMechanism {
         let pressure = loaded.fold(0.0, |m: f64, (slice, f)| m.max(slice.local.under(f / slice.length).pressure));
         let (window, tooth_changes) = self.drive_side.window();
         let moment = self.moment(t);
+        let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &moment);
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
         Ok(Instant {
@@ -405,7 +406,7 @@ impl PairMechanism {
             transmission_error: q[self.coordinates.lag()],
             transmission_error_rate: v[self.coordinates.lag()],
             displacement: d,
-            drive_torque: self.drive_torque(t, &moment, &mesh),
+            drive_torque: self.drive_torque(t, &moment, &(mesh - shared)),
             load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
             pair_forces: contact.force().pair_forces.clone(),
@@ -416,6 +417,26 @@ impl PairMechanism {
             tooth_changes,
             mesh,
         })
+    }
+
+    /// What the inertia of the modes takes of the forces on the rigid bodies, D' L' p''; nothing without modes.
+    fn modal_reaction(
+        &self,
+        t: f64,
+        at: &Posture,
+        v: &DVector<f64>,
+        sides: [Option<&SideForce>; 2],
+        moment: &Moment,
+    ) -> Displacement {
+        let Some(modal) = &self.modal else { return Displacement::zeros() };
+        let (coupling, rate) = (self.coupling(t), self.posture(t, v).q);
+        let mut balance = ModalBalance::new(modal, &at.q, &rate);
+        sides.into_iter().flatten().for_each(|side| {
+            balance.add(side, &rate);
+        });
+        balance.accelerate(&coupling, moment);
+        let all = coupling.tr_mul(&(balance.conservative + balance.other));
+        Displacement::from_fn(|i, _| all[i])
     }
 
     /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed.
