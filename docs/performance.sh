@@ -1,15 +1,33 @@
 #!/usr/bin/env bash
-# Fills docs/performance.md: runs the work-precision charts of both pairs. Up to a quarter of an hour each on two quiet cores.
+# Fills docs/performance.md: runs the work-precision charts of both pairs (up to a quarter of an hour each on two quiet cores), then
+# the tables of the benches. `--benches` alone leaves the charts as they are; other arguments go to `ale-gear chart`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release -p ale-gear
-program=${CARGO_TARGET_DIR:-target}/release/ale-gear
-mkdir -p docs/performance
-for scene in default:helical-30x30-beta20 iso_tr_6336_30:iso-tr-6336-30; do
-    out=out/chart-${scene%%:*}
-    "$program" chart "scenes/${scene%%:*}.toml" --out "$out" --into docs/performance.md "$@"
-    for kind in svg png; do
-        cp "$out/work_precision.$kind" "docs/performance/${scene##*:}.$kind"
+if [ "${1:-}" != --benches ]; then
+    cargo build --release -p ale-gear
+    program=${CARGO_TARGET_DIR:-target}/release/ale-gear
+    mkdir -p docs/performance
+    for scene in default:helical-30x30-beta20 iso_tr_6336_30:iso-tr-6336-30; do
+        out=out/chart-${scene%%:*}
+        "$program" chart "scenes/${scene%%:*}.toml" --out "$out" --into docs/performance.md "$@"
+        for kind in svg png; do
+            cp "$out/work_precision.$kind" "docs/performance/${scene##*:}.$kind"
+        done
+        cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
     done
-    cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
-done
+fi
+
+# Puts what a bench prints between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/performance.md.
+put() {
+    local name=$1 fence=$2 text
+    shift 2
+    text=$("$@" 2>/dev/null)
+    if [ "$fence" = text ]; then text=$(printf '```text\n%s\n```' "$text"); fi
+    TEXT=$text perl -0pi -e "s/(<!-- $name -->\n).*?(<!-- end $name -->)/\$1\n\$ENV{TEXT}\n\n\$2/s" docs/performance.md
+}
+# 24 GiB are what a gear may take, whatever the machine has.
+ulimit -v "${MEMORY_KIB:-25165824}"
+put offline table cargo bench -p reduction --bench offline -- --largest
+put ways text cargo bench -p reduction --bench reduction
+put contact text cargo bench -p dynamics --bench contact_solve
+put motion table cargo bench -p dynamics --bench dynamic_step

@@ -3,7 +3,7 @@
 use dynamics::result::StaticHistory;
 use serde::Serialize;
 
-use crate::phases::Phase;
+use crate::phases::{Phase, Phases};
 
 /// A solved scene.
 #[derive(Debug, Clone)]
@@ -90,4 +90,16 @@ pub struct Cost {
     pub peak_memory_mb: Option<f64>,
     /// Phase by phase.
     pub phases: Vec<Phase>,
+}
+
+impl Cost {
+    /// So far.
+    pub fn of(phases: &Phases) -> Self {
+        Self {
+            threads: rayon::current_num_threads(),
+            wall_s: phases.total_wall_s(),
+            peak_memory_mb: phases.peak_memory_mb(),
+            phases: phases.rows().to_vec(),
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`scene`] | reads and checks what the user wrote |
 //! | [`run`] | turns a checked scene into a call of the solvers |
+//! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
@@ -19,6 +20,7 @@ pub mod error;
 pub mod facts;
 mod fields;
 pub mod memory;
+mod motion;
 pub mod output;
 pub mod pattern;
 pub mod phases;

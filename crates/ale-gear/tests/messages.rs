@@ -90,8 +90,8 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
     );
     says(
         &with("[analysis]", "[analysis]\nkind = \"dynamic\""),
-        "ale-gear: a.toml:16: `kind = \"dynamic\"` asks for an analysis in time, which this version cannot do\n\
-         hint: use `kind = \"static\"`\n",
+        "ale-gear: a.toml:17: `model = \"iso\"` asks for another model in time, which this version cannot do\n\
+         hint: use `model = \"reduced\"`\n",
     );
 }
 

@@ -3,7 +3,7 @@
 use crate::AleError;
 
 /// Sense in which the pinion turns, seen from +z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sense {
     /// Counter-clockwise: pair numbers fall as new pairs come in.

@@ -55,7 +55,8 @@ impl FlankGridLines {
 
     /// Surface coordinates of a grid point.
     pub fn point(&self, p: usize) -> [f64; 2] {
-        let number = [p / self.lines(1), p % self.lines(1)];
+        // Along the profile first: contact lines run along the face, and the points around each place shall lie side by side.
+        let number = [p % self.lines(0), p / self.lines(0)];
         [0, 1].map(|k| {
             let parts: &[f64] = if k == 0 { &PROFILE } else { &FACE };
             let ends = &self.ends[k];
@@ -72,7 +73,7 @@ impl FlankGridLines {
         for (a, u) in wu.iter().enumerate() {
             for (b, z) in wz.iter().enumerate() {
                 let k = a * FACE.len() + b;
-                (points[k], weights[k]) = ((i + a) * self.lines(1) + j + b, u * z);
+                (points[k], weights[k]) = ((j + b) * self.lines(0) + i + a, u * z);
             }
         }
         (points, weights)

@@ -111,7 +111,7 @@ impl StaticOptions {
     }
 
     /// The same with the other gear as the driver: the options of the coast flanks.
-    pub(crate) fn driven_backwards(&self) -> Self {
+    pub fn driven_backwards(&self) -> Self {
         let driver = match self.driver {
             Driver::Pinion => Driver::Wheel,
             Driver::Wheel => Driver::Pinion,

@@ -38,6 +38,36 @@ pub enum StudyError {
         /// Points given.
         points: usize,
     },
+    /// Fewer samples than it takes.
+    #[error("{samples} samples, at least {least} are needed")]
+    TooFewSamples {
+        /// Samples given.
+        samples: usize,
+        /// How many it takes.
+        least: usize,
+    },
+    /// Lists that belong together are of different lengths.
+    #[error("{found} entries where {wanted} are wanted")]
+    Lengths {
+        /// Entries of the list.
+        found: usize,
+        /// Entries of the others.
+        wanted: usize,
+    },
+    /// Times or speeds that do not ascend.
+    #[error("entry {index} is not above the one before it")]
+    NotAscending {
+        /// Which, from 0.
+        index: usize,
+    },
+    /// Lines closer than the window can tell apart.
+    #[error("lines {spacing} Hz apart cannot be told apart, it takes {least} Hz")]
+    Unresolved {
+        /// Distance of the lines, Hz.
+        spacing: f64,
+        /// Least distance with this window and record, Hz.
+        least: f64,
+    },
     /// A history has no counterpart in the reference.
     #[error("{positions} positions a cycle are not among the reference's {reference}")]
     OtherPositions {
@@ -58,6 +88,12 @@ impl StudyError {
             Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
             Self::NoGrid { .. } => Some("give a rising, finite range, at least one step and one station".into()),
             Self::NoPowerLaw { .. } => Some("measure at least two sizes".into()),
+            Self::TooFewSamples { .. } => Some("take a longer record".into()),
+            Self::Lengths { .. } => Some("sample all quantities at the same times or values".into()),
+            Self::NotAscending { .. } => Some("sort times and speeds, and leave out doubles".into()),
+            Self::Unresolved { .. } => {
+                Some("take a longer record, or a window with a narrower main lobe such as `Hann`".into())
+            }
             Self::OtherPositions { .. } => Some("take a number of positions that divides the reference's".into()),
         }
     }

@@ -2,10 +2,12 @@
 
 use std::f64::consts::PI;
 
-use realfft::RealFftPlanner;
 use serde::Serialize;
 
-use crate::error::{StudyError, check};
+use crate::{
+    error::{StudyError, check},
+    transform::real_transform,
+};
 
 /// One harmonic of the mesh frequency.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -41,13 +43,7 @@ pub struct Harmonic {
 pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<Vec<Harmonic>, StudyError> {
     let per_cycle = check(samples, cycles)?;
     let n = samples.len();
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
-    let mut input = samples.to_vec();
-    let mut spectrum = transform.make_output_vec();
-    // The lengths come from the plan itself, the only thing that `process` can complain about.
-    if transform.process(&mut input, &mut spectrum).is_err() {
-        return Err(StudyError::NotWholeCycles { samples: n, cycles });
-    }
+    let spectrum = real_transform(samples.to_vec()).ok_or(StudyError::NotWholeCycles { samples: n, cycles })?;
     Ok((1..=orders.min(per_cycle / 2))
         .map(|order| {
             let bin = spectrum[order * cycles];

@@ -1,20 +1,34 @@
 //! How good, how fast, how stable?
 //!
 //! Statistics of histories that are sampled evenly over whole mesh cycles, so that neither a window
-//! function nor leakage stands between a mesh harmonic and its amplitude; what contact leaves on a flank over such cycles;
+//! function nor leakage stands between a mesh harmonic and its amplitude; spectra with windows and sidebands where the record is no whole cycle; sections, bifurcation
+//! diagrams, Lyapunov exponents, phase portraits and Campbell diagrams of any motion; what contact leaves on a flank over such cycles;
 //! accuracy against cost of the ways to compute one, CalculiX among them ([`calculix`]).
 
+mod bifurcation;
 pub mod calculix;
+mod campbell;
 mod cycle;
 mod error;
 mod flank_pattern;
 mod harmonics;
+mod lyapunov;
+mod phase_portrait;
+mod poincare;
 mod power_law;
+mod spectrum;
+mod transform;
 mod work_precision;
 
+pub use bifurcation::{Bifurcation, Branch, sweep, sweep_both_ways, sweep_parallel, sweeps_parallel};
+pub use campbell::{Campbell, Resonance, campbell};
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};
 pub use harmonics::{Harmonic, mesh_harmonics};
+pub use lyapunov::{Lyapunov, LyapunovPlan, largest_lyapunov};
+pub use phase_portrait::{PhasePortrait, phase_portrait};
+pub use poincare::{crossing_section, iterated_section, section_period, stroboscopic_section};
 pub use power_law::{PowerLaw, power_law};
+pub use spectrum::{Peak, Sidebands, Spectrum, Window, scalloping_loss, spectrum};
 pub use work_precision::{Answer, AnswerError, Work};

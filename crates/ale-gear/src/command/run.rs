@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use crate::cache::Cache;
 use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
+use crate::motion::{self, Progression};
 use crate::output::{
     ResultDirectory, closing_table, headline, write_contact, write_history, write_report, write_summary,
 };
 use crate::phases::Phases;
 use crate::run;
-use crate::scene::{Model, Scene};
+use crate::scene::{Kind, Model, Run, Scene};
 
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
@@ -35,6 +36,12 @@ pub(super) struct RunArgs {
     /// Write ParaView files, whatever the scene says
     #[arg(long, help_heading = "Overrides")]
     vtu: bool,
+    /// Go on from the last checkpoint of a run into the same folder (motions)
+    #[arg(long, help_heading = "Checkpoints")]
+    resume: bool,
+    /// Stop after so many mesh cycles in all and leave a checkpoint (motions)
+    #[arg(long, value_name = "N", help_heading = "Checkpoints")]
+    stop_after_cycles: Option<u64>,
 }
 
 impl RunArgs {
@@ -42,7 +49,17 @@ impl RunArgs {
     pub(super) fn for_default_scene() -> Result<Self, CommandError> {
         let out = PathBuf::from("out/default");
         let scene = super::default_scene::find()?;
-        Ok(Self { scene, out, cache: None, no_cache: false, threads: None, torque_nm: None, vtu: false })
+        Ok(Self {
+            scene,
+            out,
+            cache: None,
+            no_cache: false,
+            threads: None,
+            torque_nm: None,
+            vtu: false,
+            resume: false,
+            stop_after_cycles: None,
+        })
     }
 
     fn cache(&self) -> Cache {
@@ -78,7 +95,55 @@ impl RunArgs {
         if self.threads == Some(0) {
             return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
         }
+        self.plan_motion(&scene)?;
         Ok(scene)
+    }
+
+    /// What only motions can do, and what they cannot.
+    fn plan_motion(&self, scene: &Scene) -> Result<(), CommandError> {
+        let refuse = |what: &str, hint: &str| {
+            Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
+        };
+        let checkpoints = scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
+        if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
+            return refuse(
+                "this analysis has no checkpoints",
+                "`--resume` and `--stop-after-cycles` belong to motions with `run` \"steady\", \"span\" or \"ramp\"",
+            );
+        }
+        if scene.analysis.kind == Kind::Dynamic && scene.output.vtu {
+            return refuse(
+                "an analysis in time writes no ParaView files",
+                "leave `--vtu` out, or use `kind = \"static\"`",
+            );
+        }
+        if scene.analysis.kind == Kind::Dynamic && scene.operation.torque_nm == 0.0 {
+            return refuse("a motion begins under load", "give a `--torque-nm` above 0");
+        }
+        Ok(())
+    }
+
+    /// Runs a motion; the text is the closing table.
+    fn move_pair(
+        &self,
+        scene: &Scene,
+        words: &crate::scene::MotionScene,
+        mut phases: Phases,
+        results: ResultDirectory,
+    ) -> Result<String, CommandError> {
+        let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
+        match motion::solve(scene, words, &mut phases, &results, &self.cache(), &progression)? {
+            motion::Outcome::Stopped { cycles } => Ok(format!(
+                "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
+                self.scene.display(),
+                self.out.display()
+            )),
+            motion::Outcome::Finished(written) => {
+                results.finish()?;
+                progression.done()?;
+                Ok(format!("{written}\nresults: {}\n", self.out.display()))
+            }
+        }
     }
 
     /// Runs the scene; the text is the closing table.
@@ -87,6 +152,9 @@ impl RunArgs {
         let scene = self.plan()?;
         super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
+        if let Some(words) = &scene.motion {
+            return self.move_pair(&scene, words, phases, results);
+        }
         let Solved { history, facts } = run::solve(&scene, &mut phases, &results, &self.cache())?;
         let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
@@ -94,17 +162,12 @@ impl RunArgs {
             results.write("history.csv", write_history(&scene, &history).as_bytes())?;
             write_contact(&scene, &history, &results)
         })?;
-        let cost = Cost {
-            threads: rayon::current_num_threads(),
-            wall_s: phases.total_wall_s(),
-            peak_memory_mb: phases.peak_memory_mb(),
-            phases: phases.rows().to_vec(),
-        };
+        let cost = Cost::of(&phases);
         let report = write_report(&scene, &history, &facts, &cost, &headline, picture.as_deref())?;
         results.write("report.html", report.as_bytes())?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
-        let summary = write_summary(&scene, &history, &facts, &cost, &headline, &files);
+        let summary = write_summary(&scene, &facts, &cost, &headline, &history.warnings, &files);
         results.write("summary.json", summary.as_bytes())?;
         results.finish()?;
 

@@ -63,6 +63,16 @@ impl ResultDirectory {
         fs::write(self.path(name), content).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
     }
 
+    /// Folder of the files while the result is being written.
+    pub(crate) fn folder(&self) -> &Path {
+        self.partial.path()
+    }
+
+    /// Takes over a file from elsewhere, as it is.
+    pub(crate) fn copy(&self, from: &Path, name: &str) -> Result<(), CommandError> {
+        fs::copy(from, self.path(name)).map(|_| ()).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
+    }
+
     /// Names of the files written so far, ascending.
     ///
     /// # Errors
@@ -115,6 +125,7 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
                 "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
             )
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
+            || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "waterfall.csv" | "resonance.csv")
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };

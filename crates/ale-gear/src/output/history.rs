@@ -107,7 +107,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
 }
 
 /// One line of numbers with commas between them.
-pub(super) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
+pub(crate) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
     for (k, value) in row.into_iter().enumerate() {
         if k > 0 {
             csv.push(',');

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use dynamics::result::{StaticHistory, StaticPosition};
-use minijinja::{Environment, context, value::Serde};
+use minijinja::{context, value::Serde};
 
 use super::charts::{Curve, line_chart};
-use super::{Headline, pairs, root_stress::MAX_PRINCIPAL, table::model_name};
+use super::{Headline, page, pairs, root_stress::MAX_PRINCIPAL, table::model_name};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
@@ -25,39 +25,25 @@ pub fn write_report(
     headline: &Headline,
     pattern: Option<&str>,
 ) -> Result<String, CommandError> {
-    let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
-    let mut environment = Environment::new();
-    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
-    environment.add_function("number", number);
-    environment.add_function("science", science);
-    environment.add_template("report.html", TEMPLATE).map_err(failed)?;
-    let page = environment.get_template("report.html").map_err(failed)?;
-    page.render(context! {
-        name => &scene.name,
-        model => model_name(scene),
-        version => env!("CARGO_PKG_VERSION"),
-        scene => scene.to_toml(),
-        scene_file => scene.file.display().to_string(),
-        torque_nm => scene.operation.torque_nm.to_string(),
-        vtu => scene.output.vtu,
-        headline => Serde(headline),
-        facts => Serde(facts),
-        cost => Serde(cost),
-        charts => charts(scene, history),
-        pattern => pattern,
-        warnings => &history.warnings,
-    })
-    .map_err(failed)
-}
-
-/// A number with so many decimals, `-` when there is none.
-fn number(value: Option<f64>, decimals: usize) -> String {
-    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.decimals$}"))
-}
-
-/// A small number as power of ten.
-fn science(value: f64) -> String {
-    format!("{value:.1e}")
+    page::render(
+        "report.html",
+        TEMPLATE,
+        context! {
+            name => &scene.name,
+            model => model_name(scene),
+            version => env!("CARGO_PKG_VERSION"),
+            scene => scene.to_toml(),
+            scene_file => scene.file.display().to_string(),
+            torque_nm => scene.operation.torque_nm.to_string(),
+            vtu => scene.output.vtu,
+            headline => Serde(headline),
+            facts => Serde(facts),
+            cost => Serde(cost),
+            charts => charts(scene, history),
+            pattern => pattern,
+            warnings => &history.warnings,
+        },
+    )
 }
 
 fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {

@@ -1,14 +1,12 @@
 //! `summary.json`: everything about a run but its rows.
 
-use dynamics::result::StaticHistory;
 use serde::Serialize;
 
-use super::Headline;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
 
 #[derive(Serialize)]
-struct Summary<'a> {
+struct Summary<'a, H> {
     program: &'static str,
     version: &'static str,
     name: &'a str,
@@ -16,7 +14,7 @@ struct Summary<'a> {
     #[serde(flatten)]
     facts: &'a Facts,
     cost: &'a Cost,
-    headline: &'a Headline,
+    headline: &'a H,
     warnings: &'a [String],
     files: &'a [String],
 }
@@ -24,12 +22,12 @@ struct Summary<'a> {
 /// The summary as JSON; numbers without a value (NaN) are `null`.
 ///
 /// `files` are the other files of the result; the summary is written last, so where it is, they are.
-pub fn write_summary(
+pub fn write_summary<H: Serialize>(
     scene: &Scene,
-    history: &StaticHistory,
     facts: &Facts,
     cost: &Cost,
-    headline: &Headline,
+    headline: &H,
+    warnings: &[String],
     files: &[String],
 ) -> String {
     let summary = Summary {
@@ -40,7 +38,7 @@ pub fn write_summary(
         facts,
         cost,
         headline,
-        warnings: &history.warnings,
+        warnings,
         files,
     };
     // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.

@@ -11,10 +11,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     let mut t = String::new();
     let h = headline;
     let g = &facts.geometry;
-    let mut line = |label: &str, value: String, unit: &str| {
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "  {label:<38} {value:>14} {unit}");
-    };
+    let mut line = |label: &str, value: String, unit: &str| push_line(&mut t, label, &value, unit);
     line("contact ratio eps_gamma", format!("{:.4}", g.eps_gamma), "");
     line("mean STE", fixed(h.mean_ste_um, 4), "um");
     line(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), fixed(h.peak_to_peak_ste_um, 4), "um");
@@ -46,7 +43,13 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
         line(&format!("reduction, {name}"), (*way).to_owned(), "");
     }
 
-    let mut all = format!("{} (model {})\n\n{t}\n", scene.name, model_name(scene));
+    framed(scene, &t, cost, warnings)
+}
+
+/// Headline lines with the case above them, phases and warnings below.
+pub(super) fn framed(scene: &Scene, lines: &str, cost: &Cost, warnings: &[String]) -> String {
+    let mut all = format!("{} (model {})\n\n{lines}\n", scene.name, model_name(scene));
+    // Writing to a String cannot fail.
     let _ = writeln!(all, "  {:<14} {:>10} {:>14}", "phase", "wall s", "peak MB");
     let mb = |m: Option<f64>| m.map_or_else(|| "-".to_owned(), |m| format!("{m:.0}"));
     for phase in &cost.phases {
@@ -59,8 +62,14 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     all
 }
 
+/// One line of a table.
+pub(super) fn push_line(t: &mut String, label: &str, value: &str, unit: &str) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(t, "  {label:<38} {value:>14} {unit}");
+}
+
 /// With `decimals` places, or with as many as show four digits where those would show fewer than two.
-fn fixed(value: f64, decimals: usize) -> String {
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
     let size = value.abs();
     if size == 0.0 || size >= 10f64.powi(1 - decimals as i32) {
         return format!("{value:.decimals$}");

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use mesh::{GroupNames, StructuredOptions};
 
-use super::micro;
 use super::raw::{
     RawAnalysis, RawContact, RawGear, RawGroups, RawMaterial, RawMesher, RawOperation, RawOutput, RawPair, RawScene,
     Word,
@@ -14,6 +13,7 @@ use super::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
     Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
 };
+use super::{micro, motion};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -26,14 +26,38 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     all_given(source, &raw)?;
     let shared = material(source, &raw.material, STEEL)?;
     let pair = pair(source, &raw.pair)?;
-    let pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
-    let wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
+    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
+    let mut wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
+    let analysis = analysis(source, &raw.analysis)?;
+    let dynamic = analysis.kind == Kind::Dynamic;
+    if dynamic {
+        for (of, words, whose) in [(&mut pinion, &raw.pinion, "pinion"), (&mut wheel, &raw.wheel, "wheel")] {
+            let body = words.body.as_ref().map(|b| motion::body(source, b.get_ref())).transpose()?.unwrap_or_default();
+            let free_at = words.body.as_ref().map(toml::Spanned::span);
+            let bearing = words.bearing.as_ref().map(toml::Spanned::get_ref);
+            of.bearing = motion::bearing(source, bearing, &body.free, free_at, whose)?;
+            of.body = Some(body);
+        }
+    } else {
+        belongs_to_motion(source, &raw)?;
+    }
+    let (no_drive, no_load, no_motion) = Default::default();
+    let in_time = dynamic
+        .then(|| motion::motion(source, raw.motion.as_ref().map_or(&no_motion, |m| m.get_ref()), &raw.analysis.cycles))
+        .transpose()?;
+    let in_seconds = in_time.as_ref().is_some_and(|m| m.run == super::Run::Ramp || m.duration_s.is_some());
+    let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
         name: raw.name.clone().unwrap_or_else(|| default_name(source)),
         file: source.file.to_owned(),
         operation: operation(source, &raw.operation)?,
-        contact: contact(source, &raw.contact)?,
-        analysis: analysis(source, &raw.analysis)?,
+        contact: contact(source, &raw.contact, analysis.kind)?,
+        drive: dynamic
+            .then(|| motion::drive(source, raw.drive.as_ref().map_or(&no_drive, |d| d.get_ref())))
+            .transpose()?,
+        load: dynamic.then(|| motion::load(source, raw.load.as_ref().map_or(&no_load, |l| l.get_ref()))).transpose()?,
+        analysis: Analysis { cycles, ..analysis },
+        motion: in_time,
         output: output(source, &raw.output)?,
         pinion,
         wheel,
@@ -41,6 +65,27 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     };
     together(source, &raw, &scene)?;
     Ok(scene)
+}
+
+/// Tables on motion mean nothing to an analysis without time.
+fn belongs_to_motion(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let tables = [
+        ("[pinion.body]", raw.pinion.body.as_ref().map(toml::Spanned::span)),
+        ("[pinion.bearing]", raw.pinion.bearing.as_ref().map(toml::Spanned::span)),
+        ("[wheel.body]", raw.wheel.body.as_ref().map(toml::Spanned::span)),
+        ("[wheel.bearing]", raw.wheel.bearing.as_ref().map(toml::Spanned::span)),
+        ("[drive]", raw.drive.as_ref().map(toml::Spanned::span)),
+        ("[load]", raw.load.as_ref().map(toml::Spanned::span)),
+        ("[motion]", raw.motion.as_ref().map(toml::Spanned::span)),
+    ];
+    match tables.into_iter().find_map(|(name, span)| Some((name, span?))) {
+        None => Ok(()),
+        Some((name, span)) => Err(SceneError::Conflict {
+            place: s.place(&span),
+            what: format!("{name} belongs to an analysis in time"),
+            advice: "leave it out, or say `kind = \"dynamic\"` in [analysis]".into(),
+        }),
+    }
 }
 
 fn default_name(source: &Source<'_>) -> String {
@@ -147,6 +192,8 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             None => Default::default(),
             Some(table) => micro::modification(s, table.get_ref(), pair.face_width_mm)?,
         },
+        body: None,
+        bearing: Default::default(),
     })
 }
 
@@ -237,7 +284,7 @@ fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
     })
 }
 
-fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
+fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<ContactScene> {
     let method = s.choice("method", &raw.method, &[("slice", Method::Slice), ("nodal", Method::Nodal)])?;
     let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
     let slices = s.whole("slices", &raw.slices, 32, 4, 1000)?;
@@ -254,7 +301,11 @@ fn contact(s: &Source<'_>, raw: &RawContact) -> Checked<ContactScene> {
         },
         gap: nodal.then_some(gap),
         points_per_face_edge: nodal.then_some(points),
-        flanks: s.choice("flanks", &raw.flanks, &[("driving", Flanks::Driving), ("both", Flanks::Both)])?,
+        // What moves may part and come back on the other side.
+        flanks: match (kind, &raw.flanks) {
+            (Kind::Dynamic, None) => Flanks::Both,
+            _ => s.choice("flanks", &raw.flanks, &[("driving", Flanks::Driving), ("both", Flanks::Both)])?,
+        },
     })
 }
 
@@ -268,9 +319,6 @@ fn not_yet(s: &Source<'_>, key: &str, word: &toml::Spanned<String>, what: &str, 
 }
 
 fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
-    if let Some(word) = raw.kind.as_ref().filter(|w| w.get_ref() == "dynamic") {
-        return Err(not_yet(s, "kind", word, "an analysis in time", "use `kind = \"static\"`"));
-    }
     let later = ["lumped8", "lumped12", "shaft18", "impact", "reduced+modes"];
     if let Some(word) = raw.model.as_ref().filter(|w| later.contains(&w.get_ref().as_str())) {
         let instead = "use `model = \"reduced\"`, \"full\" or \"iso\"";
@@ -285,14 +333,15 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
             advice: "leave it out: this model reduces nothing".into(),
         });
     }
+    let kind = s.choice("kind", &raw.kind, &[("static", Kind::Static), ("dynamic", Kind::Dynamic)])?;
     let ways = [("auto", Reduction::Auto), ("general", Reduction::General)];
     let reduction = s.choice("reduction", &raw.reduction, &ways)?;
     Ok(Analysis {
-        kind: s.choice("kind", &raw.kind, &[("static", Kind::Static)])?,
+        kind,
         model,
         reduction: (model == Model::Reduced).then_some(reduction),
         positions_per_cycle: s.whole("positions_per_cycle", &raw.positions_per_cycle, 32, 1, 100_000)?,
-        cycles: s.whole("cycles", &raw.cycles, 1, 1, 1_000_000)?,
+        cycles: s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, 1, 100_000_000)?,
         window_teeth: match raw.window_teeth {
             None => None,
             Some(_) => Some(s.whole("window_teeth", &raw.window_teeth, 0, 1, 25)?),
@@ -318,7 +367,7 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
     Ok(OutputScene {
         root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
         contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
-        vtu: raw.vtu.unwrap_or(false),
+        vtu: raw.vtu.as_ref().is_some_and(|on| *on.get_ref()),
         fields,
         vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
     })
@@ -328,6 +377,9 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
 fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     if scene.analysis.model == Model::Iso {
         nominal_flanks(s, raw)?;
+    }
+    if scene.analysis.kind == Kind::Dynamic {
+        in_time(s, raw, scene)?;
     }
     if let (Some(window), Some(word)) = (scene.analysis.window_teeth, &raw.analysis.window_teeth) {
         let teeth = scene.pinion.teeth.min(scene.wheel.teeth);
@@ -397,6 +449,47 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             place: s.place(&penalty.span()),
             what: "`penalty_mpa_per_mm` means nothing to the model \"iso\", which has no contact points".into(),
             advice: "leave it out, or use `model = \"reduced\"`".into(),
+        });
+    }
+    Ok(())
+}
+
+/// What an analysis in time can do.
+fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if let (Some(word), true) = (&raw.analysis.model, scene.analysis.model != Model::Reduced) {
+        return Err(not_yet(s, "model", word, "another model in time", "use `model = \"reduced\"`"));
+    }
+    if let (Some(word), Method::Nodal) = (&raw.contact.method, scene.contact.method) {
+        return Err(not_yet(s, "method", word, "pressed points in time", "use `method = \"slice\"`"));
+    }
+    let fields = [
+        ("root_stress", scene.output.root_stress, raw.output.root_stress.as_ref().map(toml::Spanned::span)),
+        ("contact_lines", scene.output.contact_lines, raw.output.contact_lines.as_ref().map(toml::Spanned::span)),
+        ("vtu", scene.output.vtu, raw.output.vtu.as_ref().map(toml::Spanned::span)),
+    ];
+    if let Some((key, _, Some(span))) = fields.into_iter().find(|(_, asked, _)| *asked) {
+        return Err(SceneError::NotYet {
+            place: s.place(&span),
+            key: format!("{key} = true"),
+            what: "fields and stresses of an analysis in time".into(),
+            instead: "leave it out, or use `kind = \"static\"` for them".into(),
+        });
+    }
+    if let (Some(torque), true) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0) {
+        return Err(SceneError::Conflict {
+            place: s.place(&torque.span()),
+            what: "`torque_nm` is 0: a motion begins under load, and its scales are taken from it".into(),
+            advice: "give the torque that the motion begins with; `table_s_nm` in [load] may take it away later".into(),
+        });
+    }
+    let sweeps = scene.motion.as_ref().filter(|m| m.run != super::Run::Steady && m.run != super::Run::Span);
+    if let (Some(_), Some(drive), Some(table)) = (sweeps, &scene.drive, &raw.drive)
+        && drive.by == super::DriveBy::Torque
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&table.span()),
+            what: "shooting, ramps and sweeps give the speed of the driver, and here a torque drives it".into(),
+            advice: "use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`".into(),
         });
     }
     Ok(())

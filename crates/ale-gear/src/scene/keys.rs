@@ -2,7 +2,23 @@
 
 /// Every table with its keys, in the order of the documentation.
 pub(super) const TABLES: &[(&str, &[&str])] = &[
-    ("", &["name", "pinion", "wheel", "pair", "material", "operation", "contact", "analysis", "output"]),
+    (
+        "",
+        &[
+            "name",
+            "pinion",
+            "wheel",
+            "pair",
+            "material",
+            "operation",
+            "contact",
+            "drive",
+            "load",
+            "analysis",
+            "motion",
+            "output",
+        ],
+    ),
     (
         "pinion",
         &[
@@ -20,6 +36,8 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "groups",
             "material",
             "modification",
+            "body",
+            "bearing",
         ],
     ),
     (
@@ -92,6 +110,49 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
             "coast",
         ],
     ),
+    ("pinion.body", &["mass_kg", "transverse_inertia_kg_m2", "polar_inertia_kg_m2", "added_inertia_kg_m2", "free"]),
+    (
+        "pinion.bearing",
+        &[
+            "stiffness_x_n_per_mm",
+            "stiffness_y_n_per_mm",
+            "stiffness_z_n_per_mm",
+            "stiffness_rx_nmm_per_rad",
+            "stiffness_ry_nmm_per_rad",
+            "damping_ratio",
+            "damping_x_ns_per_mm",
+            "damping_y_ns_per_mm",
+            "damping_z_ns_per_mm",
+            "damping_rx_nmms_per_rad",
+            "damping_ry_nmms_per_rad",
+            "stiffness_matrix_n_mm_rad",
+            "damping_matrix_ns_mm_rad",
+        ],
+    ),
+    (
+        "motion",
+        &[
+            "run",
+            "method",
+            "spectral_radius",
+            "steps_per_mesh_cycle",
+            "steps_per_resonance",
+            "error_tolerance",
+            "stop_at_events",
+            "mesh_damping_ratio",
+            "mesh_damping_ns_per_mm2",
+            "periodic_tolerance",
+            "warm_up_cycles",
+            "duration_s",
+            "checkpoint_every_cycles",
+            "ramp",
+            "sweep",
+        ],
+    ),
+    ("motion.ramp", &["from_rpm", "to_rpm", "duration_s", "before_s", "after_s", "waterfall_cycles"]),
+    ("motion.sweep", &["from_rpm", "to_rpm", "speeds", "ways", "steady_by"]),
+    ("drive", &["by", "torque_nm", "amplitude_nm", "frequency_hz", "phase_deg", "table_s_nm"]),
+    ("load", &["amplitude_nm", "frequency_hz", "phase_deg", "table_s_nm"]),
     ("pair.misalignment", &["deviation_um", "inclination_um", "in_plane_of_action_um", "across_plane_of_action_um"]),
 ];
 

@@ -8,6 +8,7 @@ mod check;
 mod error;
 mod keys;
 mod micro;
+mod motion;
 mod raw;
 mod source;
 
@@ -20,6 +21,10 @@ use serde::Serialize;
 
 pub use error::{Place, SceneError};
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
+pub use motion::{
+    Axis, BearingScene, BodyScene, DriveBy, DriveScene, Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene,
+    SweepWay, TorqueScene,
+};
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,10 +44,27 @@ pub struct Scene {
     pub operation: Operation,
     /// How flanks press on each other.
     pub contact: ContactScene,
+    /// What drives the driver; set exactly when the analysis is dynamic, as the next two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drive: Option<DriveScene>,
+    /// What the torque on the driven gear is beside its mean.
+    #[serde(skip_serializing_if = "load_is_steady")]
+    pub load: Option<TorqueScene>,
     /// What is computed.
     pub analysis: Analysis,
+    /// Motion in time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionScene>,
     /// Which files are written beside the three that always are.
     pub output: OutputScene,
+}
+
+fn is_zero(value: &u32) -> bool {
+    *value == 0
+}
+
+fn load_is_steady(load: &Option<TorqueScene>) -> bool {
+    load.as_ref().is_none_or(TorqueScene::is_none)
 }
 
 /// One gear.
@@ -82,6 +104,12 @@ pub struct GearScene {
     /// Micro-geometry of the flanks.
     #[serde(skip_serializing_if = "ModificationScene::is_none")]
     pub modification: ModificationScene,
+    /// Rigid body; set exactly when the analysis is dynamic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<BodyScene>,
+    /// What holds its free coordinates.
+    #[serde(skip_serializing_if = "BearingScene::is_none")]
+    pub bearing: BearingScene,
 }
 
 /// Options of the structured mesher.
@@ -238,7 +266,8 @@ pub struct Analysis {
     pub reduction: Option<Reduction>,
     /// Positions in one mesh cycle, the end point left out.
     pub positions_per_cycle: u32,
-    /// Mesh cycles.
+    /// Mesh cycles; 0 where they follow from a duration or a ramp.
+    #[serde(skip_serializing_if = "is_zero")]
     pub cycles: u32,
     /// Teeth in the window; `None`: floor(eps_gamma) + 1, at least 3.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -261,6 +290,8 @@ pub enum Reduction {
 pub enum Kind {
     /// Equilibrium at every position.
     Static,
+    /// Motion in time.
+    Dynamic,
 }
 
 /// A model of the pair.

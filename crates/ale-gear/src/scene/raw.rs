@@ -4,6 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::SceneError;
+use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 use super::source::Source;
 
 /// A number as written.
@@ -29,8 +30,11 @@ pub(super) struct RawScene {
     pub operation: RawOperation,
     #[serde(default)]
     pub contact: RawContact,
+    pub drive: Option<Spanned<RawDrive>>,
+    pub load: Option<Spanned<RawLoad>>,
     #[serde(default)]
     pub analysis: RawAnalysis,
+    pub motion: Option<Spanned<RawMotion>>,
     #[serde(default)]
     pub output: RawOutput,
 }
@@ -54,6 +58,8 @@ pub(super) struct RawGear {
     #[serde(default)]
     pub material: RawMaterial,
     pub modification: Option<Spanned<RawModification>>,
+    pub body: Option<Spanned<RawBody>>,
+    pub bearing: Option<Spanned<RawBearing>>,
 }
 
 /// The keys of a flank's modification, once for both tables that they stand in: serde flattens no tables that refuse unknown keys.
@@ -209,7 +215,7 @@ pub(super) struct RawAnalysis {
 pub(super) struct RawOutput {
     pub root_stress: Option<Spanned<bool>>,
     pub contact_lines: Option<Spanned<bool>>,
-    pub vtu: Option<bool>,
+    pub vtu: Option<Spanned<bool>>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,
 }

@@ -42,6 +42,10 @@ impl Scratch {
     }
 
     pub fn ale_gear<const N: usize>(&self, words: [&str; N]) -> Run {
+        self.command(&words)
+    }
+
+    pub fn command(&self, words: &[&str]) -> Run {
         // No test reads or fills the user's own cache.
         let output = Command::new(env!("CARGO_BIN_EXE_ale-gear"))
             .current_dir(self.path())

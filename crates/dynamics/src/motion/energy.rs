@@ -13,7 +13,7 @@ use nalgebra::DVector;
 
 use super::{Forces, Ledger, Mechanism, MotionError, State, newton};
 
-/// One step of length `h`; the ledger's entries of the step come with it.
+/// One step of length `h`; the ledger's entries of the step come with it. The potential in `book` is that of `from`.
 pub(super) fn step<M: Mechanism>(
     system: &mut M,
     from: &State,
@@ -22,7 +22,7 @@ pub(super) fn step<M: Mechanism>(
     forces: &mut Forces,
     book: &mut Ledger,
 ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
-    let (start, middle, end) = (from.time, from.time + 0.5 * h, from.time + h);
+    let (middle, end) = (from.time + 0.5 * h, from.time + h);
     let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
     let before = system.potential(middle, &from.q).map_err(fail(middle))?;
     let mut to = from.clone();
@@ -47,7 +47,7 @@ pub(super) fn step<M: Mechanism>(
             to.last_step = h;
             book.supplied += h * forces.supplied;
             book.dissipated += h * forces.dissipated;
-            let known = system.potential(start, &from.q).map_err(fail(start))?;
+            let known = book.potential;
             book.potential = system.potential(end, &to.q).map_err(fail(end))?;
             book.parametric += (book.potential - after) + (before - known);
             // Third differences of the motion: what a midpoint step leaves out.
@@ -62,5 +62,5 @@ pub(super) fn step<M: Mechanism>(
         to.q -= &step;
         (last, change) = (change, newton::change(&step, &to.q, scale));
     }
-    Err(MotionError::NotConverged { time: start, step: h, iterations: newton::ITERATIONS, change })
+    Err(MotionError::NotConverged { time: from.time, step: h, iterations: newton::ITERATIONS, change })
 }

@@ -236,6 +236,11 @@ impl PairMechanism {
         &self.extremes
     }
 
+    /// Whether the coast flanks may touch.
+    pub fn has_coast_flanks(&self) -> bool {
+        self.coast_side.is_some()
+    }
+
     /// Tooth changes of the driving flanks.
     pub fn changes(&self) -> Changes {
         self.drive_side.place().changes

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{Instant, PairMechanism, Place};
 use crate::{
     StaticError,
-    motion::{Integrator, Ledger, MotionError, Scheme, State, StepControl},
+    motion::{Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl},
 };
 
 /// Why a pair's motion could not go on.
@@ -163,17 +163,29 @@ impl Motion {
         &self.counts
     }
 
-    /// Back to the start of cycle 0 with another state; carried accelerations stay those of `state`.
-    pub(super) fn rewind(&mut self, start: &Place, state: State) -> Result<(), PairMotionError> {
-        let time = state.time;
-        self.system.stand(start).map_err(|source| MotionError::Mechanism { time, source })?;
-        (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
-        Ok(())
+    /// Whether the integrator carries an acceleration of its own from step to step.
+    pub(super) fn carries_acceleration(&self) -> bool {
+        matches!(self.settings.scheme, Scheme::GeneralisedAlpha { .. })
     }
 
-    /// Keeps the accelerations of the state instead of finding them from the forces: the ledger counts from here.
-    pub(super) fn keep_accelerations(&mut self) {
-        self.ledger = Some(Ledger::default());
+    /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
+    pub(super) fn rewind(&mut self, start: &Place, state: State) -> Result<(), PairMotionError> {
+        let time = state.time;
+        let fail = |source| MotionError::Mechanism { time, source };
+        self.system.stand(start).map_err(fail)?;
+        (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
+        if self.carries_acceleration() {
+            let State { q, v, .. } = &self.state;
+            let mut forces = Forces::zeros(q.len());
+            self.system.forces(time, q, v, &mut forces).map_err(fail)?;
+            let potential = self.system.potential(time, q).map_err(fail)?;
+            let mass = self.system.mass().clone();
+            self.ledger = Some(Ledger::open(&mass, v, potential));
+            let singular = MotionError::Singular { time, which: "mass" };
+            self.state.a = mass.cholesky().ok_or(singular)?.solve(&(&forces.conservative + &forces.other));
+            self.state.powers = [forces.supplied, forces.dissipated];
+        }
+        Ok(())
     }
 
     /// Whether there is a further mesh cycle: a run-down may end before it.

@@ -3,7 +3,8 @@
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
-//! dP/dx by differences, one period for each of its 2 n columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
+//! With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
+//! period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
 //! than waiting; and it finds unstable answers, which waiting never does.
 
 use nalgebra::{DMatrix, DVector};
@@ -48,26 +49,25 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         ));
     }
     let mut search = Search { start: motion.system().place(), period, periods: 0 };
+    // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
+    motion.rewind(&search.start, here.clone())?;
+    here.averaged = motion.state().a.clone();
     let mut end = search.map(motion, &here)?;
     let mut shot = Shot { residual: end.residual, iterations: 0, periods: 0, multiplier: f64::NAN };
     while shot.residual > tolerance && shot.iterations < most {
         let monodromy = search.monodromy(motion, &here, &end)?;
         shot.multiplier = largest_eigenvalue(&monodromy);
-        let n = here.q.len();
-        let rest = stacked(&end.state) - stacked(&here);
-        let step = (DMatrix::identity(2 * n, 2 * n) - monodromy)
+        let parts = parts(motion);
+        let rest = stacked(&end.state, parts) - stacked(&here, parts);
+        let step = (DMatrix::identity(rest.len(), rest.len()) - monodromy)
             .lu()
             .solve(&rest)
             .filter(|s| s.iter().all(|x| x.is_finite()))
             .ok_or(MotionError::Singular { time: here.time, which: "period" })?;
         let mut share = 1.0;
         for halving in 0..=HALVINGS {
-            let mut next = moved(&here, &(share * &step));
-            // What the integrator carries along is nearer to its own periodic value at the period's end.
-            (next.a, next.averaged) = (end.state.a.clone(), end.state.averaged.clone());
-            (next.last_step, next.next_step) = (end.state.last_step, end.state.next_step);
-            next.powers = end.state.powers;
+            let next = moved(&here, &(share * &step));
             let there = search.map(motion, &next)?;
             if there.residual < shot.residual || halving == HALVINGS {
                 (here, end) = (next, there);
@@ -79,9 +79,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         shot.iterations += 1;
     }
     shot.periods = search.periods;
-    let mut state = here;
-    state.time = 0.0;
-    motion.rewind(&search.start, state)?;
+    motion.rewind(&search.start, here)?;
     Ok(shot)
 }
 
@@ -106,31 +104,29 @@ impl Search {
 
     /// dP/dx, column by column.
     fn monodromy(&mut self, motion: &Motion, here: &State, end: &End) -> Result<DMatrix<f64>, PairMotionError> {
-        let n = here.q.len();
-        self.periods += 2 * n;
+        let (n, parts) = (here.q.len(), parts(motion));
+        self.periods += parts * n;
         let scale = &motion.settings().scale;
         let omega = std::f64::consts::TAU * motion.system().mesh_resonance_hz();
-        let base = stacked(&end.state);
+        let base = stacked(&end.state, parts);
         let column = |j: usize| {
-            let size = STEP * if j < n { scale[j] } else { omega * scale[j - n] };
-            let mut offset = DVector::zeros(2 * n);
+            // Coordinates, velocities and accelerations of a vibration at the mesh resonance.
+            let size = STEP * scale[j % n] * omega.powi((j / n) as i32);
+            let mut offset = DVector::zeros(parts * n);
             offset[j] = size;
             let system = motion.system().with_drive(motion.system().options().drive.clone());
             let system = system.map_err(|source| MotionError::Mechanism { time: here.time, source })?;
             let mut own = Motion::new(system, motion.settings().clone(), here.clone());
             let there = over_period(&mut own, &self.start, self.period, &moved(here, &offset))?;
-            Ok::<_, PairMotionError>((stacked(&there.state) - &base) / size)
+            Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)
         };
-        let columns: Vec<DVector<f64>> = (0..2 * n).into_par_iter().map(column).collect::<Result<_, _>>()?;
+        let columns: Vec<DVector<f64>> = (0..parts * n).into_par_iter().map(column).collect::<Result<_, _>>()?;
         Ok(DMatrix::from_columns(&columns))
     }
 }
 
 fn over_period(motion: &mut Motion, start: &Place, period: u64, from: &State) -> Result<End, PairMotionError> {
     motion.rewind(start, from.clone())?;
-    if from.last_step > 0.0 {
-        motion.keep_accelerations();
-    }
     let mut size: Option<[DVector<f64>; 2]> = None;
     for _ in 0..period {
         let swing = motion.run_cycle(None)?.peak_to_peak();
@@ -145,16 +141,22 @@ fn over_period(motion: &mut Motion, start: &Place, period: u64, from: &State) ->
     Ok(End { state, residual })
 }
 
-fn stacked(state: &State) -> DVector<f64> {
+/// Parts of x: coordinates, velocities, and the integrator's own acceleration where it has one.
+fn parts(motion: &Motion) -> usize {
+    if motion.carries_acceleration() { 3 } else { 2 }
+}
+
+fn stacked(state: &State, parts: usize) -> DVector<f64> {
     let n = state.q.len();
-    DVector::from_fn(2 * n, |i, _| if i < n { state.q[i] } else { state.v[i - n] })
+    DVector::from_fn(parts * n, |i, _| [&state.q, &state.v, &state.averaged][i / n][i % n])
 }
 
 fn moved(state: &State, by: &DVector<f64>) -> State {
     let n = state.q.len();
     let mut next = state.clone();
-    next.q += by.rows(0, n);
-    next.v += by.rows(n, n);
+    for (k, part) in [&mut next.q, &mut next.v, &mut next.averaged].into_iter().enumerate().take(by.len() / n) {
+        *part += by.rows(k * n, n);
+    }
     next
 }
 

@@ -1,0 +1,168 @@
+//! The few numbers that a motion is run for.
+
+use dynamics::pair_motion::Drive;
+use serde::Serialize;
+use study::{StudyError, cycle_statistics, mesh_harmonics};
+
+use super::{course::Finished, prepare::Prepared, table::Columns};
+use crate::scene::{MotionScene, Run, Scene};
+
+/// Mesh harmonics that are listed.
+const ORDERS: usize = 8;
+
+/// The few numbers that a motion is run for; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub(crate) struct MotionHeadline {
+    pub run: Run,
+    pub speed_rpm: f64,
+    pub mesh_frequency_hz: f64,
+    pub mesh_resonance_hz: f64,
+    pub rows_per_cycle: u32,
+    pub cycles: u64,
+    pub free_coordinates: Vec<String>,
+    pub mean_dte_um: f64,
+    pub peak_to_peak_dte_um: f64,
+    pub min_dte_um: f64,
+    pub max_dte_um: f64,
+    pub dte_harmonics_um: Vec<f64>,
+    pub mean_ste_um: f64,
+    pub peak_to_peak_ste_um: f64,
+    pub mean_mesh_stiffness_n_per_um: f64,
+    pub mean_contact_line_length_mm: f64,
+    pub mean_normal_force_n: f64,
+    pub min_normal_force_n: f64,
+    pub max_normal_force_n: f64,
+    pub mean_static_normal_force_n: f64,
+    pub dynamic_factor: f64,
+    pub max_coast_normal_force_n: f64,
+    pub mean_wheel_force_n: [f64; 3],
+    pub peak_to_peak_wheel_axial_force_n: f64,
+    pub mean_pinion_tilting_moment_nmm: f64,
+    pub peak_to_peak_pinion_tilting_moment_nmm: f64,
+    pub mean_wheel_tilting_moment_nmm: f64,
+    pub max_bearing_force_n: f64,
+    pub max_pressure_mpa: f64,
+    pub tooth_changes: u64,
+    pub certificate: MotionCertificate,
+}
+
+/// How far a motion can be trusted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub(crate) struct MotionCertificate {
+    pub ledger_residual_mj: f64,
+    pub work_through_pair_mj: f64,
+    pub ledger_residual_over_work: f64,
+    pub ledger_residual_over_turnover: f64,
+    pub least_contact_force_n: Option<f64>,
+    pub dropped_force_n: f64,
+    pub force_jump_at_tooth_change_n: f64,
+    pub period_cycles: Option<usize>,
+    pub periodicity: Option<f64>,
+    pub shooting_multiplier: Option<f64>,
+    pub shooting_periods: Option<usize>,
+    pub warm_up_cycles: u64,
+    pub contact_losses: u64,
+    pub steps_without_contact: u64,
+    pub largest_gap_um: f64,
+    pub coast_contacts: u64,
+    pub steps: u64,
+    pub refused_steps: u64,
+}
+
+/// Headline numbers from the rows and from what was counted.
+///
+/// # Errors
+/// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.
+pub(super) fn headline(
+    scene: &Scene,
+    words: &MotionScene,
+    prepared: &Prepared,
+    done: &Finished,
+    rows: &Columns,
+) -> Result<MotionHeadline, StudyError> {
+    let cycles = done.course.recorded;
+    let dte = rows.get("dte_um");
+    let of_dte = cycle_statistics(dte, cycles as usize)?;
+    let ste: Vec<f64> = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e).collect();
+    let of_ste = cycle_statistics(&ste, 1)?;
+    let system = &prepared.system;
+    let options = system.options();
+    let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.contact.driven()]);
+    let speed_rpm = match &options.drive {
+        Drive::Speed(_) if words.ramp.is_none() => scene.operation.speed_rpm,
+        _ => rows.mean(["pinion_speed_rpm", "wheel_speed_rpm"][1 - options.contact.driven()]).abs(),
+    };
+    let largest = |names: &[&str]| {
+        let columns: Vec<&[f64]> = names.iter().map(|n| rows.get(n)).collect();
+        (0..rows.len())
+            .map(|i| columns.iter().map(|c| c.get(i).map_or(0.0, |x| x * x)).sum::<f64>().sqrt())
+            .fold(0.0, f64::max)
+    };
+    let bearing = ["pinion", "wheel"]
+        .map(|g| [format!("{g}_bearing_force_x_n"), format!("{g}_bearing_force_y_n"), format!("{g}_bearing_force_z_n")])
+        .map(|n| largest(&[&n[0], &n[1], &n[2]]));
+    let [min_force, max_force] = rows.extent("normal_force_n");
+    let static_force = prepared.quasi_static.normal_force;
+    Ok(MotionHeadline {
+        run: words.run,
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mesh_resonance_hz: system.mesh_resonance_hz(),
+        rows_per_cycle: words.steps_per_mesh_cycle,
+        cycles,
+        free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
+        mean_dte_um: of_dte.mean,
+        peak_to_peak_dte_um: of_dte.peak_to_peak,
+        min_dte_um: of_dte.min,
+        max_dte_um: of_dte.max,
+        dte_harmonics_um: mesh_harmonics(dte, cycles as usize, ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        mean_ste_um: of_ste.mean,
+        peak_to_peak_ste_um: of_ste.peak_to_peak,
+        mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
+        mean_contact_line_length_mm: rows.mean("contact_line_length_mm"),
+        mean_normal_force_n: rows.mean("normal_force_n"),
+        min_normal_force_n: min_force,
+        max_normal_force_n: max_force,
+        mean_static_normal_force_n: static_force,
+        dynamic_factor: max_force / static_force,
+        max_coast_normal_force_n: rows.extent("coast_normal_force_n")[1],
+        mean_wheel_force_n: ["wheel_force_x_n", "wheel_force_y_n", "wheel_force_z_n"].map(|n| rows.mean(n)),
+        peak_to_peak_wheel_axial_force_n: rows.peak_to_peak("wheel_force_z_n"),
+        mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm"),
+        peak_to_peak_pinion_tilting_moment_nmm: rows.peak_to_peak("pinion_moment_y_nmm"),
+        mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
+        max_bearing_force_n: bearing[0].max(bearing[1]),
+        max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
+        tooth_changes: done.motion.system().changes().count,
+        certificate: certificate(done),
+    })
+}
+
+fn certificate(done: &Finished) -> MotionCertificate {
+    let motion = &done.motion;
+    let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
+    let ledger = motion.ledger().copied().unwrap_or_default();
+    let settled = done.course.periodicity;
+    MotionCertificate {
+        ledger_residual_mj: ledger.residual(),
+        work_through_pair_mj: counts.throughput,
+        ledger_residual_over_work: ledger.residual() / counts.throughput.max(f64::MIN_POSITIVE),
+        ledger_residual_over_turnover: ledger.relative_residual(),
+        least_contact_force_n: extremes.least_force,
+        dropped_force_n: changes.dropped,
+        force_jump_at_tooth_change_n: changes.jump,
+        period_cycles: settled.map(|p| p.period),
+        periodicity: settled.map(|p| p.residual),
+        shooting_multiplier: done.shot.as_ref().map(|s| s.multiplier),
+        shooting_periods: done.shot.as_ref().map(|s| s.periods),
+        warm_up_cycles: motion.cycle() - done.course.recorded,
+        contact_losses: counts.losses,
+        steps_without_contact: extremes.steps_apart,
+        largest_gap_um: 1e3 * extremes.largest_gap,
+        coast_contacts: counts.coast_contacts,
+        steps: counts.steps,
+        refused_steps: counts.refused,
+    }
+}

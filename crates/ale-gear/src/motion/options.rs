@@ -1,0 +1,148 @@
+//! What a scene asks of motion, in the solvers' words and units.
+
+use dynamics::{
+    motion::Scheme,
+    pair_motion::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque},
+};
+use geometry::GearPair;
+use nalgebra::Matrix6;
+
+use crate::{
+    elastic_gears::material,
+    error::CommandError,
+    meshes::SceneMesh,
+    scene::{
+        Axis, BearingScene, BodyScene, DriveBy, Driver, Integration, MotionScene, Scene, SteadyBy as SteadyWord,
+        TorqueScene,
+    },
+};
+
+/// kg in t, kg m^2 in t mm^2.
+const KILOGRAM: f64 = 1e-3;
+const KILOGRAM_METRE2: f64 = 1e3;
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+/// Bodies, bearings, drive and load of the scene; contact as given.
+///
+/// # Errors
+/// Exit status 2 when a body has no mass.
+pub(super) fn motion_options(
+    scene: &Scene,
+    pair: &GearPair,
+    meshes: &[SceneMesh; 2],
+    contact: dynamics::StaticOptions,
+) -> Result<MotionOptions, CommandError> {
+    let words = [0, 1].map(|i| scene.gears()[i].body.clone().unwrap_or_default());
+    let bodies = [body(scene, meshes, &words[0], 0)?, body(scene, meshes, &words[1], 1)?];
+    let free = [0, 1].map(|i| {
+        let mut free = [false; COORDINATES];
+        words[i].free.iter().for_each(|axis| free[axis.number()] = true);
+        free
+    });
+    let bearings = [0, 1].map(|i| bearing(&scene.gears()[i].bearing, &words[i].free, &bodies[i]));
+    let damping = match scene.motion.as_ref() {
+        Some(MotionScene { mesh_damping_ns_per_mm2: Some(c), .. }) => MeshDamping::PerLength(*c),
+        Some(MotionScene { mesh_damping_ratio: Some(zeta), .. }) => MeshDamping::Ratio(*zeta),
+        _ => MeshDamping::Ratio(0.0),
+    };
+    let load = torque(scene.load.as_ref().unwrap_or(&TorqueScene::default()), scene.operation.torque());
+    let drive = drive(scene, pair);
+    Ok(MotionOptions { contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
+}
+
+fn drive(scene: &Scene, pair: &GearPair) -> Drive {
+    let start = scene.operation.speed_rpm * RPM;
+    if let Some(drive) = scene.drive.as_ref().filter(|d| d.by == DriveBy::Torque) {
+        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
+        let ratio = match scene.operation.driver {
+            Driver::Pinion => teeth[0] / teeth[1],
+            Driver::Wheel => teeth[1] / teeth[0],
+        };
+        return Drive::Torque { start, torque: torque(&drive.torque, ratio * scene.operation.torque()) };
+    }
+    Drive::Speed(match scene.motion.as_ref().and_then(|m| m.ramp) {
+        None => Speed::Constant(start),
+        Some(ramp) => Speed::Ramp {
+            from: ramp.from_rpm * RPM,
+            to: ramp.to_rpm * RPM,
+            start: ramp.before_s,
+            duration: ramp.duration_s,
+        },
+    })
+}
+
+/// N m in N mm; `mean` where the scene states none.
+fn torque(words: &TorqueScene, mean: f64) -> Torque {
+    let mean = words.torque_nm.map_or(mean, |t| 1e3 * t);
+    match (&words.table_s_nm, words.amplitude_nm, words.frequency_hz) {
+        (Some(table), ..) => Torque::Table {
+            times: table.iter().map(|row| row[0]).collect(),
+            values: table.iter().map(|row| 1e3 * row[1]).collect(),
+        },
+        (None, Some(amplitude), Some(frequency_hz)) => {
+            let phase = words.phase_deg.unwrap_or(0.0).to_radians();
+            Torque::Harmonic { mean, amplitude: 1e3 * amplitude, frequency_hz, phase }
+        }
+        _ => Torque::Constant(mean),
+    }
+}
+
+/// Mass and inertia of the mesh (of the whole gear, where it has a part of the teeth), unless the scene states others.
+fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> Result<RigidBody, CommandError> {
+    let gear = &meshes[i].gear;
+    let own = fem::mass_properties(gear.mesh(), &material(scene, i)?)
+        .map_err(|e| CommandError::input(format_args!("{}: {e}", meshes[i].facts.source), e.hint()))?;
+    let meshed = if gear.is_periodic_sector() { 1 } else { gear.teeth().len().max(1) };
+    let copies = f64::from(gear.tooth_count()) / meshed as f64;
+    let of_mesh = RigidBody::of_tensor(own.mass_t, own.inertia_about_tmm2([0.0; 3]));
+    let or = |stated: Option<f64>, unit: f64, meshed: f64| stated.map_or(copies * meshed, |value| unit * value);
+    Ok(RigidBody {
+        mass: or(words.mass_kg, KILOGRAM, of_mesh.mass),
+        transverse_inertia: or(words.transverse_inertia_kg_m2, KILOGRAM_METRE2, of_mesh.transverse_inertia),
+        polar_inertia: or(words.polar_inertia_kg_m2, KILOGRAM_METRE2, of_mesh.polar_inertia),
+    }
+    .with_polar(KILOGRAM_METRE2 * words.added_inertia_kg_m2))
+}
+
+/// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).
+fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
+    let whole = |m: &[[f64; 5]; 5]| Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[i][j] } else { 0.0 });
+    let diagonal = |values: [f64; 5]| Matrix6::from_fn(|i, j| if i == j && i < 5 { values[i] } else { 0.0 });
+    let stiffness = match &words.stiffness_matrix_n_mm_rad {
+        Some(matrix) => whole(matrix),
+        None => diagonal(words.stiffnesses().map(|k| k.unwrap_or(0.0))),
+    };
+    let damping = match &words.damping_matrix_ns_mm_rad {
+        Some(matrix) => whole(matrix),
+        None => {
+            let mass = body.matrix();
+            let ratio = words.damping_ratio.unwrap_or(0.0);
+            let own = words.dampings();
+            let of = |axis: Axis| {
+                let i = axis.number();
+                let by_ratio = 2.0 * ratio * (stiffness[(i, i)] * mass[(i, i)]).sqrt();
+                if free.contains(&axis) { own[i].unwrap_or(by_ratio) } else { 0.0 }
+            };
+            diagonal(Axis::ALL.map(of))
+        }
+    };
+    Bearing { stiffness, damping }
+}
+
+/// Method of integration.
+pub(super) fn scheme(words: &MotionScene) -> Scheme {
+    match words.method {
+        Integration::Energy => Scheme::Energy,
+        Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: words.spectral_radius.unwrap_or(0.9) },
+        Integration::Newmark => Scheme::Newmark,
+        Integration::DormandPrince => Scheme::DormandPrince,
+    }
+}
+
+/// How steady states are found.
+pub(super) fn steady_by(word: SteadyWord) -> SteadyBy {
+    match word {
+        SteadyWord::Running => SteadyBy::Running,
+        SteadyWord::Shooting => SteadyBy::Shooting,
+    }
+}

@@ -1,0 +1,216 @@
+//! Rows of `history.csv` and `energy.csv`, written as the motion goes on.
+
+use std::{
+    f64::consts::TAU,
+    fs::{File, OpenOptions},
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+use dynamics::{
+    motion::Ledger,
+    pair_motion::{COORDINATES, Instant, PairMechanism},
+};
+
+use crate::{error::CommandError, output::push_row, scene::Scene};
+
+const LEADING: [&str; 9] = [
+    "time_s",
+    "pinion_angle_deg",
+    "mesh_phase",
+    "pinion_speed_rpm",
+    "wheel_speed_rpm",
+    "dte_um",
+    "dte_rate_um_per_s",
+    "contact_line_length_mm",
+    "pairs_in_contact",
+];
+const WRENCH: [&str; COORDINATES] =
+    ["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
+const BEARING: [&str; 5] =
+    ["bearing_force_x_n", "bearing_force_y_n", "bearing_force_z_n", "bearing_moment_x_nmm", "bearing_moment_y_nmm"];
+const DISPLACEMENT: [&str; 5] = ["x_um", "y_um", "z_um", "tilt_x_urad", "tilt_y_urad"];
+const TRAILING: [&str; 6] = [
+    "normal_force_n",
+    "coast_normal_force_n",
+    "drive_torque_nm",
+    "load_torque_nm",
+    "max_pressure_mpa",
+    "tooth_changes",
+];
+const ENERGY: &str = "time_s,kinetic_mj,elastic_mj,supplied_mj,parametric_mj,dissipated_mj,residual_mj\n";
+const GEARS: [&str; 2] = ["pinion", "wheel"];
+
+/// Names of the files.
+pub(crate) const HISTORY: &str = "history.csv";
+pub(crate) const ENERGY_FILE: &str = "energy.csv";
+
+/// What the columns are.
+#[derive(Debug, Clone)]
+struct Layout {
+    pinion_pitch: f64,
+    sense: i64,
+    /// Columns of pairs run from -reach to reach.
+    reach: i64,
+    /// Free coordinates of each gear: columns of displacement and bearing.
+    free: [[bool; 5]; 2],
+}
+
+impl Layout {
+    fn new(scene: &Scene, system: &PairMechanism, window: usize) -> Self {
+        let free = system.options().free.map(|f| [f[0], f[1], f[2], f[3], f[4]]);
+        Self {
+            pinion_pitch: TAU / f64::from(scene.pinion.teeth),
+            sense: scene.operation.rotation.sign() as i64,
+            reach: window as i64 / 2 + 1,
+            free,
+        }
+    }
+
+    fn header(&self) -> String {
+        let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+        for gear in GEARS {
+            names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+        }
+        names.extend((-self.reach..=self.reach).map(|k| format!("normal_force_pair_{k}_n")));
+        for (gear, free) in GEARS.iter().zip(&self.free).filter(|(_, free)| free.contains(&true)) {
+            names.extend(BEARING.iter().map(|n| format!("{gear}_{n}")));
+            let moves = DISPLACEMENT.iter().zip(free).filter(|(_, free)| **free);
+            names.extend(moves.map(|(n, _)| format!("{gear}_{n}")));
+        }
+        names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+        names.join(",") + "\n"
+    }
+
+    fn row(&self, now: &Instant) -> Vec<f64> {
+        // A row at the end of a cycle belongs to the next one, whatever the last bits say.
+        let cycle = (now.cycles + 1e-9).floor();
+        let mut row = vec![
+            now.time,
+            ((now.cycles - 0.5) * self.pinion_pitch).to_degrees(),
+            (now.cycles - cycle).max(0.0),
+            now.speeds[0] * 60.0 / TAU,
+            now.speeds[1] * 60.0 / TAU,
+            1e3 * now.transmission_error,
+            1e3 * now.transmission_error_rate,
+            now.contact_line_length,
+            now.pair_forces.iter().filter(|f| **f > 0.0).count() as f64,
+        ];
+        row.extend(now.mesh.iter());
+        let running = |k: i64| self.sense * (k - cycle as i64);
+        row.extend((-self.reach..=self.reach).map(|k| {
+            let place = usize::try_from(running(k) - now.first_pair).ok();
+            place.and_then(|i| now.pair_forces.get(i)).copied().unwrap_or(0.0)
+        }));
+        for (g, free) in self.free.iter().enumerate().filter(|(_, free)| free.contains(&true)) {
+            let at = COORDINATES * g;
+            row.extend((0..5).map(|i| now.bearing[at + i]));
+            let micro = |i: usize| now.displacement[at + i] * if i < 3 { 1e3 } else { 1e6 };
+            row.extend((0..5).filter(|&i| free[i]).map(micro));
+        }
+        row.extend([
+            now.normal_forces[0],
+            now.normal_forces[1],
+            1e-3 * now.drive_torque,
+            1e-3 * now.load_torque,
+            now.max_pressure,
+            now.tooth_changes as f64,
+        ]);
+        row
+    }
+}
+
+/// A file that grows and can be taken up again.
+#[derive(Debug)]
+struct Growing {
+    path: PathBuf,
+    file: BufWriter<File>,
+    bytes: u64,
+    failed: Option<std::io::Error>,
+}
+
+impl Growing {
+    fn new(path: PathBuf, header: &str) -> Result<Self, CommandError> {
+        let file = File::create(&path).map_err(|e| CommandError::write(&path, &e))?;
+        let mut new = Self { file: BufWriter::new(file), path, bytes: 0, failed: None };
+        new.push(header);
+        Ok(new)
+    }
+
+    /// Cut to `bytes`, what came after a checkpoint being written anew.
+    fn resume(path: PathBuf, bytes: u64) -> Result<Self, CommandError> {
+        let open = || -> std::io::Result<File> {
+            let file = OpenOptions::new().append(true).open(&path)?;
+            if file.metadata()?.len() < bytes {
+                return Err(std::io::Error::other("it is shorter than its checkpoint says"));
+            }
+            file.set_len(bytes)?;
+            Ok(file)
+        };
+        let file = open().map_err(|e| CommandError::write(&path, &e))?;
+        Ok(Self { file: BufWriter::new(file), path, bytes, failed: None })
+    }
+
+    /// A failure is kept for the next flush: rows come from the midst of a computation.
+    fn push(&mut self, text: &str) {
+        self.bytes += text.len() as u64;
+        if let Err(e) = self.file.write_all(text.as_bytes()) {
+            self.failed.get_or_insert(e);
+        }
+    }
+
+    fn flush(&mut self) -> Result<u64, CommandError> {
+        let failed = self.failed.take().or_else(|| self.file.flush().err());
+        failed.map_or(Ok(self.bytes), |e| Err(CommandError::write(&self.path, &e)))
+    }
+}
+
+/// Both files of rows.
+#[derive(Debug)]
+pub(super) struct Rows {
+    layout: Layout,
+    history: Growing,
+    energy: Growing,
+    line: String,
+}
+
+impl Rows {
+    /// Fresh files in a folder.
+    pub fn new(scene: &Scene, system: &PairMechanism, window: usize, folder: &Path) -> Result<Self, CommandError> {
+        let layout = Layout::new(scene, system, window);
+        let history = Growing::new(folder.join(HISTORY), &layout.header())?;
+        Ok(Self { history, energy: Growing::new(folder.join(ENERGY_FILE), ENERGY)?, layout, line: String::new() })
+    }
+
+    /// Files of before, cut to these lengths.
+    pub fn resume(
+        scene: &Scene,
+        system: &PairMechanism,
+        window: usize,
+        folder: &Path,
+        [history, energy]: [u64; 2],
+    ) -> Result<Self, CommandError> {
+        Ok(Self {
+            layout: Layout::new(scene, system, window),
+            history: Growing::resume(folder.join(HISTORY), history)?,
+            energy: Growing::resume(folder.join(ENERGY_FILE), energy)?,
+            line: String::new(),
+        })
+    }
+
+    /// One row of each file.
+    pub fn push(&mut self, now: &Instant, ledger: &Ledger) {
+        self.line.clear();
+        push_row(&mut self.line, self.layout.row(now));
+        self.history.push(&self.line);
+        self.line.clear();
+        let Ledger { kinetic, potential, supplied, parametric, dissipated, .. } = *ledger;
+        push_row(&mut self.line, [now.time, kinetic, potential, supplied, parametric, dissipated, ledger.residual()]);
+        self.energy.push(&self.line);
+    }
+
+    /// Writes out what is held back; the lengths of both files.
+    pub fn flush(&mut self) -> Result<[u64; 2], CommandError> {
+        Ok([self.history.flush()?, self.energy.flush()?])
+    }
+}

@@ -1,0 +1,75 @@
+//! Columns of a file of rows, read back: a run that was taken up again is judged by all of its rows.
+
+use std::{collections::BTreeMap, path::Path};
+
+use crate::error::CommandError;
+
+/// Columns by name.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Columns {
+    names: BTreeMap<String, usize>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    /// Reads a file that this program has written.
+    ///
+    /// # Errors
+    /// Exit status 1 when it is not what it was.
+    pub fn read(path: &Path) -> Result<Self, CommandError> {
+        let text = std::fs::read_to_string(path).map_err(|e| CommandError::write(path, &e))?;
+        Self::parse(&text).ok_or_else(|| {
+            let hint = Some("does another program write into the folder?".into());
+            CommandError::failed(format_args!("{}: holds what is no number", path.display()), hint)
+        })
+    }
+
+    fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        let names: Vec<&str> = lines.next()?.split(',').collect();
+        let mut values = vec![Vec::new(); names.len()];
+        for line in lines {
+            let mut row = line.split(',');
+            for column in &mut values {
+                column.push(row.next()?.parse().ok()?);
+            }
+        }
+        let names = names.into_iter().enumerate().map(|(i, n)| (n.to_owned(), i)).collect();
+        Some(Self { names, values })
+    }
+
+    /// A column; nothing where there is none of that name.
+    pub fn get(&self, name: &str) -> &[f64] {
+        self.names.get(name).map_or(&[], |&i| &self.values[i])
+    }
+
+    /// Rows.
+    pub fn len(&self) -> usize {
+        self.values.first().map_or(0, Vec::len)
+    }
+
+    /// Names that begin so, in the order of the file.
+    pub fn names_from(&self, beginning: &str) -> Vec<&str> {
+        let mut found: Vec<(usize, &str)> =
+            self.names.iter().filter(|(n, _)| n.starts_with(beginning)).map(|(n, &i)| (i, n.as_str())).collect();
+        found.sort_unstable();
+        found.into_iter().map(|(_, n)| n).collect()
+    }
+
+    /// Mean of a column.
+    pub fn mean(&self, name: &str) -> f64 {
+        let all = self.get(name);
+        all.iter().sum::<f64>() / all.len().max(1) as f64
+    }
+
+    /// Smallest and largest of a column.
+    pub fn extent(&self, name: &str) -> [f64; 2] {
+        self.get(name).iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
+    }
+
+    /// Largest minus smallest.
+    pub fn peak_to_peak(&self, name: &str) -> f64 {
+        let [low, high] = self.extent(name);
+        high - low
+    }
+}

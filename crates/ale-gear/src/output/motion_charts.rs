@@ -1,0 +1,224 @@
+//! Charts of a motion and of a sweep.
+
+use plotters::prelude::*;
+
+use super::charts::{Curve, line_chart};
+use crate::motion::{Columns, QuasiStatic, SPECTRA, Spectrum, SweepRow, WaterfallLine};
+use crate::scene::SweepWay;
+
+/// Mesh cycles of a steady motion that are drawn, the last ones.
+const SHOWN_CYCLES: usize = 4;
+/// Buckets of a long record: of each the least and the largest value are drawn.
+const BUCKETS: usize = 1500;
+/// Orders of the spectrum that are drawn.
+const SHOWN_ORDERS: f64 = 12.0;
+/// Columns and rows of the waterfall's picture at most.
+const CELLS: [usize; 2] = [240, 200];
+/// Decades of the waterfall's colours.
+const DECADES: f64 = 4.0;
+
+/// What the charts of a motion are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MotionPictures<'a> {
+    /// Rows of the history.
+    pub rows: &'a Columns,
+    /// Rows of the ledger.
+    pub energy: &'a Columns,
+    /// Spectra, at constant speed.
+    pub spectrum: Option<&'a Spectrum>,
+    /// Waterfall of a run-up; else empty.
+    pub waterfall: &'a [WaterfallLine],
+    /// Rows in a mesh cycle.
+    pub per_cycle: usize,
+    /// The quasi-static cycle.
+    pub quasi_static: &'a QuasiStatic,
+}
+
+/// All charts of a motion.
+pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
+    let steady = of.waterfall.is_empty();
+    let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
+    let time = &of.rows.get("time_s")[first..];
+    let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
+    let (unit, axis) = if steady { (1e3, "time [ms], last mesh cycles") } else { (1.0, "time [s]") };
+    let points = |column: &[f64]| -> Vec<(f64, f64)> {
+        let column = column.get(first..).unwrap_or_default();
+        thinned(&time.iter().zip(column).map(|(t, x)| (unit * (t - begin), *x)).collect::<Vec<_>>())
+    };
+    let curve = |label: &str, name: &str| Curve { label: label.to_owned(), points: points(of.rows.get(name)) };
+    let mut errors = vec![curve("DTE", "dte_um")];
+    if steady {
+        errors.push(Curve { label: "STE".into(), points: repeated(of, time, begin, unit) });
+    }
+    let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
+    let sharing: Vec<Curve> = of
+        .rows
+        .names_from("normal_force_pair_")
+        .into_iter()
+        .filter(|n| of.rows.extent(n)[1] > 0.0)
+        .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
+        .collect();
+    let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
+    let energy_time = of.energy.get("time_s");
+    let residual = Curve {
+        label: "residual".into(),
+        points: thinned(
+            &energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (*t, *x)).collect::<Vec<_>>(),
+        ),
+    };
+    let mut all = vec![
+        line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
+        line_chart(
+            "Total contact-line length",
+            axis,
+            "length [mm]",
+            &[curve("length", "contact_line_length_mm")],
+            false,
+        ),
+        line_chart("Sum of normal forces", axis, "force [N]", &forces, true),
+        line_chart("Load sharing", axis, "normal force [N]", if steady { &sharing } else { &[] }, true),
+        line_chart("Axial force on the wheel", axis, "force [N]", &[curve("z", "wheel_force_z_n")], false),
+        line_chart("Tilting moment about y", axis, "moment [N mm]", &moments, false),
+    ];
+    for gear in ["pinion", "wheel"] {
+        let names = of.rows.names_from(&format!("{gear}_bearing_force_"));
+        let curves: Vec<Curve> = names
+            .into_iter()
+            .map(|n| curve(n.trim_start_matches(&format!("{gear}_bearing_force_")).trim_end_matches("_n"), n))
+            .collect();
+        all.push(line_chart(&format!("Bearing force of the {gear}"), axis, "force [N]", &curves, false));
+    }
+    if let Some(spectrum) = of.spectrum {
+        all.extend([0, 1].map(|i| spectrum_chart(spectrum, i)));
+    }
+    all.push(waterfall_chart(of.waterfall, of.per_cycle));
+    all.push(line_chart("Energy that does not close", "time [s]", "residual [mJ]", &[residual], false));
+    all.into_iter().flatten().collect()
+}
+
+/// The quasi-static error of one cycle under every cycle drawn.
+fn repeated(of: &MotionPictures<'_>, time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
+    let phases = of.rows.get("mesh_phase");
+    let phases = &phases[phases.len() - time.len()..];
+    let ste = &of.quasi_static.transmission_error;
+    let n = ste.len();
+    let at = |phase: f64| {
+        let place = phase.rem_euclid(1.0) * n as f64;
+        let (i, share) = (place.floor() as usize % n, place.fract());
+        1e3 * ((1.0 - share) * ste[i] + share * ste[(i + 1) % n])
+    };
+    time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect()
+}
+
+/// Least and largest value of each bucket, so that a long record keeps its envelope.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= 2 * BUCKETS {
+        return points.to_vec();
+    }
+    let mut kept = Vec::with_capacity(2 * BUCKETS);
+    for bucket in points.chunks(points.len().div_ceil(BUCKETS)) {
+        let low = bucket.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let high = bucket.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        if let (Some(low), Some(high)) = (low, high) {
+            let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+            kept.extend([*first.1, *second.1]);
+        }
+    }
+    kept
+}
+
+/// Lines of one quantity as sticks.
+fn spectrum_chart(spectrum: &Spectrum, quantity: usize) -> Option<String> {
+    let mut points = Vec::new();
+    for (order, amplitude) in spectrum.orders.iter().zip(&spectrum.amplitudes[quantity]).skip(1) {
+        if *order > SHOWN_ORDERS {
+            break;
+        }
+        points.extend([(*order, 0.0), (*order, *amplitude), (*order, 0.0)]);
+    }
+    let (title, unit) = match SPECTRA[quantity] {
+        "dte_um" => ("Spectrum of the dynamic transmission error", "amplitude [um]"),
+        _ => ("Spectrum of the sum of normal forces", "amplitude [N]"),
+    };
+    line_chart(title, "mesh order", unit, &[Curve { label: "amplitude".into(), points }], true)
+}
+
+/// Largest minus smallest DTE over speed, way by way, and the largest force.
+pub(super) fn sweep_charts(rows: &[SweepRow]) -> Vec<String> {
+    let curves = |value: &dyn Fn(&SweepRow) -> f64| -> Vec<Curve> {
+        [SweepWay::Apart, SweepWay::Up, SweepWay::Down]
+            .into_iter()
+            .filter_map(|way| {
+                let points: Vec<(f64, f64)> =
+                    rows.iter().filter(|r| r.way == way).map(|r| (r.speed_rpm, value(r))).collect();
+                let label = match way {
+                    SweepWay::Apart => "each speed by itself",
+                    SweepWay::Up => "upwards",
+                    SweepWay::Down => "downwards",
+                };
+                (!points.is_empty()).then(|| Curve { label: label.into(), points })
+            })
+            .collect()
+    };
+    let speed = "speed of the driver [1/min]";
+    [
+        line_chart("Peak to peak of the DTE", speed, "peak to peak [um]", &curves(&|r| r.peak_to_peak_dte_um), true),
+        line_chart("Dynamic factor", speed, "largest over static force", &curves(&|r| r.dynamic_factor), true),
+        line_chart("Mean DTE", speed, "mean [um]", &curves(&|r| r.mean_dte_um), false),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Amplitudes of the DTE over order and speed, colours by decades.
+fn waterfall_chart(lines: &[WaterfallLine], per_cycle: usize) -> Option<String> {
+    if lines.is_empty() {
+        return None;
+    }
+    let mut svg = String::new();
+    draw_waterfall(&mut svg, lines, per_cycle).ok()?;
+    Some(svg)
+}
+
+fn draw_waterfall(svg: &mut String, lines: &[WaterfallLine], per_cycle: usize) -> Result<(), String> {
+    fn text(e: impl std::fmt::Display) -> String {
+        e.to_string()
+    }
+    let bins = (lines[0].amplitudes.len() - 1).max(1);
+    let per_bin = 0.5 * per_cycle as f64 / bins as f64;
+    let shown = ((SHOWN_ORDERS / per_bin).floor() as usize).clamp(1, bins);
+    let largest = lines.iter().flat_map(|l| &l.amplitudes[1..=shown]).fold(0.0, |m: f64, a| m.max(*a));
+    let end = lines.last().map_or(1.0, |l| l.time);
+    let root = SVGBackend::with_string(svg, (820, 420)).into_drawing_area();
+    root.fill(&WHITE).map_err(text)?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(
+            format!("Waterfall of the DTE, colours over {DECADES:.0} decades up to {largest:.3} um"),
+            ("sans-serif", 18),
+        )
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(72)
+        .build_cartesian_2d(0.0..per_bin * shown as f64, lines[0].time..end.max(lines[0].time + 1e-9))
+        .map_err(text)?;
+    chart.configure_mesh().disable_mesh().x_desc("mesh order").y_desc("time [s]").draw().map_err(text)?;
+    let (across, along) = (shown.div_ceil(CELLS[0]).max(1), lines.len().div_ceil(CELLS[1]).max(1));
+    for (i, block) in lines.chunks(along).enumerate() {
+        let low = block[0].time;
+        let high = lines.get((i + 1) * along).map_or(end, |l| l.time);
+        for from in (1..=shown).step_by(across) {
+            let to = (from + across).min(shown + 1);
+            let value = block.iter().flat_map(|l| &l.amplitudes[from..to]).fold(0.0, |m: f64, a| m.max(*a));
+            let share = if largest > 0.0 && value > 0.0 { 1.0 + (value / largest).log10() / DECADES } else { 0.0 };
+            if share > 0.0 {
+                let colour: RGBColor = ViridisRGB.get_color(share as f32);
+                let at = |k: usize| per_bin * (k as f64 - 0.5);
+                let cell = Rectangle::new([(at(from), low), (at(to), high)], colour.filled());
+                chart.draw_series([cell]).map_err(text)?;
+            }
+        }
+    }
+    drop(chart);
+    root.present().map_err(text)
+}

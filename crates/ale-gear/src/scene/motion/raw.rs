@@ -1,0 +1,97 @@
+//! The words of the tables on motion, nothing checked yet.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::scene::raw::{Number, Whole, Word};
+
+pub(in crate::scene) type Matrix = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawBody {
+    pub mass_kg: Number,
+    pub transverse_inertia_kg_m2: Number,
+    pub polar_inertia_kg_m2: Number,
+    pub added_inertia_kg_m2: Number,
+    pub free: Option<Vec<Spanned<String>>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawBearing {
+    pub stiffness_x_n_per_mm: Number,
+    pub stiffness_y_n_per_mm: Number,
+    pub stiffness_z_n_per_mm: Number,
+    pub stiffness_rx_nmm_per_rad: Number,
+    pub stiffness_ry_nmm_per_rad: Number,
+    pub damping_ratio: Number,
+    pub damping_x_ns_per_mm: Number,
+    pub damping_y_ns_per_mm: Number,
+    pub damping_z_ns_per_mm: Number,
+    pub damping_rx_nmms_per_rad: Number,
+    pub damping_ry_nmms_per_rad: Number,
+    pub stiffness_matrix_n_mm_rad: Matrix,
+    pub damping_matrix_ns_mm_rad: Matrix,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawDrive {
+    pub by: Word,
+    pub torque_nm: Number,
+    pub amplitude_nm: Number,
+    pub frequency_hz: Number,
+    pub phase_deg: Number,
+    pub table_s_nm: Matrix,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawLoad {
+    pub amplitude_nm: Number,
+    pub frequency_hz: Number,
+    pub phase_deg: Number,
+    pub table_s_nm: Matrix,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawMotion {
+    pub run: Word,
+    pub method: Word,
+    pub spectral_radius: Number,
+    pub steps_per_mesh_cycle: Whole,
+    pub steps_per_resonance: Whole,
+    pub error_tolerance: Number,
+    pub stop_at_events: Option<Spanned<bool>>,
+    pub mesh_damping_ratio: Number,
+    pub mesh_damping_ns_per_mm2: Number,
+    pub periodic_tolerance: Number,
+    pub warm_up_cycles: Whole,
+    pub duration_s: Number,
+    pub checkpoint_every_cycles: Whole,
+    pub ramp: Option<Spanned<RawRamp>>,
+    pub sweep: Option<Spanned<RawSweep>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawRamp {
+    pub from_rpm: Number,
+    pub to_rpm: Number,
+    pub duration_s: Number,
+    pub before_s: Number,
+    pub after_s: Number,
+    pub waterfall_cycles: Whole,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawSweep {
+    pub from_rpm: Number,
+    pub to_rpm: Number,
+    pub speeds: Whole,
+    pub ways: Option<Vec<Spanned<String>>>,
+    pub steady_by: Word,
+}

@@ -1,0 +1,286 @@
+//! Equations (16) to (19) of seed 004: time by omega_n, lengths by b_n.
+
+use std::convert::Infallible;
+
+use dynamics::motion::{Forces, Mechanism, State};
+use nalgebra::{DMatrix, DVector};
+
+use super::{Lumped8, MeshLaw};
+use crate::{DeadZone, LumpedError, error::positive};
+
+/// Coefficients of (18), by gear (p, g).
+///
+/// ```text
+/// tau = omega_n t,   p = (x_p, y_p, z_p, r_b theta_p, x_g, y_g, z_g, R_b theta_g) / b_n,   omega_n = sqrt(K_m / m_e)
+/// xi = C / (2 M omega_n),   eta = K / (M omega_n^2),   g = kappa T / (r_b b_n M omega_n^2),   kappa = M r_b^2 / J
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equations18 {
+    /// xi_x, xi_y, xi_z of the supports.
+    pub support_damping: [[f64; 3]; 2],
+    /// eta_x, eta_y, eta_z of the supports.
+    pub support_stiffness: [[f64; 3]; 2],
+    /// xi and eta of what holds the turn, with J for M.
+    pub turning: [[f64; 2]; 2],
+    /// xi_my, xi_mz of the mesh.
+    pub mesh_damping: [[f64; 2]; 2],
+    /// Mean of eta_my, eta_mz of the mesh.
+    pub mesh_stiffness: [[f64; 2]; 2],
+    /// kappa = M r_b^2 / J: the 2 of the printed equations is that of a disc whose radius is the base radius.
+    pub kappa: [f64; 2],
+    /// Mean of g_p, g_g.
+    pub torque: [f64; 2],
+    /// M_p / m_e, M_g / m_e.
+    pub mass_ratio: [f64; 2],
+    /// b_t / b_n, b_a / b_n.
+    pub clearances: [f64; 2],
+}
+
+/// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put right:
+///
+/// * eta_py p_1, eta_pz p_1 stand for p_2 and p_3;
+/// * xi_gmy p_11 in the rows of p_5 and p_8 stands for its derivative;
+/// * g = 2 T / (b_n M omega_n^2) lacks a radius below the line: it is a length, not a number;
+/// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied by kappa;
+/// * m_e, and the signs of the driven gear's turn, as in the [module](super).
+///
+/// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither dropped a term. It is written for
+/// [`MeshLaw::Projected`], the printed law.
+#[derive(Debug, Clone)]
+pub struct Dimensionless {
+    equations: Equations18,
+    model: Lumped8,
+    omega: f64,
+    /// M / m_e of every row: with it the rows are forces and the mesh has a potential.
+    mass: DMatrix<f64>,
+}
+
+/// What varies in (18).
+struct Moment {
+    /// K(t) / K_m.
+    stiffness: f64,
+    /// (e_y, e_z) / b_n and rates.
+    error: [[f64; 2]; 2],
+    /// L_1; L_2, L_3.
+    lines: [f64; 3],
+    /// g_p, g_g.
+    torque: [f64; 2],
+}
+
+impl Lumped8 {
+    /// Dimensionless form.
+    ///
+    /// # Errors
+    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter has no meaning.
+    pub fn dimensionless(&self) -> Result<Dimensionless, LumpedError> {
+        self.check()?;
+        positive("half backlash in mm, the unit of length,", self.half_backlash)?;
+        if self.law != MeshLaw::Projected {
+            return Err(LumpedError::OutOfRange {
+                quantity: "mesh law",
+                value: 0.0,
+                method: "the dimensionless form of seed 004",
+                allowed: "`projected`, the law it is printed with",
+            });
+        }
+        let pair = &self.pair;
+        let (omega, length, reduced) = (pair.natural_frequency(), self.half_backlash, pair.reduced_mass());
+        let tan = pair.frame.local_helix().tan().abs();
+        let k = pair.cycle.stiffness.mean;
+        let by_gear = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
+        let mass = by_gear(&|i| pair.bodies[i].mass);
+        let inertia = by_gear(&|i| pair.bodies[i].polar_inertia);
+        let kappa = by_gear(&|i| mass[i] * pair.base_radii[i].powi(2) / inertia[i]);
+        let xi = |c: f64, m: f64| c / (2.0 * m * omega);
+        let eta = |k: f64, m: f64| k / (m * omega * omega);
+        let each = |i: usize| self.supports[i];
+        let force = |i: usize| pair.base_radii[i] * length * mass[i] * omega * omega;
+        let equations = Equations18 {
+            support_damping: [0, 1].map(|i| each(i).damping.map(|c| xi(c, mass[i]))),
+            support_stiffness: [0, 1].map(|i| each(i).stiffness.map(|k| eta(k, mass[i]))),
+            turning: [0, 1].map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
+            mesh_damping: mass.map(|m| [self.mesh_damping, self.mesh_damping * tan].map(|c| xi(c, m))),
+            mesh_stiffness: mass.map(|m| [k, k * tan].map(|k| eta(k, m))),
+            kappa,
+            torque: by_gear(&|i| kappa[i] * pair.torques[i].mean() / force(i)),
+            mass_ratio: mass.map(|m| m / reduced),
+            clearances: [pair.frame.base_helix_angle.cos(), pair.frame.base_helix_angle.sin().abs()],
+        };
+        let rows = DVector::from_fn(8, |i, _| {
+            let gear = i / 4;
+            equations.mass_ratio[gear] / if i % 4 == 3 { kappa[gear] } else { 1.0 }
+        });
+        Ok(Dimensionless { equations, model: self.clone(), omega, mass: DMatrix::from_diagonal(&rows) })
+    }
+}
+
+impl Dimensionless {
+    /// Coefficients.
+    pub fn equations(&self) -> &Equations18 {
+        &self.equations
+    }
+
+    /// omega_n, rad/s: the unit of time is its inverse.
+    pub fn omega(&self) -> f64 {
+        self.omega
+    }
+
+    /// Dimensionless state of a dimensional one.
+    pub fn state_of(&self, state: &State) -> State {
+        let units = self.units();
+        let q = state.q.component_div(&units);
+        State::new(state.time * self.omega, q, state.v.component_div(&units) / self.omega)
+    }
+
+    /// Coordinates (mm, rad) and velocities of a dimensionless state.
+    pub fn dimensional(&self, state: &State) -> [DVector<f64>; 2] {
+        let units = self.units();
+        [state.q.component_mul(&units), state.v.component_mul(&units) * self.omega]
+    }
+
+    /// What 1 is in each coordinate: b_n, and b_n / r_b for turns.
+    fn units(&self) -> DVector<f64> {
+        let length = self.model.half_backlash;
+        let radii = self.model.pair.base_radii;
+        DVector::from_fn(8, |i, _| if i % 4 == 3 { length / radii[i / 4] } else { length })
+    }
+
+    fn at(&self, tau: f64) -> Moment {
+        let (pair, length) = (&self.model.pair, self.model.half_backlash);
+        let t = tau / self.omega;
+        let [k, e, rate] = pair.excitation(t);
+        let tan = pair.frame.local_helix().tan();
+        let cos = pair.frame.base_helix_angle.cos();
+        let [s, s_xi, _] = if pair.friction == 0.0 {
+            [0.0; 3]
+        } else {
+            pair.plane.at(pair.clock.cycles(t)).split.map(|x| pair.friction * x / cos)
+        };
+        let [r, big_r] = pair.base_radii;
+        let torque = [0, 1].map(|i| {
+            let mean = pair.torques[i].mean();
+            // g over its mean; where that is zero the unit is taken directly.
+            let unit = pair.base_radii[i] * length * pair.bodies[i].mass * self.omega * self.omega;
+            if mean == 0.0 {
+                self.equations.kappa[i] * pair.torques[i].at(t) / unit
+            } else {
+                self.equations.torque[i] * pair.torques[i].at(t) / mean
+            }
+        });
+        Moment {
+            stiffness: k / pair.cycle.stiffness.mean,
+            error: [1.0, -tan].map(|share| [share * e / length, share * rate / (length * self.omega)]),
+            lines: [s, s_xi / r, (s_xi - pair.plane.tangent_length * s) / big_r],
+            torque,
+        }
+    }
+
+    /// p_11 and p_12 without their errors, for coordinates or velocities.
+    fn relative(&self, p: &[f64]) -> [f64; 2] {
+        let along = p[1] + p[3] - (p[5] - p[7]);
+        [along, p[2] - p[6] - self.model.pair.frame.local_helix().tan() * along]
+    }
+
+    /// Elastic energy of supports and the transverse spring, in m_e b_n^2 omega_n^2.
+    fn energy(&self, tau: f64, p: &[f64]) -> f64 {
+        let (eq, now) = (&self.equations, self.at(tau));
+        let mut sum = 0.0;
+        for gear in 0..2 {
+            for axis in 0..3 {
+                sum += 0.5 * eq.mass_ratio[gear] * eq.support_stiffness[gear][axis] * p[4 * gear + axis].powi(2);
+            }
+            let inertia = eq.mass_ratio[gear] / eq.kappa[gear];
+            sum += 0.5 * inertia * eq.turning[gear][1] * p[4 * gear + 3].powi(2);
+        }
+        let beyond = DeadZone::new(eq.clearances[0]).at(self.relative(p)[0] - now.error[0][0]);
+        sum + eq.mass_ratio[0] * eq.mesh_stiffness[0][0] * now.stiffness * beyond.potential()
+    }
+}
+
+impl Mechanism for Dimensionless {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, tau: f64, p: &DVector<f64>, rate: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        let (p, v, eq, now) = (p.as_slice(), rate.as_slice(), &self.equations, self.at(tau));
+        let tan = self.model.pair.frame.local_helix().tan();
+        // Gradients of p_11 and p_12.
+        let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
+        let across = std::array::from_fn::<f64, 8, _>(|i| [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0][i] - tan * along[i]);
+        let gradients = [along, across];
+        let (x, dx) = (self.relative(p), self.relative(v));
+        let beyond = [0, 1].map(|k| DeadZone::new(eq.clearances[k]).at(x[k] - now.error[k][0]));
+        let slip = [0, 1].map(|k| dx[k] - now.error[k][1]);
+        for gear in 0..2 {
+            let (first, mass) = (4 * gear, eq.mass_ratio[gear]);
+            let side = if gear == 0 { 1.0 } else { -1.0 };
+            for axis in 0..3 {
+                let (i, xi, eta) = (first + axis, eq.support_damping[gear][axis], eq.support_stiffness[gear][axis]);
+                out.conservative[i] -= mass * eta * p[i];
+                out.other[i] -= mass * 2.0 * xi * v[i];
+                out.dissipated += mass * 2.0 * xi * v[i] * v[i];
+                out.stiffness[(i, i)] += mass * eta;
+                out.damping[(i, i)] += mass * 2.0 * xi;
+            }
+            let (turn, inertia) = (first + 3, mass / eq.kappa[gear]);
+            let [xi, eta] = eq.turning[gear];
+            out.conservative[turn] -= inertia * eta * p[turn];
+            out.other[turn] -= inertia * 2.0 * xi * v[turn];
+            out.dissipated += inertia * 2.0 * xi * v[turn] * v[turn];
+            out.stiffness[(turn, turn)] += inertia * eta;
+            out.damping[(turn, turn)] += inertia * 2.0 * xi;
+            out.other[turn] += inertia * now.torque[gear];
+            out.supplied += inertia * now.torque[gear] * v[turn];
+            for k in 0..2 {
+                let (eta, xi) = (eq.mesh_stiffness[gear][k] * now.stiffness, eq.mesh_damping[gear][k]);
+                let (elastic, viscous) = (mass * eta * beyond[k].value, mass * 2.0 * xi * slip[k]);
+                // Rows that the force enters, and by how much: y and turn for p_11, z for p_12, friction by the bracket of p_11.
+                let rows: &[(usize, f64)] = if k == 0 { &[(first + 1, side), (turn, 1.0)] } else { &[(first + 2, side)] };
+                for &(i, share) in rows {
+                    let held = if k == 0 { &mut out.conservative } else { &mut out.other };
+                    held[i] -= share * elastic;
+                    out.other[i] -= share * viscous;
+                    if k == 0 {
+                        out.supplied -= share * viscous * v[i];
+                    } else {
+                        out.supplied -= share * (elastic + viscous) * v[i];
+                    }
+                    for j in 0..8 {
+                        out.stiffness[(i, j)] += share * mass * eta * beyond[k].slope * gradients[k][j];
+                        out.damping[(i, j)] += share * mass * 2.0 * xi * gradients[k][j];
+                    }
+                }
+                if k == 1 {
+                    continue;
+                }
+                let bracket = elastic + viscous;
+                let levers = [(first, side * now.lines[0]), (turn, if gear == 0 { -now.lines[1] } else { now.lines[2] })];
+                for (i, lever) in levers {
+                    out.other[i] += lever * bracket.abs();
+                    out.supplied += lever * bracket.abs() * v[i];
+                    for j in 0..8 {
+                        let sign = lever * bracket.signum() * mass;
+                        out.stiffness[(i, j)] -= sign * eta * beyond[0].slope * gradients[0][j];
+                        out.damping[(i, j)] -= sign * 2.0 * xi * gradients[0][j];
+                    }
+                }
+            }
+        }
+        // The mesh damper takes its force times the slip; the rest of its work goes to the error's motion.
+        let taken = eq.mass_ratio[0] * 2.0 * eq.mesh_damping[0][0] * slip[0];
+        out.dissipated += taken * slip[0];
+        out.supplied += taken * slip[0];
+        if !out.tangents {
+            let h = 1e-6 * self.omega / self.model.pair.clock.mesh_frequency();
+            out.parametric = (self.energy(tau + h, p) - self.energy(tau - h, p)) / (2.0 * h);
+        }
+        Ok(())
+    }
+
+    fn potential(&mut self, tau: f64, p: &DVector<f64>) -> Result<f64, Infallible> {
+        Ok(self.energy(tau, p.as_slice()))
+    }
+}

@@ -1,0 +1,118 @@
+//! Bifurcation diagrams: what a motion settles to over a parameter.
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// What a motion settled to at one value of the parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Branch {
+    /// Value of the parameter.
+    pub value: f64,
+    /// Points of the section there, in their order in time.
+    pub points: Vec<f64>,
+}
+
+/// Both directions of a sweep, each in ascending order of the parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Bifurcation {
+    /// Parameter rising.
+    pub forward: Vec<Branch>,
+    /// Parameter falling, from the state that the way up ended in.
+    pub backward: Vec<Branch>,
+}
+
+/// One way along `values` in their order, the state carried from each to the next.
+///
+/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of its section.
+///
+/// # Errors
+/// The first of `run`.
+pub fn sweep<S, E>(
+    values: &[f64],
+    state: &mut S,
+    mut run: impl FnMut(f64, &mut S) -> Result<Vec<f64>, E>,
+) -> Result<Vec<Branch>, E> {
+    values.iter().map(|&value| run(value, state).map(|points| Branch { value, points })).collect()
+}
+
+/// Up along `values` and down again, the state carried all the way: where both answers differ there is hysteresis.
+///
+/// # Errors
+/// The first of `run`.
+pub fn sweep_both_ways<S, E>(
+    values: &[f64],
+    state: &mut S,
+    mut run: impl FnMut(f64, &mut S) -> Result<Vec<f64>, E>,
+) -> Result<Bifurcation, E> {
+    let mut ascending = values.to_vec();
+    ascending.sort_by(f64::total_cmp);
+    let forward = sweep(&ascending, state, &mut run)?;
+    ascending.reverse();
+    let mut backward = sweep(&ascending, state, &mut run)?;
+    backward.reverse();
+    Ok(Bifurcation { forward, backward })
+}
+
+/// Every value from its own start, on all threads: no state is carried, so that the answer does not depend on the number of threads. It shows one branch where several are.
+///
+/// # Errors
+/// That of the first value, in the order of `values`, that fails.
+pub fn sweep_parallel<E: Send>(
+    values: &[f64],
+    run: impl Fn(f64) -> Result<Vec<f64>, E> + Sync,
+) -> Result<Vec<Branch>, E> {
+    let all: Vec<Result<Branch, E>> =
+        values.par_iter().map(|&value| run(value).map(|points| Branch { value, points })).collect();
+    all.into_iter().collect()
+}
+
+/// Several independent sweeps at once, each carrying its own state (both ways, or several starts), on all threads; results in the order of `starts`.
+///
+/// # Errors
+/// That of the first start that fails.
+pub fn sweeps_parallel<S: Send, E: Send>(
+    starts: Vec<(Vec<f64>, S)>,
+    run: impl Fn(f64, &mut S) -> Result<Vec<f64>, E> + Sync,
+) -> Result<Vec<Vec<Branch>>, E> {
+    let all: Vec<Result<Vec<Branch>, E>> =
+        starts.into_par_iter().map(|(values, mut state)| sweep(&values, &mut state, &run)).collect();
+    all.into_iter().collect()
+}
+
+impl Branch {
+    /// Smallest and largest point; `None` without points.
+    pub fn extent(&self) -> Option<[f64; 2]> {
+        let low = self.points.iter().copied().reduce(f64::min)?;
+        let high = self.points.iter().copied().reduce(f64::max)?;
+        Some([low, high])
+    }
+
+    /// Number of distinct points, two being one when they lie within `tolerance`: 1 for a period of one, 2 after a doubling, many in chaos.
+    pub fn distinct(&self, tolerance: f64) -> usize {
+        let mut sorted = self.points.clone();
+        sorted.sort_by(f64::total_cmp);
+        let gaps = sorted.windows(2).filter(|w| w[1] - w[0] > tolerance).count();
+        usize::from(!sorted.is_empty()) + gaps
+    }
+}
+
+impl Bifurcation {
+    /// Ranges of the parameter in which both ways give other answers: their extents differ by more than `tolerance` (unit of the points). First and last value of each range.
+    pub fn hysteresis(&self, tolerance: f64) -> Vec<[f64; 2]> {
+        let mut bands: Vec<[f64; 2]> = Vec::new();
+        let mut inside = false;
+        for (up, down) in self.forward.iter().zip(&self.backward) {
+            let differ = match (up.extent(), down.extent()) {
+                (Some(a), Some(b)) => (0..2).any(|i| (a[i] - b[i]).abs() > tolerance),
+                (a, b) => a.is_some() != b.is_some(),
+            };
+            match (differ, inside, bands.last_mut()) {
+                (true, true, Some(band)) => band[1] = up.value,
+                (true, ..) => bands.push([up.value; 2]),
+                _ => {}
+            }
+            inside = differ;
+        }
+        bands
+    }
+}

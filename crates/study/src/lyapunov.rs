@@ -1,0 +1,79 @@
+//! Largest Lyapunov exponent: chaos or not.
+
+use serde::Serialize;
+
+/// How an exponent is to be found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LyapunovPlan {
+    /// Time of one stretch (one period of the excitation, or about one of the motion).
+    pub stretch: f64,
+    /// Stretches before counting begins: the transient, and the turn of the difference into its direction of fastest growth.
+    pub settling: usize,
+    /// Stretches that count.
+    pub stretches: usize,
+    /// Distance to which the neighbour is set back after each stretch, in units of `scale`; 1e-7 is far above round-off and far below any curvature.
+    pub distance: f64,
+}
+
+/// Largest Lyapunov exponent and how well it is known.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Lyapunov {
+    /// Mean rate of growth of a small difference, per unit of time: > 0 in chaos, 0 for a torus (or a free shift in time), < 0 for a motion that repeats.
+    pub exponent: f64,
+    /// Standard error from ten parts of the stretches.
+    pub error: f64,
+}
+
+impl Lyapunov {
+    /// Positive beyond three standard errors.
+    pub fn is_chaotic(&self) -> bool {
+        self.exponent > 3.0 * self.error
+    }
+}
+
+/// Largest exponent of a motion by two neighbours, the distance set back after every stretch (Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9).
+///
+/// ```text
+/// lambda = 1 / (m T) sum ln(d_k / d_0)
+/// ```
+/// `advance(x, k)` carries a state x from k T to (k + 1) T; `scale` is what counts as large of each entry, > 0. Works for flows, maps and motions with kinks: it needs no tangent.
+/// A difference that dies out to nothing within one stretch counts as the smallest number there is.
+///
+/// # Errors
+/// Those of `advance`.
+pub fn largest_lyapunov<E>(
+    start: &[f64],
+    scale: &[f64],
+    plan: &LyapunovPlan,
+    mut advance: impl FnMut(&[f64], usize) -> Result<Vec<f64>, E>,
+) -> Result<Lyapunov, E> {
+    let n = start.len().max(1) as f64;
+    let mut x = start.to_vec();
+    // In no special direction.
+    let mut y: Vec<f64> = x.iter().zip(scale).map(|(x, s)| x + plan.distance * s / n.sqrt()).collect();
+    let mut growth = Vec::with_capacity(plan.stretches);
+    for k in 0..plan.settling + plan.stretches {
+        x = advance(&x, k)?;
+        y = advance(&y, k)?;
+        let apart = |y: &[f64]| {
+            y.iter().zip(&x).zip(scale).map(|((y, x), s)| ((y - x) / s).powi(2)).sum::<f64>().sqrt()
+        };
+        let distance = apart(&y);
+        if distance > 0.0 {
+            let share = plan.distance / distance;
+            y = y.iter().zip(&x).map(|(y, x)| x + share * (y - x)).collect();
+        } else {
+            y = x.iter().zip(scale).map(|(x, s)| x + plan.distance * s / n.sqrt()).collect();
+        }
+        if k >= plan.settling {
+            growth.push((distance.max(f64::MIN_POSITIVE) / plan.distance).ln() / plan.stretch);
+        }
+    }
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
+    let exponent = mean(&growth);
+    let size = (growth.len() / 10).max(1);
+    let parts: Vec<f64> = growth.chunks_exact(size).map(mean).collect();
+    let count = parts.len() as f64;
+    let variance = parts.iter().map(|p| (p - exponent).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    Ok(Lyapunov { exponent, error: (variance / count.max(1.0)).sqrt() })
+}
