@@ -4,8 +4,7 @@
 //! K phi = omega^2 M phi,   Phi' M Phi = 1,   u = Phi q + (C - Phi Omega^-2 Phi') f
 //! ```
 //! Modes with the flanks free are a gear's own: they know nothing of a window, and their coordinates q go on unchanged as teeth come and go.
-//! What is left of the compliance answers at once (MacNeal, Comput. Struct. 1 (1971) 581; with contact on such a massless boundary: Monjaraz-Tec
-//! et al., Comput. Struct. 268 (2022) 106698).
+//! What is left of the compliance answers at once (MacNeal, Comput. Struct. 1 (1971) 581; with contact on such a massless boundary: arXiv 2111.07693).
 
 mod basis;
 mod choice;
