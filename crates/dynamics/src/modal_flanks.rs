@@ -168,12 +168,11 @@ impl ModalFlanks {
 
     /// From S to R, n x n, column by column.
     pub fn take_from(&self, n: usize, compliance: &mut [f64]) {
+        let mut flexible = vec![0.0; self.count()];
         for (j, column) in compliance.chunks_mut(n.max(1)).enumerate() {
-            let load = self.load(j);
-            for (i, entry) in column.iter_mut().enumerate() {
-                let shares = self.opening(i).iter().zip(load).zip(&self.flexibility);
-                *entry -= shares.map(|((h, l), f)| h * l * f).sum::<f64>();
-            }
+            let shares = self.load(j).iter().zip(&self.flexibility);
+            flexible.iter_mut().zip(shares).for_each(|(f, (l, c))| *f = l * c);
+            column.iter_mut().enumerate().for_each(|(i, entry)| *entry -= dot(self.opening(i), &flexible));
         }
     }
 

@@ -35,6 +35,15 @@ impl<'a> Held<'a> {
             compliance.as_mut().subcols_mut(start, width).copy_from(means(&loads, &field));
         }
         let compliance = Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)]));
+        Self::with_compliance(body, loads, &compliance)
+    }
+
+    /// The same where C is known, mm/N.
+    pub fn with_compliance(
+        body: &'a dyn Pencil,
+        loads: Vec<Rows>,
+        compliance: &Mat<f64>,
+    ) -> Result<Self, ReductionError> {
         Ok(Self { body, factor: dense::cholesky(compliance.as_ref())?, loads })
     }
 
