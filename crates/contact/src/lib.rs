@@ -26,6 +26,7 @@ mod patch;
 mod points;
 mod pressure;
 mod profile_search;
+mod rigid;
 mod slices;
 mod surface;
 mod tooth_layer;
@@ -42,6 +43,7 @@ pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_co
 pub use patch::{FacePoint, FlankPatch};
 pub use points::{ContactPoint, contact_points};
 pub use pressure::nodal_pressures;
+pub use rigid::{NearestPlace, RigidFlanks};
 pub use slices::{FlankPair, Slice, SliceFlank, SliceHint, SlicePlace, slice};
 pub use surface::{Cylinder, Foot, Surface};
 pub use tooth_layer::ToothLayer;

@@ -105,6 +105,12 @@ impl FlankPatch {
         Ok(Self { tooth, surface, faces, nodes, bins, range })
     }
 
+    /// A flank without a mesh, for rigid bodies: its smooth surface over a range [low, high] of surface coordinates.
+    pub fn rigid(tooth: i64, surface: Box<dyn Surface>, range: [[f64; 2]; 2]) -> Self {
+        let bins = Bins::new(&[], &[]);
+        Self { tooth, surface, faces: Vec::new(), nodes: Vec::new(), bins, range }
+    }
+
     /// The smooth surface.
     pub fn surface(&self) -> &dyn Surface {
         &*self.surface

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{FlankPatch, Pose, Vec3};
+use crate::{FlankPatch, Pose, SliceHint, Vec3};
 
 /// Two patches as one sees the other: body 1's points in body 2's frame.
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +38,8 @@ pub(crate) struct Look {
     pub foot: [f64; 2],
 }
 
+/// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
+const BEYOND: f64 = 1e-3;
 /// Places along the profile that are looked at where there may be several dips.
 const SCAN: usize = 16;
 /// Steps downhill before the scan takes over; four do.
@@ -85,6 +87,17 @@ impl<'a> Facing<'a> {
     fn rolls(&self, body: usize) -> [f64; 2] {
         let [[low, _], [high, _]] = self.patches[body].range();
         [low, high]
+    }
+
+    /// Where the flanks are nearest at height `z` (mm) of body 1, and what is seen from there; `None` where they do not face each other.
+    pub fn place(&self, z: f64, hint: &mut SliceHint) -> Option<(Place, Look)> {
+        let place = self.nearest(z, hint.roll)?;
+        hint.roll = Some(place.roll());
+        let look = self.look([place.roll(), z])?;
+        // Gears displaced along their axes face each other on a part of their width only.
+        let [[_, low], [_, high]] = self.patches[1].range();
+        let slack = BEYOND * (high - low);
+        (look.foot[1] >= low - slack && look.foot[1] <= high + slack).then_some((place, look))
     }
 
     /// Place of the least gap at height z of body 1; `near`: a roll angle to start from.

@@ -28,13 +28,10 @@ pub struct Slice {
     pub local: LocalContact,
 }
 
-/// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
-const BEYOND: f64 = 1e-3;
-
 /// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SliceHint {
-    roll: Option<f64>,
+    pub(crate) roll: Option<f64>,
     faces: [Option<FacePoint>; 2],
 }
 
@@ -105,13 +102,8 @@ impl<'a> FlankPair<'a> {
 
     /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.
     pub fn place(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePlace> {
-        let place = self.facing.nearest(z, hint.roll)?;
-        hint.roll = Some(place.roll());
-        let look = self.facing.look([place.roll(), z])?;
-        // Gears displaced along their axes face each other on a part of their width only.
-        let [[_, low], [_, high]] = self.patches()[1].range();
-        let slack = BEYOND * (high - low);
-        (look.foot[1] >= low - slack && look.foot[1] <= high + slack).then_some(SlicePlace { place, look, z })
+        let (place, look) = self.facing.place(z, hint)?;
+        Some(SlicePlace { place, look, z })
     }
 
     /// The gap that the slice at a place has, mm: [`SlicePlace::gap`] and what the rounding of an edge adds.
@@ -140,9 +132,7 @@ impl<'a> FlankPair<'a> {
     /// off the line of action.
     fn other_edge(&self, look: &Look) -> Option<([[f64; 2]; 2], Look, f64)> {
         let [a, b] = self.patches();
-        let turned = Facing::new([b, a], [&self.poses[1], &self.poses[0]]);
-        let edge = [b.range()[1][0], look.foot[1]];
-        let seen = turned.look(edge)?;
+        let (edge, seen) = facing_edge([a, b], self.poses, look)?;
         Some(([seen.foot, edge], seen, off_line([b, a], seen.slope, [edge, seen.foot])))
     }
 
@@ -208,6 +198,13 @@ impl<'a> FlankPair<'a> {
         }
         row
     }
+}
+
+/// Body 2's tip edge at the foot of a look, and what is seen of body 1 from there.
+pub(crate) fn facing_edge([a, b]: [&FlankPatch; 2], poses: &[Pose; 2], look: &Look) -> Option<([f64; 2], Look)> {
+    let turned = Facing::new([b, a], [&poses[1], &poses[0]]);
+    let edge = [b.range()[1][0], look.foot[1]];
+    Some((edge, turned.look(edge)?))
 }
 
 /// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at

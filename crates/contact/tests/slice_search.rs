@@ -1,7 +1,7 @@
 //! The least gap of a slice = the least over a fine scan of the whole profile, modified and misaligned flanks, edges among them.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use contact::{FlankPatch, Pose, Slice, SliceFlank, ToothLayer, Vec3, slice};
+use contact::{FlankPatch, Pose, RigidFlanks, Slice, SliceFlank, SliceHint, ToothLayer, Vec3, slice};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
@@ -183,5 +183,34 @@ fn slices_find_what_brute_force_finds() {
             complaints.len(),
             complaints[0]
         );
+    }
+}
+
+/// Rigid flanks have the gaps, places and normals of slices, edges among them, without a mesh.
+#[test]
+fn rigid_flanks_are_slices_without_a_mesh() {
+    for modified in [false, true] {
+        let set = flanks(modified);
+        let gears = [&set.pair.pinion, &set.pair.wheel];
+        let bare = [0, 1].map(|i| {
+            let surface = Box::new(gears[i].modified_flank(Side::Left, 0));
+            FlankPatch::rigid(0, surface, set.patches[i].range())
+        });
+        let (mut faced, mut edges) = (0, 0);
+        for seed in 0..5000 {
+            let mut random = Random::new(seed);
+            let poses = poses(&set.pair, &mut random);
+            let z = random.between(-10.0, 10.0);
+            let with_mesh = [0, 1].map(|i| SliceFlank { patch: &set.patches[i], layer: &set.layers[i] });
+            let wanted = slice(with_mesh, &poses, (0, 0), 0, z, 1.0);
+            let found = RigidFlanks::new([&bare[0], &bare[1]], &poses).nearest(z, &mut SliceHint::default());
+            assert_eq!(found.is_some(), wanted.is_some(), "pose {seed}, z {z}");
+            let (Some(found), Some((row, slice))) = (found, wanted) else { continue };
+            (faced, edges) = (faced + 1, edges + usize::from(slice.local.off_line > 0.0));
+            assert_eq!((found.gap, found.at), (row.gap, slice.at), "pose {seed}, z {z}");
+            assert!((found.normal - row.normal).norm() < 1e-12, "pose {seed}: {} and {}", found.normal, row.normal);
+            assert!((found.position - row.position).norm() < 1e-9, "pose {seed}: {}, {}", found.position, row.position);
+        }
+        assert!(edges > 100 && faced - edges > 100, "{faced} facing, {edges} edges");
     }
 }

@@ -2,13 +2,16 @@
 
 use contact::{
     Balance, ContactError, ContactRow, DenseProblem, DenseSolver, FlankPair, LocalLaw, LocalState, Pose, Slice,
-    SliceHint, SlicePlace, TablePlace, TableWork,
+    SliceHint, SlicePlace, TablePlace, TableWork, Vec3,
 };
 use faer::MatRef;
 use geometry::GearPair;
 
 use crate::{
-    ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches, modal_flanks::ModalFlanks,
+    ContactSet, StaticError, StaticOptions, Wrench,
+    friction::Friction,
+    loads::wrenches,
+    modal_flanks::{ModalFlanks, ModalRows},
 };
 
 /// Forces of the mesh on both gears at given poses, and how they change as the gears move.
@@ -52,6 +55,8 @@ pub struct ContactWork {
 pub struct MeshContact {
     set: ContactSet,
     friction: Option<Friction>,
+    /// Of the larger gear's tip, mm.
+    radius: f64,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
     /// How body 1 stood at the last search.
@@ -59,11 +64,9 @@ pub struct MeshContact {
     /// Force of each station of each pair at the last solution, N.
     memory: Vec<f64>,
     places: Vec<(usize, SlicePlace)>,
-    /// Station of each row, counted over all pairs.
-    keys: Vec<usize>,
-    rows: Vec<ContactRow>,
-    slices: Vec<Slice>,
-    laws: Vec<LocalLaw>,
+    /// What was found at the last poses, and at others before these.
+    found: Found,
+    before: Found,
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
@@ -71,11 +74,85 @@ pub struct MeshContact {
     openings: Vec<TablePlace>,
     loads: Vec<TablePlace>,
     work: [TableWork; 2],
-    compliance: Vec<f64>,
     solver: DenseSolver,
     force: MeshForce,
     /// Normal modes that are coordinates of their own.
     modal: Option<ModalFlanks>,
+}
+
+/// Rows and their compliance at some poses.
+#[derive(Debug, Default)]
+struct Found {
+    /// The poses, once there are rows of them.
+    at: Option<[Pose; 2]>,
+    /// Station of each row, counted over all pairs.
+    keys: Vec<usize>,
+    rows: Vec<ContactRow>,
+    slices: Vec<Slice>,
+    laws: Vec<LocalLaw>,
+    /// Gaps at these poses, mm; those of the rows follow small motions from there.
+    gaps: Vec<f64>,
+    compliance: Vec<f64>,
+    /// How modes open the rows.
+    modal: ModalRows,
+}
+
+/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
+/// um then.
+const NEAR: f64 = 1e-3;
+
+impl Found {
+    fn with_capacity(most: usize) -> Self {
+        Self {
+            at: None,
+            keys: Vec::with_capacity(most),
+            rows: Vec::with_capacity(most),
+            slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
+            gaps: Vec::with_capacity(most),
+            compliance: Vec::with_capacity(most * most),
+            modal: ModalRows::default(),
+        }
+    }
+
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open gaps by no more than was reckoned with.
+    fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
+        let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
+        let mut motion = [0.0; 12];
+        for g in 0..2 {
+            let moved = poses[g].translation.vector - at[g].translation.vector;
+            let turned = (poses[g].rotation * at[g].rotation.inverse()).scaled_axis();
+            motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
+            motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
+            if !(moved.norm() + radius * turned.norm() <= NEAR) {
+                return None;
+            }
+        }
+        Some(motion)
+    }
+
+    /// Gaps after a small motion from here.
+    fn follow(&mut self, motion: &[f64; 12]) {
+        let Self { at, rows, gaps, .. } = self;
+        let Some(at) = at else { return };
+        let centres = at.map(|p| p.translation.vector);
+        for (row, &gap) in rows.iter_mut().zip(gaps.iter()) {
+            let opening: f64 = opening(row, &row.normal, &centres).iter().zip(motion).map(|(j, d)| j * d).sum();
+            row.gap = gap + opening;
+        }
+    }
+}
+
+/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its normal, how they open its gap.
+fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+    let mut j = [0.0; 12];
+    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+        let force = sign * direction;
+        let moment = (row.position - centres[body]).cross(&force);
+        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+    }
+    j
 }
 
 impl MeshContact {
@@ -100,23 +177,22 @@ impl MeshContact {
             iterations: 0,
             residual: 0.0,
         };
+        let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
         Ok(Self {
             friction,
+            radius,
             hints: vec![SliceHint::default(); most],
             stood: None,
             memory: vec![0.0; most],
             places: Vec::with_capacity(most),
-            keys: Vec::with_capacity(most),
-            rows: Vec::with_capacity(most),
-            slices: Vec::with_capacity(most),
-            laws: Vec::with_capacity(most),
+            found: Found::with_capacity(most),
+            before: Found::with_capacity(most),
             gaps: Vec::with_capacity(most),
             levers: Vec::with_capacity(most),
             torque_levers: Vec::with_capacity(most),
             openings: Vec::with_capacity(most),
             loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
             work,
-            compliance: Vec::with_capacity(most * most),
             solver: DenseSolver::new(most),
             force,
             modal: None,
@@ -135,6 +211,7 @@ impl MeshContact {
         self.memory.fill(0.0);
         self.hints.fill(SliceHint::default());
         self.stood = None;
+        (self.found.at, self.before.at) = (None, None);
         if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
             self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
         }
@@ -142,8 +219,9 @@ impl MeshContact {
     }
 
     /// Takes normal modes of both gears on the flanks of this window out of the compliance; they then deform the gears by the amplitudes given.
-    pub(crate) fn keep_modes(&mut self, modal: Option<ModalFlanks>) {
-        self.modal = modal;
+    pub(crate) fn keep_modes(&mut self, modal: ModalFlanks) {
+        (self.found.at, self.before.at) = (None, None);
+        self.modal = Some(modal);
     }
 
     /// Sets the amplitudes of the modes, of pinion and wheel in turn.
@@ -153,7 +231,7 @@ impl MeshContact {
         }
     }
 
-    /// The modes on the rows of the last evaluation.
+    /// The modes, and forces on them at the last evaluation.
     pub(crate) fn modal(&self) -> Option<&ModalFlanks> {
         self.modal.as_ref()
     }
@@ -169,27 +247,54 @@ impl MeshContact {
     /// [`ContactError`] when the contact problem cannot be solved.
     pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
         self.prepare(poses, None);
+        self.forces()
+    }
+
+    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these: rows that were found for poses next to them, up to a um away, are kept
+    /// with their places and compliance, and their gaps follow the motion to first order.
+    ///
+    /// Forces are then the exact derivative of the strain energy, and the tangent that of the forces.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate_near(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
+        let motions = [&self.found, &self.before].map(|f| f.motion_to(poses, self.radius, self.modal.as_ref()));
+        let motion = match motions {
+            [Some(motion), _] => Some(motion),
+            [None, other] => {
+                std::mem::swap(&mut self.found, &mut self.before);
+                other
+            }
+        };
+        match motion {
+            Some(motion) => {
+                self.found.follow(&motion);
+                self.bend();
+            }
+            None => {
+                self.find_places(poses);
+                let reach = self.reach();
+                self.rows_within(poses, reach + 2.0 * NEAR);
+            }
+        }
+        self.forces()
+    }
+
+    /// Forces of the rows as they are.
+    fn forces(&mut self) -> Result<&MeshForce, ContactError> {
         self.solve(Balance::Held, 0)?;
-        let Self { force, rows, solver, set, modal, .. } = self;
-        force.wrench = wrenches(poses, rows, solver.forces());
+        let Self { force, found: Found { rows, at, modal: bent, .. }, solver, set, modal, .. } = self;
+        let poses = at.unwrap_or([Pose::identity(); 2]);
+        force.wrench = wrenches(&poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
         let rigid = |i: usize| {
             let row = &rows[i];
-            [row.normal, row.traction].map(|direction| {
-                let mut j = [0.0; 12];
-                for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
-                    let force = sign * direction;
-                    let moment = (row.position - centres[body]).cross(&force);
-                    j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
-                    j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
-                }
-                j
-            })
+            [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
         };
         match modal {
             None => force.tangent = solver.tangent(rigid),
             Some(modal) => {
-                modal.finish(solver, rigid);
+                modal.finish(bent, solver, rigid);
                 let (all, n) = (&modal.forces().tangent, 12 + modal.count());
                 force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
             }
@@ -217,7 +322,28 @@ impl MeshContact {
             return self.gaps.iter().fold(f64::MIN, |m, g| m.max(-g));
         }
         self.find_places(poses);
+        self.deepest()
+    }
+
+    /// Deepest overlap at the places found, mm.
+    fn deepest(&self) -> f64 {
         self.places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
+    }
+
+    /// Gap up to which a row at the places found may close, mm: the deepest overlap; modes may close a gap, and open the one that would be the deepest overlap.
+    fn reach(&self) -> f64 {
+        let deepest = self.deepest();
+        self.modal.as_ref().map_or(deepest, |modal| deepest.abs() + 2.0 * (modal.largest() + NEAR))
+    }
+
+    /// Gaps of the rows as they are, with what the modes open them by.
+    fn bend(&mut self) {
+        let Self { found: Found { rows, modal: bent, .. }, modal, gaps, .. } = self;
+        if let Some(modal) = modal {
+            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(bent, i));
+        }
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
     }
 
     /// Where the flanks are nearest, station by station.
@@ -247,7 +373,15 @@ impl MeshContact {
     /// more stay open.
     pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         self.find_places(poses);
-        let Self { set, pairs, hints, places, keys, rows, slices, friction, .. } = self;
+        let reach = reach.unwrap_or_else(|| self.reach());
+        self.rows_within(poses, reach);
+    }
+
+    /// Rows of the places found that are no farther apart than `reach`, mm, and their compliance.
+    fn rows_within(&mut self, poses: &[Pose; 2], reach: f64) {
+        let Self { set, pairs, hints, places, found, friction, .. } = self;
+        let Found { at, keys, rows, slices, .. } = found;
+        *at = Some(*poses);
         keys.clear();
         rows.clear();
         slices.clear();
@@ -256,11 +390,6 @@ impl MeshContact {
         let stations = of_window.stations();
         let tabulated = of_window.bulk().is_some();
         let pair_at = |pair| FlankPair::new(of_window.flanks(patches, pair), poses);
-        let reach = reach.unwrap_or_else(|| {
-            let deepest = places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()));
-            // Modes may close a gap, and open the one that would be the deepest overlap.
-            self.modal.as_ref().map_or(deepest, |modal| deepest.abs() + 2.0 * modal.largest())
-        });
         for of_pair in places.chunk_by(|a, b| a.0 / stations.len() == b.0 / stations.len()) {
             let numbers = pairs[of_pair[0].0 / stations.len()];
             let pair = pair_at(numbers);
@@ -279,29 +408,28 @@ impl MeshContact {
                 slices.push(slice);
             }
         }
-        self.laws.clear();
-        self.laws.extend(self.slices.iter().map(|s| s.local.law()));
+        found.laws.clear();
+        found.laws.extend(found.slices.iter().map(|s| s.local.law()));
+        found.gaps.clear();
+        found.gaps.extend(found.rows.iter().map(|r| r.gap));
         self.compliance();
-        if let Some(modal) = &self.modal {
-            self.rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(i));
-        }
-        self.gaps.clear();
-        self.gaps.extend(self.rows.iter().map(|r| r.gap));
+        self.bend();
     }
 
     /// S between the rows, from both gears' tables or matrices.
     fn compliance(&mut self) {
-        let Self { set, rows, slices, openings, loads, work, compliance, friction, modal, .. } = self;
+        let Self { set, found, openings, loads, work, friction, modal, .. } = self;
+        let Found { rows, slices, compliance, modal: bent, .. } = found;
         let n = rows.len();
         let symmetric = friction.is_none();
         if let Some(modal) = modal {
-            modal.begin(n, !symmetric);
+            modal.begin(bent, n, !symmetric, NEAR);
         }
         let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
             set.exact_compliance(rows, compliance);
             if let Some(modal) = modal {
-                modal.read_rows(rows);
-                modal.take_from(n, compliance);
+                modal.read_rows(bent, rows);
+                modal.take_from(bent, n, compliance);
             }
             return;
         };
@@ -325,8 +453,8 @@ impl MeshContact {
                 table.add(openings, loads, false, &mut work[b], compliance);
             }
             if let Some(modal) = modal {
-                modal.read_places(b, openings, false);
-                modal.read_places(b, loads, true);
+                modal.read_places(bent, b, openings, false);
+                modal.read_places(bent, b, loads, true);
             }
         }
         if symmetric {
@@ -337,13 +465,14 @@ impl MeshContact {
             }
         }
         if let Some(modal) = modal {
-            modal.take_from(n, compliance);
+            modal.take_from(bent, n, compliance);
         }
     }
 
     /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
     pub(crate) fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
-        let Self { rows, slices, laws, gaps, levers, torque_levers, compliance, keys, memory, solver, .. } = self;
+        let Self { found, gaps, levers, torque_levers, memory, solver, .. } = self;
+        let Found { keys, rows, slices, laws, compliance, .. } = found;
         let n = rows.len();
         levers.clear();
         torque_levers.clear();
@@ -369,7 +498,7 @@ impl MeshContact {
 
     /// What the last evaluation passed over and did, from the sizes of its arrays.
     pub fn work(&self) -> ContactWork {
-        let (n, m) = (self.rows.len() as f64, self.solver.active().len() as f64);
+        let (n, m) = (self.found.rows.len() as f64, self.solver.active().len() as f64);
         let steps = self.solver.iterations() as f64;
         let touched = self.work.each_ref().map(|w| w.touched() as f64);
         let places: f64 = self.openings.iter().chain(&self.loads).map(|p| p.points() as f64).sum::<f64>() / n.max(1.0);
@@ -387,16 +516,17 @@ impl MeshContact {
 
     /// Rows of the last solution, in order of pair and height.
     pub fn rows(&self) -> &[ContactRow] {
-        &self.rows
+        &self.found.rows
     }
 
     /// The rows with the nodes that they rest on, at the poses of the last evaluation.
     pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
-        let Self { set, pairs, hints, keys, rows, slices, .. } = self;
+        let Self { set, pairs, hints, found: Found { keys, rows, slices, .. }, .. } = self;
         let mut rows = rows.clone();
         let Some(of_window) = set.slices() else { return rows };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
-        for ((row, slice), &key) in rows.iter_mut().zip(slices).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
+        for ((row, slice), &key) in
+            rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
         {
             let numbers = pairs[key / of_window.stations().len()];
             FlankPair::new(of_window.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
@@ -406,7 +536,7 @@ impl MeshContact {
 
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
-        &self.slices
+        &self.found.slices
     }
 
     /// Forces, openings and active rows of the last solution.

@@ -23,10 +23,32 @@ pub(crate) struct ModalFlanks {
     amplitudes: Vec<f64>,
     /// Largest opening of a gap by q, mm.
     largest: f64,
+    forces: Modal,
+}
+
+/// How the modes open the rows that were found at some poses.
+#[derive(Debug, Default)]
+pub(crate) struct ModalRows {
+    /// Opening by all modes up to which no further row may close, mm.
+    pub largest: f64,
+    /// Modes of both gears, m.
+    count: usize,
     /// H and, with friction, H_t; row by row.
     openings: Vec<f64>,
     loads: Vec<f64>,
-    forces: Modal,
+}
+
+impl ModalRows {
+    /// H_i.
+    fn opening(&self, row: usize) -> &[f64] {
+        &self.openings[row * self.count..(row + 1) * self.count]
+    }
+
+    /// H_t,i.
+    fn load(&self, row: usize) -> &[f64] {
+        let list = if self.loads.is_empty() { &self.openings } else { &self.loads };
+        &list[row * self.count..(row + 1) * self.count]
+    }
 }
 
 /// Forces on the modes, and how they and those on the rigid bodies follow all coordinates.
@@ -79,8 +101,6 @@ impl ModalFlanks {
             flexibility,
             amplitudes: vec![0.0; m],
             largest: 0.0,
-            openings: Vec::new(),
-            loads: Vec::new(),
             forces: Modal::default(),
         })
     }
@@ -111,28 +131,28 @@ impl ModalFlanks {
         (0..2).flat_map(of_gear).collect()
     }
 
-    /// Makes room for some rows.
-    pub fn begin(&mut self, rows: usize, friction: bool) {
-        let m = self.count();
-        for (list, used) in [(&mut self.openings, true), (&mut self.loads, friction)] {
+    /// Makes room for some rows that serve until modes open gaps by `margin` (mm) more than now.
+    pub fn begin(&self, of: &mut ModalRows, rows: usize, friction: bool, margin: f64) {
+        (of.count, of.largest) = (self.count(), self.largest + margin);
+        for (list, used) in [(&mut of.openings, true), (&mut of.loads, friction)] {
             list.clear();
-            list.resize(if used { rows * m } else { 0 }, 0.0);
+            list.resize(if used { rows * of.count } else { 0 }, 0.0);
         }
     }
 
     /// Takes the openings of a gear's places in its table, or its loads.
-    pub fn read_places(&mut self, gear: usize, places: &[TablePlace], loads: bool) {
-        let (m, start) = (self.count(), if gear == 0 { 0 } else { self.counts[0] });
+    pub fn read_places(&self, of: &mut ModalRows, gear: usize, places: &[TablePlace], loads: bool) {
+        let (m, start) = (self.count().max(1), if gear == 0 { 0 } else { self.counts[0] });
         let Shapes::Table(samples) = &self.shapes[gear] else { return };
-        let list = if loads { &mut self.loads } else { &mut self.openings };
-        for (row, place) in list.chunks_mut(m.max(1)).zip(places) {
+        let list = if loads { &mut of.loads } else { &mut of.openings };
+        for (row, place) in list.chunks_mut(m).zip(places) {
             row[start..].iter_mut().zip(samples).for_each(|(h, s)| *h = place.read(s));
         }
     }
 
     /// The same from the nodes that rows rest on.
-    pub fn read_rows(&mut self, rows: &[ContactRow]) {
-        let m = self.count().max(1);
+    pub fn read_rows(&self, of: &mut ModalRows, rows: &[ContactRow]) {
+        let m = self.count();
         for (i, row) in rows.iter().enumerate() {
             for (g, start) in [(0, 0), (1, self.counts[0])] {
                 let Shapes::Nodes(shapes) = &self.shapes[g] else { continue };
@@ -140,8 +160,8 @@ impl ModalFlanks {
                 let load = contact::Support { direction: support.load, ..*support };
                 for j in 0..shapes.ncols() {
                     let at = i * m + start + j;
-                    self.openings[at] = opening(support, shapes.col_as_slice(j));
-                    if let Some(h) = self.loads.get_mut(at) {
+                    of.openings[at] = opening(support, shapes.col_as_slice(j));
+                    if let Some(h) = of.loads.get_mut(at) {
                         *h = opening(&load, shapes.col_as_slice(j));
                     }
                 }
@@ -149,35 +169,23 @@ impl ModalFlanks {
         }
     }
 
-    /// H_i.
-    pub fn opening(&self, row: usize) -> &[f64] {
-        let m = self.count();
-        &self.openings[row * m..(row + 1) * m]
-    }
-
-    /// H_t,i.
-    fn load(&self, row: usize) -> &[f64] {
-        let (m, list) = (self.count(), if self.loads.is_empty() { &self.openings } else { &self.loads });
-        &list[row * m..(row + 1) * m]
-    }
-
     /// H_i q, mm.
-    pub fn shift(&self, row: usize) -> f64 {
-        dot(self.opening(row), &self.amplitudes)
+    pub fn shift(&self, of: &ModalRows, row: usize) -> f64 {
+        dot(of.opening(row), &self.amplitudes)
     }
 
     /// From S to R, n x n, column by column.
-    pub fn take_from(&self, n: usize, compliance: &mut [f64]) {
+    pub fn take_from(&self, of: &ModalRows, n: usize, compliance: &mut [f64]) {
         let mut flexible = vec![0.0; self.count()];
         for (j, column) in compliance.chunks_mut(n.max(1)).enumerate() {
-            let shares = self.load(j).iter().zip(&self.flexibility);
+            let shares = of.load(j).iter().zip(&self.flexibility);
             flexible.iter_mut().zip(shares).for_each(|(f, (l, c))| *f = l * c);
-            column.iter_mut().enumerate().for_each(|(i, entry)| *entry -= dot(self.opening(i), &flexible));
+            column.iter_mut().enumerate().for_each(|(i, entry)| *entry -= dot(of.opening(i), &flexible));
         }
     }
 
     /// Forces on the modes and all tangents from a solution; `rigid(i)`: J and J_t of the rigid coordinates.
-    pub fn finish(&mut self, solver: &mut DenseSolver, rigid: impl Fn(usize) -> [[f64; 12]; 2]) {
+    pub fn finish(&mut self, of: &ModalRows, solver: &mut DenseSolver, rigid: impl Fn(usize) -> [[f64; 12]; 2]) {
         let m = self.count();
         let mut forces = std::mem::take(&mut self.forces);
         for list in [&mut forces.normal, &mut forces.friction] {
@@ -185,7 +193,7 @@ impl ModalFlanks {
             list.resize(m, 0.0);
         }
         for (i, &f) in solver.forces().iter().enumerate().filter(|(_, f)| **f != 0.0) {
-            let (opening, load) = (self.opening(i), self.load(i));
+            let (opening, load) = (of.opening(i), of.load(i));
             for k in 0..m {
                 forces.normal[k] += f * opening[k];
                 forces.friction[k] += f * (load[k] - opening[k]);
@@ -196,9 +204,9 @@ impl ModalFlanks {
         let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {
             let [j, j_t] = rigid(i);
             opening[..12].copy_from_slice(&j);
-            opening[12..].copy_from_slice(self.opening(i));
+            opening[12..].copy_from_slice(of.opening(i));
             load[..12].copy_from_slice(&j_t);
-            load[12..].copy_from_slice(self.load(i));
+            load[12..].copy_from_slice(of.load(i));
         };
         solver.tangent_of(&mut vec![0.0; 2 * n], fill, &mut forces.tangent);
         self.forces = forces;

@@ -7,7 +7,8 @@ use geometry::{GearPair, Side};
 use crate::Offset;
 
 /// Which gear drives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Driver {
     /// Gear 1.
     Pinion,

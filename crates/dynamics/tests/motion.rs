@@ -207,12 +207,13 @@ fn pendulum(scheme: Scheme, control: StepControl) -> (f64, f64, u64) {
     (state.q[0], integrator.ledger().unwrap().residual(), integrator.steps()[0])
 }
 
-const SCHEMES: [(Scheme, f64); 5] = [
+const SCHEMES: [(Scheme, f64); 6] = [
     (Scheme::Energy, 2.0),
     (Scheme::Newmark, 2.0),
     (Scheme::GeneralisedAlpha { rho: 1.0 }, 2.0),
     (Scheme::GeneralisedAlpha { rho: 0.6 }, 2.0),
     (Scheme::DormandPrince, 5.0),
+    (Scheme::RungeKutta4, 4.0),
 ];
 
 /// Order of convergence; energy closes to the same order, and to round-off where that is promised.

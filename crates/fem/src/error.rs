@@ -22,6 +22,20 @@ pub enum FemError {
         /// The value given, t/mm^3.
         density_t_per_mm3: f64,
     },
+    /// A round section that is none.
+    #[error("a section needs 0 <= inner < outer diameter, not {inner_mm} and {outer_mm} mm")]
+    Section {
+        /// Outer diameter, mm.
+        outer_mm: f64,
+        /// Inner diameter, mm.
+        inner_mm: f64,
+    },
+    /// A length along a shaft that is not positive, or a place that is not on it.
+    #[error("{length_mm} mm is no length of a shaft, or no place on it")]
+    Length {
+        /// The value given, mm.
+        length_mm: f64,
+    },
     /// The Jacobian of an element is not positive at a point of integration.
     #[error("{kind} element {tag} is inverted or flat: det J = {det_j_mm3:.3e} mm^3")]
     Inverted {
@@ -125,6 +139,8 @@ impl FemError {
                 "steel has 0.3; nearly incompressible materials need mixed elements, which are not here"
             }
             Self::DensityNotPositive { .. } => "steel has 7.85e-9 t/mm^3 (7850 kg/m^3)",
+            Self::Section { .. } => "a solid shaft has inner diameter 0",
+            Self::Length { .. } => "shafts begin at z = 0, and every segment is longer than nothing",
             Self::Inverted { .. } => "check the node order of that element, or mesh the region more evenly",
             Self::NodeOutOfRange { .. } | Self::RaggedBlock { .. } => {
                 "read the mesh again: its connectivity is damaged"

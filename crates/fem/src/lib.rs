@@ -9,9 +9,12 @@
 //! 4. [`IndefiniteFactor`]: the same for a system with constraints;
 //! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: what follows from displacements and mesh.
 //!
+//! Beside it, for shafts: [`beam`] elements, and the [`natural_modes`] of small systems.
+//!
 //! Units: mm, N, MPa, t, s. Results are the same to the last bit for any number of threads.
 
 mod assembly;
+pub mod beam;
 pub mod dense;
 mod dofs;
 mod element_matrices;
@@ -20,6 +23,7 @@ mod factor;
 mod indefinite;
 mod mass_properties;
 mod material;
+mod modes;
 mod ordering;
 mod stress;
 mod symmetric;
@@ -32,6 +36,7 @@ pub use factor::BoundaryLastFactor;
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;
+pub use modes::{Modes, natural_modes};
 pub use ordering::Ordering;
 pub use stress::{StressOperator, max_principal, min_principal, nodal_stress, von_mises};
 pub use symmetric::SymmetricMatrix;

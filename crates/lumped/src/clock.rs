@@ -89,12 +89,8 @@ mod tests {
     /// The rate is the slope of the angle, however long it has run.
     #[test]
     fn rate_is_the_slope_of_the_angle() {
-        let clock = MeshClock {
-            fluctuation: 20.0,
-            fluctuation_frequency: 31.0,
-            start: 0.2,
-            ..MeshClock::steady(30, 104.7)
-        };
+        let clock =
+            MeshClock { fluctuation: 20.0, fluctuation_frequency: 31.0, start: 0.2, ..MeshClock::steady(30, 104.7) };
         for t in [0.0, 0.37, 12.0, 500.0] {
             let h = 1e-6;
             let slope = TAU * (clock.cycles(t + h) - clock.cycles(t - h)) / (2.0 * h);

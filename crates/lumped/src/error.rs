@@ -58,6 +58,73 @@ pub enum LumpedError {
         /// Samples of the others.
         wanted: usize,
     },
+    /// A shaft, its sections or its material make no sense.
+    #[error(transparent)]
+    Beam(#[from] fem::FemError),
+    /// Something sits beside the shaft.
+    #[error("{position_mm} mm is not on a shaft of {length_mm} mm")]
+    OffShaft {
+        /// Position, mm.
+        position_mm: f64,
+        /// Length of the shaft, mm.
+        length_mm: f64,
+    },
+    /// Two stations at one place.
+    #[error("shaft {shaft} has two stations at {position_mm} mm")]
+    SameStation {
+        /// Shaft, from 0.
+        shaft: usize,
+        /// Position, mm.
+        position_mm: f64,
+    },
+    /// A station that is named and not there.
+    #[error("there is no station {station} on shaft {shaft} (both count from 0)")]
+    NoStation {
+        /// Shaft, from 0.
+        shaft: usize,
+        /// Station, from 0.
+        station: usize,
+    },
+    /// A mesh that is named and not there.
+    #[error("there is no mesh {mesh}; there are {count} (they count from 0)")]
+    NoMesh {
+        /// Mesh, from 0.
+        mesh: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A shaft that no chain of meshes joins to shaft 0.
+    #[error("shaft {shaft} meshes with nothing that turns with shaft 0")]
+    NotConnected {
+        /// Shaft, from 0.
+        shaft: usize,
+    },
+    /// Chains of meshes that ask for different speeds of one shaft.
+    #[error("shaft {shaft} would have to turn {} and {} times as fast as shaft 0", ratios[0], ratios[1])]
+    Ratios {
+        /// Shaft, from 0.
+        shaft: usize,
+        /// Both speed ratios to shaft 0.
+        ratios: [f64; 2],
+    },
+    /// What is left out of the coordinates of a shaft would move freely.
+    #[error("shaft {shaft}: coordinates that are left out can move freely")]
+    Free {
+        /// Shaft, from 0.
+        shaft: usize,
+    },
+    /// Torques that would set freely turning shafts going.
+    #[error("torques are not in balance: {torque} N mm are left over, seen from shaft 0")]
+    NotBalanced {
+        /// What is left over, N mm.
+        torque: f64,
+    },
+    /// Contact or displacements under steady loads were not found.
+    #[error("no static equilibrium: something is free to move, or contact does not settle")]
+    NoEquilibrium,
+    /// The integrator stopped.
+    #[error(transparent)]
+    Motion(#[from] dynamics::motion::MotionError<std::convert::Infallible>),
 }
 
 impl LumpedError {
@@ -69,6 +136,20 @@ impl LumpedError {
             Self::Negative { quantity, .. } => format!("give 0 or a positive {quantity}"),
             Self::NotFinite { quantity, .. } => format!("look at where {quantity} comes from: it was not computed"),
             Self::Empty { .. } => "give at least one sample of the mesh cycle".into(),
+            Self::Beam(source) => return source.hint(),
+            Self::OffShaft { .. } => "positions count from the beginning of the shaft's first segment".into(),
+            Self::SameStation { .. } => "put both masses into one station".into(),
+            Self::NoStation { .. } | Self::NoMesh { .. } => {
+                "count them from 0, in the order in which they are given".into()
+            }
+            Self::NotConnected { .. } => "add the mesh that drives it, or leave the shaft out".into(),
+            Self::Ratios { .. } => "numbers of teeth around a closed train must agree".into(),
+            Self::Free { .. } => "give the shaft two supports and a thrust bearing, or keep the coordinate".into(),
+            Self::NotBalanced { .. } => {
+                "torques times speed ratios must add up to zero, or one shaft must be held in turning".into()
+            }
+            Self::NoEquilibrium => "is every shaft held in x, y, z and against tilting?".into(),
+            Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),
         })
     }

@@ -159,10 +159,7 @@ pub(crate) fn row_of(pair: &LumpedPair, t: f64, mesh: &MeshState, q: &DVector<f6
 /// ```
 pub(crate) fn places(frame: &MeshFrame, radii: [f64; 2], tangents: f64, [xi, z]: [f64; 2]) -> [Vec3; 2] {
     let (across, along) = (frame.across(), frame.along());
-    [
-        radii[0] * across + xi * along + z * Vec3::z(),
-        -radii[1] * across - (tangents - xi) * along + z * Vec3::z(),
-    ]
+    [radii[0] * across + xi * along + z * Vec3::z(), -radii[1] * across - (tangents - xi) * along + z * Vec3::z()]
 }
 
 /// Angle a standing pair still turns in a second, rad: what is left of the rate of excitation is below round-off.

@@ -46,8 +46,7 @@ impl MeshCycle {
     /// [`LumpedError`] for samples that are none, not numbers, of different lengths, or a stiffness that is not positive between them.
     pub fn fed(stiffness: &[f64], length: &[f64], ste: &[f64], force: f64) -> Result<Self, LumpedError> {
         let wanted = stiffness.len();
-        for (quantity, found) in
-            [("contact-line length in mm", length.len()), ("transmission error in mm", ste.len())]
+        for (quantity, found) in [("contact-line length in mm", length.len()), ("transmission error in mm", ste.len())]
         {
             if found != wanted {
                 return Err(LumpedError::Lengths { quantity, found, wanted });

@@ -46,7 +46,7 @@ pub fn linearised<M: Mechanism>(
     Ok((forces.stiffness, forces.damping))
 }
 
-/// Undamped modes of M x'' + K x = 0, ascending in frequency; `None` unless M is symmetric positive definite and K holds numbers.
+/// Undamped modes of M x'' + K x = 0, ascending in frequency; `None` unless M is symmetric positive definite and K of the same size holds numbers.
 ///
 /// ```text
 /// (K - omega^2 M) shape = 0,   s = i omega
@@ -54,7 +54,7 @@ pub fn linearised<M: Mechanism>(
 /// K may be non-symmetric. While all omega^2 are real and positive every motion is bounded. Friction follows the normal force and not its own displacement, so it
 /// makes K non-symmetric: pairs of omega^2 can merge and turn complex, and then one of the two roots grows (flutter); a negative omega^2 is divergence.
 pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Mode>> {
-    let inverse = inverse_root(mass)?;
+    let inverse = inverse_root(mass, &[stiffness])?;
     let scaled = &inverse * stiffness * inverse.transpose();
     let values = eigenvalues(&scaled)?;
     let largest = values.iter().map(|l| l.norm()).fold(0.0, f64::max);
@@ -69,7 +69,10 @@ pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<V
             let root = (-value).sqrt();
             let s = if root.re < 0.0 { -root } else { root };
             let s = if value.im == 0.0 && value.re > 0.0 { Complex::new(0.0, value.re.sqrt()) } else { s };
-            Mode { frequency_hz: s.im.abs() / TAU, growth: s.re, shape: shape(&inverse, &scaled, value, largest) }
+            let shape = shape(&inverse, &scaled, value, largest);
+            // The motion is told by the root with positive imaginary part.
+            let shape = if s.im < 0.0 { shape.conjugate() } else { shape };
+            Mode { frequency_hz: s.im.abs() / TAU, growth: s.re, shape }
         })
         .collect();
     sort(&mut modes);
@@ -81,7 +84,7 @@ pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<V
 /// Overdamped motion has two real roots, both listed with frequency 0. `None` as for [`undamped_modes`].
 pub fn damped_modes(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Mode>> {
     let n = mass.nrows();
-    let inverse = inverse_root(mass)?;
+    let inverse = inverse_root(mass, &[damping, stiffness])?;
     let [c, k] = [damping, stiffness].map(|a| &inverse * a * inverse.transpose());
     // Time in the scale of the highest frequency: both blocks of the companion matrix of one size.
     let unit = k.amax().sqrt().max(c.amax()).max(f64::MIN_POSITIVE);
@@ -96,16 +99,23 @@ pub fn damped_modes(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMa
             let s = s * unit;
             let dynamic = k.map(|x| Complex::new(x, 0.0)) + c.map(|x| s * x);
             let raw = null_vector(dynamic + DMatrix::identity(n, n) * (s * s), unit * unit);
-            Mode { frequency_hz: s.im / TAU, growth: s.re, shape: inverse.transpose().map(|x| Complex::new(x, 0.0)) * raw }
+            Mode {
+                frequency_hz: s.im / TAU,
+                growth: s.re,
+                shape: inverse.transpose().map(|x| Complex::new(x, 0.0)) * raw,
+            }
         })
         .collect();
     sort(&mut modes);
     Some(modes)
 }
 
-/// L^-1 with M = L L'.
-fn inverse_root(mass: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+/// L^-1 with M = L L'; `None` where there is none, or where the other matrices are of another size.
+fn inverse_root(mass: &DMatrix<f64>, others: &[&DMatrix<f64>]) -> Option<DMatrix<f64>> {
     let n = mass.nrows();
+    if n == 0 || mass.ncols() != n || others.iter().any(|a| a.shape() != (n, n)) {
+        return None;
+    }
     Cholesky::<f64, Dyn>::new(mass.clone())?.l().solve_lower_triangular(&DMatrix::identity(n, n))
 }
 
@@ -123,12 +133,7 @@ fn eigenvalues(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     Some(schur.complex_eigenvalues().iter().copied().collect())
 }
 
-fn shape(
-    inverse: &DMatrix<f64>,
-    scaled: &DMatrix<f64>,
-    value: Complex<f64>,
-    largest: f64,
-) -> DVector<Complex<f64>> {
+fn shape(inverse: &DMatrix<f64>, scaled: &DMatrix<f64>, value: Complex<f64>, largest: f64) -> DVector<Complex<f64>> {
     let n = scaled.nrows();
     let matrix = scaled.map(|x| Complex::new(x, 0.0)) - DMatrix::identity(n, n) * value;
     inverse.transpose().map(|x| Complex::new(x, 0.0)) * null_vector(matrix, largest)
@@ -190,5 +195,8 @@ mod tests {
         assert!(modes.len() == 1 && (modes[0].damping_ratio() - 0.1).abs() < 1e-12, "{modes:?}");
         assert!((TAU * modes[0].frequency_hz - 2.0 * 0.99f64.sqrt()).abs() < 1e-12);
         assert_eq!(one(20.0).len(), 2);
+        assert!(undamped_modes(&dmatrix![1.0], &DMatrix::zeros(2, 2)).is_none());
+        assert!(undamped_modes(&dmatrix![-1.0], &dmatrix![1.0]).is_none());
+        assert!(undamped_modes(&dmatrix![1.0], &dmatrix![f64::NAN]).is_none());
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::error::StudyError;
+use crate::error::{StudyError, positive};
 
 /// Campbell diagram: natural frequencies and lines of excitation over speed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -45,8 +45,8 @@ pub fn campbell(
     if speeds.is_empty() {
         return Err(StudyError::TooFewSamples { samples: 0, least: 1 });
     }
-    if let Some(index) = orders.iter().position(|o| !(*o > 0.0 && o.is_finite())) {
-        return Err(StudyError::NotFinite { index, value: orders[index] });
+    for &order in orders {
+        positive("order of excitation", order)?;
     }
     if let Some(index) = speeds.windows(2).position(|w| w[1] <= w[0] || !w[1].is_finite() || !w[0].is_finite()) {
         return Err(StudyError::NotAscending { index: index + 1 });

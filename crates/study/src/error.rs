@@ -46,6 +46,14 @@ pub enum StudyError {
         /// How many it takes.
         least: usize,
     },
+    /// A period, a rate, an order that must be above zero is not.
+    #[error("{quantity} = {value} must be above 0")]
+    NotPositive {
+        /// Name of the input.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// Lists that belong together are of different lengths.
     #[error("{found} entries where {wanted} are wanted")]
     Lengths {
@@ -89,6 +97,7 @@ impl StudyError {
             Self::NoGrid { .. } => Some("give a rising, finite range, at least one step and one station".into()),
             Self::NoPowerLaw { .. } => Some("measure at least two sizes".into()),
             Self::TooFewSamples { .. } => Some("take a longer record".into()),
+            Self::NotPositive { quantity, .. } => Some(format!("give a positive {quantity}")),
             Self::Lengths { .. } => Some("sample all quantities at the same times or values".into()),
             Self::NotAscending { .. } => Some("sort times and speeds, and leave out doubles".into()),
             Self::Unresolved { .. } => {
@@ -97,6 +106,11 @@ impl StudyError {
             Self::OtherPositions { .. } => Some("take a number of positions that divides the reference's".into()),
         }
     }
+}
+
+/// `value` is a number above 0.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<(), StudyError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(StudyError::NotPositive { quantity, value }) }
 }
 
 /// Every cycle has the same number of samples, at least one, and each is finite.

@@ -55,9 +55,8 @@ pub fn largest_lyapunov<E>(
     for k in 0..plan.settling + plan.stretches {
         x = advance(&x, k)?;
         y = advance(&y, k)?;
-        let apart = |y: &[f64]| {
-            y.iter().zip(&x).zip(scale).map(|((y, x), s)| ((y - x) / s).powi(2)).sum::<f64>().sqrt()
-        };
+        let apart =
+            |y: &[f64]| y.iter().zip(&x).zip(scale).map(|((y, x), s)| ((y - x) / s).powi(2)).sum::<f64>().sqrt();
         let distance = apart(&y);
         if distance > 0.0 {
             let share = plan.distance / distance;

@@ -1,6 +1,6 @@
 //! Sections of a motion: once a period, or whenever a surface is crossed.
 
-use crate::error::StudyError;
+use crate::error::{StudyError, positive};
 
 /// Points of a motion at offset, offset + period, ... by cubic interpolation between its samples.
 ///
@@ -8,7 +8,8 @@ use crate::error::StudyError;
 /// the interpolation (through the two samples on either side) is of third order.
 ///
 /// # Errors
-/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend, a period that is not positive.
+/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend, a period that is not positive or shorter than
+/// the samples are apart.
 pub fn stroboscopic_section(
     times: &[f64],
     columns: &[&[f64]],
@@ -16,10 +17,15 @@ pub fn stroboscopic_section(
     offset: f64,
 ) -> Result<Vec<Vec<f64>>, StudyError> {
     check(times, columns)?;
-    if !(period > 0.0 && period.is_finite() && offset.is_finite()) {
-        return Err(StudyError::NotFinite { index: 0, value: period });
+    positive("period", period)?;
+    if !offset.is_finite() {
+        return Err(StudyError::NotFinite { index: 0, value: offset });
     }
     let (first, last) = (times[0], times[times.len() - 1]);
+    let periods = ((last - first) / period).ceil();
+    if periods > times.len() as f64 {
+        return Err(StudyError::TooFewSamples { samples: times.len(), least: periods as usize });
+    }
     let slack = 1e-9 * period;
     let start = ((first - offset - slack) / period).ceil() as i64;
     let end = ((last - offset + slack) / period).floor() as i64;
@@ -80,9 +86,10 @@ pub fn iterated_section<S, P, E>(
 /// Columns that do not move at all count as coming back.
 pub fn section_period(points: &[Vec<f64>], tolerance: f64, scale: &[f64]) -> Option<usize> {
     let comes_back = |m: usize| {
-        points.iter().zip(&points[m..]).all(|(a, b)| {
-            a.iter().zip(b).zip(scale).all(|((a, b), s)| (a - b).abs() <= tolerance * s)
-        })
+        points
+            .iter()
+            .zip(&points[m..])
+            .all(|(a, b)| a.iter().zip(b).zip(scale).all(|((a, b), s)| (a - b).abs() <= tolerance * s))
     };
     (1..=points.len() / 3).find(|&m| comes_back(m))
 }

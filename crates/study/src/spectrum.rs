@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use serde::Serialize;
 
 use crate::{
-    error::{StudyError, check},
+    error::{StudyError, check, positive},
     transform::real_transform,
 };
 
@@ -18,7 +18,8 @@ pub enum Window {
     Hann,
     /// Four-term Blackman-Harris: side lobes 92 dB down, so that a small sideband stands out beside a large carrier; resolves eight bins.
     BlackmanHarris,
-    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins.
+    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins, and because its top is flat the frequency of a peak is
+    /// good to half a bin only.
     FlatTop,
 }
 
@@ -101,7 +102,8 @@ pub struct Sidebands {
 /// Spectrum of `samples`, taken `rate` times a second.
 ///
 /// # Errors
-/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample or rate that is not a number (or not above 0).
+/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample that is not a number, [`StudyError::NotPositive`] for a rate
+/// that is not above 0.
 ///
 /// # Example
 /// ```
@@ -118,9 +120,7 @@ pub fn spectrum(samples: &[f64], rate: f64, window: Window) -> Result<Spectrum, 
         return Err(StudyError::TooFewSamples { samples: n, least: 8 });
     }
     check(samples, 1)?;
-    if !(rate > 0.0 && rate.is_finite()) {
-        return Err(StudyError::NotFinite { index: 0, value: rate });
-    }
+    positive("sampling rate", rate)?;
     let weights: Vec<f64> = (0..n).map(|j| window.at(j as f64 / n as f64)).collect();
     let sum: f64 = weights.iter().sum();
     // The weighted mean leaves nothing at f = 0 that would leak into low lines.
@@ -234,9 +234,9 @@ pub fn scalloping_loss(window: Window) -> f64 {
     let [first, rest @ ..] = window.terms() else { return 0.0 };
     let mut sum = first * sinc(0.5);
     for (k, a) in (1..).zip(rest) {
+        // The window's sign (-1)^k and that of the kernel k bins away cancel.
         let k = f64::from(k);
-        let sign = if k as u32 % 2 == 0 { 1.0 } else { -1.0 };
-        sum += 0.5 * sign * a * (sinc(0.5 - k) + sinc(0.5 + k));
+        sum += 0.5 * a * (sinc(0.5 - k) + sinc(0.5 + k));
     }
     1.0 - sum.abs() / first
 }

@@ -13,6 +13,9 @@ use nalgebra::DVector;
 
 use super::{Forces, Ledger, Mechanism, MotionError, State, newton};
 
+/// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
 /// One step of length `h`; the ledger's entries of the step come with it. The potential in `book` is that of `from`.
 pub(super) fn step<M: Mechanism>(
     system: &mut M,
@@ -39,7 +42,12 @@ pub(super) fn step<M: Mechanism>(
         let weighted = system.mass() * &moved;
         let length = moved.dot(&weighted);
         let after = system.potential(middle, &to.q).map_err(fail(middle))?;
-        let c = if length > 0.0 { -(after - before + forces.conservative.dot(&moved)) / length } else { 0.0 };
+        let defect = after - before + forces.conservative.dot(&moved);
+        let c = if length > 0.0 && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) {
+            -defect / length
+        } else {
+            0.0
+        };
         to.v = 2.0 * &velocity - &from.v;
         if newton::settled(change, last) {
             to.a = (&to.v - &from.v) / h;

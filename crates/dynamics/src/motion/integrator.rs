@@ -3,9 +3,10 @@
 use nalgebra::{Cholesky, DVector, Dyn};
 
 use super::{
-    Crossing, Direction, Forces, Ledger, Mechanism, MotionError, State, dormand_prince, energy,
+    Crossing, Direction, Forces, Ledger, Mechanism, MotionError, State, energy,
     events::{between, root},
     generalised_alpha::Coefficients,
+    runge_kutta::{CLASSICAL, DORMAND_PRINCE},
 };
 
 /// Method of integration.
@@ -22,6 +23,8 @@ pub enum Scheme {
     Energy,
     /// Dormand-Prince 5(4), explicit.
     DormandPrince,
+    /// Runge-Kutta's classical method of fourth order, explicit.
+    RungeKutta4,
 }
 
 /// How long steps are.
@@ -214,7 +217,11 @@ impl Integrator {
             let (to, _, book) = self.one_step(system, mass, from, h)?;
             return Ok((to, book, h));
         };
-        let order = if self.scheme == Scheme::DormandPrince { 5.0 } else { 3.0 };
+        let order = match self.scheme {
+            Scheme::DormandPrince => 5.0,
+            Scheme::RungeKutta4 => 4.0,
+            Scheme::Energy | Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => 3.0,
+        };
         loop {
             let tried = self.one_step(system, mass, from, h);
             let factor = match &tried {
@@ -253,7 +260,8 @@ impl Integrator {
         let forces = &mut self.forces;
         let (to, error) = match self.scheme {
             Scheme::Energy => energy::step(system, from, h, &self.scale, forces, &mut book)?,
-            Scheme::DormandPrince => dormand_prince::step(system, mass, from, h, forces, &mut book)?,
+            Scheme::DormandPrince => DORMAND_PRINCE.step(system, mass, from, h, forces, &mut book)?,
+            Scheme::RungeKutta4 => CLASSICAL.step(system, mass, from, h, forces, &mut book)?,
             Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => {
                 let coefficients = match self.scheme {
                     Scheme::GeneralisedAlpha { rho } => Coefficients::generalised_alpha(rho),

@@ -5,7 +5,6 @@
 //! ```
 //! The same integrators run the meshed pair, the lumped models and a one-degree oscillator: what is shown for one holds for all.
 
-mod dormand_prince;
 mod energy;
 mod error;
 mod events;
@@ -14,6 +13,7 @@ mod integrator;
 mod ledger;
 mod mechanism;
 mod newton;
+mod runge_kutta;
 mod state;
 
 pub use error::MotionError;

@@ -580,6 +580,7 @@ impl Mechanism for PairMechanism {
     /// Least gap of the driving flanks and of the coast flanks, mm, with the sign turned: positive in contact.
     fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), StaticError> {
         let at = self.posture(t, q);
+        self.contact(t, &at)?;
         let cycles = self.cycles(t);
         let pair = &self.pair;
         for (side, value) in std::iter::once(&mut self.drive_side).chain(self.coast_side.as_mut()).zip(out) {

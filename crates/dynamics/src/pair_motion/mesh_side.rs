@@ -139,7 +139,7 @@ impl MeshSide {
     fn enter_modes(&mut self) -> Result<(), StaticError> {
         let Some([a, b]) = &self.modes else { return Ok(()) };
         let modal = ModalFlanks::new(&self.gears, [a, b], self.contact.contact_set())?;
-        self.contact.keep_modes(Some(modal));
+        self.contact.keep_modes(modal);
         Ok(())
     }
 
@@ -222,7 +222,7 @@ impl MeshSide {
     pub fn evaluate(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<SideForce, ContactError> {
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
-        let force = self.contact.evaluate(&poses)?;
+        let force = self.contact.evaluate_near(&poses)?;
         let all = vector(&force.wrench);
         let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
         let friction = self.friction(&poses);
@@ -237,8 +237,14 @@ impl MeshSide {
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })
     }
 
-    /// Deepest overlap of the flanks, deformed by the kept modes alone, mm; negative where they are apart. With modes the last evaluation is lost.
+    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm; negative where they are apart. Then, with modes, the last evaluation
+    /// is lost.
     pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> f64 {
+        // Where flanks overlap the deepest place is among the rows.
+        let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));
+        if deepest > 0.0 {
+            return deepest;
+        }
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
         self.contact.overlap(&poses)

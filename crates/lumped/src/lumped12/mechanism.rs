@@ -12,6 +12,7 @@ use crate::{
     history::{MeshState, STANDING, row_of, scale},
     modes::{Mode, undamped_modes},
     statics::equilibrium,
+    terms::{add_load, add_support, slope_in_time},
 };
 
 /// The model in motion.
@@ -48,9 +49,12 @@ impl Motion12 {
     pub fn new(parameters: Lumped12) -> Result<Self, LumpedError> {
         parameters.check()?;
         let bodies = parameters.pair.bodies;
-        let mass = DVector::from_iterator(12, bodies.iter().flat_map(|b| {
-            [b.mass, b.mass, b.mass, b.transverse_inertia, b.transverse_inertia, b.polar_inertia]
-        }));
+        let mass = DVector::from_iterator(
+            12,
+            bodies
+                .iter()
+                .flat_map(|b| [b.mass, b.mass, b.mass, b.transverse_inertia, b.transverse_inertia, b.polar_inertia]),
+        );
         let stiffness = std::array::from_fn(|i| parameters.supports[i / 6].stiffness[i % 6]);
         Ok(Self { parameters, mass: DMatrix::from_diagonal(&mass), stiffness })
     }
@@ -87,11 +91,8 @@ impl Motion12 {
 
     fn energy(&self, t: f64, q: &DVector<f64>) -> f64 {
         let supports: f64 = self.stiffness.iter().zip(q.iter()).map(|(k, q)| 0.5 * k * q * q).sum();
-        let mesh: f64 = self
-            .springs(t)
-            .iter()
-            .map(|s| 0.5 * s.stiffness * (s.vector.dot(q) - s.error[0]).powi(2))
-            .sum();
+        let mesh: f64 =
+            self.springs(t).iter().map(|s| 0.5 * s.stiffness * (s.vector.dot(q) - s.error[0]).powi(2)).sum();
         supports + mesh
     }
 
@@ -133,12 +134,8 @@ impl Mechanism for Motion12 {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
         let [a, b] = self.parameters.rayleigh;
         for i in 0..12 {
-            let c = a * self.mass[(i, i)] + b * self.stiffness[i];
-            out.conservative[i] -= self.stiffness[i] * q[i];
-            out.other[i] -= c * v[i];
-            out.dissipated += c * v[i] * v[i];
-            out.stiffness[(i, i)] += self.stiffness[i];
-            out.damping[(i, i)] += c;
+            let k = self.stiffness[i];
+            add_support(out, i, [k, a * self.mass[(i, i)] + b * k], [q[i], v[i]]);
         }
         for spring in self.springs(t) {
             let [elastic, viscous, rate] = spring.at(q, v);
@@ -159,13 +156,10 @@ impl Mechanism for Motion12 {
         let sign = self.parameters.pair.frame.sign();
         for (i, torque) in [5, 11].into_iter().zip(&self.parameters.pair.torques) {
             // Both about +z in the driver's sense: the load turns the driven gear back.
-            let torque = sign * torque.at(t);
-            out.other[i] += torque;
-            out.supplied += torque * v[i];
+            add_load(out, i, sign * torque.at(t), v[i]);
         }
         if !out.tangents {
-            let h = 1e-6 / self.parameters.pair.clock.mesh_frequency();
-            out.parametric = (self.energy(t + h, q) - self.energy(t - h, q)) / (2.0 * h);
+            out.parametric = slope_in_time(|t| self.energy(t, q), t, self.parameters.pair.clock.mesh_frequency());
         }
         Ok(())
     }
@@ -194,7 +188,8 @@ impl LumpedModel for Motion12 {
         let [r, big_r] = pair.base_radii;
         let te = pair.frame.sign() * (r * q[5] + big_r * q[11]);
         let cos = pair.frame.base_helix_angle.cos();
-        let rubbed: f64 = springs.iter().zip(forces).map(|(s, f)| f * s.rubbing.fixed_rows::<3>(0).dot(&pair.frame.across())).sum();
+        let rubbed: f64 =
+            springs.iter().zip(forces).map(|(s, f)| f * s.rubbing.fixed_rows::<3>(0).dot(&pair.frame.across())).sum();
         let state = MeshState {
             te,
             deflection: springs[0].vector.dot(q) / cos,

@@ -6,7 +6,11 @@ use dynamics::motion::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
 use super::{Lumped8, MeshLaw};
-use crate::{DeadZone, LumpedError, error::positive};
+use crate::{
+    Beyond, DeadZone, LumpedError,
+    error::positive,
+    terms::{add_load, add_support, slope_in_time},
+};
 
 /// Coefficients of (18), by gear (p, g).
 ///
@@ -67,6 +71,18 @@ struct Moment {
     torque: [f64; 2],
 }
 
+/// p_11 or p_12 at a state.
+struct Relative {
+    /// Its derivatives by p_1 .. p_8.
+    gradient: [f64; 8],
+    /// f(p).
+    beyond: Beyond,
+    /// p', less the rate of the error.
+    slip: f64,
+    /// K(t) / K_m.
+    stiffness: f64,
+}
+
 impl Lumped8 {
     /// Dimensionless form.
     ///
@@ -98,7 +114,8 @@ impl Lumped8 {
         let equations = Equations18 {
             support_damping: [0, 1].map(|i| each(i).damping.map(|c| xi(c, mass[i]))),
             support_stiffness: [0, 1].map(|i| each(i).stiffness.map(|k| eta(k, mass[i]))),
-            turning: [0, 1].map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
+            turning: [0, 1]
+                .map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
             mesh_damping: mass.map(|m| [self.mesh_damping, self.mesh_damping * tan].map(|c| xi(c, m))),
             mesh_stiffness: mass.map(|m| [k, k * tan].map(|k| eta(k, m))),
             kappa,
@@ -181,6 +198,79 @@ impl Dimensionless {
         [along, p[2] - p[6] - self.model.pair.frame.local_helix().tan() * along]
     }
 
+    /// p_11 and p_12 with all that (18) makes of them.
+    fn relatives(&self, now: &Moment, p: &[f64], v: &[f64]) -> [Relative; 2] {
+        let tan = self.model.pair.frame.local_helix().tan();
+        let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
+        let axial = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0];
+        let gradients = [along, std::array::from_fn(|i| axial[i] - tan * along[i])];
+        let (x, dx) = (self.relative(p), self.relative(v));
+        [0, 1].map(|k| Relative {
+            gradient: gradients[k],
+            beyond: DeadZone::new(self.equations.clearances[k]).at(x[k] - now.error[k][0]),
+            slip: dx[k] - now.error[k][1],
+            stiffness: now.stiffness,
+        })
+    }
+
+    fn add_supports(&self, gear: usize, p: &[f64], v: &[f64], out: &mut Forces) {
+        let eq = &self.equations;
+        for axis in 0..4 {
+            let i = 4 * gear + axis;
+            let [xi, eta] = match axis {
+                3 => eq.turning[gear],
+                _ => [eq.support_damping[gear][axis], eq.support_stiffness[gear][axis]],
+            };
+            let mass = self.mass[(i, i)];
+            add_support(out, i, [mass * eta, mass * 2.0 * xi], [p[i], v[i]]);
+        }
+    }
+
+    /// eta f(p) + 2 xi p' of p_11 in the rows of y and turn, of p_12 in that of z.
+    fn add_mesh(&self, gear: usize, relative: &[Relative; 2], v: &[f64], out: &mut Forces) {
+        let (first, mass) = (4 * gear, self.equations.mass_ratio[gear]);
+        let side = if gear == 0 { 1.0 } else { -1.0 };
+        for (k, row, share) in [(0, first + 1, side), (0, first + 3, 1.0), (1, first + 2, side)] {
+            let at = &relative[k];
+            let [eta, xi] = self.mesh(gear, k, at);
+            let (elastic, viscous) = (share * mass * eta * at.beyond.value, share * mass * 2.0 * xi * at.slip);
+            if k == 0 {
+                out.conservative[row] -= elastic;
+                add_load(out, row, -viscous, v[row]);
+            } else {
+                add_load(out, row, -elastic - viscous, v[row]);
+            }
+            self.add_tangents(row, share * mass, [eta, xi], at, out);
+        }
+    }
+
+    /// L_1, L_2, L_3 times the size of the bracket of p_11, in the rows of x and turn.
+    fn add_friction(&self, gear: usize, now: &Moment, at: &Relative, v: &[f64], out: &mut Forces) {
+        let mass = self.equations.mass_ratio[gear];
+        let [eta, xi] = self.mesh(gear, 0, at);
+        let bracket = mass * (eta * at.beyond.value + 2.0 * xi * at.slip);
+        let rows = match gear {
+            0 => [(0, now.lines[0]), (3, -now.lines[1])],
+            _ => [(4, -now.lines[0]), (7, now.lines[2])],
+        };
+        for (row, lever) in rows {
+            add_load(out, row, lever * bracket.abs(), v[row]);
+            self.add_tangents(row, -lever * bracket.signum() * mass, [eta, xi], at, out);
+        }
+    }
+
+    /// eta and xi of the mesh now.
+    fn mesh(&self, gear: usize, k: usize, at: &Relative) -> [f64; 2] {
+        [self.equations.mesh_stiffness[gear][k] * at.stiffness, self.equations.mesh_damping[gear][k]]
+    }
+
+    fn add_tangents(&self, row: usize, share: f64, [eta, xi]: [f64; 2], at: &Relative, out: &mut Forces) {
+        for (j, gradient) in at.gradient.iter().enumerate() {
+            out.stiffness[(row, j)] += share * eta * at.beyond.slope * gradient;
+            out.damping[(row, j)] += share * 2.0 * xi * gradient;
+        }
+    }
+
     /// Elastic energy of supports and the transverse spring, in m_e b_n^2 omega_n^2.
     fn energy(&self, tau: f64, p: &[f64]) -> f64 {
         let (eq, now) = (&self.equations, self.at(tau));
@@ -205,77 +295,23 @@ impl Mechanism for Dimensionless {
     }
 
     fn forces(&mut self, tau: f64, p: &DVector<f64>, rate: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
-        let (p, v, eq, now) = (p.as_slice(), rate.as_slice(), &self.equations, self.at(tau));
-        let tan = self.model.pair.frame.local_helix().tan();
-        // Gradients of p_11 and p_12.
-        let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
-        let across = std::array::from_fn::<f64, 8, _>(|i| [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0][i] - tan * along[i]);
-        let gradients = [along, across];
-        let (x, dx) = (self.relative(p), self.relative(v));
-        let beyond = [0, 1].map(|k| DeadZone::new(eq.clearances[k]).at(x[k] - now.error[k][0]));
-        let slip = [0, 1].map(|k| dx[k] - now.error[k][1]);
+        let (p, v) = (p.as_slice(), rate.as_slice());
+        let now = self.at(tau);
+        let relative = self.relatives(&now, p, v);
         for gear in 0..2 {
-            let (first, mass) = (4 * gear, eq.mass_ratio[gear]);
-            let side = if gear == 0 { 1.0 } else { -1.0 };
-            for axis in 0..3 {
-                let (i, xi, eta) = (first + axis, eq.support_damping[gear][axis], eq.support_stiffness[gear][axis]);
-                out.conservative[i] -= mass * eta * p[i];
-                out.other[i] -= mass * 2.0 * xi * v[i];
-                out.dissipated += mass * 2.0 * xi * v[i] * v[i];
-                out.stiffness[(i, i)] += mass * eta;
-                out.damping[(i, i)] += mass * 2.0 * xi;
-            }
-            let (turn, inertia) = (first + 3, mass / eq.kappa[gear]);
-            let [xi, eta] = eq.turning[gear];
-            out.conservative[turn] -= inertia * eta * p[turn];
-            out.other[turn] -= inertia * 2.0 * xi * v[turn];
-            out.dissipated += inertia * 2.0 * xi * v[turn] * v[turn];
-            out.stiffness[(turn, turn)] += inertia * eta;
-            out.damping[(turn, turn)] += inertia * 2.0 * xi;
-            out.other[turn] += inertia * now.torque[gear];
-            out.supplied += inertia * now.torque[gear] * v[turn];
-            for k in 0..2 {
-                let (eta, xi) = (eq.mesh_stiffness[gear][k] * now.stiffness, eq.mesh_damping[gear][k]);
-                let (elastic, viscous) = (mass * eta * beyond[k].value, mass * 2.0 * xi * slip[k]);
-                // Rows that the force enters, and by how much: y and turn for p_11, z for p_12, friction by the bracket of p_11.
-                let rows: &[(usize, f64)] = if k == 0 { &[(first + 1, side), (turn, 1.0)] } else { &[(first + 2, side)] };
-                for &(i, share) in rows {
-                    let held = if k == 0 { &mut out.conservative } else { &mut out.other };
-                    held[i] -= share * elastic;
-                    out.other[i] -= share * viscous;
-                    if k == 0 {
-                        out.supplied -= share * viscous * v[i];
-                    } else {
-                        out.supplied -= share * (elastic + viscous) * v[i];
-                    }
-                    for j in 0..8 {
-                        out.stiffness[(i, j)] += share * mass * eta * beyond[k].slope * gradients[k][j];
-                        out.damping[(i, j)] += share * mass * 2.0 * xi * gradients[k][j];
-                    }
-                }
-                if k == 1 {
-                    continue;
-                }
-                let bracket = elastic + viscous;
-                let levers = [(first, side * now.lines[0]), (turn, if gear == 0 { -now.lines[1] } else { now.lines[2] })];
-                for (i, lever) in levers {
-                    out.other[i] += lever * bracket.abs();
-                    out.supplied += lever * bracket.abs() * v[i];
-                    for j in 0..8 {
-                        let sign = lever * bracket.signum() * mass;
-                        out.stiffness[(i, j)] -= sign * eta * beyond[0].slope * gradients[0][j];
-                        out.damping[(i, j)] -= sign * 2.0 * xi * gradients[0][j];
-                    }
-                }
-            }
+            self.add_supports(gear, p, v, out);
+            let turn = 4 * gear + 3;
+            add_load(out, turn, self.mass[(turn, turn)] * now.torque[gear], v[turn]);
+            self.add_mesh(gear, &relative, v, out);
+            self.add_friction(gear, &now, &relative[0], v, out);
         }
         // The mesh damper takes its force times the slip; the rest of its work goes to the error's motion.
-        let taken = eq.mass_ratio[0] * 2.0 * eq.mesh_damping[0][0] * slip[0];
-        out.dissipated += taken * slip[0];
-        out.supplied += taken * slip[0];
+        let taken = self.equations.mass_ratio[0] * 2.0 * self.equations.mesh_damping[0][0] * relative[0].slip.powi(2);
+        out.dissipated += taken;
+        out.supplied += taken;
         if !out.tangents {
-            let h = 1e-6 * self.omega / self.model.pair.clock.mesh_frequency();
-            out.parametric = (self.energy(tau + h, p) - self.energy(tau - h, p)) / (2.0 * h);
+            let frequency = self.model.pair.clock.mesh_frequency() / self.omega;
+            out.parametric = slope_in_time(|tau| self.energy(tau, p), tau, frequency);
         }
         Ok(())
     }

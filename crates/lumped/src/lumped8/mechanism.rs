@@ -14,6 +14,7 @@ use crate::{
     DeadZone, HistoryRow, LineMeans, LumpedError, LumpedModel, LumpedPair, MeshClock,
     history::{MeshState, STANDING, places, row_of, scale},
     statics::equilibrium,
+    terms::{add_load, add_support, slope_in_time},
 };
 
 /// The model in motion. Coordinates: x_p, y_p, z_p (mm), theta_p (rad), x_g, y_g, z_g, theta_g.
@@ -119,11 +120,7 @@ impl Motion8 {
 
     fn mesh(&self, t: f64, q: &[f64], v: &[f64]) -> Mesh {
         let springs = self.springs(t).map(|s| s.map(|s| (s, s.at(q, v))));
-        let first = springs[0].map_or(0.0, |(_, f)| f.total());
-        let normal = match self.parameters.law {
-            MeshLaw::Normal => first,
-            MeshLaw::Projected => first / self.parameters.pair.frame.base_helix_angle.cos(),
-        };
+        let normal = self.normal_share() * springs[0].map_or(0.0, |(_, f)| f.total());
         let pair = &self.parameters.pair;
         let lines = if pair.friction == 0.0 { LineMeans::default() } else { pair.plane.at(pair.clock.cycles(t)) };
         Mesh { springs, normal, lines }
@@ -136,12 +133,35 @@ impl Motion8 {
         [s, 0.0, 0.0, -s_xi, -s, 0.0, 0.0, s_xi - pair.plane.tangent_length * s]
     }
 
+    /// Friction follows |F_N|: its tangents are those of the first spring.
+    fn add_friction(&self, mesh: &Mesh, v: &[f64], out: &mut Forces) {
+        let shape = self.friction(&mesh.lines);
+        let slope = self.normal_share() * mesh.normal.signum();
+        for i in 0..8 {
+            add_load(out, i, shape[i] * mesh.normal.abs(), v[i]);
+            if let Some((spring, at)) = &mesh.springs[0] {
+                for j in 0..8 {
+                    out.stiffness[(i, j)] -= shape[i] * slope * at.slope * spring.jacobian[j];
+                    out.damping[(i, j)] -= shape[i] * slope * spring.damping * spring.jacobian[j];
+                }
+            }
+        }
+    }
+
+    /// F_N over the force of the first spring.
+    fn normal_share(&self) -> f64 {
+        match self.parameters.law {
+            MeshLaw::Normal => 1.0,
+            MeshLaw::Projected => 1.0 / self.parameters.pair.frame.base_helix_angle.cos(),
+        }
+    }
+
     /// Elastic energy.
     fn energy(&self, t: f64, q: &[f64]) -> f64 {
         let supports: f64 = self.stiffness.iter().zip(q).map(|(k, q)| 0.5 * k * q * q).sum();
-        let conservative = |s: &Spring| s.action == s.jacobian;
         let springs = self.springs(t);
-        let mesh: f64 = springs.iter().flatten().filter(|s| conservative(s)).map(|s| s.at(q, &[0.0; 8]).potential).sum();
+        let mesh: f64 =
+            springs.iter().flatten().filter(|s| s.is_reciprocal()).map(|s| s.at(q, &[0.0; 8]).potential).sum();
         supports + mesh
     }
 }
@@ -157,63 +177,19 @@ impl Mechanism for Motion8 {
         let (q, v) = (q.as_slice(), v.as_slice());
         let mesh = self.mesh(t, q, v);
         for i in 0..8 {
-            out.conservative[i] -= self.stiffness[i] * q[i];
-            out.other[i] -= self.damping[i] * v[i];
-            out.dissipated += self.damping[i] * v[i] * v[i];
-            out.stiffness[(i, i)] += self.stiffness[i];
-            out.damping[(i, i)] += self.damping[i];
+            add_support(out, i, [self.stiffness[i], self.damping[i]], [q[i], v[i]]);
         }
         for (spring, force) in mesh.springs.iter().flatten() {
-            let reciprocal = spring.action == spring.jacobian;
-            let elastic = if reciprocal { &mut out.conservative } else { &mut out.other };
-            let mut acting = 0.0;
-            for i in 0..8 {
-                elastic[i] -= spring.action[i] * force.elastic;
-                acting += spring.action[i] * v[i];
-            }
-            for i in 0..8 {
-                out.other[i] -= spring.action[i] * force.viscous;
-                for j in 0..8 {
-                    out.stiffness[(i, j)] += spring.action[i] * force.slope * spring.jacobian[j];
-                    out.damping[(i, j)] += spring.action[i] * spring.damping * spring.jacobian[j];
-                }
-            }
-            if reciprocal {
-                // The damper takes C (delta' - e')^2; what it gives to the error's motion comes from outside.
-                out.dissipated += force.viscous * (force.rate - spring.error[1]);
-                out.supplied -= force.viscous * spring.error[1];
-            } else {
-                out.supplied -= force.total() * acting;
-            }
+            spring.add(force, v, out);
         }
         if self.parameters.pair.friction != 0.0 {
-            let shape = self.friction(&mesh.lines);
-            let ratio = match self.parameters.law {
-                MeshLaw::Normal => 1.0,
-                MeshLaw::Projected => 1.0 / self.parameters.pair.frame.base_helix_angle.cos(),
-            };
-            let sign = ratio * mesh.normal.signum();
-            for i in 0..8 {
-                let force = shape[i] * mesh.normal.abs();
-                out.other[i] += force;
-                out.supplied += force * v[i];
-                if let Some((spring, at)) = &mesh.springs[0] {
-                    for j in 0..8 {
-                        out.stiffness[(i, j)] -= shape[i] * sign * at.slope * spring.jacobian[j];
-                        out.damping[(i, j)] -= shape[i] * sign * spring.damping * spring.jacobian[j];
-                    }
-                }
-            }
+            self.add_friction(&mesh, v, out);
         }
         for (i, torque) in [3, 7].into_iter().zip(&self.parameters.pair.torques) {
-            let torque = torque.at(t);
-            out.other[i] += torque;
-            out.supplied += torque * v[i];
+            add_load(out, i, torque.at(t), v[i]);
         }
         if !out.tangents {
-            // Slope of the potential with time at fixed coordinates; k and e are smooth over a millionth of a cycle.
-            let h = 1e-6 / self.parameters.pair.clock.mesh_frequency();
-            out.parametric = (self.energy(t + h, q) - self.energy(t - h, q)) / (2.0 * h);
+            out.parametric = slope_in_time(|t| self.energy(t, q), t, self.parameters.pair.clock.mesh_frequency());
         }
         Ok(())
     }

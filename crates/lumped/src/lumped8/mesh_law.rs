@@ -1,5 +1,7 @@
 //! Mesh force from the relative displacement of the flanks, transverse and axial.
 
+use dynamics::motion::Forces;
+use geometry::GearPair;
 use serde::{Deserialize, Serialize};
 
 use crate::DeadZone;
@@ -26,6 +28,17 @@ pub enum MeshLaw {
     /// at 10 degrees). And F_z moves the gears along their axes without loading the line of action in return: the linear matrix is not symmetric, and the axial force does
     /// work out of nothing, which the ledger books as supplied.
     Projected,
+}
+
+impl MeshLaw {
+    /// Half backlash b_n along the normal (mm) that gives a pair its backlash j along the transverse line of action: j/2 cos b_b, or j/2 / cos b_b where the clearance is projected.
+    pub fn half_backlash(self, pair: &GearPair) -> f64 {
+        let (half, cos) = (0.5 * pair.backlash().max(0.0), pair.base_helix_angle().cos());
+        match self {
+            Self::Normal => half * cos,
+            Self::Projected => half / cos,
+        }
+    }
 }
 
 /// One spring and damper of the mesh: a displacement that is linear in the coordinates.
@@ -74,6 +87,35 @@ impl Spring {
             potential: self.stiffness * beyond.potential(),
             touching: beyond.slope > 0.0,
             rate,
+        }
+    }
+
+    /// Whether the force acts along its own displacement and so has a potential.
+    pub fn is_reciprocal(&self) -> bool {
+        self.action == self.jacobian
+    }
+
+    /// Force, tangents and powers at velocities `v`.
+    pub fn add(&self, force: &SpringForce, v: &[f64], out: &mut Forces) {
+        let elastic = if self.is_reciprocal() { &mut out.conservative } else { &mut out.other };
+        let mut acting = 0.0;
+        for i in 0..8 {
+            elastic[i] -= self.action[i] * force.elastic;
+            acting += self.action[i] * v[i];
+        }
+        for i in 0..8 {
+            out.other[i] -= self.action[i] * force.viscous;
+            for j in 0..8 {
+                out.stiffness[(i, j)] += self.action[i] * force.slope * self.jacobian[j];
+                out.damping[(i, j)] += self.action[i] * self.damping * self.jacobian[j];
+            }
+        }
+        if self.is_reciprocal() {
+            // The damper takes C (delta' - e')^2; what it gives to the error's motion comes from outside.
+            out.dissipated += force.viscous * (force.rate - self.error[1]);
+            out.supplied -= force.viscous * self.error[1];
+        } else {
+            out.supplied -= force.total() * acting;
         }
     }
 }

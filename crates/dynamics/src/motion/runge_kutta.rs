@@ -1,0 +1,96 @@
+//! Explicit Runge-Kutta methods, for comparison and for systems without stiff parts.
+//!
+//! Work of the forces is integrated along as further unknowns. The last stage of a table stands at the end of the step, with the weights of the
+//! method itself: it gives the accelerations there, and the estimate of the error a value to compare with.
+
+use nalgebra::{Cholesky, DVector, Dyn};
+
+use super::{Forces, Ledger, Mechanism, MotionError, State};
+
+/// A method with `S` stages, the last of them at the end of the step.
+#[derive(Debug)]
+pub(super) struct Table<const S: usize> {
+    nodes: [f64; S],
+    stages: [[f64; S]; S],
+    /// What the weights differ by from those of the method one order lower.
+    difference: [f64; S],
+}
+
+/// Runge-Kutta's classical method of fourth order (W. Kutta, Z. Math. Phys. 46 (1901) 435).
+///
+/// Its weight 1/6 of the fourth stage may be shared with the value at the end of the step in any proportion without loss of the third order: with a
+/// tenth there, the difference is h (k_4 - k_5) / 10.
+pub(super) const CLASSICAL: Table<5> = Table {
+    nodes: [0.0, 0.5, 0.5, 1.0, 1.0],
+    stages: [
+        [0.0; 5],
+        [0.5, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.5, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0, 0.0],
+        [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0],
+    ],
+    difference: [0.0, 0.0, 0.0, 0.1, -0.1],
+};
+
+/// Dormand-Prince 5(4) (J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19).
+pub(super) const DORMAND_PRINCE: Table<7> = Table {
+    nodes: [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0],
+    stages: [
+        [0.0; 7],
+        [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0, 0.0],
+        [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0, 0.0],
+        [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0, 0.0],
+        [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0],
+    ],
+    difference: [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0],
+};
+
+impl<const S: usize> Table<S> {
+    /// One step of length `h`; the ledger's entries of the step come with it.
+    pub(super) fn step<M: Mechanism>(
+        &self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+        forces: &mut Forces,
+        book: &mut Ledger,
+    ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+        forces.tangents = false;
+        let mut rates: Vec<(DVector<f64>, DVector<f64>, [f64; 3])> = Vec::with_capacity(S);
+        for (stage, &node) in self.stages.iter().zip(&self.nodes) {
+            let time = from.time + node * h;
+            let (mut q, mut v) = (from.q.clone(), from.v.clone());
+            for (rate, &weight) in rates.iter().zip(stage).filter(|(_, weight)| **weight != 0.0) {
+                q.axpy(h * weight, &rate.0, 1.0);
+                v.axpy(h * weight, &rate.1, 1.0);
+            }
+            forces.clear();
+            system.forces(time, &q, &v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
+            let mut a = &forces.conservative + &forces.other;
+            mass.solve_mut(&mut a);
+            rates.push((v, a, [forces.supplied, forces.parametric, forces.dissipated]));
+        }
+        let mut to = from.clone();
+        to.time = from.time + h;
+        let mut error = DVector::zeros(to.q.len());
+        for (i, (v, a, powers)) in rates.iter().enumerate() {
+            let weight = self.stages[S - 1][i];
+            to.q.axpy(h * weight, v, 1.0);
+            to.v.axpy(h * weight, a, 1.0);
+            error.axpy(h * self.difference[i], v, 1.0);
+            error.axpy(h * h * self.difference[i], a, 1.0);
+            book.supplied += h * weight * powers[0];
+            book.parametric += h * weight * powers[1];
+            book.dissipated += h * weight * powers[2];
+        }
+        to.a.copy_from(&rates[S - 1].1);
+        to.averaged.copy_from(&to.a);
+        to.last_step = h;
+        let time = to.time;
+        book.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
+        Ok((to, error))
+    }
+}

@@ -1,0 +1,220 @@
+//! Equations of motion of rigid gears on their true flanks.
+
+use std::convert::Infallible;
+
+use contact::Pose;
+use dynamics::{
+    StaticOptions, Station,
+    motion::{Forces, Mechanism},
+    pair_motion::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed},
+};
+use geometry::GearPair;
+use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
+
+use super::{
+    ImpactOptions,
+    flanks::{FlankSide, Standing},
+    forces::{FlankForce, Square},
+};
+use crate::LumpedError;
+
+/// A pair of rigid gears as an integrator sees it.
+///
+/// ```text
+/// M q'' = T' [sum of slices (F J_n + R) - K_b d - C_b d' - G d' + loads - M a_nominal],   d = T q
+/// F = w max(0, K delta^e + C s delta'),  delta = -g(d),  delta' = -J_n . (d' + v_nominal),   w = l_slice / (b / cos b_b)
+/// R = -mu(|v_t|) F J_t' v_t / |v_t|,   v_t sliding velocity of the flanks in their tangent plane
+/// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
+/// ```
+/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where its place is one of least gap or on the pinion's tip edge, since
+/// slices stand on the pinion; at the wheel's edge, which then slides along, to a thousandth of the largest force.
+#[derive(Debug)]
+pub struct ImpactMechanism {
+    pair: GearPair,
+    options: ImpactOptions,
+    /// Driver and sense, as the coordinates of pair motion want them.
+    running: StaticOptions,
+    coordinates: Coordinates,
+    mass: DMatrix<f64>,
+    nominal: Nominal,
+    sides: [FlankSide; 2],
+    bearing: [Square; 2],
+    share: f64,
+}
+
+impl ImpactMechanism {
+    /// A pair with its line of centres along +x.
+    ///
+    /// # Errors
+    /// [`LumpedError`] when an option has no meaning.
+    pub fn new(pair: GearPair, options: ImpactOptions) -> Result<Self, LumpedError> {
+        options.check()?;
+        let running = StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
+        let (speed, by_torque) = match &options.drive {
+            Drive::Speed(speed) => (*speed, false),
+            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
+        };
+        let mut free = options.free;
+        free[1 - running.driven()][COORDINATES - 1] = by_torque;
+        let coordinates = Coordinates::new(&pair, &running, free);
+        let mass = coordinates.mass(&options.bodies);
+        let nominal = Nominal { speed, start: options.start_cycles };
+        let sides = [running.side(), running.side().opposite()].map(|s| FlankSide::new(&pair, s, options.slices));
+        let mut bearing = [Square::zeros(); 2];
+        for (g, b) in options.bearings.iter().enumerate() {
+            let at = COORDINATES * g;
+            bearing[0].fixed_view_mut::<6, 6>(at, at).copy_from(&b.stiffness);
+            bearing[1].fixed_view_mut::<6, 6>(at, at).copy_from(&b.damping);
+        }
+        let share = 1.0 / options.slices as f64;
+        Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
+    }
+
+    /// The pair.
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    /// Free coordinates.
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// Nominal motion at a time, s.
+    pub fn moment(&self, t: f64) -> Moment {
+        self.nominal.at(&self.pair, &self.running, t)
+    }
+
+    /// Mesh cycles at a time, s.
+    pub fn cycles(&self, t: f64) -> f64 {
+        self.nominal.cycles(&self.pair, &self.running, t)
+    }
+
+    fn standing(&self, t: f64) -> Standing {
+        let station = Station::at_cycles(self.cycles(t));
+        let sign = self.running.sense.sign();
+        let side = self.running.side();
+        let pinion_angle =
+            self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
+        Standing { pinion_angle, shift: -sign * station.cycle, wheel_angle: self.pair.wheel_angle(side, pinion_angle) }
+    }
+
+    fn poses(&self, at: &Standing, d: &Displacement) -> [Pose; 2] {
+        let angles = at.frame_angles(&self.pair);
+        [0, 1].map(|g| {
+            let i = COORDINATES * g;
+            let place = Vector3::new([0.0, self.pair.centre_distance()][g] + d[i], d[i + 1], d[i + 2]);
+            let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[i + 3], d[i + 4], 0.0));
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[g] + d[i + 5]);
+            Pose::from_parts(Translation3::from(place), tilt * turn)
+        })
+    }
+
+    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal motion.
+    pub fn flank_forces(&mut self, t: f64, d: &Displacement, rate: &Displacement) -> [FlankForce; 2] {
+        let at = self.standing(t);
+        let poses = self.poses(&at, d);
+        let moment = self.moment(t);
+        let mut nominal = Displacement::zeros();
+        (nominal[COORDINATES - 1], nominal[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
+        let velocity = rate + nominal;
+        let Self { pair, options, sides, share, .. } = self;
+        let whole = pair.face_width() / pair.base_helix_angle().cos();
+        sides.each_mut().map(|side| {
+            let mut sum = FlankForce::none();
+            side.search(pair, &at, &poses, |slice| {
+                sum.add(&slice, &poses, options, *share, [&velocity, &nominal]);
+                if slice.place.gap < 0.0 {
+                    sum.length += *share * whole;
+                }
+            });
+            sum
+        })
+    }
+
+    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero when the load drives.
+    pub(super) fn guessed_lag(&self) -> f64 {
+        let driven = self.running.driven();
+        let radius = [&self.pair.pinion, &self.pair.wheel][driven].base_radius();
+        let cos = self.pair.base_helix_angle().cos();
+        let force = self.options.load.at(0.0) / (radius * cos);
+        let overlap = (0.5 * force.abs() / self.options.law.stiffness).powf(self.options.law.exponent.recip()) / cos;
+        // The coast flanks begin where the backlash ends.
+        if force < 0.0 { -overlap - self.pair.backlash() } else { overlap }
+    }
+
+    /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
+    fn external(&self, t: f64, moment: &Moment) -> Displacement {
+        let driven = self.running.driven();
+        let turn = |g: usize| COORDINATES * (g + 1) - 1;
+        let mut f = Displacement::zeros();
+        f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
+        if let Drive::Torque { torque, .. } = &self.options.drive {
+            f[turn(1 - driven)] += moment.running_sense(1 - driven) * torque.at(t);
+        }
+        for (g, body) in self.options.bodies.iter().enumerate() {
+            f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
+        }
+        f
+    }
+
+    fn gyroscopic(&self, moment: &Moment) -> Square {
+        let mut g = Square::zeros();
+        for (i, body) in self.options.bodies.iter().enumerate() {
+            let at = COORDINATES * i + 3;
+            g.fixed_view_mut::<3, 3>(at, at).copy_from(&body.gyroscopic(moment.velocity[i]));
+        }
+        g
+    }
+}
+
+impl Mechanism for ImpactMechanism {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
+        let moment = self.moment(t);
+        let [driving, coast] = self.flank_forces(t, &d, &rate);
+        let external = self.external(t, &moment);
+        let gyroscopic = self.gyroscopic(&moment);
+        let lossy = driving.damping + driving.friction + coast.damping + coast.friction - self.bearing[1] * rate;
+        out.supplied = external.dot(&rate);
+        // Power against the deviations; what friction takes of the nominal motion the drive replaces.
+        out.dissipated = -lossy.dot(&rate);
+        out.parametric = driving.parametric + coast.parametric;
+        let conservative = driving.elastic + coast.elastic - self.bearing[0] * d;
+        self.coordinates.add_force(&conservative, &mut out.conservative);
+        self.coordinates.add_force(&(external + lossy - gyroscopic * rate), &mut out.other);
+        if out.tangents {
+            let stiffness = driving.stiffness + coast.stiffness + self.bearing[0];
+            let rates = driving.rates + coast.rates + self.bearing[1] + gyroscopic;
+            self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
+            self.coordinates.add_matrix(&rates, 1.0, &mut out.damping);
+        }
+        Ok(())
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
+        let d = self.coordinates.displacement(q);
+        let flanks: f64 = self.flank_forces(t, &d, &Displacement::zeros()).iter().map(|f| f.potential).sum();
+        Ok(flanks + 0.5 * d.dot(&(self.bearing[0] * d)))
+    }
+
+    fn events(&self) -> usize {
+        2
+    }
+
+    /// Deepest overlap of the driving and of the coast flanks, mm: positive in contact.
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
+        let d = self.coordinates.displacement(q);
+        for (force, value) in self.flank_forces(t, &d, &Displacement::zeros()).iter().zip(out) {
+            // Teeth so far apart that no slice faces another are a whole module away.
+            *value = force.overlap.max(-self.pair.pinion.data().normal_module);
+        }
+        Ok(())
+    }
+}
