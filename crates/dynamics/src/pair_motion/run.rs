@@ -117,7 +117,7 @@ impl Motion {
         settings: MotionSettings,
         from: Checkpoint,
     ) -> Result<Self, PairMotionError> {
-        if from.state.q.len() != system.coordinates().count() {
+        if from.state.q.len() != system.count() {
             return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
         }
         let Checkpoint { cycle, state, ledger, place, counts } = from;
