@@ -10,8 +10,8 @@ use dynamics::{
     Driver, StaticOptions,
     motion::Scheme,
     pair_motion::{
-        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, Speed,
-        SteadyBy, SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
+        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, PairMechanism, SHOTS, SteadyBy, SteadyOptions,
+        SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
     },
 };
 use nalgebra::Matrix6;

@@ -255,7 +255,7 @@ impl MeshContact {
     /// Forces of the rows as they are.
     fn forces(&mut self) -> Result<&MeshForce, ContactError> {
         self.solve(Balance::Held, 0)?;
-        let Self { force, found: Found { rows, at, .. }, solver, set, .. } = self;
+        let Self { force, found: Found { rows, at, .. }, gaps, solver, set, .. } = self;
         let poses = at.unwrap_or([Pose::identity(); 2]);
         force.wrench = wrenches(&poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
@@ -267,10 +267,23 @@ impl MeshContact {
         for (row, f) in rows.iter().zip(solver.forces()) {
             force.pair_forces[set.pair_of(row.patches.0)] += f;
         }
-        let halves = solver.forces().iter().zip(solver.openings()).map(|(f, o)| 0.5 * f * o).sum::<f64>();
-        force.strain_energy = halves + solver.curved_energy();
+        // By the dual functional -g F - U*(F), stationary at the solution: what forces are off by shows in its square only.
+        let of_row = |((f, o), g): ((&f64, &f64), &f64)| if *f > 0.0 { -f * (g + 0.5 * o) } else { 0.0 };
+        let dual = solver.forces().iter().zip(solver.openings()).zip(gaps.iter()).map(of_row).sum::<f64>();
+        force.strain_energy = dual + solver.curved_energy();
         (force.iterations, force.residual) = (solver.iterations(), solver.residual());
         Ok(&self.force)
+    }
+
+    /// The tangent of the last evaluation with `share(i)` times the normal force of row i: what a damper does that takes a part of it.
+    pub(crate) fn tangent_with(&mut self, share: impl Fn(usize) -> f64) -> [[f64; 12]; 12] {
+        let Self { found: Found { rows, at, .. }, solver, .. } = self;
+        let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
+        solver.tangent_of_loads(|i| {
+            let row = &rows[i];
+            let load = row.traction + (share(i) - 1.0) * row.normal;
+            [row.normal, load].map(|direction| opening(row, &direction, &centres))
+        })
     }
 
     /// Forces of the last evaluation.

@@ -402,13 +402,17 @@ impl Mechanism for PairMechanism {
         let mut stiffness = self.bearing[0];
         let mut damping = self.bearing[1];
         out.dissipated = rate.dot(&(self.bearing[1] * rate));
-        for (side, force) in [(Some(&self.drive_side), Some(&driving)), (self.coast_side.as_ref(), coast.as_ref())] {
+        let Self { pair, drive_side, coast_side, damping: per_length, .. } = self;
+        for (side, force) in [(Some(drive_side), Some(&driving)), (coast_side.as_mut(), coast.as_ref())] {
             let (Some(side), Some(force)) = (side, force) else { continue };
             normal += force.normal;
             other += force.friction;
-            stiffness += force.stiffness;
-            let poses = side.poses(&self.pair, cycles, &d);
-            let (damped, matrix, power) = side.damping(&poses, &rate, self.damping);
+            let poses = side.poses(pair, cycles, &d);
+            let (damped, matrix, power) = side.damping(&poses, &rate, *per_length);
+            if out.tangents {
+                let limited = side.stiffness_where_limited(&poses, &rate, *per_length);
+                stiffness += limited.unwrap_or(force.stiffness);
+            }
             other += damped;
             damping += matrix;
             out.dissipated += power;

@@ -214,8 +214,10 @@ impl MeshSide {
     /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
     ///
     /// ```text
-    /// F_d = -c h dg/dt,  F + F_d >= 0
+    /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
+    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that approach begin without a jump, which no implicit step could
+    /// settle on.
     pub fn damping(
         &self,
         poses: &[Pose; 2],
@@ -225,24 +227,46 @@ impl MeshSide {
         let (mut force, mut matrix, mut power) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
         for (f, length, j, opening) in self.pressed(poses, velocity) {
             let c = per_length * length;
-            // Parting flanks let go at most as much as they press.
-            if c * opening <= f {
-                force -= c * opening * j;
+            let taken = (c * opening).clamp(-f, f);
+            force -= taken * j;
+            power += taken * opening;
+            if (c * opening).abs() <= f {
                 matrix += c * j * j.transpose();
-                power += c * opening * opening;
-            } else {
-                force -= f * j;
-                power += f * opening;
             }
         }
         (force, matrix, power)
+    }
+
+    /// -df/dd of the contact with its damping, where some slices' damping is as large as their force and goes with it; `None` where there are none.
+    pub fn stiffness_where_limited(
+        &mut self,
+        poses: &[Pose; 2],
+        velocity: &Displacement,
+        per_length: f64,
+    ) -> Option<SMatrix<f64, 12, 12>> {
+        let mut limited = Vec::new();
+        let mut pressed = self.pressed(poses, velocity);
+        for (i, f) in self.contact.solver().forces().iter().enumerate().filter(|(_, f)| **f > 0.0) {
+            if let Some((_, length, _, opening)) = pressed.next()
+                && per_length * length * opening.abs() > *f
+            {
+                limited.push((i, if opening > 0.0 { 0.0 } else { 2.0 }));
+            }
+        }
+        drop(pressed);
+        if limited.is_empty() {
+            return None;
+        }
+        let share = |i: usize| limited.binary_search_by_key(&i, |l| l.0).map_or(1.0, |at| limited[at].1);
+        let tangent = self.contact.tangent_with(share);
+        Some(SMatrix::from_fn(|i, j| -tangent[i][j]))
     }
 
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
     pub fn normal_forces(&self, poses: &[Pose; 2], velocity: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
         for (f, length, _, opening) in self.pressed(poses, velocity) {
-            let total = f - (per_length * length * opening).min(f);
+            let total = f - (per_length * length * opening).clamp(-f, f);
             sum += total;
             least = least.min(total);
         }
