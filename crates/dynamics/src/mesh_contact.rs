@@ -124,7 +124,8 @@ impl Found {
             let turned = (poses[g].rotation * at[g].rotation.inverse()).scaled_axis();
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
             motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
-            if !(moved.norm() + radius * turned.norm() <= NEAR) {
+            let way = moved.norm() + radius * turned.norm();
+            if way > NEAR || way.is_nan() {
                 return None;
             }
         }
