@@ -3,94 +3,42 @@
 
 mod support;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use ale::Sense;
 use dynamics::{
-    Driver, ElasticGear, StaticError, StaticOptions,
+    Driver, StaticError, StaticOptions,
     motion::{MotionError, Scheme},
     pair_motion::{
-        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody,
-        SHOTS, Speed, SteadyBy, SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
+        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
+        SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
     },
 };
 use nalgebra::Matrix6;
-use support::Case;
+use support::moving::{MovingPair, rows, worst};
 
 const TORQUE: f64 = 150e3;
 const ROWS: usize = 32;
 
 /// The default pair on tiny meshes: the same for all tests of a sense and a driver.
-struct Bench {
-    case: Case,
-    contact: StaticOptions,
-    gears: Arc<[ElasticGear; 2]>,
-    ste: Vec<f64>,
-    means: [f64; 2],
-    bodies: [RigidBody; 2],
+fn tiny(driver: Driver, sense: Sense) -> MovingPair {
+    let case = support::generated(20.0, [2, 2, 2, 2, 1]);
+    let contact = StaticOptions { driver, sense, ..case.slice_options() };
+    MovingPair::new(case, contact, 8)
 }
 
-impl Bench {
-    fn new(driver: Driver, sense: Sense) -> Self {
-        let case = support::generated(20.0, [2, 2, 2, 2, 1]);
-        let contact = StaticOptions { driver, sense, ..case.slice_options() };
-        let mut model = case.reduced(contact.clone());
-        let all = model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}")).positions;
-        let mean = |f: fn(&dynamics::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / 8.0;
-        let means = [mean(|p| p.tangent_stiffness), mean(|p| p.contact_line_length)];
-        let bodies = [0, 1].map(|i| {
-            let m = fem::mass_properties(case.meshes[i].mesh(), &support::steel()).unwrap();
-            RigidBody::of_tensor(m.mass_t, m.inertia_about_tmm2([0.0; 3]))
-        });
-        let ste = all.iter().map(|p| p.transmission_error).collect();
-        Self { gears: Arc::new(model.into_gears()), case, contact, ste, means, bodies }
-    }
-
-    fn system(&self, cycles_per_second: f64, change: impl FnOnce(&mut MotionOptions)) -> PairMechanism {
-        let mut options = MotionOptions {
-            contact: self.contact.clone(),
-            bodies: self.bodies,
-            bearings: [Bearing::default(); 2],
-            free: [[false; 6]; 2],
-            drive: Drive::Speed(Speed::Constant(cycles_per_second * self.case.pair.pinion.pitch_angle())),
-            load: Torque::Constant(TORQUE),
-            damping: MeshDamping::Ratio(0.1),
-            start_cycles: 0.0,
-        };
-        change(&mut options);
-        PairMechanism::new(self.case.pair.clone(), Arc::clone(&self.gears), None, options, self.means).unwrap()
-    }
-
-    fn settings(&self, system: &PairMechanism, scheme: Scheme) -> MotionSettings {
-        let scale = system.coordinates().scales(self.ste[0], self.case.pair.wheel.base_radius());
-        MotionSettings { scheme, rows: ROWS, steps_per_resonance: 8, tolerance: None, stop_at_events: false, scale }
-    }
-
-    fn motion(&self, mut system: PairMechanism, scheme: Scheme) -> Motion {
-        let settings = self.settings(&system, scheme);
-        let start =
-            quasi_static_start(&mut system, 0.0, self.ste[0], &settings.scale).unwrap_or_else(|e| panic!("{e}"));
-        Motion::new(system, settings, start)
-    }
+fn bench() -> &'static MovingPair {
+    static BENCH: OnceLock<MovingPair> = OnceLock::new();
+    BENCH.get_or_init(|| tiny(Driver::Pinion, Sense::Ccw))
 }
 
-fn bench() -> &'static Bench {
-    static BENCH: OnceLock<Bench> = OnceLock::new();
-    BENCH.get_or_init(|| Bench::new(Driver::Pinion, Sense::Ccw))
+fn settings(bench: &MovingPair, system: &PairMechanism, scheme: Scheme) -> MotionSettings {
+    MotionSettings { steps_per_resonance: 8, ..bench.settings(system, scheme, ROWS) }
 }
 
-/// DTE row by row over `cycles` mesh cycles, mm.
-fn rows(motion: &mut Motion, cycles: u64) -> Vec<f64> {
-    let mut all = Vec::new();
-    for _ in 0..cycles {
-        motion.run_cycle(Some(&mut |now, _| all.push(now.transmission_error))).unwrap_or_else(|e| panic!("{e}"));
-    }
-    all
-}
-
-fn worst(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+fn motion(bench: &MovingPair, system: PairMechanism, scheme: Scheme) -> Motion {
+    let settings = settings(bench, &system, scheme);
+    bench.motion(system, settings)
 }
 
 /// A slow, undamped motion that begins in quasi-static balance stays there: nothing rings that a later change of contact has not set off.
@@ -98,7 +46,7 @@ fn worst(a: &[f64], b: &[f64]) -> f64 {
 fn the_start_sets_nothing_off() {
     let bench = bench();
     let slow = |o: &mut MotionOptions| o.damping = MeshDamping::Ratio(0.0);
-    let mut motion = bench.motion(bench.system(50.0, slow), Scheme::Energy);
+    let mut motion = motion(bench, bench.system(50.0, slow), Scheme::Energy);
     let (first, start) = (bench.ste[0], motion.state().clone());
     assert!((start.q[0] / first - 1.0).abs() < 1e-6, "begins at {} mm, STE is {first} mm", start.q[0]);
     let scale = motion.settings().scale.clone();
@@ -121,11 +69,11 @@ fn shooting_finds_what_waiting_finds() {
     let bench = bench();
     let weak = |o: &mut MotionOptions| o.damping = MeshDamping::Ratio(0.02);
     for scheme in [Scheme::Energy, Scheme::GeneralisedAlpha { rho: 0.8 }] {
-        let mut waited = bench.motion(bench.system(1500.0, weak), scheme);
+        let mut waited = motion(bench, bench.system(1500.0, weak), scheme);
         let found = run_to_steady(&mut waited, 1e-7, 2000, |_, _| ()).unwrap();
         let cycles = waited.cycle();
         assert!(found.residual <= 1e-7, "{scheme:?}: off by {found:?} after {cycles} cycles");
-        let mut shot_at = bench.motion(bench.system(1500.0, weak), scheme);
+        let mut shot_at = motion(bench, bench.system(1500.0, weak), scheme);
         let shot = shoot(&mut shot_at, 1, 1e-8, SHOTS).unwrap();
         let [a, b] = [rows(&mut waited, 1), rows(&mut shot_at, 1)];
         let off = worst(&a, &b) / bench.ste[0];
@@ -144,12 +92,12 @@ fn shooting_finds_what_waiting_finds() {
 fn a_checkpoint_holds_all_there_is() {
     let bench = bench();
     for scheme in [Scheme::Energy, Scheme::GeneralisedAlpha { rho: 0.6 }] {
-        let mut whole = bench.motion(bench.system(700.0, |_| ()), scheme);
+        let mut whole = motion(bench, bench.system(700.0, |_| ()), scheme);
         rows(&mut whole, 3);
         let text = serde_json::to_string(&whole.checkpoint().unwrap()).unwrap();
         let back: Checkpoint = serde_json::from_str(&text).unwrap();
         let system = bench.system(700.0, |_| ());
-        let settings = bench.settings(&system, scheme);
+        let settings = settings(bench, &system, scheme);
         let mut resumed = Motion::resume(system, settings, back).unwrap();
         assert!(rows(&mut whole, 2) == rows(&mut resumed, 2), "{scheme:?}: the rows differ");
         assert!(whole.checkpoint() == resumed.checkpoint(), "{scheme:?}: the states differ");
@@ -170,7 +118,7 @@ fn energy_closes_with_bearings_and_friction() {
         o.contact.friction = 0.04;
     });
     assert_eq!(system.coordinates().count(), 11);
-    let mut motion = bench.motion(system, Scheme::Energy);
+    let mut motion = motion(bench, system, Scheme::Energy);
     let mut bearings = [0.0; 2];
     let mut driven = 0.0;
     for _ in 0..2 {
@@ -201,7 +149,7 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
         o.drive = Drive::Torque { start, torque: Torque::Constant(TORQUE + excess) };
     });
     let inertia: f64 = bench.bodies.iter().map(|b| b.polar_inertia).sum();
-    let mut motion = bench.motion(system, Scheme::Energy);
+    let mut motion = motion(bench, system, Scheme::Energy);
     let (mut last, mut turned) = ([0.0; 2], 0.0);
     for _ in 0..6 {
         motion
@@ -219,13 +167,13 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
 /// Either driver, either sense: the same motion, mirrored.
 #[test]
 fn either_sense_and_either_driver_move_alike() {
-    let dte = |bench: &Bench| {
-        let mut motion = bench.motion(bench.system(1200.0, |_| ()), Scheme::Energy);
+    let dte = |bench: &MovingPair| {
+        let mut motion = motion(bench, bench.system(1200.0, |_| ()), Scheme::Energy);
         rows(&mut motion, 2)
     };
     let reference = dte(bench());
     for (driver, sense) in [(Driver::Pinion, Sense::Cw), (Driver::Wheel, Sense::Ccw)] {
-        let off = worst(&reference, &dte(&Bench::new(driver, sense))) / reference[0];
+        let off = worst(&reference, &dte(&tiny(driver, sense))) / reference[0];
         println!("{driver:?} {sense:?}: off by {off:.1e}");
         // Meshes of either flank differ by what the mesher makes of left and right.
         assert!(off < 1e-3, "{driver:?} {sense:?}: off by {off:e}");
@@ -241,7 +189,7 @@ fn a_sweep_is_the_same_from_either_side() {
     let plan = SweepPlan {
         speeds: [800.0, 1100.0].map(|f| f * pitch).to_vec(),
         ways: vec![Way::Up, Way::Down, Way::Apart],
-        settings: bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }),
+        settings: settings(bench, &system, Scheme::GeneralisedAlpha { rho: 0.9 }),
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-6, most: 300, cycles: 1 },
         guess: bench.ste[0],
     };
@@ -263,7 +211,7 @@ fn a_sweep_is_the_same_from_either_side() {
 #[test]
 fn a_starved_window_is_an_error() {
     let bench = bench();
-    let mut motion = bench.motion(bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
+    let mut motion = motion(bench, bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
     let error = (0..2).find_map(|_| motion.run_cycle(None).err()).expect("two cycles with teeth missing");
     println!("{error}");
     let starved = matches!(&error, MotionError::Mechanism { source: StaticError::Starved { window: 3, .. }, .. });

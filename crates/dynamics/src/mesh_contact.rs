@@ -124,8 +124,8 @@ impl Found {
             let turned = (poses[g].rotation * at[g].rotation.inverse()).scaled_axis();
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
             motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
-            let far = moved.norm() + radius * turned.norm();
-            if far.is_nan() || far > NEAR {
+            let way = moved.norm() + radius * turned.norm();
+            if way > NEAR || way.is_nan() {
                 return None;
             }
         }
@@ -284,7 +284,7 @@ impl MeshContact {
     /// Forces of the rows as they are.
     fn forces(&mut self) -> Result<&MeshForce, ContactError> {
         self.solve(Balance::Held, 0)?;
-        let Self { force, found: Found { rows, at, modal: bent, .. }, solver, set, modal, .. } = self;
+        let Self { force, found: Found { rows, at, modal: bent, .. }, gaps, solver, set, modal, .. } = self;
         let poses = at.unwrap_or([Pose::identity(); 2]);
         force.wrench = wrenches(&poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
@@ -304,8 +304,10 @@ impl MeshContact {
         for (row, f) in rows.iter().zip(solver.forces()) {
             force.pair_forces[set.pair_of(row.patches.0)] += f;
         }
-        let halves = solver.forces().iter().zip(solver.openings()).map(|(f, o)| 0.5 * f * o).sum::<f64>();
-        force.strain_energy = halves + solver.curved_energy();
+        // By the dual functional -g F - U*(F), stationary at the solution: what forces are off by shows in its square only.
+        let of_row = |((f, o), g): ((&f64, &f64), &f64)| if *f > 0.0 { -f * (g + 0.5 * o) } else { 0.0 };
+        let dual = solver.forces().iter().zip(solver.openings()).zip(gaps.iter()).map(of_row).sum::<f64>();
+        force.strain_energy = dual + solver.curved_energy();
         (force.iterations, force.residual) = (solver.iterations(), solver.residual());
         Ok(&self.force)
     }

@@ -1,6 +1,8 @@
 //! What the verification tests share: the default pair, its meshes, and models of them.
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub mod moving;
+
 use std::path::PathBuf;
 
 use dynamics::{ElasticGear, FullGear, Method, StaticModel, StaticOptions};

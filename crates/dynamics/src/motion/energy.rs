@@ -25,6 +25,23 @@ pub(super) fn step<M: Mechanism>(
     forces: &mut Forces,
     book: &mut Ledger,
 ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+    // The change of c with the end of the step is left out as long as that settles: V's noise over a small way would be in it.
+    match iterate(system, from, h, scale, forces, book, false) {
+        Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, book, true),
+        done => done,
+    }
+}
+
+/// Newton's method from the predictor on, `exact` with dc/dq_1.
+fn iterate<M: Mechanism>(
+    system: &mut M,
+    from: &State,
+    h: f64,
+    scale: &DVector<f64>,
+    forces: &mut Forces,
+    book: &mut Ledger,
+    exact: bool,
+) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
     let (middle, end) = (from.time + 0.5 * h, from.time + h);
     let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
     let before = system.potential(middle, &from.q).map_err(fail(middle))?;
@@ -33,6 +50,7 @@ pub(super) fn step<M: Mechanism>(
     to.q = &from.q + h * &from.v + 0.5 * h * h * &from.a;
     let (mut change, mut last) = (f64::INFINITY, f64::INFINITY);
     forces.tangents = true;
+    let mut at_end = Forces::zeros(to.q.len());
     for iteration in 0..newton::ITERATIONS {
         let moved = &to.q - &from.q;
         let velocity = &moved / h;
@@ -63,7 +81,15 @@ pub(super) fn step<M: Mechanism>(
             return Ok((to, error));
         }
         let rest = system.mass() * (&to.v - &from.v) / h - &forces.conservative - &forces.other - c * &weighted;
-        let matrix = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
+        let mut matrix = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
+        if exact && c != 0.0 {
+            // dc/dq_1 = [f_c(q_1) - f_c(q_m) + K (q_1 - q_0) / 2 - 2 c W (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0)
+            at_end.clear();
+            system.forces(middle, &to.q, &velocity, &mut at_end).map_err(fail(middle))?;
+            let slope =
+                &at_end.conservative - &forces.conservative + 0.5 * &forces.stiffness * &moved - 2.0 * c * &weighted;
+            matrix -= &weighted * slope.transpose() / length;
+        }
         let mut step =
             newton::solve(matrix, &rest).ok_or(MotionError::Singular { time: middle, which: "iteration" })?;
         step *= newton::damping(iteration);

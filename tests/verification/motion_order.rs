@@ -1,0 +1,155 @@
+//! Error of the integrators against their step, on the reduced pair itself.
+#![allow(clippy::print_stdout, reason = "the table is what the test is for")]
+
+mod support;
+
+use std::sync::OnceLock;
+
+use dynamics::{
+    StaticOptions,
+    motion::{Integrator, MotionError, Scheme, State, StepControl},
+    pair_motion::{PairMechanism, quasi_static_start},
+};
+use fem::ElementOptions;
+use nalgebra::DVector;
+use support::{Case, moving::MovingPair};
+
+const SCHEMES: [(&str, Scheme, f64); 5] = [
+    ("generalised-alpha", Scheme::GeneralisedAlpha { rho: 0.8 }, 2.0),
+    ("Newmark", Scheme::Newmark, 2.0),
+    ("energy", Scheme::Energy, 2.0),
+    ("Runge-Kutta 4", Scheme::RungeKutta4, 4.0),
+    ("Dormand-Prince", Scheme::DormandPrince, 5.0),
+];
+
+/// Name, order in theory, errors (mm) and wall times (s) at each number of steps.
+type Row = (&'static str, f64, Vec<f64>, Vec<f64>);
+
+fn pair() -> &'static MovingPair {
+    static PAIR: OnceLock<MovingPair> = OnceLock::new();
+    PAIR.get_or_init(|| {
+        let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
+        let contact = StaticOptions { slices: 8, ..case.slice_options() };
+        MovingPair::new(case, contact, 8)
+    })
+}
+
+/// Lag at `places` evenly spaced times up to `until`, in `steps` steps.
+fn course(
+    mut system: PairMechanism,
+    mut state: State,
+    scheme: Scheme,
+    until: f64,
+    steps: usize,
+    places: usize,
+) -> Result<Vec<f64>, MotionError<dynamics::StaticError>> {
+    let scale = DVector::from_element(1, pair().ste[0]);
+    let mut integrator = Integrator::new(scheme, StepControl::Fixed(until / steps as f64), scale);
+    let (mut all, mut done) = (Vec::new(), 0);
+    integrator.advance(&mut system, &mut state, until, |_, seen| {
+        done += 1;
+        if done % (steps / places) == 0 {
+            all.push(seen.state.q[0]);
+        }
+    })?;
+    Ok(all)
+}
+
+/// Rows of the table: error (mm) at each number of steps, NaN where the method fails.
+fn table(system: &dyn Fn() -> (PairMechanism, State), until: f64, counts: &[usize], finest: usize) -> Vec<Row> {
+    let places = counts[0];
+    let (mechanism, state) = system();
+    let reference =
+        course(mechanism, state, Scheme::RungeKutta4, until, finest, places).unwrap_or_else(|e| panic!("{e}"));
+    SCHEMES
+        .iter()
+        .map(|&(name, scheme, order)| {
+            let (mut errors, mut times) = (Vec::new(), Vec::new());
+            for &steps in counts {
+                let (mechanism, state) = system();
+                let clock = std::time::Instant::now();
+                let found = course(mechanism, state, scheme, until, steps, places);
+                times.push(clock.elapsed().as_secs_f64());
+                errors.push(match found {
+                    Ok(found) => found.iter().zip(&reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max),
+                    Err(error) => {
+                        println!("{name}, {steps} steps: {error}");
+                        f64::NAN
+                    }
+                });
+            }
+            (name, order, errors, times)
+        })
+        .collect()
+}
+
+fn show(counts: &[usize], rows: &[Row]) {
+    println!("| steps | {} |", counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" | "));
+    for (name, _, errors, times) in rows {
+        let errors_text: Vec<String> = errors.iter().map(|e| format!("{e:.1e}")).collect();
+        println!("| {name}: error, mm | {} |", errors_text.join(" | "));
+        let orders: Vec<String> = errors.windows(2).map(|e| format!("{:.2}", (e[0] / e[1]).log2())).collect();
+        println!("| order | | {} |", orders.join(" | "));
+        let times: Vec<String> = times.iter().map(|t| format!("{:.1}", 1e3 * t)).collect();
+        println!("| wall time, ms | {} |", times.join(" | "));
+    }
+}
+
+/// Where no slice comes or goes forces are smooth, and every method has the order of its theory: a swing of a twentieth of the transmission error with gears that stand still.
+#[test]
+fn orders_are_those_of_theory_where_forces_are_smooth() {
+    let pair = pair();
+    let start = || {
+        let system = pair.system(1e-9, |_| ());
+        let at = DVector::from_element(1, pair.ste[0] + 5e-4);
+        (system, State::new(0.0, at, DVector::zeros(1)))
+    };
+    let counts = [16, 32, 64, 128];
+    let rows = table(&start, 2.0 / pair.resonance_hz(), &counts, 1024);
+    show(&counts, &rows);
+    for (name, expected, errors, _) in rows {
+        let order = (errors[2] / errors[3]).log2();
+        assert!((order - expected).abs() < 0.2, "{name}: order {order:.2}, not {expected}");
+    }
+}
+
+/// A mesh cycle from quasi-static balance on, at `ratio` times the resonance.
+fn turning(ratio: f64, counts: &[usize], finest: usize) -> Vec<Row> {
+    let pair = pair();
+    let frequency = ratio * pair.resonance_hz();
+    let start = || {
+        let mut system = pair.system(frequency, |_| ());
+        let scale = DVector::from_element(1, pair.ste[0]);
+        let state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
+        (system, state)
+    };
+    println!("f_m / f_0 = {ratio}");
+    let rows = table(&start, 1.0 / frequency, counts, finest);
+    show(counts, &rows);
+    rows
+}
+
+/// Of a pair that turns, slices come and go: forces have kinks, and second order is what any method has in the end. At a tenth of the resonance explicit methods
+/// need some 32 steps a mesh cycle to be stable; implicit ones are bounded with eight.
+#[test]
+fn orders_of_a_pair_that_turns() {
+    for (name, order, errors, _) in turning(0.1, &[8, 16, 32, 64, 128], 512) {
+        if order == 2.0 {
+            let found = (errors[3] / errors[4]).log2();
+            assert!(found > 1.3, "{name}: order {found:.2}");
+            assert!(errors.iter().all(|e| *e < 1e-3), "{name}: {errors:?}");
+        } else {
+            assert!(errors[0] > 0.1 && errors[1] > 0.1, "{name} is not stable there: {errors:?}");
+            assert!(errors[3] < 5e-5, "{name}: {errors:?}");
+        }
+    }
+}
+
+/// The whole table.
+#[test]
+#[ignore = "half a minute"]
+fn orders_down_to_the_smallest_steps() {
+    for ratio in [0.1, 0.5] {
+        turning(ratio, &[8, 16, 32, 64, 128, 256, 512], 2048);
+    }
+}
