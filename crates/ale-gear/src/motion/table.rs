@@ -24,7 +24,8 @@ impl Columns {
         })
     }
 
-    fn parse(text: &str) -> Option<Self> {
+    /// The columns of a file's text; `None` where it holds what is no number.
+    pub fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next()?.split(',').collect();
         let mut values = vec![Vec::new(); names.len()];

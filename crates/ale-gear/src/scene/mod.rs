@@ -7,6 +7,7 @@
 mod check;
 mod error;
 mod keys;
+mod ladder;
 mod micro;
 mod motion;
 mod raw;
@@ -20,6 +21,7 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub use ladder::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
 pub use motion::{
     Axis, BearingScene, BodyScene, DriveBy, DriveScene, Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene,
@@ -55,6 +57,15 @@ pub struct Scene {
     /// Motion in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionScene>,
+    /// Mesh of a model that has a stiffness instead of flanks; set exactly for these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshScene>,
+    /// The model with eight coordinates; set exactly for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped8: Option<Lumped8Scene>,
+    /// The model with twelve; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped12: Option<Lumped12Scene>,
     /// Which files are written beside the three that always are.
     pub output: OutputScene,
 }
@@ -304,6 +315,10 @@ pub enum Model {
     Reduced,
     /// Every degree of freedom of both meshes.
     Full,
+    /// Eight coordinates, mesh stiffness, backlash and friction.
+    Lumped8,
+    /// Twelve coordinates.
+    Lumped12,
 }
 
 /// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::SceneError;
+use super::ladder::{RawLumped8, RawLumped12, RawMesh};
 use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 use super::source::Source;
 
@@ -35,6 +36,9 @@ pub(super) struct RawScene {
     #[serde(default)]
     pub analysis: RawAnalysis,
     pub motion: Option<Spanned<RawMotion>>,
+    pub mesh: Option<Spanned<RawMesh>>,
+    pub lumped8: Option<Spanned<RawLumped8>>,
+    pub lumped12: Option<Spanned<RawLumped12>>,
     #[serde(default)]
     pub output: RawOutput,
 }
