@@ -105,7 +105,8 @@ impl RunArgs {
             Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
         };
         let full = !crate::ladder::has(scene);
-        let checkpoints = full && scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
+        let checkpoints =
+            full && scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
             return refuse(
                 "this analysis has no checkpoints",

@@ -25,6 +25,8 @@ pub(super) struct Course {
     pub section: String,
     /// Mesh cycles with rows.
     pub cycles: u64,
+    /// The last of these, which the headline and the spectra are of.
+    pub judged: u64,
     /// Mesh cycles before them.
     pub warm_up: u64,
     /// How nearly the motion repeated itself at last.
@@ -38,8 +40,8 @@ pub(super) struct Course {
 }
 
 /// Steps between rows that show the mesh resonance with as many steps as asked.
-fn steps_per_row(model: &impl LadderModel, words: &MotionScene) -> u32 {
-    let per_cycle = model.resonance_hz().map_or(0.0, |f| f64::from(words.steps_per_resonance) * f / model.mesh_frequency_hz());
+fn steps_per_row(words: &MotionScene, [mesh_hz, resonance_hz]: [f64; 2]) -> u32 {
+    let per_cycle = f64::from(words.steps_per_resonance) * resonance_hz / mesh_hz;
     let needed = (per_cycle / f64::from(words.steps_per_mesh_cycle)).ceil();
     if needed.is_finite() { needed.clamp(1.0, 1e6) as u32 } else { 1 }
 }
@@ -47,11 +49,12 @@ fn steps_per_row(model: &impl LadderModel, words: &MotionScene) -> u32 {
 /// Mesh cycles that are written.
 fn cycles(scene: &Scene, words: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     let Analysis { cycles, .. } = scene.analysis;
+    let ramp = words.ramp.map(|r| r.before_s + r.duration_s + r.after_s);
     // A float beyond the range becomes its end.
-    words.duration_s.map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
+    words.duration_s.or(ramp).map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
 }
 
-/// Runs a model from rest under the load.
+/// Runs a model from rest under the load. Frequencies of the mesh and of its resonance (0: none) say how long steps are.
 ///
 /// # Errors
 /// [`LumpedError`] where there is nothing to start from, or a step does not settle.
@@ -59,11 +62,12 @@ pub(super) fn run(
     model: &mut impl LadderModel,
     scene: &Scene,
     words: &MotionScene,
+    [mesh_hz, resonance_hz]: [f64; 2],
     progress: &Progress,
 ) -> Result<Course, LumpedError> {
     let per_cycle = u64::from(words.steps_per_mesh_cycle);
-    let steps_per_row = steps_per_row(model, words);
-    let period = 1.0 / model.mesh_frequency_hz();
+    let steps_per_row = steps_per_row(words, [mesh_hz, resonance_hz]);
+    let period = 1.0 / mesh_hz;
     let step = period / per_cycle as f64 / f64::from(steps_per_row);
     let control = match words.error_tolerance {
         None => StepControl::Fixed(step),
@@ -80,7 +84,12 @@ pub(super) fn run(
         let mut errors = Vec::with_capacity(per_cycle as usize);
         for k in 0..per_cycle {
             errors.extend(dte.and_then(|i| model.row(&state).get(i).copied()));
-            advance(model, &mut integrator, &mut state, (warm_up * per_cycle + k + 1) as f64 * period / per_cycle as f64)?;
+            advance(
+                model,
+                &mut integrator,
+                &mut state,
+                (warm_up * per_cycle + k + 1) as f64 * period / per_cycle as f64,
+            )?;
         }
         warm_up += 1;
         let found = returns.judge(errors, tolerance);
@@ -89,7 +98,7 @@ pub(super) fn run(
             break;
         }
     }
-    let cycles = cycles(scene, words, model.mesh_frequency_hz());
+    let cycles = cycles(scene, words, mesh_hz);
     let header = model.columns().join(",") + "\n";
     let (mut history, mut section, mut energy) = (header.clone(), header, ENERGY.to_owned());
     for row in 0..cycles * per_cycle {
@@ -105,7 +114,23 @@ pub(super) fn run(
     }
     let ledger = ledger(model, &integrator, &state);
     push_row(&mut energy, energy_row(state.time, &ledger));
-    Ok(Course { history, energy, section, cycles, warm_up, periodicity, ledger, steps: integrator.steps(), steps_per_row })
+    // Of a ramp the last speed is judged.
+    let judged = match words.ramp {
+        Some(ramp) => ((ramp.after_s * mesh_hz).floor() as u64).clamp(1, cycles),
+        None => cycles,
+    };
+    Ok(Course {
+        history,
+        energy,
+        section,
+        cycles,
+        judged,
+        warm_up,
+        periodicity,
+        ledger,
+        steps: integrator.steps(),
+        steps_per_row,
+    })
 }
 
 /// Energy so far; before the first step what the start holds.

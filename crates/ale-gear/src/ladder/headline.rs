@@ -24,6 +24,7 @@ pub(crate) struct LadderHeadline {
     pub rows_per_cycle: u32,
     pub steps_per_row: u32,
     pub cycles: u64,
+    pub judged_cycles: u64,
     pub mean_dte_um: f64,
     pub peak_to_peak_dte_um: f64,
     pub min_dte_um: f64,
@@ -41,6 +42,10 @@ pub(crate) struct LadderHeadline {
     pub mean_wheel_force_n: [f64; 3],
     pub mean_pinion_tilting_moment_nmm: f64,
     pub mean_wheel_tilting_moment_nmm: f64,
+    pub max_coast_normal_force_n: Option<f64>,
+    pub least_slice_force_n: Option<f64>,
+    pub mean_wheel_speed_rpm: Option<f64>,
+    pub mean_pinion_speed_rpm: Option<f64>,
     pub certificate: LadderCertificate,
 }
 
@@ -68,7 +73,7 @@ pub(super) struct Known<'a> {
     pub static_errors: Option<&'a [f64]>,
 }
 
-/// Headline numbers of the last `cycles` whole mesh cycles of the rows.
+/// Headline numbers of `rows`, those of the mesh cycles that are judged.
 ///
 /// # Errors
 /// [`StudyError`] when the rows hold a transmission error that is no number.
@@ -80,7 +85,7 @@ pub(super) fn headline(
     known: &Known<'_>,
 ) -> Result<LadderHeadline, StudyError> {
     let dte = rows.get("dte_um");
-    let of_dte = cycle_statistics(dte, course.cycles as usize)?;
+    let of_dte = cycle_statistics(dte, course.judged as usize)?;
     let ste: Option<Vec<f64>> = known.static_errors.map(|all| all.iter().map(|e| 1e3 * e).collect());
     let of_ste = ste.map(|all| cycle_statistics(&all, 1)).transpose()?;
     let there = |name: &str| (!rows.get(name).is_empty()).then(|| rows.mean(name));
@@ -89,17 +94,18 @@ pub(super) fn headline(
     Ok(LadderHeadline {
         run: words.run,
         coordinates: known.coordinates,
-        speed_rpm: scene.operation.speed_rpm,
+        speed_rpm: words.ramp.map_or(scene.operation.speed_rpm, |r| r.to_rpm),
         mesh_frequency_hz: known.mesh_frequency_hz,
         mesh_resonance_hz: known.resonance_hz,
         rows_per_cycle: words.steps_per_mesh_cycle,
         steps_per_row: course.steps_per_row,
         cycles: course.cycles,
+        judged_cycles: course.judged,
         mean_dte_um: of_dte.mean,
         peak_to_peak_dte_um: of_dte.peak_to_peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,
-        dte_harmonics_um: mesh_harmonics(dte, course.cycles as usize, ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        dte_harmonics_um: mesh_harmonics(dte, course.judged as usize, ORDERS)?.iter().map(|h| h.amplitude).collect(),
         mean_ste_um: of_ste.as_ref().map(|s| s.mean),
         peak_to_peak_ste_um: of_ste.as_ref().map(|s| s.peak_to_peak),
         mean_mesh_stiffness_n_per_um: there("mesh_stiffness_n_per_um"),
@@ -112,6 +118,10 @@ pub(super) fn headline(
         mean_wheel_force_n: ["wheel_force_x_n", "wheel_force_y_n", "wheel_force_z_n"].map(|n| rows.mean(n)),
         mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm"),
         mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
+        max_coast_normal_force_n: there("coast_normal_force_n").map(|_| rows.extent("coast_normal_force_n")[1]),
+        least_slice_force_n: there("least_slice_force_n").map(|_| rows.extent("least_slice_force_n")[0]),
+        mean_wheel_speed_rpm: there("wheel_speed_rpm"),
+        mean_pinion_speed_rpm: there("pinion_speed_rpm"),
         certificate: LadderCertificate {
             ledger_residual_mj: course.ledger.residual(),
             ledger_residual_over_turnover: course.ledger.relative_residual(),

@@ -173,7 +173,7 @@ fn values(row: &HistoryRow, coordinates: &[Coordinate]) -> Vec<f64> {
 
 /// The parts that both have by their common trait.
 macro_rules! ladder_model {
-    ($motion:ty, $coordinates:expr) => {
+    ($motion:ty, $coordinates:expr, $frequencies:expr) => {
         impl LadderModel for $motion {
             fn start(&mut self) -> Result<State, LumpedError> {
                 Ok(starting_state(self))
@@ -181,14 +181,6 @@ macro_rules! ladder_model {
 
             fn scale(&self) -> DVector<f64> {
                 LumpedModel::scale(self)
-            }
-
-            fn mesh_frequency_hz(&self) -> f64 {
-                self.pair().clock.mesh_frequency()
-            }
-
-            fn resonance_hz(&self) -> Option<f64> {
-                Some(self.pair().natural_frequency() / TAU)
             }
 
             fn columns(&self) -> Vec<String> {
@@ -206,9 +198,18 @@ macro_rules! ladder_model {
                 };
                 (0..phases).map(at).collect()
             }
+
+            fn natural_frequencies_hz(&self) -> Vec<f64> {
+                $frequencies(self)
+            }
         }
     };
 }
 
-ladder_model!(Motion8, EIGHT);
-ladder_model!(Motion12, TWELVE);
+ladder_model!(Motion8, EIGHT, |_: &Motion8| Vec::new());
+ladder_model!(Motion12, TWELVE, frequencies);
+
+/// Of the pair at the start of a mesh cycle, with friction as it then is.
+fn frequencies(model: &Motion12) -> Vec<f64> {
+    model.modes(START).map_or_else(Vec::new, |modes| modes.iter().map(|m| m.frequency_hz).collect())
+}

@@ -14,7 +14,9 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     run,
-    scene::{Analysis, ContactScene, Flanks, Kind, Law, MeshScene, Model, OutputScene, Reduction, Scene, StiffnessFrom},
+    scene::{
+        Analysis, ContactScene, Flanks, Kind, Law, MeshScene, Model, OutputScene, Reduction, Scene, StiffnessFrom,
+    },
 };
 
 /// A cycle in the phase of scenes, with what its making said.
@@ -65,7 +67,8 @@ pub(super) fn mesh_cycle(
         StiffnessFrom::Reduced => {
             let solved = run::solve(&static_scene(scene), sources.phases, sources.results, sources.cache)?;
             let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
-            let driven = [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];
+            let driven =
+                [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];
             let cycle = MeshCycle::fed(
                 &column(|p| p.tangent_stiffness),
                 &column(|p| p.contact_line_length),
@@ -92,6 +95,7 @@ fn static_scene(scene: &Scene) -> Scene {
     let without_body = |gear: &crate::scene::GearScene| crate::scene::GearScene {
         body: None,
         bearing: Default::default(),
+        shaft: None,
         ..gear.clone()
     };
     Scene {
@@ -104,6 +108,7 @@ fn static_scene(scene: &Scene) -> Scene {
         mesh: None,
         lumped8: None,
         lumped12: None,
+        shaft18: None,
         analysis: Analysis {
             kind: Kind::Static,
             model: Model::Reduced,
@@ -118,9 +123,8 @@ fn static_scene(scene: &Scene) -> Scene {
 
 /// From the phase of scenes to that of lumped pairs, or back: odd orders change sign.
 pub(super) fn half_a_cycle_on(cycle: &MeshCycle) -> MeshCycle {
-    let turned = |list: &[f64]| -> Vec<f64> {
-        list.iter().enumerate().map(|(i, x)| if i % 2 == 0 { -x } else { *x }).collect()
-    };
+    let turned =
+        |list: &[f64]| -> Vec<f64> { list.iter().enumerate().map(|(i, x)| if i % 2 == 0 { -x } else { *x }).collect() };
     let on = |f: &Fourier| Fourier { mean: f.mean, cosine: turned(&f.cosine), sine: turned(&f.sine) };
     MeshCycle { stiffness: on(&cycle.stiffness), error: on(&cycle.error), length: cycle.length.as_ref().map(on) }
 }

@@ -5,6 +5,7 @@
 //! | `bodies` | bodies, supports and torques of the scene |
 //! | `mesh_cycle` | stiffness over the mesh cycle: given, fed by the reduced model, ISO's |
 //! | `lumped` | the models with eight and twelve coordinates |
+//! | `shafts`, `impact` | lumped shafts, rigid gears |
 //! | `model` | what a model must answer to be run |
 //! | `course`, `settle` | a run of any of them |
 //! | `headline` | what is read off the rows |
@@ -12,12 +13,16 @@
 mod bodies;
 mod course;
 mod headline;
+mod impact;
 mod lumped;
 mod mesh_cycle;
 mod model;
 mod settle;
+mod shafts;
 
-use ::lumped::LumpedError;
+use std::f64::consts::TAU;
+
+use ::lumped::{LumpedError, shaft18::ShaftMechanism};
 use study::Window;
 
 use crate::{
@@ -28,7 +33,7 @@ use crate::{
     motion::{self, Columns, ENERGY_FILE, HISTORY},
     output::{MotionPictures, ResultDirectory, ladder_table, write_ladder_report, write_summary},
     phases::Phases,
-    scene::{Driver, MotionScene, Run, Scene},
+    scene::{Driver, Model, MotionScene, Run, Scene},
 };
 use course::Course;
 use headline::Known;
@@ -53,7 +58,7 @@ fn complaint(scene: &Scene, error: &LumpedError) -> CommandError {
 
 /// Whether a scene's model is one of this module.
 pub(crate) fn has(scene: &Scene) -> bool {
-    scene.lumped8.is_some() || scene.lumped12.is_some()
+    matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact)
 }
 
 /// Runs the model of a scene and writes all files of the result; the text is the closing table.
@@ -71,14 +76,25 @@ pub(crate) fn solve(
     let facts = Facts { geometry: gears::geometry_facts(&pair), ..Facts::default() };
     let complain = |e: LumpedError| complaint(scene, &e);
     let case = Case { scene, words, results };
+    if let Some(own) = &scene.impact {
+        let (model, warnings) = impact::impact(scene, own, &pair).map_err(complain)?;
+        return case.run(model, 0.0, facts, warnings, phases);
+    }
+    if let (Some(mesh), Some(own)) = (&scene.mesh, &scene.shaft18) {
+        let made = shafts::system(scene, own, mesh, &pair, Sources { phases, results, cache })?;
+        let model = ShaftMechanism::new(&made.system).map_err(complain)?;
+        return case.run(model, made.resonance / TAU, facts, made.warnings, phases);
+    }
     if let Some(mesh) = &scene.mesh {
         let made = lumped::lumped_pair(scene, mesh, &pair, Sources { phases, results, cache })?;
-        let warnings = made.warnings.clone();
+        let (warnings, resonance) = (made.warnings.clone(), made.pair.natural_frequency() / TAU);
         if let Some(own) = &scene.lumped8 {
-            return case.run(lumped::eight(scene, own, mesh, &pair, made).map_err(complain)?, facts, warnings, phases);
+            let model = lumped::eight(scene, own, mesh, &pair, made).map_err(complain)?;
+            return case.run(model, resonance, facts, warnings, phases);
         }
         if let Some(own) = &scene.lumped12 {
-            return case.run(lumped::twelve(scene, own, made).map_err(complain)?, facts, warnings, phases);
+            let model = lumped::twelve(scene, own, made).map_err(complain)?;
+            return case.run(model, resonance, facts, warnings, phases);
         }
     }
     // The scene's checks let no other model come here.
@@ -96,6 +112,7 @@ impl Case<'_> {
     fn run(
         &self,
         mut model: impl LadderModel,
+        resonance_hz: f64,
         mut facts: Facts,
         mut warnings: Vec<String>,
         phases: &mut Phases,
@@ -103,25 +120,33 @@ impl Case<'_> {
         let Self { scene, words, results } = *self;
         let coordinates = model.mass().nrows();
         facts.dof_after = [coordinates.div_ceil(2), coordinates / 2];
+        let driver = [scene.pinion.teeth, scene.wheel.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
+        let speed_rpm = words.ramp.map_or(scene.operation.speed_rpm, |r| r.to_rpm);
+        let mesh_frequency_hz = speed_rpm / 60.0 * f64::from(driver);
+        let frequencies = model.natural_frequencies_hz();
+        if !frequencies.is_empty() {
+            facts.model.insert("natural_frequencies_hz".into(), frequencies.into());
+        }
         let static_errors =
             phases.run("quasi-static", || model.static_errors(scene.analysis.positions_per_cycle as usize));
         let course = phases
             .run_steps("motion", u64::from(scene.analysis.cycles), |progress| {
-                course::run(&mut model, scene, words, progress)
+                course::run(&mut model, scene, words, [mesh_frequency_hz, resonance_hz], progress)
             })
             .map_err(|e| complaint(scene, &e))?;
         let (rows, energy) = (read(HISTORY, &course.history)?, read(ENERGY_FILE, &course.energy)?);
         let known = Known {
             coordinates,
-            mesh_frequency_hz: model.mesh_frequency_hz(),
-            resonance_hz: model.resonance_hz(),
+            mesh_frequency_hz,
+            resonance_hz: (resonance_hz > 0.0).then_some(resonance_hz),
             static_normal_force: static_normal_force(scene, &facts),
             static_errors: static_errors.as_deref(),
         };
         let no_statistics = |e: study::StudyError| CommandError::failed(&e, e.hint());
-        let headline = headline::headline(scene, words, &course, &rows, &known).map_err(no_statistics)?;
+        let judged = rows.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
+        let headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
         warnings.extend(doubts(words, &headline));
-        let spectrum = motion::spectrum(&rows, course.cycles, known.mesh_frequency_hz, window(words, &course))
+        let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
             .map_err(no_statistics)?;
         for (name, text) in [
             (HISTORY, &course.history),

@@ -14,12 +14,6 @@ pub(super) trait LadderModel: Mechanism<Error = Infallible> {
     /// What counts as a large motion of each coordinate, for the integrators' tolerances.
     fn scale(&self) -> DVector<f64>;
 
-    /// Mean mesh frequency, Hz.
-    fn mesh_frequency_hz(&self) -> f64;
-
-    /// The gears turning against each other on the mean mesh stiffness, Hz; `None` where there is no such stiffness.
-    fn resonance_hz(&self) -> Option<f64>;
-
     /// Names of the columns of a row; those that the reduced model has too bear its names.
     fn columns(&self) -> Vec<String>;
 
@@ -28,4 +22,9 @@ pub(super) trait LadderModel: Mechanism<Error = Infallible> {
 
     /// Transmission error under the mean load at `phases` evenly spaced phases as speed goes to zero, mm; `None` where the model does not tell.
     fn static_errors(&self, phases: usize) -> Option<Vec<f64>>;
+
+    /// Undamped natural frequencies at rest, Hz, ascending; nothing where the model is not linear.
+    fn natural_frequencies_hz(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }

@@ -4,6 +4,9 @@ use std::collections::VecDeque;
 
 use dynamics::pair_motion::{LONGEST_PERIOD, Periodicity};
 
+/// A longer period must fit this much better than a shorter one.
+const SUBHARMONIC: f64 = 0.01;
+
 /// Transmission errors of the last mesh cycles, row by row.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Returns {
@@ -11,7 +14,7 @@ pub(super) struct Returns {
 }
 
 impl Returns {
-    /// Takes the rows of one more cycle. The shortest period wins that is within `tolerance`, else the best one.
+    /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly after one: what dies out slowly may look alike after a few cycles by chance.
     ///
     /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a millionth of its largest value where that is more:
     /// what does not vibrate repeats itself.
@@ -22,7 +25,7 @@ impl Returns {
         for (i, before) in self.cycles.iter().rev().enumerate() {
             let off = rows.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let residual = off / size;
-            if residual < best.residual {
+            if i == 0 || residual < SUBHARMONIC * best.residual {
                 best = Periodicity { period: i + 1, residual };
             }
             if residual <= tolerance {

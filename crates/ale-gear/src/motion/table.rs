@@ -44,6 +44,12 @@ impl Columns {
         self.names.get(name).map_or(&[], |&i| &self.values[i])
     }
 
+    /// The last rows of all columns.
+    pub fn last(&self, rows: usize) -> Self {
+        let tail = |all: &Vec<f64>| all[all.len().saturating_sub(rows)..].to_vec();
+        Self { names: self.names.clone(), values: self.values.iter().map(tail).collect() }
+    }
+
     /// Rows.
     pub fn len(&self) -> usize {
         self.values.first().map_or(0, Vec::len)

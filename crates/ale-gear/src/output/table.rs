@@ -98,5 +98,7 @@ pub(super) fn model_name(scene: &Scene) -> &'static str {
         crate::scene::Model::Full => "full",
         crate::scene::Model::Lumped8 => "lumped8",
         crate::scene::Model::Lumped12 => "lumped12",
+        crate::scene::Model::Shaft18 => "shaft18",
+        crate::scene::Model::Impact => "impact",
     }
 }

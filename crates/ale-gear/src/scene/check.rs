@@ -67,6 +67,16 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let none = Default::default();
     let lumped12 = raw.lumped12.as_ref().map_or(&none, |w| w.get_ref());
     let lumped12 = (analysis.model == Model::Lumped12).then(|| ladder::lumped12(source, lumped12)).transpose()?;
+    let none = Default::default();
+    let shaft18 = raw.shaft18.as_ref().map_or(&none, |w| w.get_ref());
+    let shaft18 = (analysis.model == Model::Shaft18).then(|| ladder::shaft18(source, shaft18)).transpose()?;
+    if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
+        pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
+        wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);
+    }
+    let none = Default::default();
+    let impact = raw.impact.as_ref().map_or(&none, |w| w.get_ref());
+    let impact = (analysis.model == Model::Impact).then(|| ladder::impact(source, impact)).transpose()?;
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == super::Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
@@ -83,6 +93,8 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         mesh,
         lumped8,
         lumped12,
+        impact,
+        shaft18,
         output: output(source, &raw.output)?,
         pinion,
         wheel,
@@ -90,6 +102,18 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     };
     together(source, &raw, &scene)?;
     Ok(scene)
+}
+
+/// The shaft of a gear, which the model of shafts wants.
+fn shaft(s: &Source<'_>, raw: &RawGear, whose: &str, model: &toml::Spanned<String>) -> Checked<super::ShaftScene> {
+    match &raw.shaft {
+        Some(table) => ladder::shaft(s, table),
+        None => Err(SceneError::Conflict {
+            place: s.place(&model.span()),
+            what: format!("the model \"shaft18\" wants the shaft of the {whose}"),
+            advice: format!("give [{whose}.shaft] with `segments_mm`, `gear_at_mm` and supports"),
+        }),
+    }
 }
 
 /// Tables on motion mean nothing to an analysis without time.
@@ -219,6 +243,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
         },
         body: None,
         bearing: Default::default(),
+        shaft: None,
     })
 }
 
@@ -344,10 +369,8 @@ fn not_yet(s: &Source<'_>, key: &str, word: &toml::Spanned<String>, what: &str, 
 }
 
 fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
-    let later = ["shaft18", "impact", "reduced+modes"];
-    if let Some(word) = raw.model.as_ref().filter(|w| later.contains(&w.get_ref().as_str())) {
-        let instead = "use `model = \"reduced\"`, \"full\" or \"iso\"";
-        return Err(not_yet(s, "model", word, "a dynamic model of the pair", instead));
+    if let Some(word) = raw.model.as_ref().filter(|w| w.get_ref() == "reduced+modes") {
+        return Err(not_yet(s, "model", word, "normal modes of the gears", "use `model = \"reduced\"`"));
     }
     let models = [
         ("reduced", Model::Reduced),
@@ -355,6 +378,8 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
         ("iso", Model::Iso),
         ("lumped8", Model::Lumped8),
         ("lumped12", Model::Lumped12),
+        ("shaft18", Model::Shaft18),
+        ("impact", Model::Impact),
     ];
     let model = s.choice("model", &raw.model, &models)?;
     if let Some(word) = raw.reduction.as_ref().filter(|_| model != Model::Reduced) {

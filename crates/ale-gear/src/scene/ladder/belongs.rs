@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use toml::Spanned;
 
+use super::check::Torques;
 use super::{Rung, StiffnessFrom};
 use crate::scene::raw::{RawGear, RawScene};
 use crate::scene::source::Source;
-use crate::scene::{BodyScene, Model, Run, Scene, SceneError};
+use crate::scene::{BodyScene, DriveBy, Model, Run, Scene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -23,9 +24,13 @@ fn conflict(s: &Source<'_>, at: &Range<usize>, what: String, advice: &str) -> Sc
 pub(in crate::scene) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
     let meshed = Rung::of(model).is_some_and(|r| r.mesh);
     let all = [
-        ("mesh", span(&raw.mesh), meshed, "the models \"lumped8\" and \"lumped12\""),
+        ("mesh", span(&raw.mesh), meshed, "the models \"lumped8\", \"lumped12\" and \"shaft18\""),
         ("lumped8", span(&raw.lumped8), model == Model::Lumped8, "`model = \"lumped8\"`"),
         ("lumped12", span(&raw.lumped12), model == Model::Lumped12, "`model = \"lumped12\"`"),
+        ("shaft18", span(&raw.shaft18), model == Model::Shaft18, "`model = \"shaft18\"`"),
+        ("pinion.shaft", span(&raw.pinion.shaft), model == Model::Shaft18, "`model = \"shaft18\"`"),
+        ("wheel.shaft", span(&raw.wheel.shaft), model == Model::Shaft18, "`model = \"shaft18\"`"),
+        ("impact", span(&raw.impact), model == Model::Impact, "`model = \"impact\"`"),
     ];
     for (name, at, fits, whose) in all {
         if let (Some(at), false) = (at, fits) {
@@ -83,7 +88,11 @@ pub(in crate::scene) fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, r
         unfed(s, raw, scene, name)?;
     }
     motion(s, raw, scene, rung)?;
-    torques(s, raw, name)?;
+    torques(s, raw, scene, rung)?;
+    friction(s, raw, scene, rung)?;
+    if rung.moves.is_none() {
+        return Ok(());
+    }
     for gear in [&raw.pinion, &raw.wheel] {
         let Some(bearing) = gear.bearing.as_ref().map(Spanned::get_ref) else { continue };
         let matrices = [
@@ -126,18 +135,25 @@ fn unfed(s: &Source<'_>, raw: &RawScene, scene: &Scene, name: &str) -> Checked<(
         ("gap", span(&raw.contact.gap)),
         ("points_per_face_edge", span(&raw.contact.points_per_face_edge)),
         ("window_teeth", span(&raw.analysis.window_teeth)),
-        ("slices", span(&raw.contact.slices).filter(|_| scene.contact.slices != Some(32))),
+        ("slices", span(&raw.contact.slices).filter(|_| scene.contact.slices != Some(32) && scene.impact.is_none())),
         ("corner_contact", span(&raw.contact.corner_contact).filter(|_| scene.contact.corner_contact != Some(true))),
+        ("flanks", span(&raw.contact.flanks).filter(|_| scene.contact.flanks != crate::scene::Flanks::Both)),
         ("method", span(&raw.contact.method).filter(|_| scene.contact.method != crate::scene::Method::Slice)),
     ];
-    let all = tables.chain(lists).chain(files).chain(meshes).chain(rest);
+    // Rigid gears have flanks as they are ground.
+    let ground = tables.chain(lists).chain(files).filter(|_| scene.impact.is_none());
+    let all = ground.chain(meshes).chain(rest);
     match all.filter_map(|(key, at)| Some((key, at?))).next() {
         None => Ok(()),
         Some((key, at)) => Err(conflict(
             s,
             &at,
-            format!("`{key}` means nothing to the model \"{name}\" with a stiffness of its own"),
-            "leave it out, or say `stiffness_from = \"reduced\"` in [mesh]",
+            format!("`{key}` means nothing to the model \"{name}\" as the scene has it"),
+            if scene.mesh.is_some() {
+                "leave it out, or say `stiffness_from = \"reduced\"` in [mesh]"
+            } else {
+                "leave it out: rigid gears touch along nominal flanks"
+            },
         )),
     }
 }
@@ -148,7 +164,8 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
     let refuse = |at: Range<usize>, key: &str, advice: &str| {
         Err(conflict(s, &at, format!("`{key}` means nothing to the model \"{}\"", rung.name), advice))
     };
-    if let (Some(word), false) = (&raw.run, matches!(words.run, Run::Steady | Run::Span)) {
+    let ramps = words.run == Run::Ramp && scene.impact.is_some();
+    if let (Some(word), false) = (&raw.run, ramps || matches!(words.run, Run::Steady | Run::Span)) {
         return Err(SceneError::NotYet {
             place: s.place(&word.span()),
             key: format!("run = \"{}\"", word.get_ref()),
@@ -157,7 +174,11 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
         });
     }
     if let (Some(at), false) = (span(&raw.mesh_damping_ratio), rung.mesh_damping) {
-        return refuse(at, "mesh_damping_ratio", "give `damping_ratio` in [lumped12]");
+        let advice = match scene.analysis.model {
+            Model::Impact => "give `damping_ns_per_mm` in [impact]",
+            _ => "give `damping_ratio` in [lumped12]",
+        };
+        return refuse(at, "mesh_damping_ratio", advice);
     }
     if let Some(at) = span(&raw.mesh_damping_ns_per_mm2) {
         return refuse(at, "mesh_damping_ns_per_mm2", "give `mesh_damping_ratio`");
@@ -165,18 +186,54 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
     if let (Some(at), true) = (span(&raw.checkpoint_every_cycles), words.checkpoint_every_cycles != Some(0)) {
         return refuse(at, "checkpoint_every_cycles", "leave it out: a cheap model is run again in a moment");
     }
+    if let (Some(at), true) =
+        (span(&raw.steps_per_resonance), scene.impact.is_some() && words.steps_per_resonance != 16)
+    {
+        return refuse(at, "steps_per_resonance", "give `steps_per_mesh_cycle`: its mesh has no one stiffness");
+    }
     Ok(())
 }
 
-/// Torques that a series can say: constant and harmonic ones.
-fn torques(s: &Source<'_>, raw: &RawScene, name: &str) -> Checked<()> {
-    let tables = [
-        raw.drive.as_ref().and_then(|d| span(&d.get_ref().table_s_nm)),
-        raw.load.as_ref().and_then(|l| span(&l.get_ref().table_s_nm)),
-    ];
-    if let Some(at) = tables.into_iter().flatten().next() {
-        let what = format!("`table_s_nm` means nothing to the model \"{name}\", whose torques are series");
-        return Err(conflict(s, &at, what, "give `amplitude_nm` and `frequency_hz`, or use the model \"reduced\""));
+/// Torques that a model cannot follow.
+fn torques(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
+    let (drive, load) = (raw.drive.as_ref().map(Spanned::get_ref), raw.load.as_ref().map(Spanned::get_ref));
+    let tables = [drive.and_then(|d| span(&d.table_s_nm)), load.and_then(|l| span(&l.table_s_nm))];
+    let harmonic = [drive.and_then(|d| span(&d.amplitude_nm)), load.and_then(|l| span(&l.amplitude_nm))];
+    let by_torque = raw.drive.as_ref().map(Spanned::span);
+    let by_torque = by_torque.filter(|_| scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque));
+    let refused = match rung.torques {
+        Torques::Any => None,
+        Torques::Series => tables.into_iter().flatten().next().map(|at| ("`table_s_nm`", at)),
+        Torques::Steady => {
+            let of = |key, list: [Option<Range<usize>>; 2]| list.into_iter().flatten().next().map(|at| (key, at));
+            let by = by_torque.map(|at| ("[drive] `by = \"torque\"`", at));
+            of("`table_s_nm`", tables).or(of("`amplitude_nm`", harmonic)).or(by)
+        }
+    };
+    match refused {
+        None => Ok(()),
+        Some((key, at)) => {
+            let what = format!("{key} means nothing to the model \"{}\"", rung.name);
+            let advice = match rung.torques {
+                Torques::Steady => "its torques are steady and balance each other: leave it out",
+                _ => "give `amplitude_nm` and `frequency_hz`, or use the model \"reduced\"",
+            };
+            Err(conflict(s, &at, what, advice))
+        }
     }
-    Ok(())
+}
+
+/// Friction where there is none, or of another kind.
+fn friction(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
+    match &raw.contact.friction {
+        Some(friction) if !rung.lines && scene.contact.friction != 0.0 => {
+            let what = format!("`friction` means nothing to the model \"{}\"", rung.name);
+            let advice = match scene.analysis.model {
+                Model::Impact => "give `static_friction` and `dynamic_friction` in [impact]",
+                _ => "leave it out: this model has none",
+            };
+            Err(conflict(s, &friction.span(), what, advice))
+        }
+        _ => Ok(()),
+    }
 }

@@ -15,6 +15,17 @@ const ORDERS: usize = 200;
 /// Axes that a gear of a lumped model moves along and about.
 const MOVES: [Axis; 5] = Axis::ALL;
 
+/// Torques that a model knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::scene) enum Torques {
+    /// Steady ones that balance each other.
+    Steady,
+    /// Those and harmonic ones.
+    Series,
+    /// Tables too.
+    Any,
+}
+
 /// What a model of the ladder takes from the scene.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::scene) struct Rung {
@@ -30,6 +41,8 @@ pub(in crate::scene) struct Rung {
     pub mesh_damping: bool,
     /// Contact lines, and friction on them.
     pub lines: bool,
+    /// Which torques it knows.
+    pub torques: Torques,
 }
 
 impl Rung {
@@ -43,6 +56,7 @@ impl Rung {
                 backlash: true,
                 mesh_damping: true,
                 lines: true,
+                torques: Torques::Series,
             }),
             Model::Lumped12 => Some(Self {
                 name: "lumped12",
@@ -51,21 +65,41 @@ impl Rung {
                 backlash: false,
                 mesh_damping: false,
                 lines: true,
+                torques: Torques::Series,
+            }),
+            Model::Shaft18 => Some(Self {
+                name: "shaft18",
+                moves: Some(&[]),
+                mesh: true,
+                backlash: true,
+                mesh_damping: true,
+                lines: false,
+                torques: Torques::Steady,
+            }),
+            Model::Impact => Some(Self {
+                name: "impact",
+                moves: None,
+                mesh: false,
+                backlash: true,
+                mesh_damping: false,
+                lines: false,
+                torques: Torques::Any,
             }),
             Model::Iso | Model::Reduced | Model::Full => None,
         }
     }
 }
 
-fn conflict<T>(s: &Source<'_>, at: &Spanned<T>, what: String, advice: &str) -> SceneError {
+pub(super) fn conflict<T>(s: &Source<'_>, at: &Spanned<T>, what: String, advice: &str) -> SceneError {
     SceneError::Conflict { place: s.place(&at.span()), what, advice: advice.into() }
 }
 
-fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
+/// Finite numbers, `ORDERS` at most.
+pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
     let Some(values) = raw else { return Ok(Vec::new()) };
-    let wrong = |what: String| conflict(s, values, what, "amplitudes of the mesh orders 1, 2, ..., as in [0.2, 0.05]");
+    let wrong = |what: String| conflict(s, values, what, "a short list of numbers, as in [0.2, 0.05]");
     if values.get_ref().len() > ORDERS {
-        return Err(wrong(format!("`{key}` has {} orders, more than {ORDERS}", values.get_ref().len())));
+        return Err(wrong(format!("`{key}` has {} numbers, more than {ORDERS}", values.get_ref().len())));
     }
     match values.get_ref().iter().find(|x| !(x.abs() <= 1e9)) {
         Some(x) => Err(wrong(format!("`{key}` holds {x}, allowed is -1e9 .. 1e9"))),
@@ -101,7 +135,12 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     ];
     for (key, raw, fits, wanted) in amplitudes {
         if let (Some(raw), false) = (raw, fits) {
-            return Err(conflict(s, raw, format!("`{key}` wants {wanted}"), "leave it out, or give the mean stiffness"));
+            return Err(conflict(
+                s,
+                raw,
+                format!("`{key}` wants {wanted}"),
+                "leave it out, or give the mean stiffness",
+            ));
         }
     }
     if let (Some(half), false) = (&raw.half_backlash_um, rung.backlash) {
@@ -112,7 +151,8 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
         let what = format!("`line_sharing` means nothing to the model \"{}\", which has no friction", rung.name);
         return Err(conflict(s, word, what, "leave it out"));
     }
-    let sharing = s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
+    let sharing =
+        s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
     Ok(MeshScene {
         stiffness_from: from,
         stiffness_n_per_um: optional(s, "stiffness_n_per_um", &raw.stiffness_n_per_um, 1e-6, 1e9)?,
@@ -125,7 +165,8 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     })
 }
 
-fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
+/// A number if there is one.
+pub(super) fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
     value.as_ref().map(|_| s.number(key, value, low, low, high)).transpose()
 }
 

@@ -120,13 +120,7 @@ pub(in crate::scene) fn bearing(
         damping_z_ns_per_mm: of(&damping, 2)?,
         damping_rx_nmms_per_rad: of(&damping, 3)?,
         damping_ry_nmms_per_rad: of(&damping, 4)?,
-        damping_rz_nmms_per_rad: optional(
-            s,
-            "damping_rz_nmms_per_rad",
-            &raw.damping_rz_nmms_per_rad,
-            0.0,
-            1e15,
-        )?,
+        damping_rz_nmms_per_rad: optional(s, "damping_rz_nmms_per_rad", &raw.damping_rz_nmms_per_rad, 0.0, 1e15)?,
         stiffness_matrix_n_mm_rad: matrix(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad)?,
         damping_matrix_ns_mm_rad: matrix(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad)?,
     })

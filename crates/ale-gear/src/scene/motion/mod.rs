@@ -6,7 +6,7 @@ mod raw;
 use serde::Serialize;
 
 pub(super) use check::{bearing, body, drive, load, motion};
-pub(super) use raw::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
+pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 
 /// Rigid body of a gear with what turns with it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
