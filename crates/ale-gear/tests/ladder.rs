@@ -2,6 +2,7 @@
 
 mod util;
 
+use ale_gear::scene::Scene;
 use serde_json::Value;
 use util::{ISO_SCENE, Scratch, repository};
 
@@ -158,5 +159,16 @@ fn what_means_nothing_is_refused() {
         let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
         assert_eq!(run.code, Some(2), "{wanted}: {}", run.stderr);
         assert!(run.stderr.contains(wanted) && run.stderr.starts_with("ale-gear: a.toml:"), "{wanted}: {}", run.stderr);
+    }
+}
+
+/// A scene with every default written out is the same scene.
+#[test]
+fn written_out_a_scene_is_itself() {
+    for number in ["001", "002", "003", "004"] {
+        let path = repository().join(format!("scenes/seeds/{number}.toml"));
+        let scene = Scene::read(&path).unwrap_or_else(|e| panic!("{e}"));
+        let again = Scene::parse(&scene.to_toml(), &path).unwrap_or_else(|e| panic!("{e}\n{}", scene.to_toml()));
+        assert_eq!(scene, again, "{number}");
     }
 }

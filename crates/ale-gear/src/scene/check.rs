@@ -44,6 +44,10 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
             }
             let bearing = words.bearing.as_ref().map(toml::Spanned::get_ref);
             of.bearing = motion::bearing(source, bearing, &body.free, free_at, whose)?;
+            if analysis.model == Model::Lumped12 {
+                // Its damping is Rayleigh's.
+                of.bearing.damping_ratio = None;
+            }
             of.body = Some(body);
         }
     } else {
