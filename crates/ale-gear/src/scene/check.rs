@@ -57,30 +57,16 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let in_time = dynamic
         .then(|| motion::motion(source, raw.motion.as_ref().map_or(&no_motion, |m| m.get_ref()), &raw.analysis.cycles))
         .transpose()?;
-    let none = Default::default();
-    let mesh_words = raw.mesh.as_ref().map_or(&none, |m| m.get_ref());
-    let mesh = rung.filter(|r| r.mesh).map(|r| ladder::mesh(source, mesh_words, r)).transpose()?;
     let in_time = in_time.map(|m| super::MotionScene {
         // Only a mesh that says so has a damping of its own.
         mesh_damping_ratio: m.mesh_damping_ratio.filter(|_| rung.is_none_or(|r| r.mesh_damping)),
         ..m
     });
-    let none = Default::default();
-    let lumped8 = raw.lumped8.as_ref().map_or(&none, |w| w.get_ref());
-    let lumped8 = (analysis.model == Model::Lumped8).then(|| ladder::lumped8(source, lumped8)).transpose()?;
-    let none = Default::default();
-    let lumped12 = raw.lumped12.as_ref().map_or(&none, |w| w.get_ref());
-    let lumped12 = (analysis.model == Model::Lumped12).then(|| ladder::lumped12(source, lumped12)).transpose()?;
-    let none = Default::default();
-    let shaft18 = raw.shaft18.as_ref().map_or(&none, |w| w.get_ref());
-    let shaft18 = (analysis.model == Model::Shaft18).then(|| ladder::shaft18(source, shaft18)).transpose()?;
+    let ladder::Words { mesh, lumped8, lumped12, shaft18, impact } = ladder::words(source, &raw, analysis.model)?;
     if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
         pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
         wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);
     }
-    let none = Default::default();
-    let impact = raw.impact.as_ref().map_or(&none, |w| w.get_ref());
-    let impact = (analysis.model == Model::Impact).then(|| ladder::impact(source, impact)).transpose()?;
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == super::Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {

@@ -5,14 +5,19 @@ mod check;
 mod impact;
 mod raw;
 mod shaft;
+mod words;
 
 use serde::Serialize;
 
 pub(super) use belongs::{in_time, moves, tables};
-pub(super) use check::{Rung, lumped8, lumped12, mesh};
-pub(super) use impact::impact;
+pub(super) use check::Rung;
 pub(super) use raw::{RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft, RawShaft18};
-pub(super) use shaft::{shaft, shaft18};
+pub(super) use shaft::shaft;
+pub(super) use words::{Words, words};
+
+use check::{lumped8, lumped12, mesh};
+use impact::impact;
+use shaft::shaft18;
 
 /// Mesh of a model that has a stiffness instead of flanks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
