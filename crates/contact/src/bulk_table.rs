@@ -71,15 +71,22 @@ impl BulkCompliance<'_> {
             }
         });
     }
+}
 
-    /// Supports of unit forces along the three directions at a place of a patch.
-    fn supports(&self, patch: usize, at: [f64; 2]) -> Option<[Support; DIRECTIONS]> {
-        let flank = &self.patches[patch];
-        let mut face: Option<FacePoint> = None;
-        let along = directions(flank, at);
-        let support = crate::closest_point::support_at(flank, at, along[0], &mut face)?;
-        Some(along.map(|d| Support { direction: d, load: d, ..support }))
-    }
+/// Supports of unit forces along the three directions at a place of a patch.
+fn supports(flank: &FlankPatch, at: [f64; 2]) -> Option<[Support; DIRECTIONS]> {
+    let mut face: Option<FacePoint> = None;
+    let along = directions(flank, at);
+    let support = crate::closest_point::support_at(flank, at, along[0], &mut face)?;
+    Some(along.map(|d| Support { direction: d, load: d, ..support }))
+}
+
+/// The same at all grid points of all patches.
+fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option<[Support; DIRECTIONS]>> {
+    let of_patch = |(grid, flank): (&FlankGridLines, &FlankPatch)| {
+        (0..grid.count()).map(|p| supports(flank, grid.point(p))).collect::<Vec<_>>()
+    };
+    lines.iter().zip(patches).flat_map(of_patch).collect()
 }
 
 /// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
@@ -108,10 +115,7 @@ impl BulkTable {
         let mut first = vec![0];
         lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
         let count = first.last().copied().unwrap_or(0);
-        let mut supports: Vec<Option<[Support; DIRECTIONS]>> = Vec::with_capacity(count);
-        for (patch, grid) in lines.iter().enumerate() {
-            supports.extend((0..grid.count()).map(|p| bulk.supports(patch, grid.point(p))));
-        }
+        let supports = grid_supports(&lines, bulk.patches);
         let along = |p: usize| supports[p % count].as_ref().map(|s| &s[p / count]);
         let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
         let mut u = Vec::new();
@@ -144,7 +148,7 @@ impl BulkTable {
                 let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
-                if let (Some(exact), Some(place)) = (bulk.supports(patch, at), self.place(flank, patch, at, None)) {
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.place(flank, patch, at, None)) {
                     places.push((exact[0], place));
                 }
             }
@@ -159,6 +163,22 @@ impl BulkTable {
             }
         }
         worst / largest
+    }
+
+    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePlace::read`] reads openings from.
+    ///
+    /// ```text
+    /// A u  ~  w_i' s,   s_p = a_p' u
+    /// ```
+    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would have of the rest.
+    pub fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
+        let supports = grid_supports(&self.lines, patches);
+        let along = |k: usize| supports.iter().map(move |s| s.as_ref().map(|s| &s[k]));
+        let of_one = |u: &&[f64]| {
+            let value = |support: Option<&Support>| support.map_or(0.0, |s| opening(s, u));
+            (0..DIRECTIONS).flat_map(|k| along(k).map(value)).collect()
+        };
+        displacements.iter().map(of_one).collect()
     }
 
     /// Error relative to the largest self-compliance, as measured between the grid points when the table was made.
@@ -266,6 +286,11 @@ impl TablePlace {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub fn points(&self) -> usize {
         self.count
+    }
+
+    /// Opening (mm) at this place by a displacement sampled at the table's points.
+    pub fn read(&self, samples: &[f64]) -> f64 {
+        self.each().map(|(p, w)| w * samples[p as usize]).sum()
     }
 
     fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {

@@ -15,6 +15,7 @@ mod kinematic;
 mod line;
 mod loads;
 mod mesh_contact;
+mod modal_flanks;
 pub mod motion;
 mod options;
 pub mod pair_motion;

@@ -7,7 +7,12 @@ use contact::{
 use faer::MatRef;
 use geometry::GearPair;
 
-use crate::{ContactSet, StaticError, StaticOptions, Wrench, friction::Friction, loads::wrenches};
+use crate::{
+    ContactSet, StaticError, StaticOptions, Wrench,
+    friction::Friction,
+    loads::wrenches,
+    modal_flanks::{ModalFlanks, ModalRows},
+};
 
 /// Forces of the mesh on both gears at given poses, and how they change as the gears move.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +76,8 @@ pub struct MeshContact {
     work: [TableWork; 2],
     solver: DenseSolver,
     force: MeshForce,
+    /// Normal modes that are coordinates of their own.
+    modal: Option<ModalFlanks>,
 }
 
 /// Rows and their compliance at some poses.
@@ -86,6 +93,8 @@ struct Found {
     /// Gaps at these poses, mm; those of the rows follow small motions from there.
     gaps: Vec<f64>,
     compliance: Vec<f64>,
+    /// How modes open the rows.
+    modal: ModalRows,
 }
 
 /// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
@@ -102,19 +111,21 @@ impl Found {
             laws: Vec::with_capacity(most),
             gaps: Vec::with_capacity(most),
             compliance: Vec::with_capacity(most * most),
+            modal: ModalRows::default(),
         }
     }
 
-    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small.
-    fn motion_to(&self, poses: &[Pose; 2], radius: f64) -> Option<[f64; 12]> {
-        let at = self.at.as_ref()?;
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open gaps by no more than was reckoned with.
+    fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
+        let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
         for g in 0..2 {
             let moved = poses[g].translation.vector - at[g].translation.vector;
             let turned = (poses[g].rotation * at[g].rotation.inverse()).scaled_axis();
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
             motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
-            if !(moved.norm() + radius * turned.norm() <= NEAR) {
+            let far = moved.norm() + radius * turned.norm();
+            if far.is_nan() || far > NEAR {
                 return None;
             }
         }
@@ -185,6 +196,7 @@ impl MeshContact {
             work,
             solver: DenseSolver::new(most),
             force,
+            modal: None,
             pairs,
             set,
         })
@@ -205,6 +217,24 @@ impl MeshContact {
             self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
         }
         self.set = set;
+    }
+
+    /// Takes normal modes of both gears on the flanks of this window out of the compliance; they then deform the gears by the amplitudes given.
+    pub(crate) fn keep_modes(&mut self, modal: ModalFlanks) {
+        (self.found.at, self.before.at) = (None, None);
+        self.modal = Some(modal);
+    }
+
+    /// Sets the amplitudes of the modes, of pinion and wheel in turn.
+    pub(crate) fn deform(&mut self, amplitudes: &[f64]) {
+        if let Some(modal) = &mut self.modal {
+            modal.deform(amplitudes);
+        }
+    }
+
+    /// The modes, and forces on them at the last evaluation.
+    pub(crate) fn modal(&self) -> Option<&ModalFlanks> {
+        self.modal.as_ref()
     }
 
     /// Forgets the forces of the last solution.
@@ -229,7 +259,7 @@ impl MeshContact {
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
     pub fn evaluate_near(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
-        let motions = [self.found.motion_to(poses, self.radius), self.before.motion_to(poses, self.radius)];
+        let motions = [&self.found, &self.before].map(|f| f.motion_to(poses, self.radius, self.modal.as_ref()));
         let motion = match motions {
             [Some(motion), _] => Some(motion),
             [None, other] => {
@@ -240,13 +270,12 @@ impl MeshContact {
         match motion {
             Some(motion) => {
                 self.found.follow(&motion);
-                self.gaps.clear();
-                self.gaps.extend(self.found.rows.iter().map(|r| r.gap));
+                self.bend();
             }
             None => {
                 self.find_places(poses);
-                let deepest = self.deepest();
-                self.rows_within(poses, deepest + 2.0 * NEAR);
+                let reach = self.reach();
+                self.rows_within(poses, reach + 2.0 * NEAR);
             }
         }
         self.forces()
@@ -255,14 +284,22 @@ impl MeshContact {
     /// Forces of the rows as they are.
     fn forces(&mut self) -> Result<&MeshForce, ContactError> {
         self.solve(Balance::Held, 0)?;
-        let Self { force, found: Found { rows, at, .. }, solver, set, .. } = self;
+        let Self { force, found: Found { rows, at, modal: bent, .. }, solver, set, modal, .. } = self;
         let poses = at.unwrap_or([Pose::identity(); 2]);
         force.wrench = wrenches(&poses, rows, solver.forces());
         let centres = poses.map(|p| p.translation.vector);
-        force.tangent = solver.tangent(|i| {
+        let rigid = |i: usize| {
             let row = &rows[i];
             [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
-        });
+        };
+        match modal {
+            None => force.tangent = solver.tangent(rigid),
+            Some(modal) => {
+                modal.finish(bent, solver, rigid);
+                let (all, n) = (&modal.forces().tangent, 12 + modal.count());
+                force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
+            }
+        }
         force.pair_forces.fill(0.0);
         for (row, f) in rows.iter().zip(solver.forces()) {
             force.pair_forces[set.pair_of(row.patches.0)] += f;
@@ -278,8 +315,13 @@ impl MeshContact {
         &self.force
     }
 
-    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
+    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Undeformed but for the kept modes, and with these it is
+    /// the last evaluation that is lost.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
+        if self.modal.is_some() {
+            self.prepare(poses, None);
+            return self.gaps.iter().fold(f64::MIN, |m, g| m.max(-g));
+        }
         self.find_places(poses);
         self.deepest()
     }
@@ -287,6 +329,22 @@ impl MeshContact {
     /// Deepest overlap at the places found, mm.
     fn deepest(&self) -> f64 {
         self.places.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
+    }
+
+    /// Gap up to which a row at the places found may close, mm: the deepest overlap; modes may close a gap, and open the one that would be the deepest overlap.
+    fn reach(&self) -> f64 {
+        let deepest = self.deepest();
+        self.modal.as_ref().map_or(deepest, |modal| deepest.abs() + 2.0 * (modal.largest() + NEAR))
+    }
+
+    /// Gaps of the rows as they are, with what the modes open them by.
+    fn bend(&mut self) {
+        let Self { found: Found { rows, modal: bent, .. }, modal, gaps, .. } = self;
+        if let Some(modal) = modal {
+            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(bent, i));
+        }
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
     }
 
     /// Where the flanks are nearest, station by station.
@@ -316,7 +374,7 @@ impl MeshContact {
     /// more stay open.
     pub(crate) fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         self.find_places(poses);
-        let reach = reach.unwrap_or_else(|| self.deepest());
+        let reach = reach.unwrap_or_else(|| self.reach());
         self.rows_within(poses, reach);
     }
 
@@ -355,20 +413,27 @@ impl MeshContact {
         found.laws.extend(found.slices.iter().map(|s| s.local.law()));
         found.gaps.clear();
         found.gaps.extend(found.rows.iter().map(|r| r.gap));
-        self.gaps.clear();
-        self.gaps.extend_from_slice(&self.found.gaps);
         self.compliance();
+        self.bend();
     }
 
     /// S between the rows, from both gears' tables or matrices.
     fn compliance(&mut self) {
-        let Self { set, found: Found { rows, slices, compliance, .. }, openings, loads, work, friction, .. } = self;
+        let Self { set, found, openings, loads, work, friction, modal, .. } = self;
+        let Found { rows, slices, compliance, modal: bent, .. } = found;
         let n = rows.len();
+        let symmetric = friction.is_none();
+        if let Some(modal) = modal {
+            modal.begin(bent, n, !symmetric, NEAR);
+        }
         let Some(tables) = set.slices().and_then(|s| s.bulk()) else {
             set.exact_compliance(rows, compliance);
+            if let Some(modal) = modal {
+                modal.read_rows(bent, rows);
+                modal.take_from(bent, n, compliance);
+            }
             return;
         };
-        let symmetric = friction.is_none();
         compliance.clear();
         compliance.resize(n * n, 0.0);
         for (b, table) in tables.iter().enumerate() {
@@ -388,6 +453,10 @@ impl MeshContact {
                 places(loads, true);
                 table.add(openings, loads, false, &mut work[b], compliance);
             }
+            if let Some(modal) = modal {
+                modal.read_places(bent, b, openings, false);
+                modal.read_places(bent, b, loads, true);
+            }
         }
         if symmetric {
             for j in 0..n {
@@ -395,6 +464,9 @@ impl MeshContact {
                     compliance[i * n + j] = compliance[j * n + i];
                 }
             }
+        }
+        if let Some(modal) = modal {
+            modal.take_from(bent, n, compliance);
         }
     }
 

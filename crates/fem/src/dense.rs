@@ -3,8 +3,10 @@
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
     Accum, Mat, MatMut, MatRef, Par, Spec,
+    diag::Diag,
     linalg::{
         cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch},
+        evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch},
         matmul::matmul,
         triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place},
     },
@@ -39,6 +41,30 @@ pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         }
         Ok(_) => Err(FemError::NotPositiveDefinite { dof: 0, pivot_ratio: f64::NAN }),
     }
+}
+
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns, in that order) of a symmetric matrix, of which the lower triangle is read.
+///
+/// # Errors
+/// [`FemError::NotFinite`] for a matrix that is not made of numbers, [`FemError::OutOfMemory`].
+pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FemError> {
+    let n = a.nrows();
+    if n == 0 {
+        return Ok((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let not_finite = (0..n).flat_map(|j| (j..n).map(move |i| (i, j))).find(|&(i, j)| !a[(i, j)].is_finite());
+    if let Some((row, column)) = not_finite {
+        return Err(FemError::NotFinite { row, column });
+    }
+    let scratch = self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, Default::default());
+    let mut memory =
+        MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+    let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::zeros(n, n));
+    let stack = MemStack::new(&mut memory);
+    // The iteration ends for every matrix of numbers; what it says otherwise is about the same thing.
+    self_adjoint_evd(a, values.as_mut(), Some(vectors.as_mut()), Par::Seq, stack, Default::default())
+        .map_err(|_| FemError::NotFinite { row: 0, column: 0 })?;
+    Ok((values.column_vector().iter().copied().collect(), vectors))
 }
 
 /// L^-1 B in place for a lower triangle L, n x n; B n x k.

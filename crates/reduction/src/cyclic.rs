@@ -18,6 +18,7 @@ mod recovery;
 mod sector;
 mod sector_mesh;
 mod turn;
+mod vibration;
 
 use faer::{Mat, MatMut, MatRef};
 use fem::{ElementOptions, Material, dense};
@@ -30,6 +31,7 @@ use sector::Sector;
 pub(crate) use sector_mesh::SectorMesh;
 pub use turn::pitch_permutation;
 pub(crate) use turn::{PitchTurn, face_nodes};
+pub(crate) use vibration::VibratingSector;
 
 /// A cyclic gear with loads on the flanks of some neighbouring teeth.
 #[derive(Debug)]
@@ -79,6 +81,21 @@ impl CyclicGear {
     pub(crate) fn turned_node(&self, node: u32, pitches: u32) -> Option<u32> {
         let at = self.part.places.get(node as usize)?;
         self.part.node_at(Origin { copy: (at.copy + pitches) % self.part.teeth, node: at.node })
+    }
+
+    /// The sector with its mass and without loads.
+    pub(crate) fn vibrating(&self) -> Result<VibratingSector, ReductionError> {
+        VibratingSector::new(&self.part, &self.material, &self.elements)
+    }
+
+    /// Copy and node of the sector under a node of the larger mesh.
+    pub(crate) fn place(&self, node: u32) -> Option<Origin> {
+        self.part.places.get(node as usize).copied()
+    }
+
+    /// Loads on nodes of the larger mesh as those of one sector, each different one once.
+    pub(crate) fn own_loads(&self, loads: &[Load]) -> Vec<Load> {
+        placed(&self.part, loads).map(|p| p.own).unwrap_or_default()
     }
 
     /// C (mm/N), in the frame of copy 0.

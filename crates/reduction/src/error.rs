@@ -59,6 +59,25 @@ pub enum ReductionError {
         /// First tooth.
         first: u32,
     },
+    /// Normal modes were not found.
+    #[error("{converged} normal modes were found with {vectors} vectors, fewer than asked for")]
+    ModesNotConverged {
+        /// Modes found.
+        converged: usize,
+        /// Vectors that the search held.
+        vectors: usize,
+    },
+    /// Flanks with more coordinates than a consistent boundary can have.
+    #[error("a consistent boundary would have {coordinates} coordinates, {most} at most")]
+    LargeBoundary {
+        /// Coordinates of all flanks.
+        coordinates: usize,
+        /// Most that are possible.
+        most: usize,
+    },
+    /// Normal modes of one gear asked for on the flanks of another.
+    #[error("the normal modes belong to another gear, or to another way of reducing it")]
+    OtherGear,
 }
 
 impl From<mesh::MeshError> for ReductionError {
@@ -84,6 +103,11 @@ impl ReductionError {
             ),
             Self::BoreOnFlank { .. } => Some("check the physical groups of the mesh".into()),
             Self::WrongLength { .. } => None,
+            Self::ModesNotConverged { .. } => Some("ask for fewer modes, or for a lower bound of their frequencies".into()),
+            Self::LargeBoundary { .. } => {
+                Some("take the massless boundary, or coarse grids over the flanks, or a mesh that is cyclic".into())
+            }
+            Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }
     }

@@ -40,6 +40,11 @@ impl GeneralGear {
         Ok(Self { dofs, factor })
     }
 
+    /// K^-1 b in place for forces b (N) on all free freedoms, n x k.
+    pub(crate) fn solve(&self, rhs: faer::MatMut<'_, f64>) -> Result<(), ReductionError> {
+        Ok(self.factor.solve(rhs)?)
+    }
+
     /// C of a window, mm/N.
     pub(crate) fn compliance(&self, seen: Seen) -> Result<Mat<f64>, ReductionError> {
         match seen {

@@ -414,6 +414,11 @@ impl GearReducer {
         self.coordinates.are_nodes() && Arc::ptr_eq(&window.reduced, &self.base)
     }
 
+    /// What is kept of the flanks.
+    pub(crate) fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
     /// Unit loads of a window's coordinates.
     pub(crate) fn loads(&self, window: &Window) -> Result<Vec<Load>, ReductionError> {
         self.coordinates.loads(&self.gear, &window.reduced.teeth, &self.options.sides)

@@ -150,7 +150,7 @@ impl Keep<'_> {
         let (Some(folder), stop_after) = self.places else { return Ok(false) };
         let every = u64::from(self.words.checkpoint_every_cycles.unwrap_or(0));
         let stop = stop_after.is_some_and(|cycles| motion.cycle() >= cycles);
-        if stop || (every > 0 && motion.cycle() % every == 0) {
+        if stop || (every > 0 && motion.cycle().is_multiple_of(every)) {
             let bytes = rows.flush()?;
             if let Some(checkpoint) = motion.checkpoint() {
                 let stored = Stored::new(self.scene, self.facts_meshes, self.window, checkpoint, course.clone(), bytes);

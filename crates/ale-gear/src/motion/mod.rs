@@ -240,7 +240,7 @@ fn write_motion(
 /// None for a record that repeats itself, where every line stands in one bin.
 fn window(words: &MotionScene, headline: &MotionHeadline) -> Window {
     let tolerance = words.periodic_tolerance.unwrap_or(1e-6);
-    let whole = headline.certificate.period_cycles.is_some_and(|p| headline.cycles % p as u64 == 0);
+    let whole = headline.certificate.period_cycles.is_some_and(|p| headline.cycles.is_multiple_of(p as u64));
     let periodic = headline.certificate.periodicity.is_some_and(|r| r <= 10.0 * tolerance);
     if periodic && whole { Window::Rectangular } else { Window::Hann }
 }

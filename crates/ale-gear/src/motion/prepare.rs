@@ -96,7 +96,8 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     let Inputs { scene, words, pair, meshes, cache } = inputs;
     let contact = contact_options(scene, pair, window);
     let both = scene.contact.flanks == Flanks::Both;
-    let (driving, coast) = phases.run_foreseen("reduce", run::foreseen_s(scene, meshes), || {
+    let sides = if both { 2.0 } else { 1.0 };
+    let (driving, coast) = phases.run_foreseen("reduce", sides * run::foreseen_s(scene, meshes), || {
         let driving = elastic_gears(scene, pair, &contact, meshes, cache)?;
         let coast = both.then(|| elastic_gears(scene, pair, &contact.driven_backwards(), meshes, cache)).transpose()?;
         Ok::<_, CommandError>((driving, coast))

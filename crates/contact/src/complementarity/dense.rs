@@ -290,15 +290,20 @@ impl DenseSolver {
     /// Solves with the factor for the first `columns` columns of `x`, m rows each.
     pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
         let factor = MatRef::from_column_major_slice(&self.factor, m, m);
-        let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
         if self.symmetric {
+            let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
             triangular_solve::solve_lower_triangular_in_place(factor, x.as_mut(), Par::Seq);
             triangular_solve::solve_upper_triangular_in_place(factor.transpose(), x, Par::Seq);
         } else {
             let [forward, backward] = &self.permutation;
-            let permutation = PermRef::new_checked(forward, backward, m);
-            let stack = MemStack::new(&mut self.scratch);
-            lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
+            // As many columns as the scratch memory is for.
+            for x in self.x[..m * columns].chunks_mut(m * RIGID) {
+                let columns = x.len() / m;
+                let x = MatMut::from_column_major_slice_mut(x, m, columns);
+                let permutation = PermRef::new_checked(forward, backward, m);
+                let stack = MemStack::new(&mut self.scratch);
+                lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
+            }
         }
     }
 

@@ -10,40 +10,55 @@ pub(super) const RIGID: usize = 12;
 impl DenseSolver {
     /// How forces and moments on two rigid bodies follow their motion, active rows alone.
     ///
+    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal without friction). See
+    /// [`DenseSolver::tangent_of`].
+    pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
+        let mut flat = [0.0; RIGID * RIGID];
+        let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {
+            let [j, j_t] = row(i);
+            opening.copy_from_slice(&j);
+            load.copy_from_slice(&j_t);
+        };
+        self.tangent_of(&mut [0.0; 2 * RIGID], fill, &mut flat);
+        std::array::from_fn(|p| std::array::from_fn(|q| flat[RIGID * p + q]))
+    }
+
+    /// How generalised forces of any number of coordinates follow these, active rows alone, row by row into `tangent` (n x n).
+    ///
     /// ```text
     /// T = -J_t' (S + diag delta')^-1 J
     /// ```
-    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal without friction).
-    pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
-        let m = self.active.len();
-        let mut tangent = [[0.0; RIGID]; RIGID];
-        if m == 0 {
-            return tangent;
+    /// `row(i, J_i, J_t,i)` fills what the coordinates do to gap i and what a unit normal force does along them, n each; `memory` has room for both, 2n.
+    pub fn tangent_of(&mut self, memory: &mut [f64], row: impl Fn(usize, &mut [f64], &mut [f64]), tangent: &mut [f64]) {
+        let (m, n) = (self.active.len(), memory.len() / 2);
+        tangent.fill(0.0);
+        if m == 0 || n == 0 {
+            return;
         }
+        let (opening, load) = memory.split_at_mut(n);
         self.x.clear();
-        self.x.resize(RIGID * m, 0.0);
+        self.x.resize(n * m, 0.0);
         for (a, &i) in self.active.iter().enumerate() {
-            let [opening, _] = row(i);
+            row(i, opening, load);
             opening.iter().enumerate().for_each(|(c, v)| self.x[c * m + a] = *v);
         }
         if self.symmetric {
             let factor = MatRef::from_column_major_slice(&self.factor, m, m);
-            let x = MatMut::from_column_major_slice_mut(&mut self.x, m, RIGID);
+            let x = MatMut::from_column_major_slice_mut(&mut self.x, m, n);
             triangular_solve::solve_lower_triangular_in_place(factor, x, Par::Seq);
-            for (row, p) in tangent.iter_mut().zip(self.x.chunks(m)) {
+            for (row, p) in tangent.chunks_mut(n).zip(self.x.chunks(m)) {
                 for (entry, q) in row.iter_mut().zip(self.x.chunks(m)) {
                     *entry = -p.iter().zip(q).map(|(p, q)| p * q).sum::<f64>();
                 }
             }
-        } else {
-            self.back_substitute(m, RIGID);
-            for (a, &i) in self.active.iter().enumerate() {
-                let [_, traction] = row(i);
-                for (p, of_force) in tangent.iter_mut().zip(&traction) {
-                    p.iter_mut().enumerate().for_each(|(c, t)| *t -= of_force * self.x[c * m + a]);
-                }
+            return;
+        }
+        self.back_substitute(m, n);
+        for (a, &i) in self.active.iter().enumerate() {
+            row(i, opening, load);
+            for (p, of_force) in tangent.chunks_mut(n).zip(load.iter()) {
+                p.iter_mut().enumerate().for_each(|(c, t)| *t -= of_force * self.x[c * m + a]);
             }
         }
-        tangent
     }
 }

@@ -93,9 +93,14 @@ impl Coordinates {
         )
     }
 
-    /// d = T q, and the same for velocities.
+    /// T, 12 x n.
+    pub(super) fn map(&self) -> &DMatrix<f64> {
+        &self.map
+    }
+
+    /// d = T q, and the same for velocities; what comes behind the first n is not looked at.
     pub fn displacement(&self, q: &DVector<f64>) -> Displacement {
-        let d = &self.map * q;
+        let d = &self.map * q.rows(0, self.count());
         Displacement::from_fn(|i, _| d[i])
     }
 

@@ -10,6 +10,7 @@ use super::{
     COORDINATES, Changes, Coordinates, Displacement, Drive, Instant, MeshDamping, Moment, MotionOptions, Nominal,
     RigidBody, SidePlace, Speed, contact_line,
     mesh_side::{MeshSide, SideForce},
+    modal::{GearVibration, Modal, ModalBalance, Posture, expansion},
 };
 use crate::{
     ElasticGear, StaticError,
@@ -23,7 +24,8 @@ use crate::{
 /// V = strain energy of teeth and bodies + d' K_b d / 2
 /// ```
 /// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w. Coordinates are
-/// deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth.
+/// deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With [`PairMechanism::with_modes`] coordinates of
+/// normal modes of both gears come behind the rigid ones.
 #[derive(Debug)]
 pub struct PairMechanism {
     pair: GearPair,
@@ -38,6 +40,7 @@ pub struct PairMechanism {
     damping: f64,
     /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
     means: [f64; 2],
+    modal: Option<Modal>,
     last: Option<Touching>,
     extremes: Extremes,
 }
@@ -45,7 +48,7 @@ pub struct PairMechanism {
 /// Contact of both sides at one time and displacement.
 #[derive(Debug, Clone)]
 struct Touching {
-    at: (f64, Displacement),
+    at: (f64, Posture),
     driving: SideForce,
     coast: Option<SideForce>,
 }
@@ -105,7 +108,47 @@ impl PairMechanism {
         let options = MotionOptions { drive, ..self.options.clone() };
         let drive_side = self.drive_side.again(&self.pair)?;
         let coast_side = self.coast_side.as_ref().map(|side| side.again(&self.pair)).transpose()?;
-        Ok(Self::of(self.pair.clone(), drive_side, coast_side, options, self.means))
+        let mut other = Self::of(self.pair.clone(), drive_side, coast_side, options, self.means);
+        if let Some(modal) = self.modal.clone() {
+            other.add_modes(modal);
+        }
+        Ok(other)
+    }
+
+    /// The same pair with normal modes of both gears as coordinates of their own: what they share of the teeth's and bodies' compliance gets its inertia, the rest stays quasi-static.
+    ///
+    /// The coordinates are p = q + L D d, amplitudes with what rigid motion shares of them: so mass is constant and without coupling, and a gear that moves as
+    /// a rigid body for a moment keeps its p. Neither they nor their velocities change with the window.
+    ///
+    /// # Errors
+    /// [`StaticError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no number >= 0, and where the bodies' inertia
+    /// is less than what the modes share of it: given for other gears than were meshed.
+    pub fn with_modes(mut self, gears: [GearVibration; 2]) -> Result<Self, StaticError> {
+        if let Some(value) = gears.iter().map(|g| g.damping_ratio).find(|z| !z.is_finite() || *z < 0.0) {
+            return Err(StaticError::OutOfRange { name: "modal damping ratio", value, expected: "a number >= 0" });
+        }
+        let modes = gears.each_ref().map(|g| Arc::clone(&g.modes));
+        self.drive_side.keep_modes(modes.clone())?;
+        if let Some(side) = &mut self.coast_side {
+            side.keep_modes(modes)?;
+        }
+        self.add_modes(Modal::new(gears));
+        if nalgebra::Cholesky::new(self.mass.clone()).is_none() {
+            let least = self.mass.diagonal().min();
+            let expected = "more than the normal modes share of it: are mass and inertia those of the mesh?";
+            return Err(StaticError::OutOfRange { name: "inertia of a gear's body", value: least, expected });
+        }
+        Ok(self)
+    }
+
+    fn add_modes(&mut self, modal: Modal) {
+        let (n, m) = (self.coordinates.count(), modal.count());
+        let mut rigid = self.coordinates.mass(&self.options.bodies);
+        self.coordinates.add_matrix(&modal.shared_inertia(), -1.0, &mut rigid);
+        self.mass = DMatrix::identity(n + m, n + m);
+        self.mass.view_mut((0, 0), (n, n)).copy_from(&rigid);
+        self.modal = Some(modal);
+        self.last = None;
     }
 
     fn of(
@@ -154,6 +197,7 @@ impl PairMechanism {
             bearing,
             damping,
             means,
+            modal: None,
             last,
             extremes,
         }
@@ -217,6 +261,25 @@ impl PairMechanism {
         &self.coordinates
     }
 
+    /// Number of all coordinates: free rigid ones, then normal modes of pinion and wheel.
+    pub fn count(&self) -> usize {
+        self.mass.nrows()
+    }
+
+    /// Frequencies of the kept modes with the bores held, Hz, pinion's first; empty without modes.
+    pub fn mode_frequencies_hz(&self) -> Vec<f64> {
+        self.modal.as_ref().map_or(Vec::new(), Modal::frequencies_hz)
+    }
+
+    /// Sizes of all coordinates from those of the rigid ones: a mode's is what moves a flank by `length` (mm).
+    pub fn scales(&self, rigid: &DVector<f64>, length: f64) -> DVector<f64> {
+        let sizes = self.drive_side.contact().modal().map_or(Vec::new(), |modal| modal.sizes());
+        // A mode that leaves the flanks of this window where they are must not be measured by them.
+        let largest = sizes.iter().fold(f64::MIN_POSITIVE, |m, s| m.max(*s));
+        let modes = sizes.iter().map(|s| length / s.max(0.1 * largest));
+        DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
+    }
+
     /// Nominal motion.
     pub fn nominal(&self) -> &Nominal {
         &self.nominal
@@ -254,9 +317,27 @@ impl PairMechanism {
         self.cycles(t) + sense * d[COORDINATES * (driver + 1) - 1] / gear.pitch_angle()
     }
 
+    /// L D of the modes at time `t`; no rows without modes.
+    fn coupling(&self, t: f64) -> DMatrix<f64> {
+        match &self.modal {
+            None => DMatrix::zeros(0, 2 * COORDINATES),
+            Some(modal) => modal.coupling(self.drive_side.angles(&self.pair, self.cycles(t))),
+        }
+    }
+
+    /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.
+    fn posture(&self, t: f64, q: &DVector<f64>) -> Posture {
+        let d = self.coordinates.displacement(q);
+        let q = match &self.modal {
+            None => DVector::zeros(0),
+            Some(modal) => modal.amplitudes(&self.coupling(t), &d, &q.as_slice()[self.coordinates.count()..]),
+        };
+        Posture { d, q }
+    }
+
     /// Contact of both sides; the last one is kept, since a step ends where several look.
-    fn contact(&mut self, t: f64, d: &Displacement) -> Result<Touching, StaticError> {
-        if let Some(last) = self.last.as_ref().filter(|last| last.at == (t, *d)) {
+    fn contact(&mut self, t: f64, d: &Posture) -> Result<Touching, StaticError> {
+        if let Some(last) = self.last.as_ref().filter(|last| last.at.0 == t && last.at.1 == *d) {
             return Ok(last.clone());
         }
         let cycles = self.cycles(t);
@@ -266,7 +347,7 @@ impl PairMechanism {
         *last = None;
         let driving = drive_side.evaluate(pair, cycles, d).map_err(fail)?;
         let coast = coast_side.as_mut().map(|side| side.evaluate(pair, cycles, d)).transpose().map_err(fail)?;
-        let touching = Touching { at: (t, *d), driving, coast };
+        let touching = Touching { at: (t, d.clone()), driving, coast };
         *last = Some(touching.clone());
         Ok(touching)
     }
@@ -303,8 +384,9 @@ impl PairMechanism {
     /// # Errors
     /// [`StaticError`].
     pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
-        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
-        let Touching { driving, coast, .. } = self.contact(t, &d)?;
+        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let d = at.d;
+        let Touching { driving, coast, .. } = self.contact(t, &at)?;
         let cycles = self.cycles(t);
         let poses = self.drive_side.poses(&self.pair, cycles, &d);
         let mut mesh = driving.normal + driving.friction + self.drive_side.damping(&poses, &rate, self.damping).0;
@@ -319,6 +401,7 @@ impl PairMechanism {
         let pressure = loaded.fold(0.0, |m: f64, (slice, f)| m.max(slice.local.under(f / slice.length).pressure));
         let (window, tooth_changes) = self.drive_side.window();
         let moment = self.moment(t);
+        let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &moment);
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
         Ok(Instant {
@@ -328,7 +411,7 @@ impl PairMechanism {
             transmission_error: q[self.coordinates.lag()],
             transmission_error_rate: v[self.coordinates.lag()],
             displacement: d,
-            drive_torque: self.drive_torque(t, &moment, &mesh),
+            drive_torque: self.drive_torque(t, &moment, &(mesh - shared)),
             load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
             pair_forces: contact.force().pair_forces.clone(),
@@ -339,6 +422,26 @@ impl PairMechanism {
             tooth_changes,
             mesh,
         })
+    }
+
+    /// What the inertia of the modes takes of the forces on the rigid bodies, D' L' p''; nothing without modes.
+    fn modal_reaction(
+        &self,
+        t: f64,
+        at: &Posture,
+        v: &DVector<f64>,
+        sides: [Option<&SideForce>; 2],
+        moment: &Moment,
+    ) -> Displacement {
+        let Some(modal) = &self.modal else { return Displacement::zeros() };
+        let (coupling, rate) = (self.coupling(t), self.posture(t, v).q);
+        let mut balance = ModalBalance::new(modal, &at.q, &rate);
+        sides.into_iter().flatten().for_each(|side| {
+            balance.add(side, &rate);
+        });
+        balance.accelerate(&coupling, moment);
+        let all = coupling.tr_mul(&(balance.conservative + balance.other));
+        Displacement::from_fn(|i, _| all[i])
     }
 
     /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed.
@@ -392,9 +495,10 @@ impl Mechanism for PairMechanism {
     }
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), StaticError> {
-        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
+        let (at, moving) = (self.posture(t, q), self.posture(t, v));
+        let (d, rate) = (at.d, moving.d);
         let moment = self.moment(t);
-        let Touching { driving, coast, .. } = self.contact(t, &d)?;
+        let Touching { driving, coast, .. } = self.contact(t, &at)?;
         let cycles = self.cycles(t);
         let mut normal = Displacement::zeros();
         let mut other = self.external(t, &moment);
@@ -402,11 +506,11 @@ impl Mechanism for PairMechanism {
         let mut stiffness = self.bearing[0];
         let mut damping = self.bearing[1];
         out.dissipated = rate.dot(&(self.bearing[1] * rate));
+        let mut modal = self.modal.as_ref().map(|modal| ModalBalance::new(modal, &at.q, &moving.q));
         for (side, force) in [(Some(&self.drive_side), Some(&driving)), (self.coast_side.as_ref(), coast.as_ref())] {
             let (Some(side), Some(force)) = (side, force) else { continue };
             normal += force.normal;
             other += force.friction;
-            stiffness += force.stiffness;
             let poses = side.poses(&self.pair, cycles, &d);
             let (damped, matrix, power) = side.damping(&poses, &rate, self.damping);
             other += damped;
@@ -414,18 +518,44 @@ impl Mechanism for PairMechanism {
             out.dissipated += power;
             // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part that counts.
             out.dissipated -= force.friction.dot(&rate);
+            match &mut modal {
+                None => stiffness += force.stiffness,
+                Some(modal) => out.dissipated += modal.add(force, &moving.q),
+            }
         }
         let gyroscopic = self.gyroscopic(&moment);
         other -= self.bearing[1] * rate;
         other -= gyroscopic * rate;
         damping += gyroscopic;
-        let conservative = normal - self.bearing[0] * d;
-        self.coordinates.add_force(&about_own_axis(conservative, &d), &mut out.conservative);
-        self.coordinates.add_force(&about_own_axis(other, &d), &mut out.other);
-        if out.tangents {
-            self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
-            self.coordinates.add_matrix(&damping, 1.0, &mut out.damping);
-        } else {
+        let mut conservative = about_own_axis(normal - self.bearing[0] * d, &d);
+        let mut other = about_own_axis(other, &d);
+        match modal {
+            None if out.tangents => {
+                self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
+                self.coordinates.add_matrix(&damping, 1.0, &mut out.damping);
+            }
+            None => {}
+            Some(mut modal) => {
+                let coupling = self.coupling(t);
+                out.supplied += modal.accelerate(&coupling, &moment).dot(&moving.q);
+                out.dissipated += modal.dissipated;
+                conservative -= coupling.tr_mul(&modal.conservative);
+                other -= coupling.tr_mul(&modal.other);
+                for (f, all) in [(&modal.conservative, &mut out.conservative), (&modal.other, &mut out.other)] {
+                    let mut rows = all.rows_mut(self.coordinates.count(), f.len());
+                    rows += f;
+                }
+                if out.tangents {
+                    let y = expansion(self.coordinates.map(), &coupling);
+                    modal.add_rigid(&stiffness, &damping);
+                    out.stiffness += y.tr_mul(&modal.stiffness) * &y;
+                    out.damping += y.tr_mul(&modal.damping) * &y;
+                }
+            }
+        }
+        self.coordinates.add_force(&conservative, &mut out.conservative);
+        self.coordinates.add_force(&other, &mut out.other);
+        if !out.tangents {
             // A ten-thousandth of a mesh cycle either way.
             let pitch = self.pair.pinion.pitch_angle();
             let step = 1e-4 * pitch / moment.velocity[0].abs().max(f64::MIN_POSITIVE);
@@ -435,11 +565,12 @@ impl Mechanism for PairMechanism {
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-        let d = self.coordinates.displacement(q);
-        self.contact(t, &d)?;
+        let at = self.posture(t, q);
+        self.contact(t, &at)?;
         let of = |side: &MeshSide| side.contact().force().strain_energy;
         let contact = of(&self.drive_side) + self.coast_side.as_ref().map_or(0.0, of);
-        Ok(contact + 0.5 * d.dot(&(self.bearing[0] * d)))
+        let modes = self.modal.as_ref().map_or(0.0, |modal| at.q.dot(&modal.squares.component_mul(&at.q)));
+        Ok(contact + 0.5 * (at.d.dot(&(self.bearing[0] * at.d)) + modes))
     }
 
     fn events(&self) -> usize {
@@ -448,22 +579,25 @@ impl Mechanism for PairMechanism {
 
     /// Least gap of the driving flanks and of the coast flanks, mm, with the sign turned: positive in contact.
     fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), StaticError> {
-        let d = self.coordinates.displacement(q);
-        self.contact(t, &d)?;
+        let at = self.posture(t, q);
+        self.contact(t, &at)?;
         let cycles = self.cycles(t);
         let pair = &self.pair;
         for (side, value) in std::iter::once(&mut self.drive_side).chain(self.coast_side.as_mut()).zip(out) {
-            *value = side.overlap(pair, cycles, &d);
+            *value = side.overlap(pair, cycles, &at);
+        }
+        if self.modal.is_some() {
+            self.last = None;
         }
         Ok(())
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
-        let turned = self.turned_cycles(t, &d);
+        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let turned = self.turned_cycles(t, &at.d);
         // Several teeth may be due after a long step.
         loop {
-            let before = self.contact(t, &d)?;
+            let before = self.contact(t, &at)?;
             let Self { pair, drive_side, coast_side, .. } = self;
             let loads = |side: &MeshSide| side.contact().force().pair_forces.iter().sum::<f64>();
             let sums = [Some(loads(drive_side)), coast_side.as_ref().map(loads)];
@@ -476,7 +610,7 @@ impl Mechanism for PairMechanism {
                 return Ok(());
             }
             self.last = None;
-            self.contact(t, &d)?;
+            self.contact(t, &at)?;
             for ((side, moved), sum) in
                 [Some(&mut self.drive_side), self.coast_side.as_mut()].into_iter().zip(moved).zip(sums)
             {
@@ -490,8 +624,8 @@ impl Mechanism for PairMechanism {
 
 impl PairMechanism {
     /// Extremes of the step that has just been taken; and whether a pair beside a window ought to carry load.
-    fn gather(&mut self, t: f64, d: &Displacement, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
-        let cycles = self.cycles(t);
+    fn gather(&mut self, t: f64, at: &Posture, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
+        let (cycles, d) = (self.cycles(t), &at.d);
         let poses = self.drive_side.poses(&self.pair, cycles, d);
         self.drive_side.check_beside(&self.pair, turned, &poses)?;
         let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
@@ -502,7 +636,8 @@ impl PairMechanism {
             least = smallest;
         } else {
             self.extremes.steps_apart += 1;
-            let gap = -self.drive_side.overlap(&self.pair, cycles, d);
+            let gap = -self.drive_side.overlap(&self.pair, cycles, at);
+            self.last = self.last.take().filter(|_| self.modal.is_none());
             self.extremes.largest_gap = self.extremes.largest_gap.max(gap);
         }
         if let Some(side) = &self.coast_side

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use ale::ToothWindow;
 use contact::{ContactError, Pose};
 use geometry::GearPair;
-use nalgebra::{SMatrix, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3};
+use reduction::GearModes;
 use serde::{Deserialize, Serialize};
 
-use super::{COORDINATES, Displacement};
+use super::{COORDINATES, Displacement, modal::Posture};
 use crate::{
     ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames,
-    line::Standing, pose,
+    line::Standing, modal_flanks::ModalFlanks, pose,
 };
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
@@ -28,6 +29,8 @@ pub(super) struct MeshSide {
     /// Turn of the wheel from where these flanks touch to where the driving ones do, rad: backlash on the coast side.
     slack: f64,
     changes: Changes,
+    /// Normal modes of both gears that are coordinates of their own.
+    modes: Option<[Arc<GearModes>; 2]>,
 }
 
 /// Tooth changes of one side so far.
@@ -59,6 +62,40 @@ pub(super) struct SideForce {
     pub friction: Displacement,
     /// -d(normal + friction)/dd.
     pub stiffness: SMatrix<f64, 12, 12>,
+    /// The same with the modes.
+    pub modal: Option<ModalForce>,
+}
+
+/// Forces of one side on the modes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ModalForce {
+    /// Normal forces, m.
+    pub normal: DVector<f64>,
+    /// Friction, m.
+    pub friction: DVector<f64>,
+    /// -d(forces)/d(d, q), (12 + m) x (12 + m).
+    pub stiffness: DMatrix<f64>,
+}
+
+/// A slice that carries force.
+struct Pressed {
+    /// Normal force, N.
+    force: f64,
+    /// Damping, N s/mm.
+    damping: f64,
+    /// dg/dd.
+    j: Displacement,
+    /// dg/dt by the rigid bodies, mm/s.
+    opening: f64,
+}
+
+impl Pressed {
+    /// Force against the approach (N, positive where flanks part), its slope, and its power.
+    fn resisted(&self) -> [f64; 3] {
+        let Self { force, damping, opening, .. } = *self;
+        let damped = limited(damping * opening, force);
+        [damped, if damped == damping * opening { damping } else { 0.0 }, damped * opening]
+    }
 }
 
 impl MeshSide {
@@ -86,13 +123,27 @@ impl MeshSide {
         let set = ContactSet::new(pair, &gears, &window, &options)?;
         let contact = MeshContact::new(pair, set.clone(), &options)?;
         let home = (window, set);
-        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default() })
+        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default(), modes: None })
+    }
+
+    /// Takes normal modes of both gears for coordinates of their own.
+    pub fn keep_modes(&mut self, modes: [Arc<GearModes>; 2]) -> Result<(), StaticError> {
+        self.modes = Some(modes);
+        self.enter_modes()
+    }
+
+    /// The modes on the flanks of the window as it is.
+    fn enter_modes(&mut self) -> Result<(), StaticError> {
+        let Some([a, b]) = &self.modes else { return Ok(()) };
+        let modal = ModalFlanks::new(&self.gears, [a, b], self.contact.contact_set())?;
+        self.contact.keep_modes(modal);
+        Ok(())
     }
 
     /// The same side at its beginning, with the same gears and tables.
     pub fn again(&self, pair: &GearPair) -> Result<Self, StaticError> {
         let (window, set) = self.home.clone();
-        Ok(Self {
+        let mut again = Self {
             options: self.options.clone(),
             gears: Arc::clone(&self.gears),
             contact: MeshContact::new(pair, set.clone(), &self.options)?,
@@ -101,7 +152,10 @@ impl MeshSide {
             ahead: self.ahead,
             slack: self.slack,
             changes: Changes::default(),
-        })
+            modes: self.modes.clone(),
+        };
+        again.enter_modes()?;
+        Ok(again)
     }
 
     /// Forgets forces and places of the last solution: what comes then depends on the state alone.
@@ -132,7 +186,18 @@ impl MeshSide {
             self.contact = MeshContact::new(pair, set, &self.options)?;
         }
         self.window = window;
-        Ok(())
+        self.enter_modes()
+    }
+
+    /// Angles of the gears' own frames against the common one in their nominal motion, rad.
+    pub fn angles(&self, pair: &GearPair, cycles: f64) -> [f64; 2] {
+        let poses = self.poses(pair, cycles, &Displacement::zeros());
+        let pitches = [pair.pinion.pitch_angle(), pair.wheel.pitch_angle()];
+        [0, 1].map(|g| {
+            let turn = poses[g].rotation.into_inner();
+            let shift = self.contact.contact_set().windows().map_or(0, |w| w[g].shift);
+            2.0 * turn.k.atan2(turn.w) - f64::from(shift) * pitches[g]
+        })
     }
 
     /// Frames of the matrices with the gears displaced by `d` from their nominal places.
@@ -150,24 +215,35 @@ impl MeshSide {
         })
     }
 
-    /// Contact with the gears displaced by `d`.
-    pub fn evaluate(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<SideForce, ContactError> {
-        let poses = self.poses(pair, cycles, d);
+    /// Contact with the gears displaced and deformed.
+    pub fn evaluate(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<SideForce, ContactError> {
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
         let force = self.contact.evaluate_near(&poses)?;
         let all = vector(&force.wrench);
         let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
         let friction = self.friction(&poses);
-        Ok(SideForce { normal: all - friction, friction, stiffness })
+        let modal = self.contact.modal().map(|modal| {
+            let (forces, n) = (modal.forces(), 2 * COORDINATES + modal.count());
+            ModalForce {
+                normal: DVector::from_column_slice(&forces.normal),
+                friction: DVector::from_column_slice(&forces.friction),
+                stiffness: -DMatrix::from_row_slice(n, n, &forces.tangent),
+            }
+        });
+        Ok(SideForce { normal: all - friction, friction, stiffness, modal })
     }
 
-    /// Deepest overlap of the undeformed flanks at the place of the last evaluation, mm; negative where they are apart.
-    pub fn overlap(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> f64 {
+    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm; negative where they are apart. Then, with modes, the last evaluation
+    /// is lost.
+    pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> f64 {
         // Where flanks overlap the deepest place is among the rows.
         let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));
         if deepest > 0.0 {
             return deepest;
         }
-        let poses = self.poses(pair, cycles, d);
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
         self.contact.overlap(&poses)
     }
 
@@ -191,14 +267,15 @@ impl MeshSide {
         sum
     }
 
-    /// Slices that carry force: what it is, dg/dd, and how fast the gap opens.
+    /// Slices that carry force, with the gears at `poses` moving at `rate`.
     fn pressed<'a>(
         &'a self,
         poses: &'a [Pose; 2],
-        velocity: &'a Displacement,
-    ) -> impl Iterator<Item = (f64, f64, Displacement, f64)> + 'a {
+        rate: &'a Displacement,
+        per_length: f64,
+    ) -> impl Iterator<Item = Pressed> + 'a {
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| {
+        rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| {
             let mut j = Displacement::zeros();
             for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
                 let moment = (row.position - poses[g].translation.vector).cross(&row.normal);
@@ -207,42 +284,41 @@ impl MeshSide {
                     j[COORDINATES * g + 3 + i] = sign * moment[i];
                 }
             }
-            (f, slice.length, j, j.dot(velocity))
+            Pressed { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
         })
     }
 
     /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
     ///
     /// ```text
-    /// F_d = -c h dg/dt,  F + F_d >= 0
+    /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
+    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no harder than they press, so that the force
+    /// does not jump where contact begins.
+    ///
+    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole compliance of the mesh, and its ratio does not mean another
+    /// thing with every mode that is taken out of it. Modes have dampers of their own.
     pub fn damping(
         &self,
         poses: &[Pose; 2],
-        velocity: &Displacement,
+        rate: &Displacement,
         per_length: f64,
     ) -> (Displacement, SMatrix<f64, 12, 12>, f64) {
-        let (mut force, mut matrix, mut power) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
-        for (f, length, j, opening) in self.pressed(poses, velocity) {
-            let c = per_length * length;
-            // Parting flanks let go at most as much as they press.
-            if c * opening <= f {
-                force -= c * opening * j;
-                matrix += c * j * j.transpose();
-                power += c * opening * opening;
-            } else {
-                force -= f * j;
-                power += f * opening;
-            }
+        let (mut total, mut matrix, mut taken) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
+        for slice in self.pressed(poses, rate, per_length) {
+            let [force, slope, power] = slice.resisted();
+            total -= force * slice.j;
+            matrix += slope * slice.j * slice.j.transpose();
+            taken += power;
         }
-        (force, matrix, power)
+        (total, matrix, taken)
     }
 
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
-    pub fn normal_forces(&self, poses: &[Pose; 2], velocity: &Displacement, per_length: f64) -> [f64; 2] {
+    pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
-        for (f, length, _, opening) in self.pressed(poses, velocity) {
-            let total = f - (per_length * length * opening).min(f);
+        for slice in self.pressed(poses, rate, per_length) {
+            let total = slice.force - slice.resisted()[0];
             sum += total;
             least = least.min(total);
         }
@@ -318,6 +394,11 @@ impl MeshSide {
         let after = self.contact.force().pair_forces.iter().sum::<f64>();
         self.changes.jump = self.changes.jump.max((after - before).abs());
     }
+}
+
+/// Damping of a slice that carries `force`, between -force and force.
+fn limited(damping: f64, force: f64) -> f64 {
+    damping.clamp(-force, force)
 }
 
 fn opposite(sense: ale::Sense) -> ale::Sense {

@@ -19,7 +19,7 @@ pub enum Drive {
     },
 }
 
-/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach; never a pull.
+/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach or part, at most the slice's own force: never a pull.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum MeshDamping {
     /// Damping ratio zeta of the two gears turning against each other: c = 2 zeta sqrt(k_m m_e), shared over the mean length of contact lines.

@@ -14,6 +14,9 @@ use crate::{
 /// Why a pair's motion could not go on.
 pub type PairMotionError = MotionError<StaticError>;
 
+/// Who gets the rows of a motion, with the energy so far.
+pub type Seen<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
+
 /// How a pair's motion is integrated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionSettings {
@@ -114,7 +117,7 @@ impl Motion {
         settings: MotionSettings,
         from: Checkpoint,
     ) -> Result<Self, PairMotionError> {
-        if from.state.q.len() != system.coordinates().count() {
+        if from.state.q.len() != system.count() {
             return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
         }
         let Checkpoint { cycle, state, ledger, place, counts } = from;
@@ -212,7 +215,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
-    pub fn run_cycle(&mut self, mut seen: Option<&mut dyn FnMut(&Instant, &Ledger)>) -> Result<Swing, PairMotionError> {
+    pub fn run_cycle(&mut self, mut seen: Option<Seen<'_>>) -> Result<Swing, PairMotionError> {
         let Some(end) = self.end_of_cycle() else {
             return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
         };
@@ -242,7 +245,7 @@ impl Motion {
                     }
                 }
                 let is_row = if equal {
-                    steps % per_row == 0
+                    steps.is_multiple_of(per_row)
                 } else {
                     (until - progress.state.time).abs() < 1e-9 * (end - begin)
                 };

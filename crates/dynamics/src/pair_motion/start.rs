@@ -31,7 +31,7 @@ pub fn quasi_static_start(
     guess: f64,
     scale: &DVector<f64>,
 ) -> Result<State, MotionError<StaticError>> {
-    let mut q = DVector::zeros(system.coordinates().count());
+    let mut q = DVector::zeros(system.count());
     q[system.coordinates().lag()] = guess;
     let q = balance(system, time, q, scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().contact, time);

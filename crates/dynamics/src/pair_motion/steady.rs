@@ -10,6 +10,8 @@ use crate::motion::State;
 
 /// Longest period that is looked for, mesh cycles.
 pub const LONGEST_PERIOD: usize = 8;
+/// A longer period must do this much better than a shorter one: what dies away in beats is nearer to itself after some cycles than after one.
+const CLEARLY: f64 = 0.03;
 /// Peak to peak below which a coordinate counts as still, over its scale.
 const STILL: f64 = 1e-6;
 
@@ -34,7 +36,7 @@ impl Returns {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
     }
 
-    /// Takes the state at the end of a cycle. The shortest period wins that is within `tolerance`, else the best one.
+    /// Takes the state at the end of a cycle. The shortest period wins that is within `tolerance`, else the best one; a longer one only where it does clearly better.
     ///
     /// A driver that a torque turns has no place to return to: of the coordinate `free`, only the velocity is looked at.
     pub fn judge(
@@ -50,10 +52,10 @@ impl Returns {
         let mut best = Periodicity { period: 1, residual: f64::INFINITY };
         for (i, before) in self.starts.iter().rev().enumerate() {
             let residual = difference([&now, before], &size, scale, free);
-            if residual < best.residual {
+            if i == 0 || residual < CLEARLY * best.residual {
                 best = Periodicity { period: i + 1, residual };
             }
-            if residual <= tolerance {
+            if best.residual <= tolerance {
                 break;
             }
         }

@@ -201,6 +201,25 @@ impl Sector {
         Ok(stacked(own.as_ref(), ends.as_ref()))
     }
 
+    /// Forces on the cuts (2c x k, N) that do the work of forces on all freedoms (n x k, N), the inside following freely; of a sector without loads.
+    pub(super) fn ends_under(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
+        let mut ends = self.factor.condense(force)?;
+        self.next_frame(ends.as_mut());
+        Ok(ends)
+    }
+
+    /// Displacement of all free freedoms (n x k, mm) under forces on them (N), the cuts moved by `ends` (2c x k, mm); of a sector without loads.
+    pub(super) fn field_under(&self, force: MatRef<'_, f64>, ends: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
+        let mut ends = ends.clone();
+        self.own_frame(ends.as_mut());
+        Ok(self.factor.solve_held(force, ends.as_ref())?)
+    }
+
+    /// The sector's mesh.
+    pub(super) fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
     /// Stress at some nodes for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts (6q x 2c, MPa/mm); components in the sector's
     /// frame, the mean over the elements of this sector alone.
     pub(super) fn stress(
