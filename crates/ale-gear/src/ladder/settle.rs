@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use dynamics::pair_motion::{LONGEST_PERIOD, Periodicity};
 
-/// A longer period must fit this much better than a shorter one.
+/// Difference after one cycle, over the peak to peak, below which a motion dies out to period one rather than having a longer period.
 const SUBHARMONIC: f64 = 0.01;
 
 /// Transmission errors of the last mesh cycles, row by row.
@@ -21,11 +21,15 @@ impl Returns {
     pub fn judge(&mut self, rows: Vec<f64>, tolerance: f64) -> Periodicity {
         let (low, high) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
         let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
+        let mut once = f64::INFINITY;
         let mut best = Periodicity { period: 1, residual: f64::INFINITY };
         for (i, before) in self.cycles.iter().rev().enumerate() {
             let off = rows.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             let residual = off / size;
-            if i == 0 || residual < SUBHARMONIC * best.residual {
+            if i == 0 {
+                once = residual;
+            }
+            if i == 0 || (once > SUBHARMONIC && residual < best.residual) {
                 best = Periodicity { period: i + 1, residual };
             }
             if residual <= tolerance {

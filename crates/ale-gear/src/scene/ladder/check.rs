@@ -101,7 +101,7 @@ pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
     if values.get_ref().len() > ORDERS {
         return Err(wrong(format!("`{key}` has {} numbers, more than {ORDERS}", values.get_ref().len())));
     }
-    match values.get_ref().iter().find(|x| !(x.abs() <= 1e9)) {
+    match values.get_ref().iter().find(|x| !(-1e9..=1e9).contains(*x)) {
         Some(x) => Err(wrong(format!("`{key}` holds {x}, allowed is -1e9 .. 1e9"))),
         None => Ok(values.get_ref().clone()),
     }
