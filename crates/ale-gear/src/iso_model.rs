@@ -63,7 +63,7 @@ fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
     scene.operation.torque() / driven.base_radius()
 }
 
-fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
+pub(crate) fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
     let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
     stiffness(&IsoPair {
         teeth: [scene.pinion.teeth, scene.wheel.teeth],

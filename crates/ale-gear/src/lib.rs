@@ -5,6 +5,7 @@
 //! | [`scene`] | reads and checks what the user wrote |
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
+//! | `ladder` | cheaper models of the same pair, in time |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
@@ -29,5 +30,6 @@ pub mod scene;
 
 mod gears;
 mod iso_model;
+mod ladder;
 pub mod meshes;
 mod partial;

@@ -44,7 +44,7 @@ pub(crate) fn diameter(base_radius: f64, roll: f64) -> f64 {
 
 /// Whether a scene's contact is made of slices, which a pattern needs.
 pub fn has_slices(scene: &Scene) -> bool {
-    scene.analysis.model != Model::Iso && scene.contact.method == Method::Slice
+    matches!(scene.analysis.model, Model::Reduced | Model::Full) && scene.contact.method == Method::Slice
 }
 
 /// Patterns of pinion and wheel.

@@ -57,7 +57,8 @@ fn a_value_out_of_range_names_the_range() {
     );
     says(
         &with("model = \"iso\"", "model = \"reducd\""),
-        "ale-gear: a.toml:16: `model` is \"reducd\", allowed is \"reduced\" or \"full\" or \"iso\"\n\
+        "ale-gear: a.toml:16: `model` is \"reducd\", allowed is \"reduced\" or \"full\" or \"iso\" or \"lumped8\" or \"lumped12\" \
+         or \"shaft18\" or \"impact\"\n\
          hint: did you mean \"reduced\"?\n",
     );
 }
@@ -84,9 +85,9 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
          hint: leave it out, or use `method = \"nodal\"`\n",
     );
     says(
-        &with("model = \"iso\"", "model = \"lumped12\""),
-        "ale-gear: a.toml:16: `model = \"lumped12\"` asks for a dynamic model of the pair, which this version cannot do\n\
-         hint: use `model = \"reduced\"`, \"full\" or \"iso\"\n",
+        &with("model = \"iso\"", "model = \"reduced+modes\""),
+        "ale-gear: a.toml:16: `model = \"reduced+modes\"` asks for normal modes of the gears, which this version cannot do\n\
+         hint: use `model = \"reduced\"`\n",
     );
     says(
         &with("[analysis]", "[analysis]\nkind = \"dynamic\""),

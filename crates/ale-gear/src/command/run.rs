@@ -104,11 +104,13 @@ impl RunArgs {
         let refuse = |what: &str, hint: &str| {
             Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
         };
-        let checkpoints = scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
+        let full = !crate::ladder::has(scene);
+        let checkpoints =
+            full && scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
             return refuse(
                 "this analysis has no checkpoints",
-                "`--resume` and `--stop-after-cycles` belong to motions with `run` \"steady\", \"span\" or \"ramp\"",
+                "`--resume` and `--stop-after-cycles` belong to motions of the model \"reduced\" with `run` \"steady\", \"span\" or \"ramp\"",
             );
         }
         if scene.analysis.kind == Kind::Dynamic && scene.output.vtu {
@@ -117,7 +119,7 @@ impl RunArgs {
                 "leave `--vtu` out, or use `kind = \"static\"`",
             );
         }
-        if scene.analysis.kind == Kind::Dynamic && scene.operation.torque_nm == 0.0 {
+        if scene.analysis.kind == Kind::Dynamic && scene.lumped12.is_none() && scene.operation.torque_nm == 0.0 {
             return refuse("a motion begins under load", "give a `--torque-nm` above 0");
         }
         Ok(())
@@ -152,6 +154,11 @@ impl RunArgs {
         let scene = self.plan()?;
         super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
+        if let (Some(words), true) = (&scene.motion, crate::ladder::has(&scene)) {
+            let table = crate::ladder::solve(&scene, words, &mut phases, &results, &self.cache())?;
+            results.finish()?;
+            return Ok(format!("{table}\nresults: {}\n", self.out.display()));
+        }
         if let Some(words) = &scene.motion {
             return self.move_pair(&scene, words, phases, results);
         }

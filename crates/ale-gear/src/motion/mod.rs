@@ -30,8 +30,9 @@ use prepare::{Inputs, Prepared, prepare};
 use store::{CheckpointFolder, Stored};
 
 pub(crate) use headline::MotionHeadline;
-pub(crate) use prepare::QuasiStatic;
-pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine};
+pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
+pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, energy_row};
+pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
 
@@ -226,7 +227,7 @@ fn write_motion(
         spectrum: spectrum.as_ref(),
         waterfall: &waterfall,
         per_cycle,
-        quasi_static: &prepared.quasi_static,
+        quasi_static: Some(&prepared.quasi_static.transmission_error),
     };
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, &warnings)?;
     results.write("report.html", report.as_bytes())?;

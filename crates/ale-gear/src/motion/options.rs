@@ -20,7 +20,7 @@ use crate::{
 /// kg in t, kg m^2 in t mm^2.
 const KILOGRAM: f64 = 1e-3;
 const KILOGRAM_METRE2: f64 = 1e3;
-const RPM: f64 = std::f64::consts::PI / 30.0;
+pub(crate) const RPM: f64 = std::f64::consts::PI / 30.0;
 
 /// Bodies, bearings, drive and load of the scene; contact as given.
 ///
@@ -50,7 +50,8 @@ pub(super) fn motion_options(
     Ok(MotionOptions { contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
 }
 
-fn drive(scene: &Scene, pair: &GearPair) -> Drive {
+/// What drives the driver: its speed, or a torque that balances the load in the mean unless the scene states another.
+pub(crate) fn drive(scene: &Scene, pair: &GearPair) -> Drive {
     let start = scene.operation.speed_rpm * RPM;
     if let Some(drive) = scene.drive.as_ref().filter(|d| d.by == DriveBy::Torque) {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
@@ -72,7 +73,7 @@ fn drive(scene: &Scene, pair: &GearPair) -> Drive {
 }
 
 /// N m in N mm; `mean` where the scene states none.
-fn torque(words: &TorqueScene, mean: f64) -> Torque {
+pub(crate) fn torque(words: &TorqueScene, mean: f64) -> Torque {
     let mean = words.torque_nm.map_or(mean, |t| 1e3 * t);
     match (&words.table_s_nm, words.amplitude_nm, words.frequency_hz) {
         (Some(table), ..) => Torque::Table {
@@ -95,17 +96,27 @@ fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> 
     let meshed = if gear.is_periodic_sector() { 1 } else { gear.teeth().len().max(1) };
     let copies = f64::from(gear.tooth_count()) / meshed as f64;
     let of_mesh = RigidBody::of_tensor(own.mass_t, own.inertia_about_tmm2([0.0; 3]));
-    let or = |stated: Option<f64>, unit: f64, meshed: f64| stated.map_or(copies * meshed, |value| unit * value);
-    Ok(RigidBody {
-        mass: or(words.mass_kg, KILOGRAM, of_mesh.mass),
-        transverse_inertia: or(words.transverse_inertia_kg_m2, KILOGRAM_METRE2, of_mesh.transverse_inertia),
-        polar_inertia: or(words.polar_inertia_kg_m2, KILOGRAM_METRE2, of_mesh.polar_inertia),
+    let whole = RigidBody {
+        mass: copies * of_mesh.mass,
+        transverse_inertia: copies * of_mesh.transverse_inertia,
+        polar_inertia: copies * of_mesh.polar_inertia,
+    };
+    Ok(stated_body(words, whole))
+}
+
+/// What the scene states of a body, and `own` where it says nothing.
+pub(crate) fn stated_body(words: &BodyScene, own: RigidBody) -> RigidBody {
+    let or = |stated: Option<f64>, unit: f64, own: f64| stated.map_or(own, |value| unit * value);
+    RigidBody {
+        mass: or(words.mass_kg, KILOGRAM, own.mass),
+        transverse_inertia: or(words.transverse_inertia_kg_m2, KILOGRAM_METRE2, own.transverse_inertia),
+        polar_inertia: or(words.polar_inertia_kg_m2, KILOGRAM_METRE2, own.polar_inertia),
     }
-    .with_polar(KILOGRAM_METRE2 * words.added_inertia_kg_m2))
+    .with_polar(KILOGRAM_METRE2 * words.added_inertia_kg_m2)
 }
 
 /// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).
-fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
+pub(crate) fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
     let whole = |m: &[[f64; 5]; 5]| Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[i][j] } else { 0.0 });
     let diagonal = |values: [f64; 5]| Matrix6::from_fn(|i, j| if i == j && i < 5 { values[i] } else { 0.0 });
     let stiffness = match &words.stiffness_matrix_n_mm_rad {
@@ -130,7 +141,7 @@ fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
 }
 
 /// Method of integration.
-pub(super) fn scheme(words: &MotionScene) -> Scheme {
+pub(crate) fn scheme(words: &MotionScene) -> Scheme {
     match words.method {
         Integration::Energy => Scheme::Energy,
         Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: words.spectral_radius.unwrap_or(0.9) },

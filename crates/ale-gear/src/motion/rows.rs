@@ -25,7 +25,8 @@ const LEADING: [&str; 9] = [
     "contact_line_length_mm",
     "pairs_in_contact",
 ];
-const WRENCH: [&str; COORDINATES] =
+/// Names of a wrench's components.
+pub(crate) const WRENCH: [&str; COORDINATES] =
     ["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
 const BEARING: [&str; 5] =
     ["bearing_force_x_n", "bearing_force_y_n", "bearing_force_z_n", "bearing_moment_x_nmm", "bearing_moment_y_nmm"];
@@ -38,8 +39,10 @@ const TRAILING: [&str; 6] = [
     "max_pressure_mpa",
     "tooth_changes",
 ];
-const ENERGY: &str = "time_s,kinetic_mj,elastic_mj,supplied_mj,parametric_mj,dissipated_mj,residual_mj\n";
-const GEARS: [&str; 2] = ["pinion", "wheel"];
+/// Columns of the ledger.
+pub(crate) const ENERGY: &str = "time_s,kinetic_mj,elastic_mj,supplied_mj,parametric_mj,dissipated_mj,residual_mj\n";
+/// The gears, as columns begin.
+pub(crate) const GEARS: [&str; 2] = ["pinion", "wheel"];
 
 /// Names of the files.
 pub(crate) const HISTORY: &str = "history.csv";
@@ -165,6 +168,12 @@ impl Growing {
     }
 }
 
+/// A row of the ledger.
+pub(crate) fn energy_row(time: f64, ledger: &Ledger) -> [f64; 7] {
+    let Ledger { kinetic, potential, supplied, parametric, dissipated, .. } = *ledger;
+    [time, kinetic, potential, supplied, parametric, dissipated, ledger.residual()]
+}
+
 /// Both files of rows.
 #[derive(Debug)]
 pub(super) struct Rows {
@@ -204,8 +213,7 @@ impl Rows {
         push_row(&mut self.line, self.layout.row(now));
         self.history.push(&self.line);
         self.line.clear();
-        let Ledger { kinetic, potential, supplied, parametric, dissipated, .. } = *ledger;
-        push_row(&mut self.line, [now.time, kinetic, potential, supplied, parametric, dissipated, ledger.residual()]);
+        push_row(&mut self.line, energy_row(now.time, ledger));
         self.energy.push(&self.line);
     }
 

@@ -24,7 +24,8 @@ impl Columns {
         })
     }
 
-    fn parse(text: &str) -> Option<Self> {
+    /// The columns of a file's text; `None` where it holds what is no number.
+    pub fn parse(text: &str) -> Option<Self> {
         let mut lines = text.lines();
         let names: Vec<&str> = lines.next()?.split(',').collect();
         let mut values = vec![Vec::new(); names.len()];
@@ -41,6 +42,12 @@ impl Columns {
     /// A column; nothing where there is none of that name.
     pub fn get(&self, name: &str) -> &[f64] {
         self.names.get(name).map_or(&[], |&i| &self.values[i])
+    }
+
+    /// The last rows of all columns.
+    pub fn last(&self, rows: usize) -> Self {
+        let tail = |all: &Vec<f64>| all[all.len().saturating_sub(rows)..].to_vec();
+        Self { names: self.names.clone(), values: self.values.iter().map(tail).collect() }
     }
 
     /// Rows.

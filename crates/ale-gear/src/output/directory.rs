@@ -125,7 +125,8 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
                 "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
             )
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
-            || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "waterfall.csv" | "resonance.csv")
+            || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")
+            || matches!(name.as_str(), "waterfall.csv" | "resonance.csv")
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::charts::{Curve, line_chart};
-use crate::motion::{Columns, QuasiStatic, SPECTRA, Spectrum, SweepRow, WaterfallLine};
+use crate::motion::{Columns, SPECTRA, Spectrum, SweepRow, WaterfallLine};
 use crate::scene::SweepWay;
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
@@ -30,8 +30,8 @@ pub(crate) struct MotionPictures<'a> {
     pub waterfall: &'a [WaterfallLine],
     /// Rows in a mesh cycle.
     pub per_cycle: usize,
-    /// The quasi-static cycle.
-    pub quasi_static: &'a QuasiStatic,
+    /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
+    pub quasi_static: Option<&'a [f64]>,
 }
 
 /// All charts of a motion.
@@ -47,8 +47,8 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
     };
     let curve = |label: &str, name: &str| Curve { label: label.to_owned(), points: points(of.rows.get(name)) };
     let mut errors = vec![curve("DTE", "dte_um")];
-    if steady {
-        errors.push(Curve { label: "STE".into(), points: repeated(of, time, begin, unit) });
+    if let (true, Some(ste)) = (steady, of.quasi_static) {
+        errors.push(Curve { label: "STE".into(), points: repeated(of, ste, time, begin, unit) });
     }
     let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
     let sharing: Vec<Curve> = of
@@ -97,10 +97,9 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
 }
 
 /// The quasi-static error of one cycle under every cycle drawn.
-fn repeated(of: &MotionPictures<'_>, time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
+fn repeated(of: &MotionPictures<'_>, ste: &[f64], time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
     let phases = of.rows.get("mesh_phase");
     let phases = &phases[phases.len() - time.len()..];
-    let ste = &of.quasi_static.transmission_error;
     let n = ste.len();
     let at = |phase: f64| {
         let place = phase.rem_euclid(1.0) * n as f64;
@@ -111,7 +110,7 @@ fn repeated(of: &MotionPictures<'_>, time: &[f64], begin: f64, unit: f64) -> Vec
 }
 
 /// Least and largest value of each bucket, so that a long record keeps its envelope.
-fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+pub(super) fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     if points.len() <= 2 * BUCKETS {
         return points.to_vec();
     }

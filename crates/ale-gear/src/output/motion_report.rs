@@ -51,7 +51,8 @@ pub(crate) fn write_sweep_report(
     render(scene, facts, cost, headline, ("sweep.html", include_str!("sweep.html")), sweep_charts(rows), warnings)
 }
 
-fn render<H: Serialize>(
+/// A page with charts, from a template that knows its headline.
+pub(super) fn render<H: Serialize>(
     scene: &Scene,
     facts: &Facts,
     cost: &Cost,

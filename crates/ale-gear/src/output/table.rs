@@ -96,5 +96,9 @@ pub(super) fn model_name(scene: &Scene) -> &'static str {
         crate::scene::Model::Iso => "iso",
         crate::scene::Model::Reduced => "reduced",
         crate::scene::Model::Full => "full",
+        crate::scene::Model::Lumped8 => "lumped8",
+        crate::scene::Model::Lumped12 => "lumped12",
+        crate::scene::Model::Shaft18 => "shaft18",
+        crate::scene::Model::Impact => "impact",
     }
 }

@@ -13,7 +13,7 @@ use super::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
     Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
 };
-use super::{micro, motion};
+use super::{ladder, micro, motion};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -29,13 +29,25 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
     let mut wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
     let analysis = analysis(source, &raw.analysis)?;
+    ladder::tables(source, &raw, analysis.model)?;
+    let rung = ladder::Rung::of(analysis.model);
     let dynamic = analysis.kind == Kind::Dynamic;
     if dynamic {
         for (of, words, whose) in [(&mut pinion, &raw.pinion, "pinion"), (&mut wheel, &raw.wheel, "wheel")] {
-            let body = words.body.as_ref().map(|b| motion::body(source, b.get_ref())).transpose()?.unwrap_or_default();
-            let free_at = words.body.as_ref().map(toml::Spanned::span);
+            let mut body =
+                words.body.as_ref().map(|b| motion::body(source, b.get_ref())).transpose()?.unwrap_or_default();
+            let mut free_at = words.body.as_ref().map(toml::Spanned::span);
+            if let Some((rung, moves)) = rung.and_then(|r| Some((r, r.moves?))) {
+                ladder::moves(source, words, rung, &body)?;
+                body.free = moves.to_vec();
+                free_at = raw.analysis.model.as_ref().map(toml::Spanned::span);
+            }
             let bearing = words.bearing.as_ref().map(toml::Spanned::get_ref);
             of.bearing = motion::bearing(source, bearing, &body.free, free_at, whose)?;
+            if analysis.model == Model::Lumped12 {
+                // Its damping is Rayleigh's.
+                of.bearing.damping_ratio = None;
+            }
             of.body = Some(body);
         }
     } else {
@@ -45,6 +57,16 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let in_time = dynamic
         .then(|| motion::motion(source, raw.motion.as_ref().map_or(&no_motion, |m| m.get_ref()), &raw.analysis.cycles))
         .transpose()?;
+    let in_time = in_time.map(|m| super::MotionScene {
+        // Only a mesh that says so has a damping of its own.
+        mesh_damping_ratio: m.mesh_damping_ratio.filter(|_| rung.is_none_or(|r| r.mesh_damping)),
+        ..m
+    });
+    let ladder::Words { mesh, lumped8, lumped12, shaft18, impact } = ladder::words(source, &raw, analysis.model)?;
+    if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
+        pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
+        wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);
+    }
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == super::Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
@@ -58,6 +80,11 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         load: dynamic.then(|| motion::load(source, raw.load.as_ref().map_or(&no_load, |l| l.get_ref()))).transpose()?,
         analysis: Analysis { cycles, ..analysis },
         motion: in_time,
+        mesh,
+        lumped8,
+        lumped12,
+        impact,
+        shaft18,
         output: output(source, &raw.output)?,
         pinion,
         wheel,
@@ -65,6 +92,18 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     };
     together(source, &raw, &scene)?;
     Ok(scene)
+}
+
+/// The shaft of a gear, which the model of shafts wants.
+fn shaft(s: &Source<'_>, raw: &RawGear, whose: &str, model: &toml::Spanned<String>) -> Checked<super::ShaftScene> {
+    match &raw.shaft {
+        Some(table) => ladder::shaft(s, table),
+        None => Err(SceneError::Conflict {
+            place: s.place(&model.span()),
+            what: format!("the model \"shaft18\" wants the shaft of the {whose}"),
+            advice: format!("give [{whose}.shaft] with `segments_mm`, `gear_at_mm` and supports"),
+        }),
+    }
 }
 
 /// Tables on motion mean nothing to an analysis without time.
@@ -194,6 +233,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
         },
         body: None,
         bearing: Default::default(),
+        shaft: None,
     })
 }
 
@@ -319,13 +359,19 @@ fn not_yet(s: &Source<'_>, key: &str, word: &toml::Spanned<String>, what: &str, 
 }
 
 fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
-    let later = ["lumped8", "lumped12", "shaft18", "impact", "reduced+modes"];
-    if let Some(word) = raw.model.as_ref().filter(|w| later.contains(&w.get_ref().as_str())) {
-        let instead = "use `model = \"reduced\"`, \"full\" or \"iso\"";
-        return Err(not_yet(s, "model", word, "a dynamic model of the pair", instead));
+    if let Some(word) = raw.model.as_ref().filter(|w| w.get_ref() == "reduced+modes") {
+        return Err(not_yet(s, "model", word, "normal modes of the gears", "use `model = \"reduced\"`"));
     }
-    let model =
-        s.choice("model", &raw.model, &[("reduced", Model::Reduced), ("full", Model::Full), ("iso", Model::Iso)])?;
+    let models = [
+        ("reduced", Model::Reduced),
+        ("full", Model::Full),
+        ("iso", Model::Iso),
+        ("lumped8", Model::Lumped8),
+        ("lumped12", Model::Lumped12),
+        ("shaft18", Model::Shaft18),
+        ("impact", Model::Impact),
+    ];
+    let model = s.choice("model", &raw.model, &models)?;
     if let Some(word) = raw.reduction.as_ref().filter(|_| model != Model::Reduced) {
         return Err(SceneError::Conflict {
             place: s.place(&word.span()),
@@ -333,7 +379,18 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
             advice: "leave it out: this model reduces nothing".into(),
         });
     }
-    let kind = s.choice("kind", &raw.kind, &[("static", Kind::Static), ("dynamic", Kind::Dynamic)])?;
+    let rung = ladder::Rung::of(model);
+    let kind = match (&raw.kind, rung) {
+        (None, Some(_)) => Kind::Dynamic,
+        (word, _) => s.choice("kind", word, &[("static", Kind::Static), ("dynamic", Kind::Dynamic)])?,
+    };
+    if let (Kind::Static, Some(word), Some(rung)) = (kind, &raw.kind, rung) {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: format!("the model \"{}\" is one of motion", rung.name),
+            advice: "leave `kind` out, or use `model = \"reduced\"`, \"full\" or \"iso\"".into(),
+        });
+    }
     let ways = [("auto", Reduction::Auto), ("general", Reduction::General)];
     let reduction = s.choice("reduction", &raw.reduction, &ways)?;
     Ok(Analysis {
@@ -456,7 +513,8 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
 
 /// What an analysis in time can do.
 fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
-    if let (Some(word), true) = (&raw.analysis.model, scene.analysis.model != Model::Reduced) {
+    let rung = ladder::Rung::of(scene.analysis.model);
+    if let (Some(word), true, None) = (&raw.analysis.model, scene.analysis.model != Model::Reduced, rung) {
         return Err(not_yet(s, "model", word, "another model in time", "use `model = \"reduced\"`"));
     }
     if let (Some(word), Method::Nodal) = (&raw.contact.method, scene.contact.method) {
@@ -475,7 +533,11 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             instead: "leave it out, or use `kind = \"static\"` for them".into(),
         });
     }
-    if let (Some(torque), true) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0) {
+    if let Some(rung) = rung {
+        ladder::in_time(s, raw, scene, rung)?;
+    }
+    let linear = rung.is_some_and(|r| r.mesh && !r.backlash);
+    if let (Some(torque), true, false) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0, linear) {
         return Err(SceneError::Conflict {
             place: s.place(&torque.span()),
             what: "`torque_nm` is 0: a motion begins under load, and its scales are taken from it".into(),

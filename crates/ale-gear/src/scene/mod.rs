@@ -7,6 +7,7 @@
 mod check;
 mod error;
 mod keys;
+mod ladder;
 mod micro;
 mod motion;
 mod raw;
@@ -20,6 +21,10 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub use ladder::{
+    DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
+    StiffnessFrom, SupportScene,
+};
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
 pub use motion::{
     Axis, BearingScene, BodyScene, DriveBy, DriveScene, Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene,
@@ -55,6 +60,21 @@ pub struct Scene {
     /// Motion in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionScene>,
+    /// Mesh of a model that has a stiffness instead of flanks; set exactly for these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshScene>,
+    /// The model with eight coordinates; set exactly for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped8: Option<Lumped8Scene>,
+    /// The model with twelve; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped12: Option<Lumped12Scene>,
+    /// Rigid gears on their true flanks; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impact: Option<ImpactScene>,
+    /// Lumped shafts; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaft18: Option<Shaft18Scene>,
     /// Which files are written beside the three that always are.
     pub output: OutputScene,
 }
@@ -110,6 +130,9 @@ pub struct GearScene {
     /// What holds its free coordinates.
     #[serde(skip_serializing_if = "BearingScene::is_none")]
     pub bearing: BearingScene,
+    /// The shaft it sits on; set exactly for the model of shafts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaft: Option<ShaftScene>,
 }
 
 /// Options of the structured mesher.
@@ -304,6 +327,14 @@ pub enum Model {
     Reduced,
     /// Every degree of freedom of both meshes.
     Full,
+    /// Eight coordinates, mesh stiffness, backlash and friction.
+    Lumped8,
+    /// Twelve coordinates.
+    Lumped12,
+    /// Two lumped shafts with the mesh between them.
+    Shaft18,
+    /// Rigid gears, force by overlap of their true flanks.
+    Impact,
 }
 
 /// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::SceneError;
+use super::ladder::{RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft, RawShaft18};
 use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 use super::source::Source;
 
@@ -35,6 +36,11 @@ pub(super) struct RawScene {
     #[serde(default)]
     pub analysis: RawAnalysis,
     pub motion: Option<Spanned<RawMotion>>,
+    pub mesh: Option<Spanned<RawMesh>>,
+    pub lumped8: Option<Spanned<RawLumped8>>,
+    pub lumped12: Option<Spanned<RawLumped12>>,
+    pub impact: Option<Spanned<RawImpact>>,
+    pub shaft18: Option<Spanned<RawShaft18>>,
     #[serde(default)]
     pub output: RawOutput,
 }
@@ -60,6 +66,7 @@ pub(super) struct RawGear {
     pub modification: Option<Spanned<RawModification>>,
     pub body: Option<Spanned<RawBody>>,
     pub bearing: Option<Spanned<RawBearing>>,
+    pub shaft: Option<Spanned<RawShaft>>,
 }
 
 /// The keys of a flank's modification, once for both tables that they stand in: serde flattens no tables that refuse unknown keys.

@@ -105,6 +105,7 @@ pub(in crate::scene) fn bearing(
         stiffness_z_n_per_mm: held(s, stiffness[2])?,
         stiffness_rx_nmm_per_rad: held(s, stiffness[3])?,
         stiffness_ry_nmm_per_rad: held(s, stiffness[4])?,
+        stiffness_rz_nmm_per_rad: held(s, ("stiffness_rz_nmm_per_rad", &raw.stiffness_rz_nmm_per_rad))?,
         damping_ratio: match (free.is_empty(), &raw.damping_ratio) {
             (true, Some(value)) => {
                 let what = format!("`damping_ratio` has nothing to damp: no coordinate of the {whose} is free");
@@ -119,6 +120,7 @@ pub(in crate::scene) fn bearing(
         damping_z_ns_per_mm: of(&damping, 2)?,
         damping_rx_nmms_per_rad: of(&damping, 3)?,
         damping_ry_nmms_per_rad: of(&damping, 4)?,
+        damping_rz_nmms_per_rad: optional(s, "damping_rz_nmms_per_rad", &raw.damping_rz_nmms_per_rad, 0.0, 1e15)?,
         stiffness_matrix_n_mm_rad: matrix(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad)?,
         damping_matrix_ns_mm_rad: matrix(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad)?,
     })

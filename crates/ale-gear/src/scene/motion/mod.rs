@@ -6,7 +6,7 @@ mod raw;
 use serde::Serialize;
 
 pub(super) use check::{bearing, body, drive, load, motion};
-pub(super) use raw::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
+pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 
 /// Rigid body of a gear with what turns with it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -66,6 +66,9 @@ pub struct BearingScene {
     pub stiffness_rx_nmm_per_rad: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_ry_nmm_per_rad: Option<f64>,
+    /// Against the turn off the nominal one, of lumped gears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stiffness_rz_nmm_per_rad: Option<f64>,
     /// Of each direction that is free and has no damping of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_ratio: Option<f64>,
@@ -79,6 +82,8 @@ pub struct BearingScene {
     pub damping_rx_nmms_per_rad: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_ry_nmms_per_rad: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping_rz_nmms_per_rad: Option<f64>,
     /// Whole matrices, 5 x 5 in the order x, y, z, rx, ry; N/mm, N/rad, N mm/rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_matrix_n_mm_rad: Option<[[f64; 5]; 5]>,

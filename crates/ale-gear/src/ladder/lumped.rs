@@ -1,0 +1,215 @@
+//! The models with eight and twelve coordinates.
+
+use ale::Sense;
+use dynamics::{motion::State, pair_motion::RigidBody};
+use geometry::GearPair;
+use lumped::{
+    HistoryRow, LineSharing, LumpedError, LumpedModel, LumpedPair, MeshClock, MeshFrame, Operation, PlaneOfAction,
+    lumped8::{Lumped8, MeshLaw, Motion8},
+    lumped12::{Lumped12, Motion12},
+    starting_state,
+};
+use nalgebra::DVector;
+use std::f64::consts::TAU;
+
+use super::{
+    bodies::{bodies, supports8, supports12, torques},
+    mesh_cycle::{Sources, half_a_cycle_on, mesh_cycle},
+    model::LadderModel,
+};
+use crate::{
+    error::CommandError,
+    motion::{GEARS, RPM, WRENCH},
+    run,
+    scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing},
+};
+
+const LEADING: [&str; 9] = [
+    "time_s",
+    "pinion_angle_deg",
+    "mesh_phase",
+    "dte_um",
+    "mesh_deflection_um",
+    "mesh_stiffness_n_per_um",
+    "contact_line_length_mm",
+    "normal_force_n",
+    "friction_force_n",
+];
+/// Mesh cycles at t = 0: the pinion begins half a pitch before the middle of pair 0, as everywhere in this program.
+const START: f64 = -0.5;
+
+/// A pair of the scene, its excitation and its bodies, with warnings.
+pub(super) struct Made {
+    pub pair: LumpedPair,
+    pub bodies: [RigidBody; 2],
+    pub warnings: Vec<String>,
+}
+
+/// What both models have in common.
+pub(super) fn lumped_pair(
+    scene: &Scene,
+    words: &MeshScene,
+    pair: &GearPair,
+    sources: Sources<'_>,
+) -> Result<Made, CommandError> {
+    let running = run::options(scene, pair);
+    // Scenes say how the pinion turns, lumped pairs how the driver does.
+    let sense = match (scene.operation.driver, running.sense) {
+        (Driver::Pinion, sense) => sense,
+        (Driver::Wheel, Sense::Ccw) => Sense::Cw,
+        (Driver::Wheel, Sense::Cw) => Sense::Ccw,
+    };
+    let frame = MeshFrame::of_pair(pair, running.driver, sense);
+    let fed = mesh_cycle(scene, words, pair, &PlaneOfAction::of_pair(pair, running.driver, &frame), sources)?;
+    let bodies = bodies(scene, pair);
+    let operation = Operation {
+        driver: running.driver,
+        sense,
+        speed: scene.operation.speed_rpm * RPM,
+        torque: scene.operation.torque(),
+        friction: scene.contact.friction,
+    };
+    let made = LumpedPair::new(pair, &operation, bodies, half_a_cycle_on(&fed.cycle));
+    let mut made = made.map_err(|e| super::complaint(scene, &e))?;
+    made.clock = MeshClock { start: START, ..made.clock };
+    made.torques = torques(scene, pair, made.torques[0].mean());
+    made.plane.sharing = match words.line_sharing {
+        Some(Sharing::Line) => LineSharing::ByLine,
+        Some(Sharing::Length) | None => LineSharing::ByLength,
+    };
+    Ok(Made { pair: made, bodies, warnings: fed.warnings })
+}
+
+/// Driver's first.
+fn by_role<T>(pair: &LumpedPair, [pinion, wheel]: [T; 2]) -> [T; 2] {
+    if pair.pinion_drives { [pinion, wheel] } else { [wheel, pinion] }
+}
+
+/// The model with eight coordinates.
+pub(super) fn eight(
+    scene: &Scene,
+    words: &Lumped8Scene,
+    mesh: &MeshScene,
+    gears: &GearPair,
+    made: Made,
+) -> Result<Motion8, LumpedError> {
+    let Made { mut pair, bodies, .. } = made;
+    if let Some(hz) = words.speed_fluctuation_hz {
+        pair.clock.fluctuation = words.speed_fluctuation_rpm * RPM;
+        pair.clock.fluctuation_frequency = TAU * hz;
+    }
+    let law = match words.law {
+        Law::Normal => MeshLaw::Normal,
+        Law::Projected => MeshLaw::Projected,
+    };
+    let half_backlash = mesh.half_backlash_um.map_or_else(|| law.half_backlash(gears), |b| 1e-3 * b);
+    let supports = by_role(&pair, supports8(scene, &bodies));
+    let ratio = scene.motion.as_ref().and_then(|m| m.mesh_damping_ratio).unwrap_or(0.0);
+    Lumped8::new(pair, supports, ratio, half_backlash, law)?.motion()
+}
+
+/// The model with twelve.
+pub(super) fn twelve(scene: &Scene, words: &Lumped12Scene, made: Made) -> Result<Motion12, LumpedError> {
+    let Made { mut pair, .. } = made;
+    if let Some(degrees) = words.orientation_deg {
+        pair.frame.orientation = degrees.to_radians();
+    }
+    let supports = by_role(&pair, supports12(scene));
+    let between = [words.damping_from_hz, words.damping_to_hz].map(|f| TAU * f);
+    Lumped12::new(pair, supports, words.damping_ratio, between)?.motion()
+}
+
+/// A coordinate of a gear: how its columns end and what a unit of it is in theirs.
+type Coordinate = (&'static str, &'static str);
+
+/// Across and along the line of action in the model with eight, global axes in the other.
+const EIGHT: [Coordinate; 4] = [
+    ("across_um", "across_rate_um_per_s"),
+    ("along_um", "along_rate_um_per_s"),
+    ("z_um", "z_rate_um_per_s"),
+    ("turn_urad", "turn_rate_urad_per_s"),
+];
+const TWELVE: [Coordinate; 6] = [
+    ("x_um", "x_rate_um_per_s"),
+    ("y_um", "y_rate_um_per_s"),
+    ("z_um", "z_rate_um_per_s"),
+    ("tilt_x_urad", "tilt_x_rate_urad_per_s"),
+    ("tilt_y_urad", "tilt_y_rate_urad_per_s"),
+    ("turn_urad", "turn_rate_urad_per_s"),
+];
+
+fn columns(pair: &LumpedPair, coordinates: &[Coordinate]) -> Vec<String> {
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in GEARS {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    let gears = by_role(pair, GEARS);
+    for pick in [|c: &Coordinate| c.0, |c: &Coordinate| c.1] {
+        names.extend(gears.iter().flat_map(|g| coordinates.iter().map(move |c| format!("{g}_{}", pick(c)))));
+    }
+    names
+}
+
+fn values(row: &HistoryRow, coordinates: &[Coordinate]) -> Vec<f64> {
+    let mut all = vec![
+        row.time,
+        row.pinion_angle.to_degrees(),
+        // Lumped pairs count from the middle of pair 0, files from half a cycle before.
+        (row.mesh_phase - START).rem_euclid(1.0),
+        1e3 * row.transmission_error,
+        1e3 * row.mesh_deflection,
+        1e-3 * row.mesh_stiffness,
+        row.contact_line_length,
+        row.normal_force,
+        row.friction_force,
+    ];
+    all.extend(row.wrench.iter().flat_map(|w| w.force.iter().chain(&w.moment)));
+    let unit = |i: usize| if coordinates[i % coordinates.len()].0.ends_with("urad") { 1e6 } else { 1e3 };
+    for list in [&row.displacement, &row.velocity] {
+        all.extend(list.iter().enumerate().map(|(i, x)| unit(i) * x));
+    }
+    all
+}
+
+/// The parts that both have by their common trait.
+macro_rules! ladder_model {
+    ($motion:ty, $coordinates:expr, $frequencies:expr) => {
+        impl LadderModel for $motion {
+            fn start(&mut self) -> Result<State, LumpedError> {
+                Ok(starting_state(self))
+            }
+
+            fn scale(&self) -> DVector<f64> {
+                LumpedModel::scale(self)
+            }
+
+            fn columns(&self) -> Vec<String> {
+                columns(self.pair(), &$coordinates)
+            }
+
+            fn row(&mut self, state: &State) -> Vec<f64> {
+                values(&LumpedModel::row(self, state.time, &state.q, &state.v), &$coordinates)
+            }
+
+            fn static_errors(&self, phases: usize) -> Option<Vec<f64>> {
+                let at = |k: usize| {
+                    let q = self.quasi_static(START + k as f64 / phases as f64)?;
+                    Some(LumpedModel::row(self, 0.0, &q, &DVector::zeros(q.len())).transmission_error)
+                };
+                (0..phases).map(at).collect()
+            }
+
+            fn natural_frequencies_hz(&self) -> Vec<f64> {
+                $frequencies(self)
+            }
+        }
+    };
+}
+
+ladder_model!(Motion8, EIGHT, |_: &Motion8| Vec::new());
+ladder_model!(Motion12, TWELVE, frequencies);
+
+/// Of the pair at the start of a mesh cycle, with friction as it then is.
+fn frequencies(model: &Motion12) -> Vec<f64> {
+    model.modes(START).map_or_else(Vec::new, |modes| modes.iter().map(|m| m.frequency_hz).collect())
+}

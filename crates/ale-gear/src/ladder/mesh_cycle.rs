@@ -1,0 +1,149 @@
+//! Stiffness and error over the mesh cycle: given, fed by the reduced model of the same scene, or ISO's.
+//!
+//! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2. Lumped pairs have it there at phase 0, so that their contact lines
+//! are half a cycle on.
+
+use dynamics::StaticPosition;
+use geometry::GearPair;
+use lumped::{Fourier, MeshCycle, PlaneOfAction};
+
+use crate::{
+    cache::Cache,
+    error::CommandError,
+    iso_model,
+    output::ResultDirectory,
+    phases::Phases,
+    run,
+    scene::{
+        Analysis, ContactScene, Flanks, Kind, Law, MeshScene, Model, OutputScene, Reduction, Scene, StiffnessFrom,
+    },
+};
+
+/// A cycle in the phase of scenes, with what its making said.
+pub(super) struct Fed {
+    pub cycle: MeshCycle,
+    pub warnings: Vec<String>,
+}
+
+/// What a run needs of the places where it may look.
+pub(super) struct Sources<'a> {
+    pub phases: &'a mut Phases,
+    pub results: &'a ResultDirectory,
+    pub cache: &'a Cache,
+}
+
+/// The cycle of a scene, stated on the transverse line of action.
+///
+/// # Errors
+/// Exit status 2 where ISO 6336-1 does not hold; those of the reduced model.
+pub(super) fn mesh_cycle(
+    scene: &Scene,
+    words: &MeshScene,
+    pair: &GearPair,
+    plane: &PlaneOfAction,
+    sources: Sources<'_>,
+) -> Result<Fed, CommandError> {
+    let complain = |e: lumped::LumpedError| super::complaint(scene, &e);
+    let error = Fourier {
+        mean: 0.0,
+        cosine: words.error_cos_um.iter().map(|x| 1e-3 * x).collect(),
+        sine: words.error_sin_um.iter().map(|x| 1e-3 * x).collect(),
+    };
+    match words.stiffness_from {
+        StiffnessFrom::Series => {
+            let along_normal = Fourier {
+                mean: words.stiffness_n_per_um.unwrap_or(0.0),
+                cosine: words.stiffness_cos_n_per_um.clone(),
+                sine: words.stiffness_sin_n_per_um.clone(),
+            };
+            let stiffness = along_normal.scaled(1e3 * projection(scene, pair));
+            Ok(Fed { cycle: MeshCycle::new(stiffness, error), warnings: Vec::new() })
+        }
+        StiffnessFrom::Iso => {
+            let iso = iso_model::iso_stiffness(scene, pair).map_err(complain)?;
+            let own = MeshCycle::by_contact_lines(plane, 1e3 * iso.c_mesh * pair.face_width()).map_err(complain)?;
+            Ok(Fed { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
+        }
+        StiffnessFrom::Reduced => {
+            let solved = run::solve(&static_scene(scene), sources.phases, sources.results, sources.cache)?;
+            let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
+            let driven =
+                [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];
+            let cycle = MeshCycle::fed(
+                &column(|p| p.tangent_stiffness),
+                &column(|p| p.contact_line_length),
+                &column(|p| p.transmission_error),
+                scene.operation.torque() / driven.base_radius(),
+            )
+            .map_err(complain)?;
+            Ok(Fed { cycle, warnings: solved.history.warnings })
+        }
+    }
+}
+
+/// k on the transverse line of action over K_n along the normal: cos^2 b_b, or cos b_b where a law projects the stiffness alone.
+fn projection(scene: &Scene, pair: &GearPair) -> f64 {
+    let cos = pair.base_helix_angle().cos();
+    match scene.lumped8 {
+        Some(words) if words.law == Law::Projected => cos,
+        _ => cos * cos,
+    }
+}
+
+/// The same as a quasi-static analysis of the reduced model: friction is the cheaper model's own.
+fn static_scene(scene: &Scene) -> Scene {
+    let without_body = |gear: &crate::scene::GearScene| crate::scene::GearScene {
+        body: None,
+        bearing: Default::default(),
+        shaft: None,
+        ..gear.clone()
+    };
+    Scene {
+        pinion: without_body(&scene.pinion),
+        wheel: without_body(&scene.wheel),
+        contact: ContactScene { friction: 0.0, flanks: Flanks::Driving, ..scene.contact },
+        drive: None,
+        load: None,
+        motion: None,
+        mesh: None,
+        lumped8: None,
+        lumped12: None,
+        shaft18: None,
+        analysis: Analysis {
+            kind: Kind::Static,
+            model: Model::Reduced,
+            reduction: Some(Reduction::Auto),
+            cycles: 1,
+            ..scene.analysis
+        },
+        output: OutputScene { root_stress: false, contact_lines: false, vtu: false, ..scene.output.clone() },
+        ..scene.clone()
+    }
+}
+
+/// From the phase of scenes to that of lumped pairs, or back: odd orders change sign.
+pub(super) fn half_a_cycle_on(cycle: &MeshCycle) -> MeshCycle {
+    let turned =
+        |list: &[f64]| -> Vec<f64> { list.iter().enumerate().map(|(i, x)| if i % 2 == 0 { -x } else { *x }).collect() };
+    let on = |f: &Fourier| Fourier { mean: f.mean, cosine: turned(&f.cosine), sine: turned(&f.sine) };
+    MeshCycle { stiffness: on(&cycle.stiffness), error: on(&cycle.error), length: cycle.length.as_ref().map(on) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// f(phi + pi), and twice is where it was.
+    #[test]
+    fn half_a_cycle_is_half_a_turn_of_the_angle() {
+        let f = Fourier { mean: 2.0, cosine: vec![0.3, 0.1, -0.2], sine: vec![0.4, -0.5] };
+        let cycle = MeshCycle { stiffness: f.clone(), error: f.clone(), length: Some(f.clone()) };
+        let on = half_a_cycle_on(&cycle);
+        for k in 0..7 {
+            let phi = 0.9 * f64::from(k);
+            let off = (on.stiffness.at(phi) - f.at(phi + std::f64::consts::PI)).abs();
+            assert!(off < 1e-14, "off by {off} at {phi} rad");
+        }
+        assert_eq!(half_a_cycle_on(&on), cycle);
+    }
+}

@@ -1,0 +1,211 @@
+//! From the words of the tables on the cheaper models to what they mean.
+
+use toml::Spanned;
+
+use super::raw::{List, RawLumped8, RawLumped12, RawMesh};
+use super::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
+use crate::scene::raw::Number;
+use crate::scene::source::Source;
+use crate::scene::{Axis, Model, SceneError};
+
+type Checked<T> = Result<T, SceneError>;
+
+/// Highest mesh order of a series.
+const ORDERS: usize = 200;
+/// Axes that a gear of a lumped model moves along and about.
+const MOVES: [Axis; 5] = Axis::ALL;
+
+/// Torques that a model knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::scene) enum Torques {
+    /// Steady ones that balance each other.
+    Steady,
+    /// Those and harmonic ones.
+    Series,
+    /// Tables too.
+    Any,
+}
+
+/// What a model of the ladder takes from the scene.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::scene) struct Rung {
+    /// Its name in [analysis].
+    pub name: &'static str,
+    /// Coordinates of each gear beside the turn, where the model has them fixed.
+    pub moves: Option<&'static [Axis]>,
+    /// Has a mesh stiffness, and the table [mesh].
+    pub mesh: bool,
+    /// Has backlash at it.
+    pub backlash: bool,
+    /// `mesh_damping_ratio` is its damping.
+    pub mesh_damping: bool,
+    /// Contact lines, and friction on them.
+    pub lines: bool,
+    /// Which torques it knows.
+    pub torques: Torques,
+}
+
+impl Rung {
+    /// Of a model, if it is one.
+    pub fn of(model: Model) -> Option<Self> {
+        match model {
+            Model::Lumped8 => Some(Self {
+                name: "lumped8",
+                moves: Some(&MOVES[..3]),
+                mesh: true,
+                backlash: true,
+                mesh_damping: true,
+                lines: true,
+                torques: Torques::Series,
+            }),
+            Model::Lumped12 => Some(Self {
+                name: "lumped12",
+                moves: Some(&MOVES),
+                mesh: true,
+                backlash: false,
+                mesh_damping: false,
+                lines: true,
+                torques: Torques::Series,
+            }),
+            Model::Shaft18 => Some(Self {
+                name: "shaft18",
+                moves: Some(&[]),
+                mesh: true,
+                backlash: true,
+                mesh_damping: true,
+                lines: false,
+                torques: Torques::Steady,
+            }),
+            Model::Impact => Some(Self {
+                name: "impact",
+                moves: None,
+                mesh: false,
+                backlash: true,
+                mesh_damping: false,
+                lines: false,
+                torques: Torques::Any,
+            }),
+            Model::Iso | Model::Reduced | Model::Full => None,
+        }
+    }
+}
+
+pub(super) fn conflict<T>(s: &Source<'_>, at: &Spanned<T>, what: String, advice: &str) -> SceneError {
+    SceneError::Conflict { place: s.place(&at.span()), what, advice: advice.into() }
+}
+
+/// Finite numbers, `ORDERS` at most.
+pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
+    let Some(values) = raw else { return Ok(Vec::new()) };
+    let wrong = |what: String| conflict(s, values, what, "a short list of numbers, as in [0.2, 0.05]");
+    if values.get_ref().len() > ORDERS {
+        return Err(wrong(format!("`{key}` has {} numbers, more than {ORDERS}", values.get_ref().len())));
+    }
+    match values.get_ref().iter().find(|x| !(-1e9..=1e9).contains(*x)) {
+        Some(x) => Err(wrong(format!("`{key}` holds {x}, allowed is -1e9 .. 1e9"))),
+        None => Ok(values.get_ref().clone()),
+    }
+}
+
+/// The mesh of a model; without a word on its stiffness that of the reduced model.
+pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshScene> {
+    let given = raw.stiffness_n_per_um.is_some();
+    let from = match &raw.stiffness_from {
+        None if given => StiffnessFrom::Series,
+        word => s.choice(
+            "stiffness_from",
+            word,
+            &[("reduced", StiffnessFrom::Reduced), ("series", StiffnessFrom::Series), ("iso", StiffnessFrom::Iso)],
+        )?,
+    };
+    let series = from == StiffnessFrom::Series;
+    if let (true, false, Some(word)) = (series, given, &raw.stiffness_from) {
+        let what = "`stiffness_from = \"series\"` without a series".into();
+        return Err(conflict(s, word, what, "give `stiffness_n_per_um` (and the amplitudes about it)"));
+    }
+    if let (false, Some(mean)) = (series, &raw.stiffness_n_per_um) {
+        let what = "`stiffness_n_per_um` and `stiffness_from` both say what the stiffness is".into();
+        return Err(conflict(s, mean, what, "keep one of them"));
+    }
+    let amplitudes = [
+        ("stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um, series, "a mean, `stiffness_n_per_um`"),
+        ("stiffness_sin_n_per_um", &raw.stiffness_sin_n_per_um, series, "a mean, `stiffness_n_per_um`"),
+        ("error_cos_um", &raw.error_cos_um, from != StiffnessFrom::Reduced, "a model that is not fed with an error"),
+        ("error_sin_um", &raw.error_sin_um, from != StiffnessFrom::Reduced, "a model that is not fed with an error"),
+    ];
+    for (key, raw, fits, wanted) in amplitudes {
+        if let (Some(raw), false) = (raw, fits) {
+            return Err(conflict(
+                s,
+                raw,
+                format!("`{key}` wants {wanted}"),
+                "leave it out, or give the mean stiffness",
+            ));
+        }
+    }
+    if let (Some(half), false) = (&raw.half_backlash_um, rung.backlash) {
+        let what = format!("`half_backlash_um` means nothing to the model \"{}\", whose mesh is linear", rung.name);
+        return Err(conflict(s, half, what, "leave it out, or use `model = \"lumped8\"`"));
+    }
+    if let (Some(word), false) = (&raw.line_sharing, rung.lines) {
+        let what = format!("`line_sharing` means nothing to the model \"{}\", which has no friction", rung.name);
+        return Err(conflict(s, word, what, "leave it out"));
+    }
+    let sharing =
+        s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
+    Ok(MeshScene {
+        stiffness_from: from,
+        stiffness_n_per_um: optional(s, "stiffness_n_per_um", &raw.stiffness_n_per_um, 1e-6, 1e9)?,
+        stiffness_cos_n_per_um: list(s, "stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um)?,
+        stiffness_sin_n_per_um: list(s, "stiffness_sin_n_per_um", &raw.stiffness_sin_n_per_um)?,
+        error_cos_um: list(s, "error_cos_um", &raw.error_cos_um)?,
+        error_sin_um: list(s, "error_sin_um", &raw.error_sin_um)?,
+        half_backlash_um: optional(s, "half_backlash_um", &raw.half_backlash_um, 0.0, 1e5)?,
+        line_sharing: rung.lines.then_some(sharing),
+    })
+}
+
+/// A number if there is one.
+pub(super) fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
+    value.as_ref().map(|_| s.number(key, value, low, low, high)).transpose()
+}
+
+pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene> {
+    let both = [
+        ("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, "speed_fluctuation_hz"),
+        ("speed_fluctuation_hz", &raw.speed_fluctuation_hz, "speed_fluctuation_rpm"),
+    ];
+    let fluctuation = s.number("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, 0.0, 0.0, 1e7)?;
+    let swings = fluctuation > 0.0;
+    if let Some((key, Some(value), other)) = both.into_iter().find(|(_, v, other)| {
+        let gone = both.iter().any(|(k, v, _)| k == other && v.is_none());
+        // An amplitude of zero needs no frequency.
+        v.is_some() && gone && (swings || *other == "speed_fluctuation_rpm")
+    }) {
+        return Err(conflict(s, value, format!("`{key}` without `{other}`"), "give both, or leave both out"));
+    }
+    Ok(Lumped8Scene {
+        law: s.choice("law", &raw.law, &[("normal", Law::Normal), ("projected", Law::Projected)])?,
+        speed_fluctuation_rpm: fluctuation,
+        speed_fluctuation_hz: optional(s, "speed_fluctuation_hz", &raw.speed_fluctuation_hz, 1e-6, 1e7)?,
+    })
+}
+
+pub(in crate::scene) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {
+    let made = Lumped12Scene {
+        orientation_deg: optional(s, "orientation_deg", &raw.orientation_deg, -360.0, 360.0)?,
+        damping_ratio: s.number("damping_ratio", &raw.damping_ratio, 0.03, 0.0, 10.0)?,
+        damping_from_hz: s.number("damping_from_hz", &raw.damping_from_hz, 100.0, 1e-6, 1e7)?,
+        damping_to_hz: s.number("damping_to_hz", &raw.damping_to_hz, 10_000.0, 1e-6, 1e7)?,
+    };
+    match (&raw.damping_to_hz, &raw.damping_from_hz) {
+        (Some(at), _) | (None, Some(at)) if made.damping_to_hz <= made.damping_from_hz => {
+            let what = format!(
+                "`damping_to_hz` is {}, not above `damping_from_hz`, {}",
+                made.damping_to_hz, made.damping_from_hz
+            );
+            Err(conflict(s, at, what, "the ratio holds at both and is less between them"))
+        }
+        _ => Ok(made),
+    }
+}

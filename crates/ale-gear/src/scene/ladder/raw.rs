@@ -1,0 +1,104 @@
+//! The words of the tables on the cheaper models, nothing checked yet.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::scene::motion::Matrix;
+use crate::scene::raw::{Number, Word};
+
+/// A list of numbers as written.
+pub(in crate::scene) type List = Option<Spanned<Vec<f64>>>;
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawMesh {
+    pub stiffness_from: Word,
+    pub stiffness_n_per_um: Number,
+    pub stiffness_cos_n_per_um: List,
+    pub stiffness_sin_n_per_um: List,
+    pub error_cos_um: List,
+    pub error_sin_um: List,
+    pub half_backlash_um: Number,
+    pub line_sharing: Word,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawLumped8 {
+    pub law: Word,
+    pub speed_fluctuation_rpm: Number,
+    pub speed_fluctuation_hz: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawLumped12 {
+    pub orientation_deg: Number,
+    pub damping_ratio: Number,
+    pub damping_from_hz: Number,
+    pub damping_to_hz: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawImpact {
+    pub stiffness_n_per_mm_to_exponent: Number,
+    pub exponent: Number,
+    pub damping_ns_per_mm: Number,
+    pub damping_depth_mm: Number,
+    pub static_friction: Number,
+    pub dynamic_friction: Number,
+    pub static_speed_mm_per_s: Number,
+    pub dynamic_speed_mm_per_s: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawShaft18 {
+    pub mass_damping_per_s: Number,
+    pub stiffness_damping_s: Number,
+    pub gravity_m_per_s2: List,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawShaft {
+    pub segments_mm: Matrix,
+    pub gear_at_mm: Number,
+    pub torque_at_mm: Number,
+    pub nodes_mm: List,
+    pub run_out_um: Number,
+    pub run_out_phase_deg: Number,
+    #[serde(default)]
+    pub discs: Vec<Spanned<RawDisc>>,
+    #[serde(default)]
+    pub supports: Vec<Spanned<RawSupport>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawDisc {
+    pub at_mm: Number,
+    pub mass_kg: Number,
+    pub polar_inertia_kg_m2: Number,
+    pub transverse_inertia_kg_m2: Number,
+    pub keeps: Option<Vec<Spanned<String>>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawSupport {
+    pub at_mm: Number,
+    pub stiffness_x_n_per_mm: Number,
+    pub stiffness_y_n_per_mm: Number,
+    pub stiffness_z_n_per_mm: Number,
+    pub stiffness_rx_nmm_per_rad: Number,
+    pub stiffness_ry_nmm_per_rad: Number,
+    pub stiffness_rz_nmm_per_rad: Number,
+    pub damping_x_ns_per_mm: Number,
+    pub damping_y_ns_per_mm: Number,
+    pub damping_z_ns_per_mm: Number,
+    pub damping_rx_nmms_per_rad: Number,
+    pub damping_ry_nmms_per_rad: Number,
+    pub damping_rz_nmms_per_rad: Number,
+}

@@ -1,0 +1,132 @@
+//! Words on shafts.
+
+use toml::Spanned;
+
+use super::check::{conflict, list};
+use super::raw::{RawDisc, RawShaft, RawShaft18, RawSupport};
+use super::{DiscScene, Kept, Shaft18Scene, ShaftScene, SupportScene};
+use crate::scene::SceneError;
+use crate::scene::motion::Matrix;
+use crate::scene::raw::Number;
+use crate::scene::source::Source;
+
+type Checked<T> = Result<T, SceneError>;
+
+const KEPT: [(&str, Kept); 6] =
+    [("x", Kept::X), ("y", Kept::Y), ("z", Kept::Z), ("rx", Kept::Rx), ("ry", Kept::Ry), ("rz", Kept::Rz)];
+/// What a disc keeps that says nothing: of a coupled end what its mass moves most.
+const ENDS: [Kept; 3] = [Kept::X, Kept::Y, Kept::Rz];
+
+pub(in crate::scene) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene> {
+    let gravity = list(s, "gravity_m_per_s2", &raw.gravity_m_per_s2)?;
+    let gravity_m_per_s2 = match (<[f64; 3]>::try_from(gravity.as_slice()), &raw.gravity_m_per_s2) {
+        (Ok(g), _) => g,
+        (Err(_), None) => [0.0; 3],
+        (Err(_), Some(at)) => {
+            let what = format!("`gravity_m_per_s2` has {} numbers, not 3", gravity.len());
+            return Err(conflict(s, at, what, "along x, y and z, as in [0.0, -9.81, 0.0]"));
+        }
+    };
+    Ok(Shaft18Scene {
+        mass_damping_per_s: s.number("mass_damping_per_s", &raw.mass_damping_per_s, 20.0, 0.0, 1e9)?,
+        stiffness_damping_s: s.number("stiffness_damping_s", &raw.stiffness_damping_s, 2e-7, 0.0, 1.0)?,
+        gravity_m_per_s2,
+    })
+}
+
+/// The shaft of a gear; `at` is the table, for what it does not say.
+pub(in crate::scene) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftScene> {
+    let raw = table.get_ref();
+    let segments_mm = segments(s, table, &raw.segments_mm)?;
+    // Without the last bits of the sum: the end of the shaft is on it.
+    let length = (segments_mm.iter().map(|s| s[0]).sum::<f64>() * 1e9).round() / 1e9;
+    let place = |key: &str, value: &Number| s.number(key, value, 0.0, 0.0, length);
+    if raw.gear_at_mm.is_none() {
+        return Err(conflict(s, table, "a shaft without `gear_at_mm`".into(), "say where on the shaft its gear sits"));
+    }
+    let gear_at_mm = place("gear_at_mm", &raw.gear_at_mm)?;
+    let nodes_mm = list(s, "nodes_mm", &raw.nodes_mm)?;
+    if let (Some(at), Some(x)) = (&raw.nodes_mm, nodes_mm.iter().find(|x| !(0.0..=length).contains(*x))) {
+        let what = format!("`nodes_mm` holds {x}, which is not on a shaft of {length} mm");
+        return Err(conflict(s, at, what, "places count from the beginning of the first segment"));
+    }
+    Ok(ShaftScene {
+        segments_mm,
+        gear_at_mm,
+        torque_at_mm: s.number("torque_at_mm", &raw.torque_at_mm, gear_at_mm, 0.0, length)?,
+        nodes_mm,
+        run_out_um: s.number("run_out_um", &raw.run_out_um, 0.0, 0.0, 1e4)?,
+        run_out_phase_deg: s.number("run_out_phase_deg", &raw.run_out_phase_deg, 0.0, -360.0, 360.0)?,
+        discs: raw.discs.iter().map(|d| disc(s, d, length)).collect::<Checked<_>>()?,
+        supports: raw.supports.iter().map(|b| support(s, b, length)).collect::<Checked<_>>()?,
+    })
+}
+
+fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Matrix) -> Checked<Vec<[f64; 3]>> {
+    let advice = "rows of length, outer and inner diameter, as in [[113.8, 38.5, 0.0], [96.6, 25.77, 0.0]]";
+    let Some(rows) = raw.as_ref().filter(|rows| !rows.get_ref().is_empty()) else {
+        return Err(conflict(s, table, "a shaft without `segments_mm`".into(), advice));
+    };
+    let mut all = Vec::new();
+    for row in rows.get_ref() {
+        match <[f64; 3]>::try_from(row.get_ref().as_slice()) {
+            Ok([length, outer, inner])
+                if length > 0.0 && outer > inner && inner >= 0.0 && length < 1e6 && outer < 1e6 =>
+            {
+                all.push([length, outer, inner]);
+            }
+            _ => return Err(conflict(s, row, "a row of `segments_mm` is no length of shaft".into(), advice)),
+        }
+    }
+    Ok(all)
+}
+
+fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscScene> {
+    let raw = table.get_ref();
+    if raw.at_mm.is_none() {
+        return Err(conflict(s, table, "a disc without `at_mm`".into(), "say where on the shaft it sits"));
+    }
+    let mut keeps = Vec::new();
+    for word in raw.keeps.iter().flatten() {
+        let kept = s.one_of("keeps", word, &KEPT)?;
+        if !keeps.contains(&kept) {
+            keeps.push(kept);
+        }
+    }
+    Ok(DiscScene {
+        at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
+        mass_kg: s.number("mass_kg", &raw.mass_kg, 0.0, 0.0, 1e9)?,
+        polar_inertia_kg_m2: s.number("polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 0.0, 0.0, 1e12)?,
+        transverse_inertia_kg_m2: s.number(
+            "transverse_inertia_kg_m2",
+            &raw.transverse_inertia_kg_m2,
+            0.0,
+            0.0,
+            1e12,
+        )?,
+        keeps: if raw.keeps.is_some() { keeps } else { ENDS.to_vec() },
+    })
+}
+
+fn support(s: &Source<'_>, table: &Spanned<RawSupport>, length: f64) -> Checked<SupportScene> {
+    let raw = table.get_ref();
+    if raw.at_mm.is_none() {
+        return Err(conflict(s, table, "a support without `at_mm`".into(), "say where on the shaft it is"));
+    }
+    let of = |key: &str, value: &Number| s.number(key, value, 0.0, 0.0, 1e15);
+    Ok(SupportScene {
+        at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
+        stiffness_x_n_per_mm: of("stiffness_x_n_per_mm", &raw.stiffness_x_n_per_mm)?,
+        stiffness_y_n_per_mm: of("stiffness_y_n_per_mm", &raw.stiffness_y_n_per_mm)?,
+        stiffness_z_n_per_mm: of("stiffness_z_n_per_mm", &raw.stiffness_z_n_per_mm)?,
+        stiffness_rx_nmm_per_rad: of("stiffness_rx_nmm_per_rad", &raw.stiffness_rx_nmm_per_rad)?,
+        stiffness_ry_nmm_per_rad: of("stiffness_ry_nmm_per_rad", &raw.stiffness_ry_nmm_per_rad)?,
+        stiffness_rz_nmm_per_rad: of("stiffness_rz_nmm_per_rad", &raw.stiffness_rz_nmm_per_rad)?,
+        damping_x_ns_per_mm: of("damping_x_ns_per_mm", &raw.damping_x_ns_per_mm)?,
+        damping_y_ns_per_mm: of("damping_y_ns_per_mm", &raw.damping_y_ns_per_mm)?,
+        damping_z_ns_per_mm: of("damping_z_ns_per_mm", &raw.damping_z_ns_per_mm)?,
+        damping_rx_nmms_per_rad: of("damping_rx_nmms_per_rad", &raw.damping_rx_nmms_per_rad)?,
+        damping_ry_nmms_per_rad: of("damping_ry_nmms_per_rad", &raw.damping_ry_nmms_per_rad)?,
+        damping_rz_nmms_per_rad: of("damping_rz_nmms_per_rad", &raw.damping_rz_nmms_per_rad)?,
+    })
+}
