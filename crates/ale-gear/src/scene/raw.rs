@@ -4,7 +4,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::SceneError;
-use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
+use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawModes, RawMotion};
 use super::source::Source;
 
 /// A number as written.
@@ -34,6 +34,7 @@ pub(super) struct RawScene {
     pub load: Option<Spanned<RawLoad>>,
     #[serde(default)]
     pub analysis: RawAnalysis,
+    pub modes: Option<Spanned<RawModes>>,
     pub motion: Option<Spanned<RawMotion>>,
     #[serde(default)]
     pub output: RawOutput,
