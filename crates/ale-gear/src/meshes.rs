@@ -8,7 +8,7 @@ use mesh::{
 
 use crate::error::CommandError;
 use crate::facts::MeshFacts;
-use crate::scene::{GearScene, MesherScene, Model, Reduction, Scene};
+use crate::scene::{GearScene, MesherScene, Reduction, Scene};
 
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
@@ -87,7 +87,7 @@ fn options_of(gear: &GearScene) -> StructuredOptions {
 
 /// Whether one sector tells all: nobody asks for the mesh of the whole gear.
 fn sector_is_enough(scene: &Scene) -> bool {
-    scene.analysis.model == Model::Reduced && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
+    scene.analysis.model.is_reduced() && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
 }
 
 fn generated_with(scene: &Scene, whose: &str, exact: &Gear, options: &StructuredOptions) -> Result<Mesh, CommandError> {

@@ -99,12 +99,14 @@ pub(crate) const CALCULIX: &str = "CalculiX";
 
 fn iso(scene: &mut Scene) {
     scene.analysis.model = Model::Iso;
+    scene.modes = None;
     scene.analysis.reduction = None;
 }
 
 /// By cyclic sectors, unless the mesh is none of a cyclic gear.
 fn reduced(scene: &mut Scene) {
     scene.analysis.model = Model::Reduced;
+    scene.modes = None;
     scene.analysis.reduction = Some(Reduction::Auto);
 }
 

@@ -4,7 +4,12 @@ use dynamics::pair_motion::Drive;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{course::Finished, prepare::Prepared, table::Columns};
+use super::{
+    course::Finished,
+    elasticity::{ElasticHeadline, highest_mesh_hz},
+    prepare::Prepared,
+    table::Columns,
+};
 use crate::scene::{MotionScene, Run, Scene};
 
 /// Mesh harmonics that are listed.
@@ -18,6 +23,7 @@ pub(crate) struct MotionHeadline {
     pub speed_rpm: f64,
     pub mesh_frequency_hz: f64,
     pub mesh_resonance_hz: f64,
+    pub elasticity: ElasticHeadline,
     pub rows_per_cycle: u32,
     pub cycles: u64,
     pub free_coordinates: Vec<String>,
@@ -110,6 +116,7 @@ pub(super) fn headline(
         speed_rpm,
         mesh_frequency_hz: speed_rpm * teeth / 60.0,
         mesh_resonance_hz: system.mesh_resonance_hz(),
+        elasticity: prepared.elasticity.headline(highest_mesh_hz(scene, words, Some(rows))),
         rows_per_cycle: words.steps_per_mesh_cycle,
         cycles,
         free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),

@@ -2,6 +2,7 @@
 //!
 //! | module | what it does |
 //! |---|---|
+//! | `elasticity` | elastic frequencies beside mesh harmonics |
 //! | `options` | words of the scene in the solvers' units |
 //! | `prepare` | gears, quasi-static cycle, mechanism |
 //! | `course` | settle, write rows, checkpoints |
@@ -11,6 +12,7 @@
 //! | `headline`, `spectra` | what is read off the rows |
 
 mod course;
+mod elasticity;
 mod headline;
 mod options;
 mod prepare;
@@ -29,6 +31,7 @@ use course::{Finished, Places};
 use prepare::{Inputs, Prepared, prepare};
 use store::{CheckpointFolder, Stored};
 
+pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, energy_row};
@@ -173,16 +176,20 @@ fn attempt<'a>(
     Ok(Attempt::Motion(Box::new(prepared), Box::new(done)))
 }
 
-/// Steps that are too long for the mesh resonance.
+/// Steps that are too long for the mesh resonance, or for the highest mode that is kept.
 fn coarse(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<String> {
-    let resonance = prepared.system.mesh_resonance_hz();
+    let fastest = prepare::fastest_hz(&prepared.system);
     let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
-    let steps = f64::from(words.steps_per_resonance).max(f64::from(words.steps_per_mesh_cycle) * mesh / resonance);
+    let steps = f64::from(words.steps_per_resonance).max(f64::from(words.steps_per_mesh_cycle) * mesh / fastest);
     let given = words.error_tolerance.is_none() && words.ramp.is_none() && words.sweep.is_none();
+    let (what, or) = match fastest > prepared.system.mesh_resonance_hz() {
+        true => ("highest kept mode", ", or keep fewer modes"),
+        false => ("mesh resonance", ""),
+    };
     (given && steps < COARSE).then(|| {
         format!(
-            "a step is 1/{steps:.1} of the period of the mesh resonance ({resonance:.0} Hz), which it cannot show: take more \
-             `steps_per_mesh_cycle` or `steps_per_resonance`"
+            "a step is 1/{steps:.1} of the period of the {what} ({fastest:.0} Hz), which it cannot show: take more \
+             `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
         )
     })
 }
@@ -203,6 +210,7 @@ fn write_motion(
     let headline = headline::headline(scene, words, prepared, done, &rows).map_err(no_statistics)?;
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts(words, prepared, &headline));
+    warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
     let (mut spectrum, mut waterfall) = (None, Vec::new());
     let per_cycle = words.steps_per_mesh_cycle as usize;
     match words.ramp {
@@ -299,8 +307,9 @@ fn write_sweep(
 ) -> Result<String, CommandError> {
     let rows = sweep::rows(scene, &prepared.quasi_static, points).map_err(no_statistics)?;
     let driver = [scene.pinion.teeth, scene.wheel.teeth][1 - prepared.system.options().contact.driven()];
-    let headline = sweep::headline(words, prepared, &rows, driver);
+    let headline = sweep::headline(scene, words, prepared, &rows, driver);
     let mut warnings = prepared.warnings.clone();
+    warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
     if !headline.not_periodic_rpm.is_empty() {
         let first: Vec<String> = headline.not_periodic_rpm.iter().take(8).map(|n| format!("{n:.0}")).collect();
         warnings.push(format!(

@@ -8,7 +8,10 @@ use dynamics::{
 };
 use geometry::GearPair;
 
-use super::options::{motion_options, scheme};
+use super::{
+    elasticity::Elasticity,
+    options::{motion_options, scheme},
+};
 use crate::{
     cache::Cache,
     elastic_gears::{ElasticGears, elastic_gears},
@@ -84,6 +87,7 @@ pub(super) struct Prepared {
     pub system: PairMechanism,
     pub settings: MotionSettings,
     pub quasi_static: QuasiStatic,
+    pub elasticity: Elasticity,
     pub facts: Facts,
     pub warnings: Vec<String>,
 }
@@ -129,10 +133,16 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         }
         None => (None, None),
     };
+    let elasticity = Elasticity::new(scene, &gears, &quasi_static, phases)?;
     let options = motion_options(scene, pair, meshes, contact)?;
     let means = [quasi_static.stiffness, quasi_static.line_length];
-    let system = phases
-        .run("mechanism", || PairMechanism::new(pair.clone(), Arc::clone(&gears), coast.clone(), options, means))?;
+    let system = phases.run("mechanism", || {
+        let system = PairMechanism::new(pair.clone(), Arc::clone(&gears), coast.clone(), options, means)?;
+        match elasticity.kept() {
+            Some(modes) => system.with_modes(modes),
+            None => Ok(system),
+        }
+    })?;
     if cache.is_on() {
         phases.run("store", || {
             warnings.extend(keys.save(cache, &gears));
@@ -142,16 +152,28 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         });
     }
     let driven = [&pair.pinion, &pair.wheel][system.options().contact.driven()];
-    let scale = system.coordinates().scales(quasi_static.mean_error().abs().max(1e-6), driven.base_radius());
+    let length = quasi_static.mean_error().abs().max(1e-6);
+    let scale = system.scales(&system.coordinates().scales(length, driven.base_radius()), length);
     let settings = MotionSettings {
         scheme: scheme(words),
         rows: words.steps_per_mesh_cycle as usize,
-        steps_per_resonance: words.steps_per_resonance as usize,
+        steps_per_resonance: steps_per_resonance(words, &system),
         tolerance: words.error_tolerance,
         stop_at_events: words.stop_at_events,
         scale,
     };
-    Ok(Prepared { system, settings, quasi_static, facts, warnings })
+    Ok(Prepared { system, settings, quasi_static, elasticity, facts, warnings })
+}
+
+/// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.
+pub(super) fn fastest_hz(system: &PairMechanism) -> f64 {
+    system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::max)
+}
+
+/// Steps in a period of the mesh resonance that give the fastest motion as many as the scene asks for.
+fn steps_per_resonance(words: &MotionScene, system: &PairMechanism) -> usize {
+    let ratio = fastest_hz(system) / system.mesh_resonance_hz();
+    (f64::from(words.steps_per_resonance) * ratio).ceil() as usize
 }
 
 /// Contact of the driving flanks: the coast flanks are a contact of their own.

@@ -6,6 +6,7 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
     course::failure,
+    elasticity::{ElasticHeadline, highest_mesh_hz},
     options::steady_by,
     prepare::{Prepared, QuasiStatic},
 };
@@ -47,6 +48,7 @@ pub(crate) struct SweepHeadline {
     pub run: crate::scene::Run,
     pub mesh_resonance_hz: f64,
     pub mesh_resonance_rpm: f64,
+    pub elasticity: ElasticHeadline,
     pub mean_ste_um: f64,
     pub peak_to_peak_ste_um: f64,
     pub mean_mesh_stiffness_n_per_um: f64,
@@ -171,6 +173,7 @@ pub(super) fn write(rows: &[SweepRow]) -> String {
 
 /// What a sweep is made for: the largest answer of each way, and where no periodic state was found.
 pub(super) fn headline(
+    scene: &Scene,
     words: (&MotionScene, &SweepScene),
     prepared: &Prepared,
     rows: &[SweepRow],
@@ -189,6 +192,7 @@ pub(super) fn headline(
         run: motion.run,
         mesh_resonance_hz: resonance,
         mesh_resonance_rpm: 60.0 * resonance / f64::from(teeth),
+        elasticity: prepared.elasticity.headline(highest_mesh_hz(scene, motion, None)),
         mean_ste_um: 1e3 * prepared.quasi_static.mean_error(),
         peak_to_peak_ste_um: high - low,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,

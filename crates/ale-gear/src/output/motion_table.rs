@@ -2,7 +2,7 @@
 
 use super::table::{fixed, framed, push_line};
 use crate::facts::{Cost, Facts};
-use crate::motion::{MotionHeadline, SweepHeadline};
+use crate::motion::{ElasticHeadline, MotionHeadline, SweepHeadline};
 use crate::scene::{Scene, SweepWay};
 
 /// Headline numbers of a motion, its certificate, time and peak memory of each phase.
@@ -20,6 +20,7 @@ pub(crate) fn motion_table(
     line("mean speed of the driver", fixed(h.speed_rpm, 2), "1/min");
     line("mesh frequency", fixed(h.mesh_frequency_hz, 1), "Hz");
     line("mesh resonance (mean stiffness)", fixed(h.mesh_resonance_hz, 1), "Hz");
+    elastic_lines(&mut line, &h.elasticity);
     line("mean DTE", fixed(h.mean_dte_um, 4), "um");
     line("  quasi-static", fixed(h.mean_ste_um, 4), "um");
     line("peak-to-peak DTE", fixed(h.peak_to_peak_dte_um, 4), "um");
@@ -45,6 +46,14 @@ pub(crate) fn motion_table(
     framed(scene, &t, cost, warnings)
 }
 
+/// Where quasi-static elasticity ends.
+fn elastic_lines(line: &mut impl FnMut(&str, String, &str), e: &ElasticHeadline) {
+    let [pinion, wheel] = e.lowest_elastic_frequency_hz.map(|hz| fixed(hz, 0));
+    line("lowest elastic frequencies", format!("{pinion}, {wheel}"), "Hz");
+    let of = format!("(harmonic {} of {} Hz)", e.mesh_harmonic, fixed(e.highest_mesh_frequency_hz, 1));
+    line("mesh harmonic over elastic frequency", fixed(e.mesh_harmonic_over_elastic, 4), &of);
+}
+
 /// The largest answers of a sweep, time and peak memory of each phase.
 pub(crate) fn sweep_table(
     scene: &Scene,
@@ -58,6 +67,7 @@ pub(crate) fn sweep_table(
     line("contact ratio eps_gamma", format!("{:.4}", facts.geometry.eps_gamma), "");
     line("mesh resonance (mean stiffness)", fixed(headline.mesh_resonance_hz, 1), "Hz");
     line("  at a speed of the driver of", fixed(headline.mesh_resonance_rpm, 1), "1/min");
+    elastic_lines(&mut line, &headline.elasticity);
     line("peak-to-peak STE", fixed(headline.peak_to_peak_ste_um, 4), "um");
     for row in &headline.largest {
         let way = match row.way {

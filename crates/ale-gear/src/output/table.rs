@@ -95,6 +95,7 @@ pub(super) fn model_name(scene: &Scene) -> &'static str {
     match scene.analysis.model {
         crate::scene::Model::Iso => "iso",
         crate::scene::Model::Reduced => "reduced",
+        crate::scene::Model::ReducedModes => "reduced+modes",
         crate::scene::Model::Full => "full",
         crate::scene::Model::Lumped8 => "lumped8",
         crate::scene::Model::Lumped12 => "lumped12",

@@ -11,7 +11,7 @@ use super::raw::{
 use super::source::Source;
 use super::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
-    Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
+    ModesScene, Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
 };
 use super::{ladder, micro, motion};
 
@@ -53,6 +53,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     } else {
         belongs_to_motion(source, &raw)?;
     }
+    let modes = normal_modes(source, &raw, analysis.model)?;
     let (no_drive, no_load, no_motion) = Default::default();
     let in_time = dynamic
         .then(|| motion::motion(source, raw.motion.as_ref().map_or(&no_motion, |m| m.get_ref()), &raw.analysis.cycles))
@@ -79,6 +80,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
             .transpose()?,
         load: dynamic.then(|| motion::load(source, raw.load.as_ref().map_or(&no_load, |l| l.get_ref()))).transpose()?,
         analysis: Analysis { cycles, ..analysis },
+        modes,
         motion: in_time,
         mesh,
         lumped8,
@@ -102,6 +104,20 @@ fn shaft(s: &Source<'_>, raw: &RawGear, whose: &str, model: &toml::Spanned<Strin
             place: s.place(&model.span()),
             what: format!("the model \"shaft18\" wants the shaft of the {whose}"),
             advice: format!("give [{whose}.shaft] with `segments_mm`, `gear_at_mm` and supports"),
+        }),
+    }
+}
+
+/// The table of modes goes with the model that keeps them, and with no other.
+fn normal_modes(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<Option<ModesScene>> {
+    match (model, &raw.modes) {
+        (Model::ReducedModes, None) => motion::modes(s, &Default::default()).map(Some),
+        (Model::ReducedModes, Some(words)) => motion::modes(s, words.get_ref()).map(Some),
+        (_, None) => Ok(None),
+        (_, Some(words)) => Err(SceneError::Conflict {
+            place: s.place(&words.span()),
+            what: "[modes] belongs to `model = \"reduced+modes\"`".into(),
+            advice: "leave it out, or say so in [analysis]".into(),
         }),
     }
 }
@@ -359,11 +375,9 @@ fn not_yet(s: &Source<'_>, key: &str, word: &toml::Spanned<String>, what: &str, 
 }
 
 fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
-    if let Some(word) = raw.model.as_ref().filter(|w| w.get_ref() == "reduced+modes") {
-        return Err(not_yet(s, "model", word, "normal modes of the gears", "use `model = \"reduced\"`"));
-    }
     let models = [
         ("reduced", Model::Reduced),
+        ("reduced+modes", Model::ReducedModes),
         ("full", Model::Full),
         ("iso", Model::Iso),
         ("lumped8", Model::Lumped8),
@@ -372,7 +386,7 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
         ("impact", Model::Impact),
     ];
     let model = s.choice("model", &raw.model, &models)?;
-    if let Some(word) = raw.reduction.as_ref().filter(|_| model != Model::Reduced) {
+    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.is_reduced()) {
         return Err(SceneError::Conflict {
             place: s.place(&word.span()),
             what: "`reduction` belongs to `model = \"reduced\"`".into(),
@@ -391,12 +405,21 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
             advice: "leave `kind` out, or use `model = \"reduced\"`, \"full\" or \"iso\"".into(),
         });
     }
+    if let (Some(word), Model::ReducedModes, Kind::Static) = (&raw.model, model, kind) {
+        return Err(SceneError::Conflict {
+            place: s.place(&word.span()),
+            what: "`model = \"reduced+modes\"` needs `kind = \"dynamic\"`: modes are motion, and nothing moves here"
+                .into(),
+            advice: "say `kind = \"dynamic\"` in [analysis], or use `model = \"reduced\"`: at rest both are the same"
+                .into(),
+        });
+    }
     let ways = [("auto", Reduction::Auto), ("general", Reduction::General)];
     let reduction = s.choice("reduction", &raw.reduction, &ways)?;
     Ok(Analysis {
         kind,
         model,
-        reduction: (model == Model::Reduced).then_some(reduction),
+        reduction: model.is_reduced().then_some(reduction),
         positions_per_cycle: s.whole("positions_per_cycle", &raw.positions_per_cycle, 32, 1, 100_000)?,
         cycles: s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, 1, 100_000_000)?,
         window_teeth: match raw.window_teeth {
@@ -514,7 +537,7 @@ fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
 /// What an analysis in time can do.
 fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let rung = ladder::Rung::of(scene.analysis.model);
-    if let (Some(word), true, None) = (&raw.analysis.model, scene.analysis.model != Model::Reduced, rung) {
+    if let (Some(word), true, None) = (&raw.analysis.model, !scene.analysis.model.is_reduced(), rung) {
         return Err(not_yet(s, "model", word, "another model in time", "use `model = \"reduced\"`"));
     }
     if let (Some(word), Method::Nodal) = (&raw.contact.method, scene.contact.method) {

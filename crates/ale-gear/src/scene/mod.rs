@@ -27,8 +27,8 @@ pub use ladder::{
 };
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
 pub use motion::{
-    Axis, BearingScene, BodyScene, DriveBy, DriveScene, Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene,
-    SweepWay, TorqueScene,
+    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
+    SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
@@ -57,6 +57,9 @@ pub struct Scene {
     pub load: Option<TorqueScene>,
     /// What is computed.
     pub analysis: Analysis,
+    /// Normal modes; set exactly with the model that keeps them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes: Option<ModesScene>,
     /// Motion in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionScene>,
@@ -325,6 +328,9 @@ pub enum Model {
     Iso,
     /// Flanks of the tooth window.
     Reduced,
+    /// The same with normal modes of both gears, in time.
+    #[serde(rename = "reduced+modes")]
+    ReducedModes,
     /// Every degree of freedom of both meshes.
     Full,
     /// Eight coordinates, mesh stiffness, backlash and friction.
@@ -335,6 +341,13 @@ pub enum Model {
     Shaft18,
     /// Rigid gears, force by overlap of their true flanks.
     Impact,
+}
+
+impl Model {
+    /// Whether gears are known from their flanks.
+    pub fn is_reduced(self) -> bool {
+        matches!(self, Self::Reduced | Self::ReducedModes)
+    }
 }
 
 /// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.

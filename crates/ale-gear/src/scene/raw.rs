@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::SceneError;
 use super::ladder::{RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft, RawShaft18};
-use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
+use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawModes, RawMotion};
 use super::source::Source;
 
 /// A number as written.
@@ -35,6 +35,7 @@ pub(super) struct RawScene {
     pub load: Option<Spanned<RawLoad>>,
     #[serde(default)]
     pub analysis: RawAnalysis,
+    pub modes: Option<Spanned<RawModes>>,
     pub motion: Option<Spanned<RawMotion>>,
     pub mesh: Option<Spanned<RawMesh>>,
     pub lumped8: Option<Spanned<RawLumped8>>,

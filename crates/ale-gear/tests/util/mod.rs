@@ -81,3 +81,25 @@ torque_nm = 150.0
 [analysis]
 model = "iso"
 "#;
+
+/// Where the tables on motion begin in [`motion_scene`]: few steps.
+pub const MOTION_LINES: &str = "[motion]\nsteps_per_mesh_cycle = 16\nsteps_per_resonance = 0\n";
+
+/// The default pair on tiny meshes, few steps; `motion` are further lines of the scene.
+pub fn motion_scene(cycles: u32, motion: &str) -> String {
+    let mesher =
+        "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";
+    let cycles = if cycles > 0 { format!("cycles = {cycles}\n") } else { String::new() };
+    ISO_SCENE
+        .replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}"))
+        .replace("model = \"iso\"\n", &format!("kind = \"dynamic\"\npositions_per_cycle = 4\n{cycles}"))
+        + MOTION_LINES
+        + motion
+}
+
+/// A column of a file of rows.
+pub fn column(csv: &str, name: &str) -> Vec<f64> {
+    let mut lines = csv.lines();
+    let at = lines.next().unwrap().split(',').position(|n| n == name).unwrap_or_else(|| panic!("no column {name}"));
+    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+}

@@ -85,7 +85,7 @@ impl Rung {
                 lines: false,
                 torques: Torques::Any,
             }),
-            Model::Iso | Model::Reduced | Model::Full => None,
+            Model::Iso | Model::Reduced | Model::ReducedModes | Model::Full => None,
         }
     }
 }

@@ -1,11 +1,14 @@
 //! What a scene says of motion: bodies, bearings, drive, load, integration and analyses in time.
 
 mod check;
+mod modes;
 mod raw;
 
 use serde::Serialize;
 
 pub(super) use check::{bearing, body, drive, load, motion};
+pub use modes::{Boundary, ModesScene};
+pub(super) use modes::{RawModes, modes};
 pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
 
 /// Rigid body of a gear with what turns with it.
