@@ -86,8 +86,8 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
     );
     says(
         &with("model = \"iso\"", "model = \"reduced+modes\""),
-        "ale-gear: a.toml:16: `model = \"reduced+modes\"` asks for normal modes of the gears, which this version cannot do\n\
-         hint: use `model = \"reduced\"`\n",
+        "ale-gear: a.toml:16: `model = \"reduced+modes\"` needs `kind = \"dynamic\"`: modes are motion, and nothing moves here\n\
+         hint: say `kind = \"dynamic\"` in [analysis], or use `model = \"reduced\"`: at rest both are the same\n",
     );
     says(
         &with("[analysis]", "[analysis]\nkind = \"dynamic\""),
