@@ -14,7 +14,13 @@ pub(super) fn render(name: &str, template: &str, context: Value) -> Result<Strin
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_function("number", number);
     environment.add_function("science", science);
-    for (part, text) in [("style.html", include_str!("style.html")), ("tail.html", include_str!("tail.html"))] {
+    let parts = [
+        ("head.html", include_str!("head.html")),
+        ("style.html", include_str!("style.html")),
+        ("warnings.html", include_str!("warnings.html")),
+        ("tail.html", include_str!("tail.html")),
+    ];
+    for (part, text) in parts {
         environment.add_template(part, text).map_err(failed)?;
     }
     environment.add_template(name, template).map_err(failed)?;
