@@ -5,7 +5,11 @@ use std::path::{Path, PathBuf};
 use crate::{
     chart::{ChartOptions, chart, point_count},
     error::CommandError,
-    output::{ResultDirectory, chart_tables, svg_to_png, work_precision_svg, write_chart_csv},
+    motion::precision,
+    output::{
+        ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
+        work_precision_svg, write_chart_csv,
+    },
     phases::Phases,
     scene::Scene,
 };
@@ -18,7 +22,10 @@ pub(super) struct ChartArgs {
     /// Folder for chart and tables; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// Coarse meshes and few positions: less than a minute
+    /// Methods of integration of a scene in time instead: error against step and wall time
+    #[arg(long)]
+    motion: bool,
+    /// Coarse meshes and few positions, or steps that are not small: less than a minute
     #[arg(long)]
     quick: bool,
     /// Threads [default: all cores]
@@ -48,6 +55,10 @@ impl ChartArgs {
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
         }
+        if self.motion && scene.motion.is_none() {
+            let what = format_args!("{}: `--motion` is for an analysis in time", self.scene.display());
+            return Err(CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into())));
+        }
         let options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
             ChartOptions::quick(self.limit_s)
@@ -63,13 +74,17 @@ impl ChartArgs {
         super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         let mut phases = Phases::with_bars();
+        let quick = if self.quick { " --quick" } else { "" };
+        if self.motion {
+            let command = format!("ale-gear chart --motion {} --out DIR{quick}", self.scene.display());
+            return self.of_motion(&scene, &mut phases, results, &command);
+        }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
             chart(&scene, &options, &results, |what| {
                 progress.say(what);
                 progress.tick();
             })
         })?;
-        let quick = if self.quick { " --quick" } else { "" };
         let command = format!("ale-gear chart {} --out DIR{quick}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
@@ -83,6 +98,32 @@ impl ChartArgs {
             put_into(file, &scene.name, &tables)?;
         }
         Ok(format!("{tables}\nresults: {}\n", self.out.display()))
+    }
+}
+
+impl ChartArgs {
+    /// The methods of integration of a scene in time.
+    fn of_motion(
+        &self,
+        scene: &Scene,
+        phases: &mut Phases,
+        results: ResultDirectory,
+        command: &str,
+    ) -> Result<String, CommandError> {
+        let words = scene.motion.clone().unwrap_or_default();
+        let found = precision(scene, &words, phases, self.quick)?;
+        let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
+        let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
+        let table = motion_precision_table(&found, command);
+        results.write("motion_precision.csv", motion_precision_csv(&found).as_bytes())?;
+        results.write("motion_precision.svg", svg.as_bytes())?;
+        results.write("motion_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
+        results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
+        results.finish()?;
+        if let Some(file) = &self.into {
+            put_into(file, &scene.name, &table)?;
+        }
+        Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }
 
