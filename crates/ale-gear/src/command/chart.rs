@@ -56,8 +56,7 @@ impl ChartArgs {
             between(file, &scene.name)?;
         }
         if self.motion && scene.motion.is_none() {
-            let what = format_args!("{}: `--motion` is for an analysis in time", self.scene.display());
-            return Err(CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into())));
+            return Err(self.not_in_time());
         }
         let options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
@@ -102,6 +101,11 @@ impl ChartArgs {
 }
 
 impl ChartArgs {
+    fn not_in_time(&self) -> CommandError {
+        let what = format_args!("{}: `--motion` is for an analysis in time", self.scene.display());
+        CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into()))
+    }
+
     /// The methods of integration of a scene in time.
     fn of_motion(
         &self,
@@ -110,8 +114,8 @@ impl ChartArgs {
         results: ResultDirectory,
         command: &str,
     ) -> Result<String, CommandError> {
-        let words = scene.motion.clone().unwrap_or_default();
-        let found = precision(scene, &words, phases, self.quick)?;
+        let words = scene.motion.as_ref().ok_or_else(|| self.not_in_time())?;
+        let found = precision(scene, words, phases, self.quick)?;
         let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
         let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
         let table = motion_precision_table(&found, command);

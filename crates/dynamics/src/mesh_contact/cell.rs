@@ -105,7 +105,9 @@ impl Kept {
         let most = (MOST_BYTES / bytes.max(1)).clamp(2, MOST);
         if self.cells.len() < most {
             self.last = self.cells.len();
-            self.cells.push(std::mem::take(now));
+            // As much room as the last one took: the next one is of the same size.
+            let next = Found::with_capacity(now.rows.len() + 8);
+            self.cells.push(std::mem::replace(now, next));
         } else {
             // The one that served before may be asked for again within a step.
             self.next = (self.next + 1) % most;
