@@ -34,7 +34,7 @@ use store::{CheckpointFolder, Stored};
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
-pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, energy_row};
+pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
@@ -65,6 +65,11 @@ impl Progression {
     pub fn new(words: &MotionScene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
         let wanted = words.checkpoint_every_cycles.is_some_and(|every| every > 0) || resume || stop_after.is_some();
         Self { folder: wanted.then(|| CheckpointFolder::beside(out)), resume, stop_after }
+    }
+
+    /// A run in one piece, without checkpoints.
+    pub fn uncut() -> Self {
+        Self { folder: None, resume: false, stop_after: None }
     }
 
     /// The results are whole: nothing is to be gone on from.

@@ -12,7 +12,11 @@ use dynamics::{
     pair_motion::{COORDINATES, Instant, PairMechanism},
 };
 
-use crate::{error::CommandError, output::push_row, scene::Scene};
+use crate::{
+    error::CommandError,
+    output::push_row,
+    scene::{Axis, Scene},
+};
 
 const LEADING: [&str; 9] = [
     "time_s",
@@ -71,18 +75,8 @@ impl Layout {
     }
 
     fn header(&self) -> String {
-        let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-        for gear in GEARS {
-            names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
-        }
-        names.extend((-self.reach..=self.reach).map(|k| format!("normal_force_pair_{k}_n")));
-        for (gear, free) in GEARS.iter().zip(&self.free).filter(|(_, free)| free.contains(&true)) {
-            names.extend(BEARING.iter().map(|n| format!("{gear}_{n}")));
-            let moves = DISPLACEMENT.iter().zip(free).filter(|(_, free)| **free);
-            names.extend(moves.map(|(n, _)| format!("{gear}_{n}")));
-        }
-        names.extend(TRAILING.iter().map(|&n| n.to_owned()));
-        names.join(",") + "\n"
+        let pairs = (-self.reach..=self.reach).map(|k| format!("normal_force_pair_{k}_n"));
+        names(&self.free, pairs).join(",") + "\n"
     }
 
     fn row(&self, now: &Instant) -> Vec<f64> {
@@ -121,6 +115,31 @@ impl Layout {
         ]);
         row
     }
+}
+
+/// Names of the columns, the given ones of the pairs among them.
+fn names(free: &[[bool; 5]; 2], pairs: impl Iterator<Item = String>) -> Vec<String> {
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in GEARS {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    names.extend(pairs);
+    for (gear, free) in GEARS.iter().zip(free).filter(|(_, free)| free.contains(&true)) {
+        names.extend(BEARING.iter().map(|n| format!("{gear}_{n}")));
+        let moves = DISPLACEMENT.iter().zip(free).filter(|(_, free)| **free);
+        names.extend(moves.map(|(n, _)| format!("{gear}_{n}")));
+    }
+    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    names
+}
+
+/// Columns that `history.csv` of a scene's motion will have, but for those of single pairs, which go with the window.
+pub(crate) fn column_names(scene: &Scene) -> Vec<String> {
+    let free = scene.gears().map(|g| {
+        let axes = g.body.as_ref().map_or(&[][..], |b| &b.free);
+        Axis::ALL.map(|axis| axes.contains(&axis))
+    });
+    names(&free, std::iter::empty())
 }
 
 /// A file that grows and can be taken up again.

@@ -46,22 +46,7 @@ const BY_PAIR: [Measure; 2] = [MAX_PRINCIPAL, VON_MISES];
 pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let columns = pairs::columns(history, pitch);
-    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-    for gear in GEARS {
-        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
-    }
-    names.extend(columns.iter().map(|k| format!("normal_force_pair_{k}_n")));
-    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
-    if scene.output.root_stress {
-        for gear in GEARS {
-            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
-        }
-        for (gear, k) in GEARS.iter().flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
-            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
-        }
-    }
-
-    let mut csv = names.join(",");
+    let mut csv = history_columns(scene, &columns).join(",");
     csv.push('\n');
     let start = history.positions.first().map_or(0.0, |p| p.pinion_angle);
     for p in &history.positions {
@@ -104,6 +89,25 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         push_row(&mut csv, row);
     }
     csv
+}
+
+/// Names of the columns for the pairs with these numbers.
+pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in GEARS {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    names.extend(pairs.iter().map(|k| format!("normal_force_pair_{k}_n")));
+    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    if scene.output.root_stress {
+        for gear in GEARS {
+            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
+        }
+        for (gear, k) in GEARS.iter().flat_map(|gear| pairs.iter().map(move |k| (gear, k))) {
+            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
+        }
+    }
+    names
 }
 
 /// One line of numbers with commas between them.

@@ -21,11 +21,14 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub(crate) use keys::{Tables, nearest};
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
     StiffnessFrom, SupportScene,
 };
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
+pub(crate) use raw::{Number, Whole, Word};
+pub(crate) use source::Source;
 pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
     SteadyBy, SweepScene, SweepWay, TorqueScene,
@@ -393,7 +396,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file.
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let source = source::Source { file, text };
+        let source = source::Source::scene(file, text);
         check::scene(&source, raw::read(&source)?)
     }
 

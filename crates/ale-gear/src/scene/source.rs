@@ -7,13 +7,26 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::error::{Place, SceneError};
-use super::keys;
+use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
 
-/// A scene's text and the name that messages give it.
-pub(super) struct Source<'a> {
+/// The text of a scene, or of another file of tables, and the name that messages give it.
+pub(crate) struct Source<'a> {
     pub file: &'a Path,
     pub text: &'a str,
+    tables: Tables,
+}
+
+impl<'a> Source<'a> {
+    /// The text of a scene.
+    pub(super) fn scene(file: &'a Path, text: &'a str) -> Self {
+        Self { file, text, tables: keys::TABLES }
+    }
+
+    /// The text of a file with other tables.
+    pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
+        Self { file, text, tables }
+    }
 }
 
 impl Source<'_> {
@@ -32,7 +45,7 @@ impl Source<'_> {
             let mut words = rest.split('`').skip(1).step_by(2);
             let key = words.next().unwrap_or_default().to_owned();
             let here: Vec<&str> = words.collect();
-            let advice = keys::advice(&key, &here);
+            let advice = keys::advice(self.tables, &key, &here);
             return SceneError::UnknownKey { place, key, advice };
         }
         let typed = message.strip_prefix("invalid type: ").or(message.strip_prefix("invalid value: "));
