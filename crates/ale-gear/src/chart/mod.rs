@@ -17,6 +17,6 @@ mod speed_up;
 mod table;
 
 pub(crate) use plan::{CALCULIX, FULL};
-pub(crate) use speed_up::{SpeedUp, speed_up};
 pub use plan::{Density, Point, Way, ways};
+pub(crate) use speed_up::{SpeedUp, speed_up};
 pub use table::{ChartOptions, Outcome, PointRow, WorkPrecision, chart, point_count};

@@ -182,19 +182,19 @@ fn write_static(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<String, CommandError> {
-        let Solved { history, facts } = run::solve(scene, phases, results, cache)?;
-        let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    let Solved { history, facts } = run::solve(scene, phases, results, cache)?;
+    let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
-        let picture = phases.run("write", || {
-            results.write("history.csv", write_history(scene, &history).as_bytes())?;
-            write_contact(scene, &history, results)
-        })?;
-        let cost = Cost::of(phases);
-        let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref())?;
-        results.write("report.html", report.as_bytes())?;
-        // Last of all, so that a summary means that everything is there.
-        let files = results.files()?;
-        let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
-        results.write("summary.json", summary.as_bytes())?;
-        Ok(closing_table(scene, &facts, &cost, &headline, &history.warnings))
+    let picture = phases.run("write", || {
+        results.write("history.csv", write_history(scene, &history).as_bytes())?;
+        write_contact(scene, &history, results)
+    })?;
+    let cost = Cost::of(phases);
+    let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref())?;
+    results.write("report.html", report.as_bytes())?;
+    // Last of all, so that a summary means that everything is there.
+    let files = results.files()?;
+    let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
+    results.write("summary.json", summary.as_bytes())?;
+    Ok(closing_table(scene, &facts, &cost, &headline, &history.warnings))
 }

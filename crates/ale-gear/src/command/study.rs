@@ -32,9 +32,10 @@ impl StudyArgs {
     /// Every complaint about the words and about all files is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Study, CommandError> {
         let study = Study::read(&self.study).map_err(|e| match &e {
-            SceneError::Read { .. } => {
-                CommandError::input(&e, Some("`ale-gear study STUDY.toml --out DIR` wants the path of a study file".into()))
-            }
+            SceneError::Read { .. } => CommandError::input(
+                &e,
+                Some("`ale-gear study STUDY.toml --out DIR` wants the path of a study file".into()),
+            ),
             _ => e.into(),
         })?;
         if self.threads == Some(0) {

@@ -32,7 +32,13 @@ fn following(study: &Study, runs: &[CaseRun], findings: &Findings, follow: &Foll
     };
     let against = |beside: &String| {
         let curve = Curve { label: beside.clone(), points: points(rows.get(beside), rows.get(&follow.column)) };
-        line_chart(&format!("{} against {beside}, {}", follow.column, case.label), beside, &follow.column, &[curve], false)
+        line_chart(
+            &format!("{} against {beside}, {}", follow.column, case.label),
+            beside,
+            &follow.column,
+            &[curve],
+            false,
+        )
     };
     let said: Vec<String> = findings
         .followers

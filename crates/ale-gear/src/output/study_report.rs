@@ -1,6 +1,6 @@
 //! `report.html` and `summary.json` of a study.
 
-use minijinja::context;
+use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
 use super::{directory::CASES, page, study_charts::figures, study_tables::speed_up_text};
@@ -51,8 +51,8 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Str
             name => &study.name,
             version => env!("CARGO_PKG_VERSION"),
             file => study.file.display().to_string(),
-            figures => figures,
-            cases => cases,
+            figures => Serde(figures),
+            cases => Serde(cases),
             speed => speed,
             table => table,
             warnings => warnings.to_vec(),

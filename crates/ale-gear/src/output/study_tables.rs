@@ -26,11 +26,7 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
         values: findings.cases.iter().map(|c| Some(c.quantities[k]).filter(|v| v.is_finite())).collect(),
         decimals: 3,
     }));
-    all.extend(findings.followers.iter().map(|f| Line {
-        name: f.name(),
-        values: f.correlation.clone(),
-        decimals: 4,
-    }));
+    all.extend(findings.followers.iter().map(|f| Line { name: f.name(), values: f.correlation.clone(), decimals: 4 }));
     all
 }
 

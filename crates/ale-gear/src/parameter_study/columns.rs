@@ -22,12 +22,7 @@ fn of(scene: &Scene) -> Option<Vec<String>> {
 }
 
 /// A column as written, when every case may have it.
-pub(super) fn known(
-    s: &Source<'_>,
-    key: &str,
-    word: &Spanned<String>,
-    cases: &[Case],
-) -> Result<String, SceneError> {
+pub(super) fn known(s: &Source<'_>, key: &str, word: &Spanned<String>, cases: &[Case]) -> Result<String, SceneError> {
     let name = word.get_ref();
     for case in cases {
         let Some(all) = of(&case.scene) else { continue };

@@ -303,7 +303,12 @@ fn full(s: &Source<'_>, table: &Spanned<RawFull>, cases: &[Case]) -> Checked<Opt
     let slices = scene.analysis.model.is_reduced() && scene.contact.slices.is_some();
     if positions > 0 && !slices {
         let what = format!("the case \"{}\" has no gears with slices to reduce", cases[case].label);
-        return Err(conflict(s, table, what, "name a `case` with the model \"reduced\" and the method \"slice\", or leave [full] out"));
+        return Err(conflict(
+            s,
+            table,
+            what,
+            "name a `case` with the model \"reduced\" and the method \"slice\", or leave [full] out",
+        ));
     }
     Ok((positions > 0).then_some(FullRun { case, positions }))
 }

@@ -85,7 +85,10 @@ fn column<'a>(study: &Study, i: usize, run: &'a CaseRun, name: &str) -> Result<&
     }
     let advice = columns::advice(name, &run.rows.names_from(""));
     let label = &study.cases[i].label;
-    Err(CommandError::input(format_args!("{}: the case \"{label}\" has no column {name}", study.file.display()), advice))
+    Err(CommandError::input(
+        format_args!("{}: the case \"{label}\" has no column {name}", study.file.display()),
+        advice,
+    ))
 }
 
 fn taken(quantity: &Quantity, column: &[f64]) -> f64 {
@@ -100,7 +103,7 @@ fn taken(quantity: &Quantity, column: &[f64]) -> f64 {
 }
 
 /// Rows in a mesh cycle of a scene.
-pub(crate) fn rows_per_cycle(scene: &Scene) -> usize {
+fn rows_per_cycle(scene: &Scene) -> usize {
     scene.motion.as_ref().map_or(scene.analysis.positions_per_cycle, |m| m.steps_per_mesh_cycle) as usize
 }
 

@@ -14,4 +14,4 @@ mod findings;
 
 pub(crate) use cases::{CaseRun, run_cases};
 pub use file::{Case, Follow, FullRun, OverTime, Quantity, Study, Take};
-pub(crate) use findings::{Findings, findings, last_cycles, rows_per_cycle};
+pub(crate) use findings::{Findings, findings, last_cycles};

@@ -27,12 +27,12 @@ pub use ladder::{
     StiffnessFrom, SupportScene,
 };
 pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
-pub(crate) use raw::{Number, Whole, Word};
-pub(crate) use source::Source;
 pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
     SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
+pub(crate) use raw::{Number, Whole, Word};
+pub(crate) use source::Source;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
