@@ -62,9 +62,9 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
             assert!(!scratch.read(&format!("o/cases/{folder}/{file}")).is_empty());
         }
     }
-    // ISO's stiffness goes with the length of the lines: the error follows it all but exactly.
+    // ISO's stiffness goes with the length of the lines, and the error as one over it: all but a straight line.
     let follows = column(&numbers, "correlation_ste_um_contact_line_length_mm");
-    assert!(follows.iter().all(|r| *r < -0.99), "{follows:?}");
+    assert!(follows.iter().all(|r| *r < -0.98), "{follows:?}");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     assert_eq!(summary["cases"][2]["quantities"]["mean_wheel_force_z_n"].as_f64(), Some(axial[2]));
     assert_eq!(summary["files"], serde_json::json!(["cases", "report.html", "study.csv"]));
