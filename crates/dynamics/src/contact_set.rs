@@ -103,6 +103,11 @@ impl ContactSet {
         Ok(true)
     }
 
+    /// Whether another window's flanks and matrices are these.
+    pub(crate) fn shares_flanks(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
     /// The reduced windows of both gears.
     pub fn windows(&self) -> Option<&[Window; 2]> {
         self.windows.as_ref()
