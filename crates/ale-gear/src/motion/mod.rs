@@ -5,6 +5,7 @@
 //! | `elasticity` | elastic frequencies beside mesh harmonics |
 //! | `options` | words of the scene in the solvers' units |
 //! | `prepare` | gears, quasi-static cycle, mechanism |
+//! | `pattern` | what the flanks are pressed by |
 //! | `course` | settle, write rows, checkpoints |
 //! | `rows`, `table` | files of rows, written on the way and read back at the end |
 //! | `store` | checkpoints on disk |
@@ -15,6 +16,7 @@ mod course;
 mod elasticity;
 mod headline;
 mod options;
+mod pattern;
 mod prepare;
 mod rows;
 mod spectra;
@@ -43,7 +45,10 @@ use crate::{
     cache::Cache,
     error::CommandError,
     facts::Cost,
-    output::{ResultDirectory, motion_table, sweep_table, write_motion_report, write_summary, write_sweep_report},
+    output::{
+        ResultDirectory, motion_table, sweep_table, write_motion_report, write_patterns, write_summary,
+        write_sweep_report,
+    },
     phases::Phases,
     run::{Failure, complaint},
     scene::{MotionScene, Run, Scene, SweepScene},
@@ -242,7 +247,8 @@ fn write_motion(
         per_cycle,
         quasi_static: Some(&prepared.quasi_static.transmission_error),
     };
-    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, &warnings)?;
+    let pattern = write_patterns(scene, &done.patterns, results)?;
+    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);

@@ -7,7 +7,7 @@ use dynamics::result::StaticHistory;
 
 use super::{
     pairs,
-    root_stress::{MAX_PRINCIPAL, MEASURES, Measure, VON_MISES},
+    root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
 use crate::scene::Scene;
 
@@ -80,10 +80,12 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
             c.iterations as f64,
         ]);
         if scene.output.root_stress {
-            row.extend((0..2).flat_map(|gear| MEASURES.map(|m| m.stress(p, gear, None))));
+            row.extend(p.root_stress.iter().flat_map(|of| root_stress_row(of)));
             for (gear, &k) in (0..2).flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
                 let tooth = pairs::teeth(p, k, pitch).map(|teeth| teeth[gear]);
-                row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
+                row.extend(
+                    BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(&p.root_stress[gear], Some(tooth)))),
+                );
             }
         }
         push_row(&mut csv, row);
@@ -101,7 +103,7 @@ pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
     names.extend(TRAILING.iter().map(|&n| n.to_owned()));
     if scene.output.root_stress {
         for gear in GEARS {
-            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
+            names.extend(root_stress_columns(gear));
         }
         for (gear, k) in GEARS.iter().flat_map(|gear| pairs.iter().map(move |k| (gear, k))) {
             names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
