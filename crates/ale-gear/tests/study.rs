@@ -86,20 +86,25 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
 /// Motions side by side: any number of threads writes the same bytes. The whole model of a case is timed beside it.
 #[test]
 fn a_study_of_motions_does_not_see_the_number_of_threads() {
-    let of = |torque: &str| motion_scene(2, "").replace("torque_nm = 150.0", &format!("torque_nm = {torque}"));
     let study = "parameter = \"torque [N m]\"\n\
-                 [[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 50\n\
-                 [[case]]\nscene = \"b.toml\"\nlabel = \"heavy\"\nvalue = 150\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 50\nset = [\"operation.torque_nm=50\"]\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"heavy\"\nvalue = 150\n\
                  [[quantity]]\ncolumn = \"dte_um\"\ntake = \"largest\"\n\
                  [[over_time]]\ncolumn = \"dte_um\"\ncycles = 1\n\
                  [full]\ncase = \"heavy\"\npositions = 1\n";
-    let scratch = Scratch::new().file("a.toml", of("50.0")).file("b.toml", of("150.0")).file("s.toml", study);
+    let scratch = Scratch::new().file("a.toml", motion_scene(2, "")).file("s.toml", study);
     for (out, threads) in [("one", "1"), ("two", "2")] {
         let run = scratch.ale_gear(["study", "s.toml", "--out", out, "-j", threads]);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     }
     for file in ["study.csv", "cases/01-light/history.csv", "cases/02-heavy/energy.csv"] {
         assert!(scratch.read(&format!("one/{file}")) == scratch.read(&format!("two/{file}")), "{file} differs");
+    }
+    let of = |case: &str| -> serde_json::Value {
+        serde_json::from_str(&scratch.read(&format!("one/cases/{case}/summary.json"))).unwrap()
+    };
+    for (case, torque) in [("01-light", 50.0), ("02-heavy", 150.0)] {
+        assert_eq!(of(case)["inputs"]["operation"]["torque_nm"].as_f64(), Some(torque), "{case}");
     }
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("one/summary.json")).unwrap();
     let full = &summary["full"];
@@ -168,6 +173,11 @@ fn wrong_studies_are_told_with_line_and_hint() {
         "[full]\npositions = 1\n[[over_time]]",
         "s.toml:20: the case \"10 deg\" has no gears with slices to reduce\nhint: name a `case` with the model \"reduced\" and the method \
          \"slice\", or leave [full] out",
+    );
+    says(
+        "value = 10\n",
+        "value = 10\nset = [\"operation.torqe_nm=3\"]\n",
+        "s.toml:7: set operation.torqe_nm: unknown key `torqe_nm`\nhint: did you mean `torque_nm`?",
     );
     let nothing = iso_cases().file("s.toml", &ISO_STUDY[..ISO_STUDY.find("[[quantity]]").unwrap()]);
     let run = nothing.ale_gear(["study", "s.toml", "--out", "o"]);

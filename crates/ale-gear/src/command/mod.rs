@@ -4,6 +4,7 @@ mod cache_args;
 mod chart;
 mod default_scene;
 mod mesh;
+mod overrides;
 mod run;
 mod study;
 

@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::columns;
-use crate::scene::{Number, Run, Scene, SceneError, Source, Tables, Whole, Word};
+use crate::scene::{Number, Run, Scene, SceneError, Setting, Source, Tables, Whole, Word};
 
 /// Every table with its keys.
 const TABLES: Tables = &[
     ("", &["name", "parameter", "case", "quantity", "over_time", "follow", "full"]),
-    ("[case]", &["scene", "label", "value"]),
+    ("[case]", &["scene", "set", "label", "value"]),
     ("[quantity]", &["column", "take"]),
     ("[over_time]", &["column", "cycles"]),
     ("[follow]", &["case", "column", "beside", "cycles"]),
@@ -127,6 +127,8 @@ struct RawStudy {
 #[serde(deny_unknown_fields)]
 struct RawCase {
     scene: Word,
+    #[serde(default)]
+    set: Vec<Spanned<String>>,
     label: Option<String>,
     value: Number,
 }
@@ -255,7 +257,8 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<Case> {
     }
     let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
-    let scene = Scene::read(&path).map_err(|e| match e {
+    let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
         SceneError::Read { file, source } => {
             let what = format!("{} cannot be read: {source}", file.display());
             conflict(s, word, what, "paths are relative to the study file")
@@ -273,6 +276,16 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<Case> {
         }
     }
     Ok(Case { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene })
+}
+
+/// A key of the scene that a case sets otherwise; messages name it by its place in the study file.
+fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
+    let place = s.place(&word.span());
+    match Setting::parse(word.get_ref()) {
+        Ok(setting) => Ok(setting.clone().called(&format!("{place}: set {}", setting.key()))),
+        Err(SceneError::Setting { what, .. }) => Err(SceneError::Setting { label: format!("{place}: set"), what }),
+        Err(other) => Err(other),
+    }
 }
 
 fn quantity(s: &Source<'_>, table: &Spanned<RawQuantity>, cases: &[Case]) -> Checked<Quantity> {
