@@ -142,7 +142,8 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     }
 }
 
-fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
+/// A loaded slice as the results have it.
+pub(crate) fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     let line_load = force / slice.length;
     let state = slice.local.under(line_load);
     SliceResult {

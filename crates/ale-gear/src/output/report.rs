@@ -34,7 +34,7 @@ pub fn write_report(
             version => env!("CARGO_PKG_VERSION"),
             scene => scene.to_toml(),
             scene_file => scene.file.display().to_string(),
-            torque_nm => scene.operation.torque_nm.to_string(),
+            set => &scene.set,
             vtu => scene.output.vtu,
             headline => Serde(headline),
             facts => Serde(facts),
@@ -69,7 +69,8 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
             .into_iter()
             .map(|k| {
                 curve(&format!("pair {k}"), &|p| {
-                    pairs::teeth(p, k, pitch).map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(p, gear, Some(teeth[gear])))
+                    pairs::teeth(p, k, pitch)
+                        .map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(&p.root_stress[gear], Some(teeth[gear])))
                 })
             })
             .collect()

@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3}
 use reduction::GearModes;
 use serde::{Deserialize, Serialize};
 
-use super::{COORDINATES, Displacement, modal::Posture};
+use super::{COORDINATES, Displacement, PressedSlice, modal::Posture};
 use crate::{
-    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames,
-    line::Standing, mesh_contact::Want, modal_flanks::ModalFlanks, pose,
+    ContactSet, ElasticGear, FilletStress, MeshContact, StaticError, StaticOptions, Station, Wrench,
+    equilibrium::frames, line::Standing, loads::slice_result, mesh_contact::Want, modal_flanks::ModalFlanks,
+    parts::Parts, pose, root_stress::RootStress,
 };
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
@@ -175,6 +176,39 @@ impl MeshSide {
         self.enter(pair, window, self.home.1.clone())?;
         self.changes = place.changes;
         Ok(())
+    }
+
+    /// The fillets of both gears, for [`MeshSide::root_stress`].
+    pub fn root_fillets(&self, pair: &GearPair) -> RootStress {
+        RootStress::new(pair, &self.gears)
+    }
+
+    /// Slices that carried load in the last evaluation.
+    pub fn pressed_slices(&self) -> Vec<PressedSlice> {
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces());
+        loaded
+            .filter(|(_, f)| **f > 0.0)
+            .map(|((row, slice), &f)| PressedSlice {
+                pair: self.window.first() + set.pair_of(row.patches.0) as i64,
+                slice: slice_result(slice, set.side(row.patches.0), f),
+            })
+            .collect()
+    }
+
+    /// Stress in the root fillets of the window under the forces of the last evaluation, which was at these poses.
+    pub fn root_stress(
+        &mut self,
+        pair: &GearPair,
+        poses: &[Pose; 2],
+        roots: &RootStress,
+    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let rows = self.contact.supported_rows(poses);
+        let set = self.contact.contact_set();
+        let displacements =
+            (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
+        let parts = Parts { pair, gears: &self.gears, set, window: &self.window, options: &self.options };
+        roots.of(&parts, displacements.as_ref())
     }
 
     /// Goes over to a window, with the matrices of `set` where they serve it.

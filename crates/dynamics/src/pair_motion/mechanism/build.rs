@@ -84,6 +84,8 @@ impl PairMechanism {
         self.mass.view_mut((0, 0), (n, n)).copy_from(&rigid);
         self.modal = Some(modal);
         self.last = None;
+        // What the modes bend is not in the forces of the flanks.
+        self.roots = None;
     }
 
     fn of(
@@ -121,6 +123,7 @@ impl PairMechanism {
             }
         };
         let (last, extremes) = (None, Extremes::default());
+        let roots = options.contact.root_stress.then(|| drive_side.root_fillets(&pair));
         Self {
             pair,
             options,
@@ -135,6 +138,7 @@ impl PairMechanism {
             modal: None,
             last,
             extremes,
+            roots,
         }
     }
 }

@@ -16,7 +16,7 @@ use super::{
     mesh_side::MeshSide,
     modal::{Modal, Posture},
 };
-use crate::StaticError;
+use crate::{StaticError, root_stress::RootStress};
 
 pub use build::equivalent_mass;
 pub use extremes::Extremes;
@@ -50,6 +50,8 @@ pub struct PairMechanism {
     modal: Option<Modal>,
     last: Option<Touching>,
     extremes: Extremes,
+    /// Fillets, where their stress is asked for; none with normal modes.
+    roots: Option<RootStress>,
 }
 
 /// Where both windows stand and what has been gathered: with a [`crate::motion::State`] all that a motion is.

@@ -31,13 +31,19 @@ impl PairMechanism {
             normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
         }
         let contact = self.drive_side.contact();
-        let loaded = contact.slices().iter().zip(contact.solver().forces()).filter(|(_, f)| **f > 0.0);
-        let pressure = loaded.fold(0.0, |m: f64, (slice, f)| m.max(slice.local.under(f / slice.length).pressure));
+        let slices = self.drive_side.pressed_slices();
+        let max_pressure = slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure));
         let (window, tooth_changes) = self.drive_side.window();
         let moment = self.moment(t);
         let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &moment);
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
+        let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
+        let contact_line_length = contact_line::length(&self.pair, contact);
+        let root_stress = match &self.roots {
+            Some(roots) => self.drive_side.root_stress(&self.pair, &poses, roots)?,
+            None => Default::default(),
+        };
         Ok(Instant {
             time: t,
             cycles: self.turned_cycles(t, &d),
@@ -48,13 +54,15 @@ impl PairMechanism {
             drive_torque: self.drive_torque(t, &moment, &(mesh - shared)),
             load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
-            pair_forces: contact.force().pair_forces.clone(),
-            first_pair: window.first(),
+            pair_forces,
+            first_pair,
             normal_forces,
-            contact_line_length: contact_line::length(&self.pair, contact),
-            max_pressure: pressure,
+            contact_line_length,
+            max_pressure,
             tooth_changes,
             mesh,
+            slices,
+            root_stress,
         })
     }
 
