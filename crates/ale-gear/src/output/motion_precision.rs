@@ -71,15 +71,21 @@ pub(crate) fn motion_precision_table(of: &Precision, command: &str) -> String {
          time of a mesh cycle, ms.\n\n| method |"
     );
     let counts = of.counts();
-    counts.iter().for_each(|n| drop(write!(t, " {n} |")));
+    for n in &counts {
+        let _ = write!(t, " {n} |");
+    }
     t.push_str("\n|---|");
     t.push_str(&"---|".repeat(counts.len()));
     for method in of.methods() {
         let points = || of.points.iter().filter(|p| p.method == method);
         let _ = write!(t, "\n| {method}: error |");
-        points().for_each(|p| drop(write!(t, " {} |", p.error_um.map_or("fails".into(), |e| format!("{e:.1e}")))));
+        for p in points() {
+            let _ = write!(t, " {} |", p.error_um.map_or("fails".into(), |e| format!("{e:.1e}")));
+        }
         let _ = write!(t, "\n| {method}: time |");
-        points().for_each(|p| drop(write!(t, " {:.1} |", 1e3 * p.cycle_s)));
+        for p in points() {
+            let _ = write!(t, " {:.1} |", 1e3 * p.cycle_s);
+        }
     }
     t.push('\n');
     t
