@@ -134,10 +134,10 @@ const FAR_EDGE: f64 = 0.5;
 const FAR_FACE: f64 = 0.2;
 /// Points and weights on 0 .. 1 that integrate x times any cubic, and four orders more, exactly (Gauss and Jacobi; Abramowitz and Stegun, table 25.8).
 const JACOBI: [(f64, f64); 4] = [
-    (0.139_759_864_343_780_55, 0.031_180_970_950_008_082),
+    (0.139_759_864_343_780_55, 0.031_180_970_950_008_08),
     (0.416_409_567_631_083_2, 0.129_847_547_608_232_44),
     (0.723_156_986_361_876_2, 0.203_464_568_010_271_36),
-    (0.942_895_803_885_482_3, 0.135_506_913_431_488_11),
+    (0.942_895_803_885_482_3, 0.135_506_913_431_488_1),
 ];
 
 /// One body's part of it.
@@ -199,7 +199,7 @@ impl LocalLaw {
     /// Whether edges and faces are many half-widths away under any load that steel stands.
     fn is_far(&self) -> bool {
         let far = |body: &BodyLaw| {
-            let off_edge = body.eta == 0.0 || body.edge.from_arc() > FAR_EDGE * self.radius;
+            let off_edge = body.eta == 0.0 || body.edge.flank_left() > FAR_EDGE * self.radius;
             off_edge && body.face_distance > FAR_FACE * self.radius
         };
         self.bodies.iter().all(far)

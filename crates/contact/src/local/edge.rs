@@ -119,7 +119,7 @@ impl Edge {
     }
 
     /// Distance of the contact from where the flank ends, mm.
-    pub fn from_arc(&self) -> f64 {
+    pub fn flank_left(&self) -> f64 {
         self.distance - self.tangent_point()
     }
 
