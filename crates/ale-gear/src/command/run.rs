@@ -162,7 +162,7 @@ impl RunArgs {
         if let Some(words) = &scene.motion {
             return self.move_pair(&scene, words, phases, results);
         }
-        let Solved { history, facts } = run::solve(&scene, &mut phases, &results, &self.cache())?;
+        let Solved { history, facts, view } = run::solve(&scene, &mut phases, &results, &self.cache())?;
         let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
         let picture = phases.run("write", || {
@@ -170,7 +170,7 @@ impl RunArgs {
             write_contact(&scene, &history, &results)
         })?;
         let cost = Cost::of(&phases);
-        let report = write_report(&scene, &history, &facts, &cost, &headline, picture.as_deref())?;
+        let report = write_report(&scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
         results.write("report.html", report.as_bytes())?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
