@@ -100,8 +100,9 @@ fn look(scratch: &Scratch, browser: &Path, name: &str) -> Value {
     let (text, said) = [&opened.stdout, &opened.stderr].map(|b| String::from_utf8_lossy(b).into_owned()).into();
     let complaints: Vec<&str> = said.lines().filter(|l| l.contains(":CONSOLE")).collect();
     assert!(complaints.is_empty(), "{name}: the console says {complaints:#?}");
-    let seen = text.split_once("SEEN").and_then(|(_, rest)| rest.split_once("END"));
-    let seen = seen.unwrap_or_else(|| panic!("{name}: the page did not finish: {said}")).0;
+    // The script itself has no brace after the word.
+    let seen = text.split_once("SEEN{").and_then(|(_, rest)| rest.split_once("}END"));
+    let seen = format!("{{{}}}", seen.unwrap_or_else(|| panic!("{name}: the page did not finish: {said}")).0);
     let pictures = repository().join("target/report");
     std::fs::create_dir_all(&pictures).unwrap();
     for (place, width, height) in [("desk", 1280, 3600), ("phone", 500, 6000)] {
@@ -115,7 +116,7 @@ fn look(scratch: &Scratch, browser: &Path, name: &str) -> Value {
         );
     }
     eprintln!("{name}: {bytes} bytes, {seen}");
-    serde_json::from_str(&seen.replace("&gt;", ">").replace("&lt;", "<").replace("&amp;", "&")).unwrap()
+    serde_json::from_str(&seen).unwrap()
 }
 
 /// What holds for every report.

@@ -44,7 +44,7 @@ impl<H: Serialize> Page<'_, H> {
             version => env!("CARGO_PKG_VERSION"),
             scene => scene.to_toml(),
             scene_file => scene.file.display().to_string(),
-            torque_nm => scene.operation.torque_nm.to_string(),
+            set => &scene.set,
             vtu => scene.output.vtu,
             glance => glance(scene, facts),
             headline => Serde(headline),

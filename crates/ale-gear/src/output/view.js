@@ -58,8 +58,9 @@
       this.teeth = new THREE.InstancedMesh(surface(data.sector).geometry, plain, data.teeth);
       this.teeth.frustumCulled = false;
       this.group.add(this.teeth);
-      this.bands = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+      this.bands = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true }));
       this.bands.frustumCulled = false;
+      this.bands.renderOrder = 1;
       this.group.add(this.bands);
       if (data.window) this.addWindow(data.window);
     }
@@ -144,8 +145,8 @@
     stage.replaceChildren(renderer.domElement);
     const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(28, 1, 1, 1e5), controls = new THREE.OrbitControls(camera, stage);
     scene.background = new THREE.Color(0xffffff);
-    scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8a8a, 2.2), camera);
-    const lamp = new THREE.DirectionalLight(0xffffff, 1.6);
+    scene.add(new THREE.HemisphereLight(0xffffff, 0xb0b0b0, 2.7), camera);
+    const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
     lamp.position.set(0.6, 0.8, 1);
     camera.add(lamp);
     const gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
@@ -164,7 +165,10 @@
       const times = solid ? most * Number($("scale").value) / 100 : 0;
       gears.forEach(gear => gear.show(frame, state.frame, state.quantity, largest[state.quantity], times));
       gears[0].group.position.x = 0;
-      gears[1].group.position.x = centre + 0.006 * Number($("apart").value) * centre;
+      const apart = Number($("apart").value);
+      gears[1].group.position.x = centre + 0.006 * apart * centre;
+      // In mesh the bands lie between flanks, where nobody sees them: they shine through.
+      gears.forEach(gear => { gear.bands.material.depthTest = apart > 0; });
       $("phase").textContent = `phase ${frame.phase.toFixed(3)}`;
       $("times").textContent = `${short(times, 2)} x`;
       $("deformed").hidden = !solid || most === 0;
@@ -179,7 +183,7 @@
     const look = {
       whole: () => [[0.5 * centre, 0, 0], [0.25, -0.35, 1], 1.15 * (centre + reach[0] + reach[1])],
       front: () => [[0.5 * centre, 0, 0], [0, 0, 1], 1.1 * (centre + reach[0] + reach[1])],
-      mesh: () => [[data.gears[0].flank[0] * 1.03, 0, 0], [-0.15, -0.75, 1], 0.42 * Math.min(...reach)],
+      mesh: () => [[data.gears[0].flank[0] * 1.05, 0, 0], [-0.1, -0.5, 1], 1.1 * Math.min(...reach)],
     };
     const view = name => {
       const [target, direction, width] = look[name](), aspect = stage.clientWidth / stage.clientHeight;

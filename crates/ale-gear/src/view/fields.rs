@@ -107,9 +107,7 @@ fn piece(positions: &[Recorded], model: &StaticModel, i: usize) -> Option<Piece>
 }
 
 fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, CommandError> {
-    let solved: Result<Vec<[Vec<f64>; 2]>, CommandError> =
-        positions.par_iter().map(|p| field(piece, &p.gears[i], gear)).collect();
-    let solved = solved?;
+    let solved = all_fields(piece, positions.iter().map(|p| &p.gears[i]).collect(), gear)?;
     let pressures: Vec<Vec<f64>> = positions.iter().filter_map(|p| pressure(piece, &p.gears[i])).collect();
     let nodes: Vec<f64> = piece.points.iter().flat_map(|&n| piece.mesh.nodes[n as usize]).collect();
     Ok(WindowView {
@@ -119,6 +117,29 @@ fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -
         stress: Packed::new(solved.iter().map(|f| &f[1][..])),
         pressure: if pressures.is_empty() { Packed::empty() } else { Packed::new(pressures.iter().map(|p| &p[..])) },
     })
+}
+
+/// The fields of all positions.
+///
+/// What the first one makes for all (factor, stiffness) is made before others run beside it: a thread that waits for it in one of them
+/// could otherwise take up another one that asks for the same.
+fn all_fields(
+    piece: &Piece,
+    positions: Vec<&RecordedGear>,
+    gear: &ElasticGear,
+) -> Result<Vec<[Vec<f64>; 2]>, CommandError> {
+    let Some((first, rest)) = positions.split_first() else { return Ok(Vec::new()) };
+    let mut all = vec![field(piece, first, gear)?];
+    if is_general(gear) {
+        // Windows have a stiffness of their own.
+        for at in rest {
+            all.push(field(piece, at, gear)?);
+        }
+        return Ok(all);
+    }
+    let others: Result<Vec<_>, _> = rest.par_iter().map(|at| field(piece, at, gear)).collect();
+    all.extend(others?);
+    Ok(all)
 }
 
 /// Displacement (um, three a point) and first principal stress (MPa, NaN above the fillets) at the points of a piece.
@@ -167,7 +188,8 @@ fn note(fields: bool) -> String {
     let note = if fields {
         "The window's teeth and one more on either side are the mesh with its fields, all others the exact geometry. Displacement is against the \
          bore; stress is the first principal one (tension positive) below the upper end of the fillets, averaged at the nodes of the \
-         teeth shown; grey: no value. Contact bands are drawn wide enough to be seen."
+         teeth shown; grey: no value. Contact bands are drawn wide enough to be seen, and shine through the \
+         teeth until the wheel is drawn aside."
     } else {
         "The gears from their exact geometry. They came reduced from the cache, without what displacement and stress are recovered from, and \
          to condense them again would take long: run with `--no-cache` to see these fields."
