@@ -32,8 +32,10 @@ const LEGEND_ROOM: f64 = 0.09;
 /// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
 /// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
-    let svg = picture(title, x, y, curves, from_zero)?;
-    Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, curves, from_zero))]))
+    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    let curves: Vec<Curve> = curves.iter().filter(seen).cloned().collect();
+    let svg = picture(title, x, y, &curves, from_zero)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
 }
 
 /// The same for the lines of a spectrum: one stick each.

@@ -37,7 +37,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     t.text("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
     t.text("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
     for (name, way) in ["pinion", "wheel"].iter().zip(&facts.reduction) {
-        t.text(&format!("reduction, {name}"), (*way), "");
+        t.text(&format!("reduction, {name}"), *way, "");
     }
 
     t.framed(scene, cost, warnings)
