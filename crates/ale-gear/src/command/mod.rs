@@ -5,6 +5,7 @@ mod default_scene;
 mod mesh;
 mod overrides;
 mod run;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 
@@ -27,6 +28,8 @@ enum Command {
     Run(run::RunArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
+    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
+    Sweep(sweep::SweepArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -42,6 +45,7 @@ impl Cli {
             None => run::RunArgs::for_default_scene()?.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
+            Some(Command::Sweep(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }

@@ -63,11 +63,7 @@ impl RunArgs {
     }
 
     fn cache(&self) -> Cache {
-        match &self.cache {
-            _ if self.no_cache => Cache::off(),
-            Some(folder) => Cache::in_folder(folder.clone()),
-            None => Cache::of_user(),
-        }
+        Cache::chosen(self.cache.as_deref(), self.no_cache)
     }
 
     /// Every complaint about the words is made here, before any work starts or any file is written.

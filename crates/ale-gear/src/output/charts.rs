@@ -23,6 +23,28 @@ const LEGEND_ROOM: f64 = 0.09;
 /// Curves over one pair of axes. The value axis begins at zero when `from_zero` is set; without points, or with
 /// nothing finite, the chart is left out and `None` comes back.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+    chart(title, [x, y], curves, from_zero, Marks::Lines)
+}
+
+/// The same with dots in place of lines: sections and bifurcation diagrams.
+pub(super) fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    chart(title, [x, y], curves, false, Marks::Dots)
+}
+
+/// Frequencies over speed: modes all alike in grey, each order of excitation in a colour of its own.
+pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
+    let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();
+    chart(title, ["speed of the driver [1/min]", "frequency [Hz]"], &curves, true, Marks::Lines)
+}
+
+/// How points are shown.
+#[derive(Clone, Copy, PartialEq)]
+enum Marks {
+    Lines,
+    Dots,
+}
+
+fn chart(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks: Marks) -> Option<String> {
     let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
     let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
     points().next()?;
@@ -35,23 +57,24 @@ pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_z
     };
     let (x_low, x_high) = span(|p| p.0, false);
     let (y_low, mut y_high) = span(|p| p.1, from_zero);
-    if curves.len() > 1 {
+    let named = curves.iter().filter(|c| !c.label.is_empty()).count();
+    if named > 1 {
         // Room for the legend above the curves.
-        y_high += LEGEND_ROOM * curves.len() as f64 * (y_high - y_low);
+        y_high += LEGEND_ROOM * named as f64 * (y_high - y_low);
     }
 
     let mut svg = String::new();
-    draw(&mut svg, title, x, y, curves, [x_low, x_high, y_low, y_high]).ok()?;
+    draw(&mut svg, title, axes, curves, [x_low, x_high, y_low, y_high], marks).ok()?;
     Some(svg)
 }
 
 fn draw(
     svg: &mut String,
     title: &str,
-    x: &str,
-    y: &str,
+    [x, y]: [&str; 2],
     curves: &[Curve],
     [x_low, x_high, y_low, y_high]: [f64; 4],
+    marks: Marks,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let fail = |e: &dyn std::fmt::Display| e.to_string();
     let root = SVGBackend::with_string(svg, (820, 360)).into_drawing_area();
@@ -65,11 +88,19 @@ fn draw(
         .map_err(|e| fail(&e))?;
     chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
     for (k, curve) in curves.iter().enumerate() {
-        let colour = COLOURS[k % COLOURS.len()];
+        // Curves without a name are more of the last one that has one.
+        let own = curves[..=k].iter().rposition(|c| !c.label.is_empty()).unwrap_or(0);
+        let colour = COLOURS[own % COLOURS.len()];
         let finite = curve.points.iter().copied().filter(|(a, b)| a.is_finite() && b.is_finite());
-        chart
-            .draw_series(LineSeries::new(finite, colour.stroke_width(2)))
-            .map_err(|e| fail(&e))?
+        let series = match marks {
+            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
+            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, 1, colour.filled()))),
+        };
+        let series = series.map_err(|e| fail(&e))?;
+        if curve.label.is_empty() {
+            continue;
+        }
+        series
             .label(curve.label.as_str())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
     }

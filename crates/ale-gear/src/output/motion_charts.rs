@@ -7,7 +7,7 @@ use crate::motion::{Columns, SPECTRA, Spectrum, SweepRow, WaterfallLine};
 use crate::scene::SweepWay;
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
-const SHOWN_CYCLES: usize = 4;
+pub(super) const SHOWN_CYCLES: usize = 4;
 /// Buckets of a long record: of each the least and the largest value are drawn.
 const BUCKETS: usize = 1500;
 /// Orders of the spectrum that are drawn.

@@ -1,0 +1,95 @@
+//! What a sweep of a cheaper model shows: diagrams, page, closing table.
+
+use super::{
+    charts::{Curve, dot_chart, line_chart},
+    motion_report::render,
+    table::{fixed, framed, push_line},
+};
+use crate::{
+    error::CommandError,
+    facts::{Cost, Facts},
+    ladder::{SweepPoint, SweepSummary},
+    scene::{Scene, SweepWay},
+};
+
+const WAYS: [(SweepWay, &str); 3] =
+    [(SweepWay::Apart, "each value by itself"), (SweepWay::Up, "upwards"), (SweepWay::Down, "downwards")];
+
+/// Bifurcation diagram first, then what goes with it.
+pub(crate) fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String> {
+    let curves = |values: &dyn Fn(&SweepPoint) -> Vec<f64>| -> Vec<Curve> {
+        WAYS.iter()
+            .filter_map(|(way, label)| {
+                let own = points.iter().filter(|p| p.way == *way);
+                let points: Vec<(f64, f64)> =
+                    own.flat_map(|p| values(p).into_iter().map(|y| (p.value, y)).collect::<Vec<_>>()).collect();
+                (!points.is_empty()).then(|| Curve { label: (*label).into(), points })
+            })
+            .collect()
+    };
+    let exponent = curves(&|p| p.lyapunov.iter().map(|l| l.exponent).collect());
+    [
+        dot_chart("Bifurcation diagram: section of the motion", key, of, &curves(&|p| p.points.clone())),
+        line_chart("Peak to peak", key, of, &curves(&|p| vec![p.peak_to_peak()]), true),
+        line_chart("Largest Lyapunov exponent: above zero in chaos", key, "exponent [1/s]", &exponent, true),
+        line_chart("Smallest normal force", key, "force [N]", &curves(&|p| vec![p.normal_force_n[0]]), true),
+        line_chart("Mean", key, of, &curves(&|p| vec![p.mean]), false),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The report of a sweep.
+///
+/// # Errors
+/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+pub(crate) fn write_ladder_sweep_report(
+    scene: &Scene,
+    facts: &Facts,
+    cost: &Cost,
+    summary: &SweepSummary,
+    charts: Vec<String>,
+    warnings: &[String],
+) -> Result<String, CommandError> {
+    let template = ("ladder_sweep.html", include_str!("ladder_sweep.html"));
+    render(scene, facts, cost, summary, template, charts, warnings)
+}
+
+/// A few values as text, the rest as dots.
+fn listed(values: &[f64]) -> String {
+    const SHOWN: usize = 6;
+    let mut text: Vec<String> = values.iter().take(SHOWN).map(|v| format!("{v:.4}")).collect();
+    if values.len() > SHOWN {
+        text.push("...".into());
+    }
+    if text.is_empty() { "-".into() } else { text.join(", ") }
+}
+
+/// The table at the end of a sweep.
+pub(crate) fn ladder_sweep_table(scene: &Scene, cost: &Cost, s: &SweepSummary, warnings: &[String]) -> String {
+    let mut t = String::new();
+    let mut line = |label: &str, value: String, unit: &str| push_line(&mut t, label, &value, unit);
+    line(&s.key, format!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
+    for p in &s.largest {
+        let way = WAYS.iter().find(|(way, _)| *way == p.way).map_or("", |(_, name)| name);
+        line(
+            &format!("largest peak to peak, {way}"),
+            fixed(p.peak_to_peak(), 4),
+            &format!("({}) at {}", s.section_of, p.value),
+        );
+    }
+    line("sections of one point", format!("{} of {}", s.period_one, s.points), "");
+    line("sections of a few points", s.subharmonic.len().to_string(), "");
+    line("sections that do not come back", s.not_periodic.len().to_string(), "");
+    if let Some(chaotic) = &s.chaotic {
+        let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
+        line("Lyapunov exponent above 0", chaotic.len().to_string(), &format!("at {}", listed(&values)));
+    }
+    if let Some(bands) = &s.hysteresis {
+        let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
+        line("two answers", bands.len().to_string(), &text.join(", "));
+    }
+    line("points at which flanks part", s.parting.to_string(), "");
+    framed(scene, &t, cost, warnings)
+}
