@@ -82,21 +82,36 @@ fn seed_001_has_its_normal_force_and_speed() {
     assert!(headline(&summary, "least_slice_force_n") >= 0.0, "a flank pulls");
 }
 
-/// Seed 002: torques balance, so the mean force on the line of action is the load's; 18 coordinates; the gears' turn against nothing is the one frequency at 0.
+/// Seed 002: torques balance, so the mean force on the line of action is the load's; 18 coordinates; the gears' turn against nothing is the one frequency at 0; twelve elastic ones within 8 % of the
+/// continuum's; critical speeds lie where an order meets a line of the Campbell diagram.
 #[test]
 fn seed_002_carries_its_load() {
-    let (_, summary) = run(seed("002", &[("cycles = 30", "cycles = 4"), ("1.0e-5", "1.0e-4")]));
+    let (scratch, summary) = run(seed("002", &[("cycles = 30", "cycles = 4"), ("1.0e-5", "1.0e-4")]));
     assert_eq!(headline(&summary, "coordinates"), 18.0);
     let (mean, wanted) = (headline(&summary, "mean_normal_force_n"), headline(&summary, "static_normal_force_n"));
     assert!((mean / wanted - 1.0).abs() < 1e-3, "{mean} N, the load asks for {wanted} N");
-    let all: Vec<f64> = summary["natural_frequencies_hz"]
-        .as_array()
-        .or(summary["model"]["natural_frequencies_hz"].as_array())
-        .unwrap()
-        .iter()
-        .map(|f| f.as_f64().unwrap())
-        .collect();
+    let list = |name: &str| -> Vec<f64> {
+        let all = summary["model"][name].as_array().unwrap_or_else(|| panic!("no {name}"));
+        all.iter().map(|f| f.as_f64().unwrap()).collect()
+    };
+    let (all, continuum) = (list("natural_frequencies_hz"), list("continuum_frequencies_hz"));
     assert!(all.len() == 18 && all[0] < 1.0 && all[1] > 10.0, "{all:?}");
+    for mode in 1..=12 {
+        let off = all[mode] / continuum[mode] - 1.0;
+        assert!(off.abs() < 0.08, "mode {mode}: {} Hz, {} Hz in beam elements", all[mode], continuum[mode]);
+    }
+    let diagram = scratch.read("o/campbell.csv");
+    let lines = diagram.lines().next().unwrap().split(',').filter(|n| n.starts_with("elastic_mode")).count();
+    assert_eq!(lines, 17, "every mode but the free turn: {diagram}");
+    let at_rest = util::column(&diagram, "elastic_mode_1_hz")[0];
+    assert!((at_rest / all[1] - 1.0).abs() < 1e-6, "{at_rest} Hz at rest, {} Hz", all[1]);
+    for meeting in summary["model"]["critical_speeds"].as_array().unwrap() {
+        let (speed, frequency) = (meeting["speed_rpm"].as_f64().unwrap(), meeting["frequency_hz"].as_f64().unwrap());
+        let order = 60.0 * frequency / speed;
+        let known = [30.0, 60.0, 90.0, 1.0, 30.0 / 46.0];
+        assert!(known.iter().any(|k| (order / k - 1.0).abs() < 1e-9), "{meeting}: order {order}");
+    }
+    assert!(scratch.read("o/report.html").contains("Campbell diagram"));
 }
 
 /// The default pair on tiny meshes at few positions.

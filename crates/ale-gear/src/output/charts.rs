@@ -8,13 +8,19 @@ pub(super) struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-pub(super) const COLOURS: [RGBColor; 6] = [
+pub(super) const COLOURS: [RGBColor; 12] = [
     RGBColor(31, 95, 168),
     RGBColor(200, 80, 30),
     RGBColor(40, 130, 70),
     RGBColor(130, 70, 150),
     RGBColor(120, 120, 40),
     RGBColor(90, 90, 90),
+    RGBColor(90, 180, 230),
+    RGBColor(230, 160, 0),
+    RGBColor(0, 190, 150),
+    RGBColor(200, 120, 170),
+    RGBColor(110, 60, 20),
+    RGBColor(0, 0, 0),
 ];
 
 /// Height of a legend's line over the height of the chart.
