@@ -8,6 +8,8 @@ use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GearMesh, GroupNames, Mesh, MshFormat, StructuredOptions};
 use reduction::{GearReducer, ReductionOptions};
 
+/// First two lines of a table of phases.
+const HEAD: &str = "| way | elements | DOF | phase | s | peak MB |\n|---|---|---|---|---|---|";
 /// Elements along the profile, along the fillet, across the tooth, along the face and below the teeth, quadratic.
 const SIZES: [[u32; 5]; 4] = [[2, 2, 2, 3, 1], [4, 2, 3, 5, 2], [4, 3, 4, 8, 3], [6, 3, 4, 10, 4]];
 /// Each step of the search for the largest gear has this many times the elements of the step before.
@@ -32,7 +34,7 @@ fn main() {
         return;
     }
     println!("One gear, z {TEETH}, hex20, one flank each of 3 teeth; every row a process of its own.");
-    println!("\n| way | elements | DOF | phase | s | peak MB |\n|---|---|---|---|---|---|");
+    println!("\n{HEAD}");
     for way in [Way::Sector, Way::General] {
         for counts in SIZES {
             print!(
@@ -55,7 +57,7 @@ fn largest(way: Way) {
         match measured(way, counts) {
             Ok(rows) => last = Some(rows),
             Err(why) => {
-                println!("\nLargest gear, {way:?}: the next, {counts:?}, ends with `{why}`.\n");
+                println!("\nLargest gear, {way:?}: the next, {counts:?}, ends with `{why}`.\n\n{HEAD}");
                 print!("{}", last.unwrap_or_default());
                 return;
             }
