@@ -21,6 +21,6 @@ mod table;
 
 pub(crate) use motion::REDUCED;
 pub use motion::{MotionPoint, MotionRow};
-pub(crate) use plan::{CALCULIX, FULL};
+pub(crate) use plan::{CALCULIX, FED, FULL};
 pub use plan::{Density, Point, Way, ways};
 pub use table::{ChartOptions, Outcome, PointRow, WorkPrecision, chart, point_count};

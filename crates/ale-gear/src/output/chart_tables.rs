@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use study::{AnswerError, Work, power_law};
 
-use crate::chart::{CALCULIX, Density, FULL, MotionPoint, Outcome, REDUCED, WorkPrecision};
+use crate::chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, REDUCED, WorkPrecision};
 
 /// All tables of a chart.
 pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> String {
@@ -130,7 +130,7 @@ fn speed_ups(chart: &WorkPrecision) -> String {
         t.push_str("| way | elements along the profile | DOF | cycle with reduction | a further cycle | position |\n|---|---|---|---|---|---|\n");
         for (_, density, slow_work, _) in on {
             for (way, _, w, _) in
-                measured(chart).filter(|(way, d, ..)| *d == density && ![FULL, CALCULIX].contains(way))
+                measured(chart).filter(|(way, d, ..)| *d == density && ![FULL, CALCULIX, FED].contains(way))
             {
                 let _ = writeln!(
                     t,
@@ -154,7 +154,8 @@ fn scaling(chart: &WorkPrecision) -> String {
         .to_owned();
     let mut names: Vec<&str> = Vec::new();
     for (way, ..) in measured(chart) {
-        if !names.contains(&way) {
+        // A fed model costs what its source costs, and then nothing.
+        if way != FED && !names.contains(&way) {
             names.push(way);
         }
     }

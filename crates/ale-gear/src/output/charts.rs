@@ -43,6 +43,9 @@ pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>
     chart(title, ["speed of the driver [1/min]", "frequency [Hz]"], &curves, true, Marks::Lines)
 }
 
+/// Points of a curve up to which they are drawn large.
+const FEW: usize = 100;
+
 /// How points are shown.
 #[derive(Clone, Copy, PartialEq)]
 enum Marks {
@@ -98,9 +101,11 @@ fn draw(
         let own = curves[..=k].iter().rposition(|c| !c.label.is_empty()).unwrap_or(0);
         let colour = COLOURS[own % COLOURS.len()];
         let finite = curve.points.iter().copied().filter(|(a, b)| a.is_finite() && b.is_finite());
+        // A few points are to be seen, many to be told apart.
+        let dot = if curve.points.len() <= FEW { 3 } else { 1 };
         let series = match marks {
             Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
-            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, 1, colour.filled()))),
+            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
         };
         let series = series.map_err(|e| fail(&e))?;
         if curve.label.is_empty() {

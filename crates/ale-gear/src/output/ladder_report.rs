@@ -20,8 +20,6 @@ const PORTRAITS: [(&str, &str); 6] = [
     ("pinion_z", "the pinion along its axis"),
     ("wheel_z", "the wheel along its axis"),
 ];
-const DISPLACEMENT: &str = "displacement [um]";
-const VELOCITY: &str = "velocity [mm/s]";
 
 /// What the charts of a run are drawn from.
 #[derive(Debug, Clone, Copy)]
@@ -46,12 +44,10 @@ pub(crate) fn write_ladder_report(
     pictures: &LadderPictures<'_>,
     warnings: &[String],
 ) -> Result<String, CommandError> {
-    let rows = pictures.motion.rows;
     let mut charts = motion_charts(&pictures.motion);
     for (name, whose) in PORTRAITS {
         charts.extend(displacement(&pictures.motion, name, whose));
-        charts.extend(portrait(rows, name, whose));
-        charts.extend(section(pictures.section, name, whose));
+        charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
     }
     charts.extend(pictures.campbell.and_then(campbell_chart));
     render(scene, facts, cost, headline, ("ladder.html", include_str!("ladder.html")), charts, warnings)
@@ -73,20 +69,15 @@ fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<Stri
     line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
 }
 
-/// Velocity over displacement.
-fn portrait(rows: &Columns, name: &str, whose: &str) -> Option<String> {
-    let curve = Curve { label: name.replace('_', " "), points: thinned(&plane(rows, name)) };
-    line_chart(&format!("Phase portrait of {whose}"), DISPLACEMENT, VELOCITY, &[curve], false)
+/// Velocity over displacement, and the same once a mesh cycle: phase portrait with its Poincare section.
+fn portrait(rows: &Columns, section: &Columns, name: &str, whose: &str) -> Option<String> {
+    let motion = Curve { label: "motion".into(), points: thinned(&plane(rows, name)) };
+    let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
+    let title = format!("Phase portrait of {whose}, and its Poincare section");
+    dot_chart(&title, "displacement [um]", "velocity [mm/s]", &[motion, once])
 }
 
-/// The same once a mesh cycle.
-fn section(section: &Columns, name: &str, whose: &str) -> Option<String> {
-    let points = plane(section, name);
-    let title = format!("Poincare section of {whose}, {} mesh cycles", points.len());
-    dot_chart(&title, DISPLACEMENT, VELOCITY, &[Curve { label: name.replace('_', " "), points }])
-}
-
-/// Natural frequencies (dots) over speed with the orders that may meet them.
+/// Natural frequencies over speed with the orders that may meet them.
 fn campbell_chart(of: &CampbellDiagram) -> Option<String> {
     let d = &of.diagram;
     let highest = d.frequencies.iter().flatten().copied().fold(0.0, f64::max);
