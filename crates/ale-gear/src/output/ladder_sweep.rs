@@ -84,7 +84,7 @@ pub(crate) fn ladder_sweep_table(scene: &Scene, cost: &Cost, s: &SweepSummary, w
     line("sections that do not come back", s.not_periodic.len().to_string(), "");
     if let Some(chaotic) = &s.chaotic {
         let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
-        line("Lyapunov exponent above 0", chaotic.len().to_string(), &format!("at {}", listed(&values)));
+        line("chaotic (exponent above 0)", chaotic.len().to_string(), &format!("at {}", listed(&values)));
     }
     if let Some(bands) = &s.hysteresis {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();

@@ -35,7 +35,7 @@ pub(crate) struct SweepSummary {
     pub subharmonic: Vec<(SweepWay, f64, usize)>,
     /// No period found, way and value.
     pub not_periodic: Vec<(SweepWay, f64)>,
-    /// Lyapunov exponent above zero beyond three standard errors, way and value; `None` where none was asked for.
+    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and value; `None` where no exponent was asked for.
     pub chaotic: Option<Vec<(SweepWay, f64)>>,
     /// Ranges of the key in which upwards and downwards give other answers.
     pub hysteresis: Option<Vec<[f64; 2]>>,
@@ -67,7 +67,7 @@ pub(super) fn summary(scene: &Scene, request: &SweepRequest, points: &[SweepPoin
         subharmonic: points.iter().filter_map(|p| Some((p.way, p.value, p.period.filter(|n| *n > 1)?))).collect(),
         // A section of a point or two tells no period.
         not_periodic: which(&|p| p.period.is_none() && p.points.len() > 2),
-        chaotic: (request.stretches > 0).then(|| which(&|p| p.lyapunov.is_some_and(|l| l.is_chaotic()))),
+        chaotic: (request.stretches > 0).then(|| which(&SweepPoint::is_chaotic)),
         hysteresis: hysteresis(request, points),
         parting: points.iter().filter(|p| p.rows_apart > 0).count(),
         periodic_tolerance: scene.motion.as_ref().and_then(|m| m.periodic_tolerance).unwrap_or(1e-6),

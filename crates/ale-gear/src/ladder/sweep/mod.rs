@@ -2,10 +2,11 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `point` | one value: settle, section, exponent |
+//! | `point`, `free_turn` | one value: settle, section, exponent, and what the exponent leaves out |
 //! | `files` | `sweep.csv`, `bifurcation.csv`, what is read off them |
 
 mod files;
+mod free_turn;
 mod point;
 
 use rayon::prelude::*;
