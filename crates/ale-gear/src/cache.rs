@@ -41,15 +41,6 @@ impl Cache {
         Self { folder: directories::ProjectDirs::from("", "", "ale-gear").map(|p| p.cache_dir().to_owned()) }
     }
 
-    /// As a command line says: none, a folder, or else the user's.
-    pub(crate) fn chosen(folder: Option<&Path>, none: bool) -> Self {
-        match folder {
-            _ if none => Self::off(),
-            Some(folder) => Self::in_folder(folder.to_owned()),
-            None => Self::of_user(),
-        }
-    }
-
     fn file(&self, key: &RecordKey) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
     }

@@ -92,7 +92,7 @@ pub fn ways() -> Vec<Way> {
         ladder("shaft18", Range::None, ladder_scene::shaft18),
         ladder("impact", Range::None, ladder_scene::impact),
         ladder(FED, Range::BelowReference, ladder_scene::lumped12_fed),
-        own("slice", Range::BelowReference, slice),
+        own(SLICE, Range::BelowReference, slice),
         own("slice, general reduction", Range::BelowReference, slice_general),
         own("nodal", Range::All, nodal),
         own("nodal with penalty", Range::BelowReference, penalty),
@@ -103,6 +103,8 @@ pub fn ways() -> Vec<Way> {
 
 /// Name of a cheaper model that the reduced one feeds.
 pub(crate) const FED: &str = "lumped12, fed by slice";
+/// Name of the way that is reduced by sectors where it can be, with slices.
+pub(super) const SLICE: &str = "slice";
 /// Name of the way that keeps every degree of freedom: others are compared with it.
 pub(crate) const FULL: &str = "full";
 /// Name of CalculiX's points.

@@ -1,10 +1,12 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
+mod cache_args;
 mod chart;
 mod default_scene;
 mod mesh;
 mod overrides;
 mod run;
+mod study;
 mod sweep;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +32,8 @@ enum Command {
     Chart(chart::ChartArgs),
     /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
     Sweep(sweep::SweepArgs),
+    /// Run several scenes and draw the same figures of all
+    Study(study::StudyArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -46,6 +50,7 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
             Some(Command::Sweep(args)) => args.execute(),
+            Some(Command::Study(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{overrides::Overrides, use_threads};
+use super::{cache_args::CacheArgs, overrides::Overrides, use_threads};
 use crate::{
-    cache::Cache,
     error::CommandError,
     ladder::{self, Once, SweepRequest},
     output::ResultDirectory,
@@ -55,12 +54,8 @@ pub(super) struct SweepArgs {
     lyapunov: Option<u32>,
     #[command(flatten)]
     overrides: Overrides,
-    /// Folder of reduced gears [default: the user's cache folder]
-    #[arg(long, value_name = "DIR")]
-    cache: Option<PathBuf>,
-    /// Neither read nor write reduced gears
-    #[arg(long, conflicts_with = "cache")]
-    no_cache: bool,
+    #[command(flatten)]
+    cache: CacheArgs,
     /// Threads [default: all cores]; the results are the same for any number
     #[arg(long, short = 'j', value_name = "N")]
     threads: Option<usize>,
@@ -178,7 +173,7 @@ impl SweepArgs {
         let (scenes, request) = self.plan()?;
         use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
-        let cache = Cache::chosen(self.cache.as_deref(), self.no_cache);
+        let cache = self.cache.open();
         let table = ladder::sweep_key(&scenes, &request, &mut phases, &results, &cache)?;
         results.finish()?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))

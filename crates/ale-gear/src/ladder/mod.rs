@@ -157,6 +157,7 @@ impl Case<'_> {
             waterfall: &[],
             per_cycle: words.steps_per_mesh_cycle as usize,
             quasi_static: static_errors.as_deref(),
+            view: None,
         };
         let drawn = LadderPictures { motion: pictures, section: &course.section, campbell: campbell.as_ref() };
         let report = write_ladder_report(scene, &facts, &cost, &headline, &drawn, &warnings)?;

@@ -1,46 +1,66 @@
-//! Charts of a history as SVG text, to be put into the report as they are.
+//! Charts of a report: a picture that prints and needs no script, and beside it the points for the script that zooms.
 
 use plotters::prelude::*;
 
+use super::plot_data::{Plot, embedded};
+
 /// One curve.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
     pub label: String,
     pub points: Vec<(f64, f64)>,
 }
 
-pub(super) const COLOURS: [RGBColor; 12] = [
-    RGBColor(31, 95, 168),
-    RGBColor(200, 80, 30),
-    RGBColor(40, 130, 70),
-    RGBColor(130, 70, 150),
-    RGBColor(120, 120, 40),
-    RGBColor(90, 90, 90),
-    RGBColor(90, 180, 230),
-    RGBColor(230, 160, 0),
-    RGBColor(0, 190, 150),
-    RGBColor(200, 120, 170),
-    RGBColor(110, 60, 20),
+/// Colours that the colour-blind can tell apart, without the yellow, which paper swallows.
+/// Source: Okabe and Ito, Color Universal Design, 2008.
+pub(super) const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
     RGBColor(0, 0, 0),
 ];
+
+/// Stretches of a long record in the picture: of each the least and the largest value are drawn.
+const STRETCHES: usize = 800;
 
 /// Height of a legend's line over the height of the chart.
 const LEGEND_ROOM: f64 = 0.09;
 
-/// Curves over one pair of axes. The value axis begins at zero when `from_zero` is set; without points, or with
-/// nothing finite, the chart is left out and `None` comes back.
+/// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
+/// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
-    chart(title, [x, y], curves, from_zero, Marks::Lines)
+    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    let curves: Vec<Curve> = curves.iter().filter(seen).cloned().collect();
+    let svg = picture(title, [x, y], &curves, from_zero, Marks::Lines)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
 }
 
-/// The same with dots in place of lines: sections and bifurcation diagrams.
+/// The same for the lines of a spectrum: one stick each.
+pub(super) fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
+    let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
+    let sticks = Curve { label: curve.label.clone(), points: sticks };
+    let svg = picture(title, [x, y], &[sticks], true, Marks::Lines)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
+}
+
+/// Dots in place of lines, sections and bifurcation diagrams: a picture that stays as it is. As SVG alone.
+pub(super) fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], curves, false, Marks::Dots)
+}
+
+/// The same as a part of a page.
 pub(super) fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
-    chart(title, [x, y], curves, false, Marks::Dots)
+    dot_picture(title, x, y, curves).map(|svg| still(&svg))
 }
 
-/// Frequencies over speed: modes all alike in grey, each order of excitation in a colour of its own.
+/// Frequencies over speed: modes all alike, each order of excitation in a colour of its own.
 pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
     let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();
-    chart(title, ["speed of the driver [1/min]", "frequency [Hz]"], &curves, true, Marks::Lines)
+    let svg = picture(title, ["speed of the driver [1/min]", "frequency [Hz]"], &curves, true, Marks::Lines)?;
+    Some(still(&svg))
 }
 
 /// Points of a curve up to which they are drawn large.
@@ -53,7 +73,19 @@ enum Marks {
     Dots,
 }
 
-fn chart(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks: Marks) -> Option<String> {
+/// A picture that no script replaces.
+fn still(svg: &str) -> String {
+    format!("<figure class=\"chart\"><div>{svg}</div></figure>")
+}
+
+/// A picture with what the script puts in its place on a screen.
+pub(super) fn figure(svg: &str, plots: &[String]) -> String {
+    let wide = if plots.len() > 1 { " wide" } else { "" };
+    format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
+}
+
+/// The chart as SVG.
+fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks: Marks) -> Option<String> {
     let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
     let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
     points().next()?;
@@ -75,6 +107,23 @@ fn chart(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks:
     let mut svg = String::new();
     draw(&mut svg, title, axes, curves, [x_low, x_high, y_low, y_high], marks).ok()?;
     Some(svg)
+}
+
+/// Least and largest value of each stretch, so that a long record keeps its envelope.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= 2 * STRETCHES {
+        return points.to_vec();
+    }
+    let mut kept = Vec::with_capacity(2 * STRETCHES);
+    for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
+        let low = stretch.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let high = stretch.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        if let (Some(low), Some(high)) = (low, high) {
+            let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+            kept.extend([*first.1, *second.1]);
+        }
+    }
+    kept
 }
 
 fn draw(
@@ -100,12 +149,16 @@ fn draw(
         // Curves without a name are more of the last one that has one.
         let own = curves[..=k].iter().rposition(|c| !c.label.is_empty()).unwrap_or(0);
         let colour = COLOURS[own % COLOURS.len()];
-        let finite = curve.points.iter().copied().filter(|(a, b)| a.is_finite() && b.is_finite());
+        let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();
         // A few points are to be seen, many to be told apart.
         let dot = if curve.points.len() <= FEW { 3 } else { 1 };
         let series = match marks {
-            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
-            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
+            Marks::Lines => chart.draw_series(LineSeries::new(
+                thinned(&curve.points).into_iter().filter(finite),
+                colour.stroke_width(2),
+            )),
+            Marks::Dots => chart
+                .draw_series(curve.points.iter().copied().filter(finite).map(|p| Circle::new(p, dot, colour.filled()))),
         };
         let series = series.map_err(|e| fail(&e))?;
         if curve.label.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::{
     charts::{Curve, dot_chart, frequency_chart, line_chart},
-    motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts, thinned},
+    motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
     motion_report::render,
 };
 use crate::error::CommandError;
@@ -65,13 +65,13 @@ fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<Stri
     let first = x.len().saturating_sub(SHOWN_CYCLES * of.per_cycle);
     let begin = time.get(first).copied().unwrap_or(0.0);
     let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
-    let curve = Curve { label: name.replace('_', " "), points: thinned(&points) };
+    let curve = Curve { label: name.replace('_', " "), points: points };
     line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
 }
 
 /// Velocity over displacement, and the same once a mesh cycle: phase portrait with its Poincare section.
 fn portrait(rows: &Columns, section: &Columns, name: &str, whose: &str) -> Option<String> {
-    let motion = Curve { label: "motion".into(), points: thinned(&plane(rows, name)) };
+    let motion = Curve { label: "motion".into(), points: plane(rows, name) };
     let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
     let title = format!("Phase portrait of {whose}, and its Poincare section");
     dot_chart(&title, "displacement [um]", "velocity [mm/s]", &[motion, once])

@@ -1,9 +1,9 @@
 //! What a sweep of a cheaper model shows: diagrams, page, closing table.
 
 use super::{
-    charts::{Curve, dot_chart, line_chart},
+    charts::{Curve, dot_chart, dot_picture, line_chart},
     motion_report::render,
-    table::{fixed, framed, push_line},
+    table::Lines,
 };
 use crate::{
     error::CommandError,
@@ -15,21 +15,29 @@ use crate::{
 const WAYS: [(SweepWay, &str); 3] =
     [(SweepWay::Apart, "each value by itself"), (SweepWay::Up, "upwards"), (SweepWay::Down, "downwards")];
 
-/// Bifurcation diagram first, then what goes with it.
-pub(crate) fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String> {
-    let curves = |values: &dyn Fn(&SweepPoint) -> Vec<f64>| -> Vec<Curve> {
-        WAYS.iter()
-            .filter_map(|(way, label)| {
-                let own = points.iter().filter(|p| p.way == *way);
-                let points: Vec<(f64, f64)> =
-                    own.flat_map(|p| values(p).into_iter().map(|y| (p.value, y)).collect::<Vec<_>>()).collect();
-                (!points.is_empty()).then(|| Curve { label: (*label).into(), points })
-            })
-            .collect()
+/// What `values` makes of the points, a curve a way.
+fn curves(points: &[SweepPoint], values: impl Fn(&SweepPoint) -> Vec<f64>) -> Vec<Curve> {
+    let of_way = |way: SweepWay| -> Vec<(f64, f64)> {
+        let own = points.iter().filter(|p| p.way == way);
+        own.flat_map(|p| values(p).into_iter().map(|y| (p.value, y)).collect::<Vec<_>>()).collect()
     };
+    let all = WAYS.iter().map(|&(way, label)| Curve { label: label.into(), points: of_way(way) });
+    all.filter(|c| !c.points.is_empty()).collect()
+}
+
+const DIAGRAM: &str = "Bifurcation diagram: section of the motion";
+
+/// The bifurcation diagram as SVG; `None` without points.
+pub(crate) fn bifurcation_svg(key: &str, of: &str, points: &[SweepPoint]) -> Option<String> {
+    dot_picture(DIAGRAM, key, of, &curves(points, |p| p.points.clone()))
+}
+
+/// The same first, then what goes with it, as parts of a page.
+pub(crate) fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String> {
+    let curves = |values: &dyn Fn(&SweepPoint) -> Vec<f64>| curves(points, values);
     let exponent = curves(&|p| p.lyapunov.iter().map(|l| l.exponent).collect());
     [
-        dot_chart("Bifurcation diagram: section of the motion", key, of, &curves(&|p| p.points.clone())),
+        dot_chart(DIAGRAM, key, of, &curves(&|p| p.points.clone())),
         line_chart("Peak to peak", key, of, &curves(&|p| vec![p.peak_to_peak()]), true),
         line_chart("Largest Lyapunov exponent: above zero in chaos", key, "exponent [1/s]", &exponent, true),
         line_chart("Smallest normal force", key, "force [N]", &curves(&|p| vec![p.normal_force_n[0]]), true),
@@ -67,29 +75,31 @@ fn listed(values: &[f64]) -> String {
 }
 
 /// The table at the end of a sweep.
-pub(crate) fn ladder_sweep_table(scene: &Scene, cost: &Cost, s: &SweepSummary, warnings: &[String]) -> String {
-    let mut t = String::new();
-    let mut line = |label: &str, value: String, unit: &str| push_line(&mut t, label, &value, unit);
-    line(&s.key, format!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
+pub(crate) fn ladder_sweep_table(
+    scene: &Scene,
+    facts: &Facts,
+    cost: &Cost,
+    s: &SweepSummary,
+    warnings: &[String],
+) -> String {
+    let mut t = Lines::new(facts);
+    t.text(&s.key, format_args!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
     for p in &s.largest {
         let way = WAYS.iter().find(|(way, _)| *way == p.way).map_or("", |(_, name)| name);
-        line(
-            &format!("largest peak to peak, {way}"),
-            fixed(p.peak_to_peak(), 4),
-            &format!("({}) at {}", s.section_of, p.value),
-        );
+        let unit = format!("({}) at {}", s.section_of, p.value);
+        t.number(&format!("largest peak to peak, {way}"), p.peak_to_peak(), 4, &unit);
     }
-    line("sections of one point", format!("{} of {}", s.period_one, s.points), "");
-    line("sections of a few points", s.subharmonic.len().to_string(), "");
-    line("sections that do not come back", s.not_periodic.len().to_string(), "");
+    t.text("sections of one point", format_args!("{} of {}", s.period_one, s.points), "");
+    t.text("sections of a few points", s.subharmonic.len(), "");
+    t.text("sections that do not come back", s.not_periodic.len(), "");
     if let Some(chaotic) = &s.chaotic {
         let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
-        line("chaotic (exponent above 0)", chaotic.len().to_string(), &format!("at {}", listed(&values)));
+        t.text("chaotic (exponent above 0)", chaotic.len(), &format!("at {}", listed(&values)));
     }
     if let Some(bands) = &s.hysteresis {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
-        line("two answers", bands.len().to_string(), &text.join(", "));
+        t.text("two answers", bands.len(), &text.join(", "));
     }
-    line("points at which flanks part", s.parting.to_string(), "");
-    framed(scene, &t, cost, warnings)
+    t.text("points at which flanks part", s.parting, "");
+    t.framed(scene, cost, warnings)
 }

@@ -21,7 +21,10 @@ use crate::{
     cache::Cache,
     error::CommandError,
     facts::Cost,
-    output::{ResultDirectory, bifurcation_charts, ladder_sweep_table, write_ladder_sweep_report, write_summary},
+    output::{
+        ResultDirectory, bifurcation_charts, bifurcation_svg, ladder_sweep_table, write_ladder_sweep_report,
+        write_summary,
+    },
     phases::Phases,
     scene::{MotionScene, Run, Scene, SweepScene, SweepWay},
 };
@@ -119,7 +122,7 @@ pub(crate) fn sweep_key(
     results.write("sweep.csv", files::sweep_csv(request, &points).as_bytes())?;
     results.write("bifurcation.csv", files::bifurcation_csv(request, &points).as_bytes())?;
     let charts = bifurcation_charts(&request.key, &request.of, &points);
-    if let Some(picture) = charts.first() {
+    if let Some(picture) = bifurcation_svg(&request.key, &request.of, &points) {
         results.write("bifurcation.svg", picture.as_bytes())?;
     }
     let scene = &first.recipe.scene;
@@ -128,7 +131,7 @@ pub(crate) fn sweep_key(
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     results.write("summary.json", write_summary(scene, &facts, &cost, &summary, &warnings, &files).as_bytes())?;
-    Ok(ladder_sweep_table(scene, &cost, &summary, &warnings))
+    Ok(ladder_sweep_table(scene, &facts, &cost, &summary, &warnings))
 }
 
 /// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state.

@@ -45,7 +45,7 @@ pub(crate) struct SweepPoint {
     pub lyapunov: Option<Lyapunov>,
     /// Smallest and largest normal force, N.
     pub normal_force_n: [f64; 2],
-    /// Rows without contact.
+    /// Rows in which the driving flanks do not press.
     pub rows_apart: usize,
 }
 
@@ -120,7 +120,7 @@ pub(super) fn run(
         warm_up_cycles: course.warm_up,
         lyapunov,
         normal_force_n: course.history.extent("normal_force_n"),
-        rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f == 0.0).count(),
+        rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f <= 0.0).count(),
     };
     Ok(Found { point, end: course.end })
 }
