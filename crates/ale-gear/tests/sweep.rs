@@ -72,6 +72,91 @@ fn a_linear_mesh_has_one_answer_everywhere() {
     assert_eq!(one.read("o/bifurcation.csv").lines().count(), 1 + 9 * 6);
 }
 
+/// Shafts that turn freely: the turn that nothing holds is no growth. Without clearance every disturbance dies out, at any speed.
+#[test]
+fn a_free_turn_is_no_chaos() {
+    let words = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "2000",
+        "--to",
+        "5000",
+        "--points",
+        "2",
+        "--ways",
+        "apart",
+        "--cycles",
+        "4",
+        "--settle",
+        "60",
+        "--lyapunov",
+        "100",
+        "--set",
+        "mesh.half_backlash_um=0",
+        "--set",
+        "motion.steps_per_resonance=0",
+        "--set",
+        "shaft18.mass_damping_per_s=400",
+    ];
+    let (scratch, summary) = sweep(seed("002"), &words);
+    let exponents = column(&of_way(&scratch.read("o/sweep.csv"), "apart"), "lyapunov_per_s");
+    assert!(exponents.iter().all(|l| *l < 0.0), "{exponents:?} 1/s");
+    assert_eq!(summary["headline"]["chaotic"].as_array().map(Vec::len), Some(0));
+}
+
+/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of `crates/lumped/tests/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600 rad/s with one
+/// above.
+#[test]
+fn backlash_brings_chaos_between_windows() {
+    let words = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "4774.648",
+        "--to",
+        "5729.578",
+        "--points",
+        "2",
+        "--ways",
+        "apart",
+        "--cycles",
+        "40",
+        "--settle",
+        "240",
+        "--lyapunov",
+        "120",
+        "--of",
+        "compression_um",
+        "--set",
+        "operation.torque_nm=30.66667",
+        "--set",
+        "mesh.stiffness_cos_n_per_um=[90.0]",
+        "--set",
+        "mesh.stiffness_sin_n_per_um=[]",
+        "--set",
+        "mesh.error_cos_um=[5.0]",
+        "--set",
+        "mesh.half_backlash_um=20",
+        "--set",
+        "motion.mesh_damping_ratio=0.03",
+        "--set",
+        "motion.steps_per_resonance=0",
+        "--set",
+        "pinion.shaft.supports.0.stiffness_rz_nmm_per_rad=1e7",
+        "--set",
+        "pinion.shaft.supports.0.damping_rz_nmms_per_rad=2e3",
+    ];
+    let (scratch, summary) = sweep(seed("002"), &words);
+    let csv = of_way(&scratch.read("o/sweep.csv"), "apart");
+    let exponents = column(&csv, "lyapunov_per_s");
+    let periods = column(&csv, "section_period");
+    assert!(exponents[0] < 0.0 && periods[0].is_finite(), "500 rad/s: {exponents:?} 1/s, {periods:?}");
+    assert!(exponents[1] > 50.0 && periods[1].is_nan(), "600 rad/s: {exponents:?} 1/s, {periods:?}");
+    let chaotic = summary["headline"]["chaotic"].as_array().map(Vec::len);
+    assert_eq!(chaotic, Some(1), "{}", summary["headline"]);
+}
+
 /// Any numeric key, in the logarithm, and its section once a turn: softer meshes lag more.
 #[test]
 fn any_key_may_change() {

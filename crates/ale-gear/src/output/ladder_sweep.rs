@@ -3,7 +3,7 @@
 use super::{
     charts::{Curve, dot_chart, dot_picture, line_chart},
     motion_report::render,
-    table::{fixed, framed, push_line},
+    table::Lines,
 };
 use crate::{
     error::CommandError,
@@ -75,29 +75,31 @@ fn listed(values: &[f64]) -> String {
 }
 
 /// The table at the end of a sweep.
-pub(crate) fn ladder_sweep_table(scene: &Scene, cost: &Cost, s: &SweepSummary, warnings: &[String]) -> String {
-    let mut t = String::new();
-    let mut line = |label: &str, value: String, unit: &str| push_line(&mut t, label, &value, unit);
-    line(&s.key, format!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
+pub(crate) fn ladder_sweep_table(
+    scene: &Scene,
+    facts: &Facts,
+    cost: &Cost,
+    s: &SweepSummary,
+    warnings: &[String],
+) -> String {
+    let mut t = Lines::new(facts);
+    t.text(&s.key, format_args!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
     for p in &s.largest {
         let way = WAYS.iter().find(|(way, _)| *way == p.way).map_or("", |(_, name)| name);
-        line(
-            &format!("largest peak to peak, {way}"),
-            fixed(p.peak_to_peak(), 4),
-            &format!("({}) at {}", s.section_of, p.value),
-        );
+        let unit = format!("({}) at {}", s.section_of, p.value);
+        t.number(&format!("largest peak to peak, {way}"), p.peak_to_peak(), 4, &unit);
     }
-    line("sections of one point", format!("{} of {}", s.period_one, s.points), "");
-    line("sections of a few points", s.subharmonic.len().to_string(), "");
-    line("sections that do not come back", s.not_periodic.len().to_string(), "");
+    t.text("sections of one point", format_args!("{} of {}", s.period_one, s.points), "");
+    t.text("sections of a few points", s.subharmonic.len(), "");
+    t.text("sections that do not come back", s.not_periodic.len(), "");
     if let Some(chaotic) = &s.chaotic {
         let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
-        line("Lyapunov exponent above 0", chaotic.len().to_string(), &format!("at {}", listed(&values)));
+        t.text("chaotic (exponent above 0)", chaotic.len(), &format!("at {}", listed(&values)));
     }
     if let Some(bands) = &s.hysteresis {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
-        line("two answers", bands.len().to_string(), &text.join(", "));
+        t.text("two answers", bands.len(), &text.join(", "));
     }
-    line("points at which flanks part", s.parting.to_string(), "");
-    framed(scene, &t, cost, warnings)
+    t.text("points at which flanks part", s.parting, "");
+    t.framed(scene, cost, warnings)
 }

@@ -35,7 +35,7 @@ pub(crate) struct SweepSummary {
     pub subharmonic: Vec<(SweepWay, f64, usize)>,
     /// No period found, way and value.
     pub not_periodic: Vec<(SweepWay, f64)>,
-    /// Lyapunov exponent above zero beyond three standard errors, way and value; `None` where none was asked for.
+    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and value; `None` where no exponent was asked for.
     pub chaotic: Option<Vec<(SweepWay, f64)>>,
     /// Ranges of the key in which upwards and downwards give other answers.
     pub hysteresis: Option<Vec<[f64; 2]>>,
@@ -69,7 +69,7 @@ pub(super) fn summary(scene: &Scene, request: &SweepRequest, points: &[SweepPoin
         subharmonic: points.iter().filter_map(|p| Some((p.way, p.value, p.period.filter(|n| *n > 1)?))).collect(),
         // A section of a point or two tells no period.
         not_periodic: which(&|p| p.period.is_none() && p.points.len() > 2),
-        chaotic: (request.stretches > 0).then(|| which(&|p| p.lyapunov.is_some_and(|l| l.is_chaotic()))),
+        chaotic: (request.stretches > 0).then(|| which(&SweepPoint::is_chaotic)),
         hysteresis: hysteresis(request, points),
         parting: points.iter().filter(|p| p.rows_apart > 0).count(),
         periodic_tolerance: scene.motion.as_ref().and_then(|m| m.periodic_tolerance).unwrap_or(1e-6),
@@ -77,18 +77,21 @@ pub(super) fn summary(scene: &Scene, request: &SweepRequest, points: &[SweepPoin
     }
 }
 
-/// Where both ways differ by more than a share of the largest peak to peak.
+/// Where both ways differ by more than a share of the largest peak to peak. Motions that never come back differ at all times, and say nothing of two answers.
 fn hysteresis(request: &SweepRequest, points: &[SweepPoint]) -> Option<Vec<[f64; 2]>> {
     let both = [SweepWay::Up, SweepWay::Down];
     if !both.iter().all(|way| request.ways.contains(way)) {
         return None;
     }
     let largest = points.iter().map(SweepPoint::peak_to_peak).fold(0.0, f64::max);
-    let [forward, backward] = both.map(|way| -> Vec<Branch> {
-        let own = points.iter().filter(|p| p.way == way);
-        own.map(|p| Branch { value: p.value, points: p.extent.to_vec() }).collect()
-    });
-    Some(Bifurcation { forward, backward }.hysteresis(APART * largest))
+    let [up, down] = both.map(|way| points.iter().filter(|p| p.way == way).collect::<Vec<_>>());
+    let branch = |p: &SweepPoint, other: &SweepPoint| Branch {
+        value: p.value,
+        points: if p.period.is_none() && other.period.is_none() { Vec::new() } else { p.extent.to_vec() },
+    };
+    let of =
+        |a: &[&SweepPoint], b: &[&SweepPoint]| -> Vec<Branch> { a.iter().zip(b).map(|(p, o)| branch(p, o)).collect() };
+    Some(Bifurcation { forward: of(&up, &down), backward: of(&down, &up) }.hysteresis(APART * largest))
 }
 
 impl SweepSummary {
@@ -122,7 +125,7 @@ pub(super) fn sweep_csv(request: &SweepRequest, points: &[SweepPoint]) -> String
     let of = &request.of;
     let mut csv = format!(
         "way,{},mean_{of},peak_to_peak_{of},min_{of},max_{of},section_period,periodicity,warm_up_cycles,lyapunov_per_s,lyapunov_error_per_s,\
-         min_normal_force_n,max_normal_force_n,rows_without_contact\n",
+         min_normal_force_n,max_normal_force_n,rows_without_driving_force\n",
         request.key
     );
     for p in points {

@@ -2,10 +2,11 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `point` | one value: settle, section, exponent |
+//! | `point`, `free_turn` | one value: settle, section, exponent, and what the exponent leaves out |
 //! | `files` | `sweep.csv`, `bifurcation.csv`, what is read off them |
 
 mod files;
+mod free_turn;
 mod point;
 
 use rayon::prelude::*;
@@ -128,7 +129,7 @@ pub(crate) fn sweep_key(
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     results.write("summary.json", write_summary(scene, &facts, &cost, &summary, &warnings, &files).as_bytes())?;
-    Ok(ladder_sweep_table(scene, &cost, &summary, &warnings))
+    Ok(ladder_sweep_table(scene, &facts, &cost, &summary, &warnings))
 }
 
 /// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state.

@@ -7,7 +7,7 @@ use dynamics::motion::State;
 use serde::Serialize;
 use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 
-use super::{Once, SweepRequest};
+use super::{Once, SweepRequest, free_turn::FreeTurn};
 use crate::{
     error::CommandError,
     ladder::{Model, Recipe, complaint, course, within_bounds},
@@ -45,11 +45,16 @@ pub(crate) struct SweepPoint {
     pub lyapunov: Option<Lyapunov>,
     /// Smallest and largest normal force, N.
     pub normal_force_n: [f64; 2],
-    /// Rows without contact.
+    /// Rows in which the driving flanks do not press.
     pub rows_apart: usize,
 }
 
 impl SweepPoint {
+    /// Exponent above zero beyond three standard errors, and a section that does not come back.
+    pub fn is_chaotic(&self) -> bool {
+        self.period.is_none() && self.lyapunov.is_some_and(|l| l.is_chaotic())
+    }
+
     /// Largest minus smallest of the column.
     pub fn peak_to_peak(&self) -> f64 {
         self.extent[1] - self.extent[0]
@@ -115,12 +120,12 @@ pub(super) fn run(
         warm_up_cycles: course.warm_up,
         lyapunov,
         normal_force_n: course.history.extent("normal_force_n"),
-        rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f == 0.0).count(),
+        rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f <= 0.0).count(),
     };
     Ok(Found { point, end: course.end })
 }
 
-/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle.
+/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle; of the gears' free turn, which nothing holds, it says nothing.
 fn exponent(
     model: &mut Model,
     words: &MotionScene,
@@ -140,11 +145,16 @@ fn exponent(
         distance: DISTANCE,
     };
     let step = course::step(words, frequencies_hz);
+    let free = FreeTurn::of(model)?;
     largest_lyapunov(&start, &scale, &plan, |x, k| {
         let (q, v) = x.split_at(n);
         let mut state = State::new(end.time + k as f64 * period, q.to_vec().into(), v.to_vec().into());
         let until = end.time + (k + 1) as f64 * period;
         course::integrator(model, words, step).advance(model, &mut state, until, |_, _| ())?;
+        if let Some(free) = &free {
+            free.remove(&mut state.q);
+            free.remove(&mut state.v);
+        }
         Ok(state.q.iter().chain(state.v.iter()).copied().collect())
     })
 }
