@@ -16,7 +16,7 @@ if [ "${1:-}" != --benches ]; then
         cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
     done
     out=out/chart-motion
-    "$program" chart --motion scenes/motion.toml --out "$out" --into docs/performance.md
+    "$program" chart --methods scenes/motion.toml --out "$out" --into docs/performance.md
     for kind in svg png csv; do
         cp "$out/motion_precision.$kind" "docs/performance/helical-30x30-beta20-motion.$kind"
     done

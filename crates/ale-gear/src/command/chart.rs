@@ -26,11 +26,14 @@ pub(super) struct ChartArgs {
     #[command(flatten)]
     overrides: Overrides,
     /// Methods of integration of a scene in time instead: error against step and wall time
-    #[arg(long)]
-    motion: bool,
+    #[arg(long, conflicts_with = "motion")]
+    methods: bool,
     /// Coarse meshes and few positions, or steps that are not small: less than a minute
     #[arg(long)]
     quick: bool,
+    /// Run the models in motion at the scene's torque and speed as well
+    #[arg(long)]
+    motion: bool,
     /// Threads [default: all cores]
     #[arg(long, short = 'j', value_name = "N")]
     threads: Option<usize>,
@@ -58,15 +61,16 @@ impl ChartArgs {
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
         }
-        if self.motion && scene.motion.is_none() {
+        if self.methods && scene.motion.is_none() {
             return Err(self.not_in_time());
         }
-        let options = if self.quick {
+        let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
             ChartOptions::quick(self.limit_s)
         } else {
             ChartOptions::whole(self.limit_s)
         };
+        options.motion = self.motion;
         Ok((scene, options))
     }
 
@@ -78,9 +82,9 @@ impl ChartArgs {
         let mut phases = Phases::with_bars();
         let quick = if self.quick { " --quick" } else { "" };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
-        if self.motion {
-            let command = format!("ale-gear chart --motion {} --out DIR{quick}{set}", self.scene.display());
-            return self.of_motion(&scene, &mut phases, results, &command);
+        if self.methods {
+            let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
+            return self.of_methods(&scene, &mut phases, results, &command);
         }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
             chart(&scene, &options, &results, |what| {
@@ -88,7 +92,8 @@ impl ChartArgs {
                 progress.tick();
             })
         })?;
-        let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
+        let motion = if self.motion { " --motion" } else { "" };
+        let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
@@ -106,12 +111,12 @@ impl ChartArgs {
 
 impl ChartArgs {
     fn not_in_time(&self) -> CommandError {
-        let what = format_args!("{}: `--motion` is for an analysis in time", self.scene.display());
+        let what = format_args!("{}: `--methods` is for an analysis in time", self.scene.display());
         CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into()))
     }
 
     /// The methods of integration of a scene in time.
-    fn of_motion(
+    fn of_methods(
         &self,
         scene: &Scene,
         phases: &mut Phases,

@@ -144,6 +144,34 @@ pub(crate) fn solve(
     }
 }
 
+/// Rows of a motion alone, written into `folder`: for comparing models.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out.
+pub(crate) fn rows_of(
+    scene: &Scene,
+    words: &MotionScene,
+    phases: &mut Phases,
+    folder: &Path,
+) -> Result<Columns, CommandError> {
+    let cache = Cache::off();
+    let inputs = Inputs::new(scene, words, phases, &cache)?;
+    let mut window = None;
+    loop {
+        let places = Places { rows: folder, checkpoint: None, from: None, stop_after: None };
+        let done = prepare(&inputs, phases, window)
+            .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
+        match done {
+            Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
+            Err(Failure::Command(e)) => return Err(e),
+            Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
+                Some(teeth) => window = Some(teeth),
+                None => return Err(complaint(scene, &e)),
+            },
+        }
+    }
+}
+
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),
@@ -249,6 +277,7 @@ fn write_motion(
         waterfall: &waterfall,
         per_cycle,
         quasi_static: Some(&prepared.quasi_static.transmission_error),
+        view: prepared.view.as_ref(),
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
@@ -335,7 +364,8 @@ fn write_sweep(
     }
     results.write("resonance.csv", sweep::write(&rows).as_bytes())?;
     let cost = Cost::of(phases);
-    let report = write_sweep_report(scene, &prepared.facts, &cost, &headline, &rows, &warnings)?;
+    let report =
+        write_sweep_report(scene, &prepared.facts, &cost, &headline, (&rows, prepared.view.as_ref()), &warnings)?;
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
