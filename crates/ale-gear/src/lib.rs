@@ -8,6 +8,7 @@
 //! | `ladder` | cheaper models of the same pair, in time |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
+//! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
 //! | [`chart`] | accuracy against cost of every model |
@@ -35,3 +36,4 @@ mod iso_model;
 mod ladder;
 pub mod meshes;
 mod partial;
+pub mod view;
