@@ -12,6 +12,7 @@
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
 //! | [`chart`] | accuracy against cost of every model |
+//! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
@@ -24,6 +25,7 @@ mod fields;
 pub mod memory;
 mod motion;
 pub mod output;
+pub mod parameter_study;
 pub mod pattern;
 pub mod phases;
 pub mod run;

@@ -12,7 +12,7 @@ use crate::motion::{MotionHeadline, SweepHeadline, SweepRow};
 use crate::scene::Scene;
 use crate::view::View;
 
-/// The report of one motion.
+/// The report of one motion; `pattern` is the picture of the contact pattern.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
@@ -22,10 +22,12 @@ pub(crate) fn write_motion_report(
     cost: &Cost,
     headline: &MotionHeadline,
     pictures: &MotionPictures<'_>,
+    pattern: Option<String>,
     warnings: &[String],
 ) -> Result<String, CommandError> {
     let charts = motion_charts(pictures);
-    let page = Page { scene, facts, cost, headline, charts, pattern: None, view: pictures.view, warnings };
+    let page =
+        Page { scene, facts, cost, headline, charts, pattern: pattern.as_deref(), view: pictures.view, warnings };
     page.render(("motion.html", include_str!("motion.html")))
 }
 
