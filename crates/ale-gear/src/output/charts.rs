@@ -42,20 +42,7 @@ pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_z
     Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
 }
 
-/// The same for the lines of a spectrum: one stick each.
-pub(super) fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
-    let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
-    let sticks = Curve { label: curve.label.clone(), points: sticks };
-    let svg = picture(title, [x, y], &[sticks], true, Marks::Lines)?;
-    Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
-}
-
-/// Dots in place of lines, sections and bifurcation diagrams: a picture that stays as it is. As SVG alone.
-pub(super) fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
-    picture(title, [x, y], curves, false, Marks::Dots)
-}
-
-/// The same as a part of a page.
+/// The same with dots in place of lines: sections and bifurcation diagrams.
 pub(super) fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     let curves = with_points(curves);
     let svg = picture(title, [x, y], &curves, false, Marks::Dots)?;
@@ -181,12 +168,8 @@ fn draw(
         // A few points are to be seen, many to be told apart.
         let dot = if curve.points.len() <= FEW { 3 } else { 1 };
         let series = match marks {
-            Marks::Lines => chart.draw_series(LineSeries::new(
-                thinned(&curve.points).into_iter().filter(finite),
-                colour.stroke_width(2),
-            )),
-            Marks::Dots => chart
-                .draw_series(curve.points.iter().copied().filter(finite).map(|p| Circle::new(p, dot, colour.filled()))),
+            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
+            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
         };
         let series = series.map_err(|e| fail(&e))?;
         if curve.label.is_empty() {
