@@ -83,7 +83,7 @@ impl ChartArgs {
         let quick = if self.quick { " --quick" } else { "" };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
         if self.methods {
-            let command = format!("ale-gear chart --methods {} --out DIR{quick}{set}", self.scene.display());
+            let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
             return self.of_methods(&scene, &mut phases, results, &command);
         }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
@@ -92,8 +92,8 @@ impl ChartArgs {
                 progress.tick();
             })
         })?;
-        let quick = if self.motion { format!("{quick} --motion") } else { quick.to_owned() };
-        let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
+        let motion = if self.motion { " --motion" } else { "" };
+        let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
