@@ -3,6 +3,7 @@
 mod chart;
 mod default_scene;
 mod mesh;
+mod overrides;
 mod run;
 
 use clap::{Parser, Subcommand};
