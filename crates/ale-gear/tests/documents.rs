@@ -23,7 +23,11 @@ fn pages() -> Vec<Page> {
 fn plain(path: &Path) -> PathBuf {
     let mut parts = PathBuf::new();
     for part in path.components() {
-        if part.as_os_str() == ".." { parts.pop(); } else { parts.push(part); }
+        if part.as_os_str() == ".." {
+            parts.pop();
+        } else {
+            parts.push(part);
+        }
     }
     parts
 }
@@ -40,12 +44,15 @@ fn links_lead_somewhere() {
                 continue; // the world outside is not this test's business
             }
             let (file, heading) = link.split_once('#').unwrap_or((&link, ""));
-            let target = if file.is_empty() { page.path.clone() } else { plain(&page.path.parent().unwrap().join(file)) };
+            let target =
+                if file.is_empty() { page.path.clone() } else { plain(&page.path.parent().unwrap().join(file)) };
             let fault = if !target.exists() {
                 "there is no such file"
             } else if page.path.starts_with(&docs) && !target.starts_with(&docs) {
                 "a page of the book may only link to what is in the book: name the file in code font"
-            } else if !heading.is_empty() && !anchors.get(target.as_path()).is_some_and(|a| a.iter().any(|a| a == heading)) {
+            } else if !heading.is_empty()
+                && !anchors.get(target.as_path()).is_some_and(|a| a.iter().any(|a| a == heading))
+            {
                 "there is no such heading"
             } else {
                 continue;
@@ -63,7 +70,8 @@ fn named_files_exist() {
     let mut faults = Vec::new();
     for page in pages() {
         for (code, byte) in page.code() {
-            let is_path = ["crates/", "tests/", "docs/", "scenes/", "meshes/", "benches/"].iter().any(|f| code.starts_with(f));
+            let is_path =
+                ["crates/", "tests/", "docs/", "scenes/", "meshes/", "benches/"].iter().any(|f| code.starts_with(f));
             if is_path && !code.contains([' ', '*', '<', '{']) && !top.join(&code).exists() {
                 faults.push(format!("{}: `{code}` is not in the repository", page.place(byte)));
             }
@@ -78,7 +86,8 @@ fn every_page_is_in_the_book_once() {
     let summary = Page::read(docs.join("SUMMARY.md"));
     let mut listed: Vec<PathBuf> = summary.links().into_iter().map(|(link, _)| docs.join(link)).collect();
     listed.sort();
-    let mut there: Vec<PathBuf> = Page::all_in(&docs, true).into_iter().map(|p| p.path).filter(|p| *p != summary.path).collect();
+    let mut there: Vec<PathBuf> =
+        Page::all_in(&docs, true).into_iter().map(|p| p.path).filter(|p| *p != summary.path).collect();
     there.sort();
     assert_eq!(listed, there, "left: docs/SUMMARY.md; right: the folder");
 }

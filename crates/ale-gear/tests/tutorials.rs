@@ -6,11 +6,12 @@
 //! <!-- file NAME -->                    the next block is written to the folder under this name
 //! <!-- run -->                          the next block is run by the shell and must succeed
 //! <!-- run status N -->                 ... and must end with this status
+//! <!-- run if PROGRAM -->               ... where this program is installed; `run unless PROGRAM`: where it is not
 //! <!-- prints -->                       each line of the next block is in what the last run printed, in this order; `...` stands for anything
 //! <!-- value FILE KEY TOLERANCE -->     the number that follows is what the file says, within a relative tolerance
 //! ```
 //! KEY of a `.json` file: names joined by dots, numbers for places in a list. Of a `.csv` file: `max:COLUMN`, `min:COLUMN`, or
-//! `COLUMN@max:OTHER`, the value of a column in the row where another is largest.
+//! `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER` behind it: among the rows that have this.
 #![cfg(unix)] // the commands are a shell's
 
 mod markdown;
@@ -27,6 +28,7 @@ use util::{Run, Scratch, column, repository};
 enum Step {
     File { name: String, content: String },
     Run { script: String, status: i32 },
+    Skip(String),
     Prints(String),
     Value { file: String, key: String, tolerance: f64, number: f64 },
 }
@@ -37,6 +39,11 @@ impl Step {
         Some(match words {
             ["file", name] => Self::File { name: (*name).to_owned(), content },
             ["run"] => Self::Run { script: content, status: 0 },
+            ["run", "if", program] if !installed(program) => Self::Skip(format!("{program} is not installed: not run")),
+            ["run", "unless", program] if installed(program) => {
+                Self::Skip(format!("{program} is installed: not needed"))
+            }
+            ["run", "if" | "unless", _] => Self::Run { script: content, status: 0 },
             ["run", "status", status] => Self::Run { script: content, status: status.parse().ok()? },
             ["prints"] => Self::Prints(content),
             _ => return None,
@@ -57,6 +64,10 @@ impl Step {
     }
 }
 
+fn installed(program: &str) -> bool {
+    std::process::Command::new(program).arg("--version").output().is_ok_and(|o| o.status.success())
+}
+
 /// The steps of a page, each with the place where it is asked for.
 fn steps(page: &Page) -> Vec<(Step, String)> {
     let mut steps = Vec::new();
@@ -64,12 +75,17 @@ fn steps(page: &Page) -> Vec<(Step, String)> {
     for (event, range) in page.events() {
         match event {
             Event::Html(html) | Event::InlineHtml(html) => {
-                let Some(inside) = html.trim().strip_prefix("<!--").and_then(|h| h.strip_suffix("-->")) else { continue };
+                let Some(inside) = html.trim().strip_prefix("<!--").and_then(|h| h.strip_suffix("-->")) else {
+                    continue;
+                };
                 let (words, place) = (inside.split_whitespace().collect::<Vec<_>>(), page.place(range.start));
                 assert!(comment.is_none(), "{place}: the comment before this one has no block");
                 if words.first() == Some(&"value") {
                     let step = Step::of_number(&words, &page.text[range.end..]);
-                    steps.push((step.unwrap_or_else(|| panic!("{place}: {inside} is no value with a number behind it")), place));
+                    steps.push((
+                        step.unwrap_or_else(|| panic!("{place}: {inside} is no value with a number behind it")),
+                        place,
+                    ));
                 } else {
                     comment = Some((inside.to_owned(), place));
                 }
@@ -80,7 +96,10 @@ fn steps(page: &Page) -> Vec<(Step, String)> {
                 let content = block.take().unwrap();
                 if let Some((inside, place)) = comment.take() {
                     let words: Vec<&str> = inside.split_whitespace().collect();
-                    steps.push((Step::of_block(&words, content).unwrap_or_else(|| panic!("{place}: what is {inside}?")), place));
+                    steps.push((
+                        Step::of_block(&words, content).unwrap_or_else(|| panic!("{place}: what is {inside}?")),
+                        place,
+                    ));
                 }
             }
             _ => {}
@@ -96,6 +115,7 @@ fn value(folder: &Path, file: &str, key: &str) -> Option<f64> {
         let root: serde_json::Value = serde_json::from_str(&text).ok()?;
         return root.pointer(&format!("/{}", key.replace('.', "/")))?.as_f64();
     }
+    let (key, only) = key.split_once(',').unwrap_or((key, ""));
     let (wanted, rule) = key.split_once('@').unwrap_or(("", key));
     let (rule, name) = rule.split_once(':')?;
     let judged = column(&text, name);
@@ -104,7 +124,14 @@ fn value(folder: &Path, file: &str, key: &str) -> Option<f64> {
         "min" => -1.0,
         _ => return None,
     };
-    let row = (0..judged.len()).max_by(|&a, &b| (sign * judged[a]).total_cmp(&(sign * judged[b])))?;
+    let among: Vec<usize> = match only.split_once('=') {
+        Some((name, number)) => {
+            let (values, number) = (column(&text, name), number.parse::<f64>().ok()?);
+            (0..judged.len()).filter(|&row| values[row] == number).collect()
+        }
+        None => (0..judged.len()).collect(),
+    };
+    let row = among.into_iter().max_by(|&a, &b| (sign * judged[a]).total_cmp(&(sign * judged[b])))?;
     Some(if wanted.is_empty() { judged[row] } else { column(&text, wanted)[row] })
 }
 
@@ -140,12 +167,16 @@ fn follow(page: &str) {
                 assert_eq!(run.code, Some(status), "{place}: {script}{}{}", run.stdout, run.stderr);
                 last = Some(run);
             }
+            Step::Skip(why) => println!("{place}: {why}"),
             Step::Prints(text) => {
                 let run = last.as_ref().unwrap_or_else(|| panic!("{place}: nothing was run before"));
                 let printed = run.stdout.clone() + &run.stderr;
                 let mut lines = printed.lines();
                 for pattern in text.lines().filter(|l| !l.trim().is_empty() && l.trim() != "...") {
-                    assert!(lines.any(|line| alike(line, pattern)), "{place}: no line `{pattern}` (in this order) in\n{printed}");
+                    assert!(
+                        lines.any(|line| alike(line, pattern)),
+                        "{place}: no line `{pattern}` (in this order) in\n{printed}"
+                    );
                 }
             }
             Step::Value { file, key, tolerance, number } => {
