@@ -1,4 +1,4 @@
-//! A pair with backlash, eight coordinates, driven by a torque that waves: does it rattle?
+//! A pair with backlash, eight coordinates, at some speeds: where do its flanks part?
 //!
 //! `cargo run -p lumped --example rattle`
 #![allow(clippy::print_stdout, reason = "an example prints")]
@@ -23,21 +23,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         let disc = 0.5 * mass * radius * radius;
         RigidBody { mass, transverse_inertia: 0.5 * disc, polar_inertia: disc }
     });
-    // 300 N/um on the line of action, 20 % of it waving with the teeth.
-    let cycle = MeshCycle::new(Fourier::first_order(3.0e5, 3.0e4, 0.0), Fourier::default());
+    // 300 N/um on the line of action, 30 % of it to either side with the teeth.
+    let cycle = MeshCycle::new(Fourier::first_order(3.0e5, 9.0e4, 0.0), Fourier::default());
     let support = Support8 { stiffness: [2e5; 3], damping: [0.5; 3], ..Support8::default() };
 
     println!("{:>10} {:>14} {:>14} {:>14} {:>12}", "1/min", "mesh, Hz", "least force, N", "largest, N", "DTE p-p, um");
-    for speed_rpm in [1000.0, 3000.0, 5000.0, 7000.0, 9000.0, 11000.0] {
+    for speed_rpm in [2000.0, 6000.0, 10_000.0, 12_000.0, 14_000.0, 18_000.0] {
         let operation = Operation {
             driver: Driver::Pinion,
             sense: Sense::Ccw,
             speed: speed_rpm * TAU / 60.0,
-            torque: 20e3,
+            torque: 10e3,
             friction: 0.05,
         };
         let pair = LumpedPair::new(&gears, &operation, bodies, cycle.clone())?;
-        let mut motion = Lumped8::new(pair, [support; 2], 0.03, 0.05, MeshLaw::Normal)?.motion()?;
+        let mut motion = Lumped8::new(pair, [support; 2], 0.02, 0.01, MeshLaw::Normal)?.motion()?;
         let plan = RunPlan {
             scheme: Scheme::GeneralisedAlpha { rho: 0.9 },
             rows_per_cycle: 64,
@@ -50,13 +50,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             rows.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
         };
         let ([least, largest], [low, high]) = (range(|r| r.normal_force), range(|r| 1e3 * r.transmission_error));
-        let remark = if least < 0.0 {
-            "coast flanks struck"
-        } else if least == 0.0 {
-            "flanks part"
-        } else {
-            ""
-        };
+        // Damping acts between parted flanks too, so the least force may be a little below zero.
+        let remark = if least <= 0.0 { "flanks part" } else { "" };
         println!(
             "{speed_rpm:>10} {:>14.0} {least:>14.1} {largest:>14.1} {:>12.2}  {remark}",
             30.0 * speed_rpm / 60.0,
