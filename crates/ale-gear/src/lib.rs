@@ -8,9 +8,11 @@
 //! | `ladder` | cheaper models of the same pair, in time |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
+//! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
 //! | [`chart`] | accuracy against cost of every model |
+//! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
@@ -23,6 +25,7 @@ mod fields;
 pub mod memory;
 mod motion;
 pub mod output;
+pub mod parameter_study;
 pub mod pattern;
 pub mod phases;
 pub mod run;
@@ -33,3 +36,4 @@ mod iso_model;
 mod ladder;
 pub mod meshes;
 mod partial;
+pub mod view;

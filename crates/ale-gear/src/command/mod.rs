@@ -1,10 +1,12 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
+mod cache_args;
 mod chart;
 mod default_scene;
 mod mesh;
 mod overrides;
 mod run;
+mod study;
 
 use clap::{Parser, Subcommand};
 
@@ -27,6 +29,8 @@ enum Command {
     Run(run::RunArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
+    /// Run several scenes and draw the same figures of all
+    Study(study::StudyArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -42,6 +46,7 @@ impl Cli {
             None => run::RunArgs::for_default_scene()?.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
+            Some(Command::Study(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }

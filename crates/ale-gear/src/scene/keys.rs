@@ -1,7 +1,10 @@
 //! Which keys there are, and which of them a misspelt one is nearest to.
 
-/// Every table with its keys, in the order of the documentation.
-pub(super) const TABLES: &[(&str, &[&str])] = &[
+/// Tables of a kind of file with their keys; the first one is the file itself.
+pub(crate) type Tables = &'static [(&'static str, &'static [&'static str])];
+
+/// Every table of a scene with its keys, in the order of the documentation.
+pub(super) const TABLES: Tables = &[
     (
         "",
         &[
@@ -209,7 +212,7 @@ pub(super) const TABLES: &[(&str, &[&str])] = &[
 ];
 
 /// The nearest of `known` if it is near enough to be meant.
-pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
         .map(|&k| (strsim::normalized_damerau_levenshtein(word, k), k))
@@ -218,10 +221,10 @@ pub(super) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, k)| k)
 }
 
-/// One sentence for someone who wrote `word` where only `here` may stand.
-pub(super) fn advice(word: &str, here: &[&str]) -> String {
+/// One sentence for someone who wrote `word` where only `here` may stand, in a file of these tables.
+pub(super) fn advice(tables: Tables, word: &str, here: &[&str]) -> String {
     let meant_here = nearest(word, here);
-    let elsewhere = TABLES.iter().skip(1).find(|(_, keys)| keys.contains(&word));
+    let elsewhere = tables.iter().skip(1).find(|(_, keys)| keys.contains(&word));
     match (elsewhere, meant_here) {
         (Some((table, _)), _) => format!("`{word}` belongs to [{table}]"),
         (None, Some(key)) => format!("did you mean `{key}`?"),
@@ -240,9 +243,9 @@ mod tests {
     #[test]
     fn advice_finds_neighbours_tables_and_units() {
         let pair = TABLES[4].1;
-        assert_eq!(advice("face_widht_mm", pair), "did you mean `face_width_mm`?");
-        assert_eq!(advice("teeth", pair), "`teeth` belongs to [pinion]");
-        assert_eq!(advice("torque", TABLES[6].1), "did you mean `torque_nm`?");
-        assert!(advice("colour", &["poisson"]).starts_with("known here"));
+        assert_eq!(advice(TABLES, "face_widht_mm", pair), "did you mean `face_width_mm`?");
+        assert_eq!(advice(TABLES, "teeth", pair), "`teeth` belongs to [pinion]");
+        assert_eq!(advice(TABLES, "torque", TABLES[6].1), "did you mean `torque_nm`?");
+        assert!(advice(TABLES, "colour", &["poisson"]).starts_with("known here"));
     }
 }

@@ -336,7 +336,7 @@ fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> 
     let keys = [("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm), ("duration_s", &raw.duration_s)];
     needed(s, "ramp", &keys, run)?;
     Ok(RampScene {
-        from_rpm: s.number("from_rpm", &raw.from_rpm, 0.0, 1e-3, 1e7)?,
+        from_rpm: s.number("from_rpm", &raw.from_rpm, 0.0, 0.0, 1e7)?,
         to_rpm: s.number("to_rpm", &raw.to_rpm, 0.0, 1e-3, 1e7)?,
         duration_s: s.number("duration_s", &raw.duration_s, 0.0, 1e-6, 1e6)?,
         before_s: s.number("before_s", &raw.before_s, 0.0, 0.0, 1e6)?,
