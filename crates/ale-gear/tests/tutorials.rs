@@ -15,6 +15,7 @@
 #![cfg(unix)] // the commands are a shell's
 
 mod markdown;
+mod quantities;
 mod util;
 
 use std::os::unix::fs::symlink;
@@ -22,6 +23,7 @@ use std::path::Path;
 
 use markdown::Page;
 use pulldown_cmark::{Event, Tag, TagEnd};
+use quantities::Documented;
 use util::{Run, Scratch, column, repository};
 
 /// What a page asks to be done, in its order.
@@ -150,7 +152,7 @@ fn alike(line: &str, pattern: &str) -> bool {
     open || rest.is_empty()
 }
 
-/// Does what a page says in a folder that looks like the top of the repository.
+/// Does what a page says in a folder that looks like the top of the repository, and looks up every quantity that came out in the documents.
 fn follow(page: &str) {
     let page = Page::read(repository().join("docs/tutorials").join(page));
     let scratch = Scratch::new();
@@ -186,6 +188,13 @@ fn follow(page: &str) {
                 values += 1;
             }
         }
+    }
+    let outputs = Documented::by(&Page::read(repository().join("docs/outputs.md")));
+    for folder in
+        std::fs::read_dir(scratch.path().join("out")).unwrap().map(|e| e.unwrap().path()).filter(|p| p.is_dir())
+    {
+        let missing = outputs.missing(&folder);
+        assert!(missing.is_empty(), "not in docs/outputs.md: {}", missing.join("\n"));
     }
     assert!(values > 0, "{}: no number of the text is compared with a result", page.path.display());
 }
