@@ -24,6 +24,9 @@ pub(super) struct ChartArgs {
     /// Coarse meshes and few positions: less than a minute
     #[arg(long)]
     quick: bool,
+    /// Run the models in motion at the scene's torque and speed as well
+    #[arg(long)]
+    motion: bool,
     /// Threads [default: all cores]
     #[arg(long, short = 'j', value_name = "N")]
     threads: Option<usize>,
@@ -51,12 +54,13 @@ impl ChartArgs {
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
         }
-        let options = if self.quick {
+        let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
             ChartOptions::quick(self.limit_s)
         } else {
             ChartOptions::whole(self.limit_s)
         };
+        options.motion = self.motion;
         Ok((scene, options))
     }
 
@@ -73,6 +77,7 @@ impl ChartArgs {
             })
         })?;
         let quick = if self.quick { " --quick" } else { "" };
+        let quick = if self.motion { format!("{quick} --motion") } else { quick.to_owned() };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
         let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());

@@ -7,6 +7,7 @@ mod mesh;
 mod overrides;
 mod run;
 mod study;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 
@@ -31,6 +32,8 @@ enum Command {
     Chart(chart::ChartArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
+    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
+    Sweep(sweep::SweepArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -47,6 +50,7 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
             Some(Command::Study(args)) => args.execute(),
+            Some(Command::Sweep(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }
