@@ -11,6 +11,7 @@
 
 mod careful;
 mod dense;
+mod factor;
 mod near;
 mod pivots;
 mod proximal;
