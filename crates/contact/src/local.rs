@@ -1,4 +1,4 @@
-//! Local compliance of a line contact: what the mesh of a gear is too coarse to know.
+//! Local compliance of a line contact: what the mesh of a gear is too coarse to know. Theory (19c).
 
 mod edge;
 mod end_face;

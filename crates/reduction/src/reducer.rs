@@ -1,4 +1,4 @@
-//! One condensation a gear, any window of it.
+//! One condensation a gear, any window of it. Theory (11), (12).
 
 use std::{
     collections::BTreeMap,

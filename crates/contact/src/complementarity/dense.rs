@@ -1,4 +1,4 @@
-//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again.
+//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again. Theory (37).
 
 use dyn_stack::MemBuffer;
 use faer::{
