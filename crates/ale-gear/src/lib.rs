@@ -10,6 +10,7 @@
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
+//! | [`starter`] | the scene that a user begins with |
 //! | [`chart`] | accuracy against cost of every model |
 //! | [`command`] | the subcommands |
 
@@ -27,6 +28,7 @@ pub mod pattern;
 pub mod phases;
 pub mod run;
 pub mod scene;
+pub mod starter;
 
 mod gears;
 mod iso_model;

@@ -2,6 +2,7 @@
 
 mod chart;
 mod default_scene;
+mod init;
 mod mesh;
 mod run;
 
@@ -24,6 +25,8 @@ pub struct Cli {
 enum Command {
     /// Run a scene and write its result folder
     Run(run::RunArgs),
+    /// Write a commented scene to begin with, from flags or from a few questions
+    Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
     /// Look at, check or make meshes
@@ -41,6 +44,7 @@ impl Cli {
             None => run::RunArgs::for_default_scene()?.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
+            Some(Command::Init(args)) => args.execute(),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }
