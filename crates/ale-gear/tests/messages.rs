@@ -223,8 +223,7 @@ fn words_of_the_command_are_checked_too() {
     for (run, text) in [
         (
             scratch.ale_gear(["run", "a.toml", "--out", "o", "--torque-nm", "-5"]),
-            "ale-gear: `--torque-nm` is -5, allowed is 0 .. 1000000000\n\
-             hint: the sense of the torque follows from `driver` and `rotation`\n",
+            "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n",
         ),
         (
             scratch.ale_gear(["run", "a.toml", "--out", "a.toml"]),

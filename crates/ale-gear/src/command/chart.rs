@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::overrides::Overrides;
 use crate::{
     chart::{ChartOptions, chart, point_count},
     error::CommandError,
@@ -18,6 +19,8 @@ pub(super) struct ChartArgs {
     /// Folder for chart and tables; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
+    #[command(flatten)]
+    overrides: Overrides,
     /// Coarse meshes and few positions: less than a minute
     #[arg(long)]
     quick: bool,
@@ -38,7 +41,7 @@ const QUICK_POSITIONS: u32 = 8;
 impl ChartArgs {
     /// Every complaint about the words is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<(Scene, ChartOptions), CommandError> {
-        let mut scene = Scene::read(&self.scene)?;
+        let mut scene = self.overrides.read(&self.scene)?;
         if self.threads == Some(0) {
             return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
         }
@@ -70,7 +73,8 @@ impl ChartArgs {
             })
         })?;
         let quick = if self.quick { " --quick" } else { "" };
-        let command = format!("ale-gear chart {} --out DIR{quick}", self.scene.display());
+        let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
+        let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;

@@ -4,6 +4,7 @@ mod chart;
 mod default_scene;
 mod init;
 mod mesh;
+mod overrides;
 mod run;
 
 use clap::{Parser, Subcommand};

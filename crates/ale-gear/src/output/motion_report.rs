@@ -67,7 +67,7 @@ pub(super) fn render<H: Serialize>(
         version => env!("CARGO_PKG_VERSION"),
         scene => scene.to_toml(),
         scene_file => scene.file.display().to_string(),
-        torque_nm => scene.operation.torque_nm.to_string(),
+        set => &scene.set,
         vtu => false,
         headline => Serde(headline),
         facts => Serde(facts),

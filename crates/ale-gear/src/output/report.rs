@@ -34,7 +34,7 @@ pub fn write_report(
             version => env!("CARGO_PKG_VERSION"),
             scene => scene.to_toml(),
             scene_file => scene.file.display().to_string(),
-            torque_nm => scene.operation.torque_nm.to_string(),
+            set => &scene.set,
             vtu => scene.output.vtu,
             headline => Serde(headline),
             facts => Serde(facts),

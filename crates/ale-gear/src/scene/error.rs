@@ -3,18 +3,29 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// A line of a file.
+/// Where a value was said.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
-    /// The file as the user named it; boxed, as every check hands a place about.
-    pub file: Box<Path>,
-    /// Counted from 1.
-    pub line: usize,
+pub enum Place {
+    /// A line of a file.
+    Line {
+        /// The file as the user named it; boxed, as every check hands a place about.
+        file: Box<Path>,
+        /// Counted from 1.
+        line: usize,
+    },
+    /// Beside the file.
+    Setting {
+        /// As `--set operation.torque_nm`.
+        label: Box<str>,
+    },
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.file.display(), self.line)
+        match self {
+            Self::Line { file, line } => write!(f, "{}:{line}", file.display()),
+            Self::Setting { label } => f.write_str(label),
+        }
     }
 }
 
@@ -94,6 +105,14 @@ pub enum SceneError {
         /// What to do instead.
         instead: String,
     },
+    /// A key set beside the file that cannot be read.
+    #[error("{label}: {what}")]
+    Setting {
+        /// As the user wrote it.
+        label: String,
+        /// What is wrong with it.
+        what: String,
+    },
     /// Two keys that do not go together, or a value against the rest of the scene.
     #[error("{place}: {what}")]
     Conflict {
@@ -119,6 +138,9 @@ impl SceneError {
             Self::WrongType { .. } => None,
             Self::OutOfRange { advice, .. } => advice.clone(),
             Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
+            Self::Setting { .. } => Some(
+                "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value".into(),
+            ),
             Self::NotYet { instead, .. } => Some(instead.clone()),
         }
     }

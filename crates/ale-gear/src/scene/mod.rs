@@ -11,6 +11,7 @@ mod ladder;
 mod micro;
 mod motion;
 mod raw;
+mod setting;
 mod source;
 
 use std::f64::consts::PI;
@@ -30,6 +31,7 @@ pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
     SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
+pub use setting::Setting;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,6 +41,9 @@ pub struct Scene {
     /// Where the scene stands; paths in it are relative to its folder.
     #[serde(skip)]
     pub file: PathBuf,
+    /// Words of a command line that set keys beside the file.
+    #[serde(skip)]
+    pub set: Vec<String>,
     /// Gear 1.
     pub pinion: GearScene,
     /// Gear 2.
@@ -383,9 +388,17 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::read_with(file, &[])
+    }
+
+    /// Reads and checks a scene file with some of its keys set otherwise; of two settings of a key the last one holds.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file)
+        Self::parse_with(&text, file, settings)
     }
 
     /// Checks the text of a scene; `file` is what messages name and what paths are relative to.
@@ -393,8 +406,18 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file.
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let source = source::Source { file, text };
-        check::scene(&source, raw::read(&source)?)
+        Self::parse_with(text, file, &[])
+    }
+
+    /// The same with some of its keys set otherwise.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        let (all, ranges) = setting::below(text, settings);
+        let source = source::Source { file, text: &all, settings, ranges: &ranges };
+        let scene = check::scene(&source, raw::read(&source)?)?;
+        Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
 
     /// The scene file that says the same with every default written out.

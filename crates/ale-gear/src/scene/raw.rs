@@ -1,11 +1,12 @@
 //! The words of a scene file with their types and places, nothing checked yet.
 
 use serde::Deserialize;
-use toml::Spanned;
+use toml::{Spanned, de::DeTable};
 
 use super::SceneError;
 use super::ladder::{RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft, RawShaft18};
 use super::motion::{RawBearing, RawBody, RawDrive, RawLoad, RawModes, RawMotion};
+use super::setting;
 use super::source::Source;
 
 /// A number as written.
@@ -233,5 +234,13 @@ pub(super) struct RawOutput {
 /// # Errors
 /// Syntax, unknown keys and wrong types, each with its line.
 pub(super) fn read(source: &Source<'_>) -> Result<RawScene, SceneError> {
-    toml::from_str(source.text).map_err(|e| source.explain(e.message(), e.span()))
+    let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
+    let file_end = source.ranges.first().map_or(source.text.len(), |r| r.start - 1);
+    // Each setting is read on its own, as far from the beginning as its line is: so its spans are those of the text.
+    let padded: Vec<String> = source.ranges.iter().map(|r| " ".repeat(r.start) + &source.text[r.clone()]).collect();
+    let mut root = DeTable::parse(&source.text[..file_end]).map_err(explain)?;
+    for (setting, padded) in source.settings.iter().zip(&padded) {
+        setting::put(root.get_mut(), padded, setting.key()).map_err(explain)?;
+    }
+    RawScene::deserialize(toml::Deserializer::from(root)).map_err(explain)
 }

@@ -9,19 +9,29 @@ use toml::Spanned;
 use super::error::{Place, SceneError};
 use super::keys;
 use super::raw::{Number, Whole, Word};
+use super::setting::Setting;
 
 /// A scene's text and the name that messages give it.
 pub(super) struct Source<'a> {
     pub file: &'a Path,
+    /// The file's text, and a line for each setting below it.
     pub text: &'a str,
+    /// What was set beside the file.
+    pub settings: &'a [Setting],
+    /// Where in the text.
+    pub ranges: &'a [Range<usize>],
 }
 
 impl Source<'_> {
-    /// File and line of a byte range.
+    /// File and line of a byte range, or the setting that it lies in.
     pub fn place(&self, span: &Range<usize>) -> Place {
+        let within = |r: &Range<usize>| r.contains(&span.start);
+        if let Some(setting) = self.ranges.iter().position(within).and_then(|i| self.settings.get(i)) {
+            return Place::Setting { label: setting.label().into() };
+        }
         let end = span.start.min(self.text.len());
         let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place { file: self.file.into(), line }
+        Place::Line { file: self.file.into(), line }
     }
 
     /// A message of the TOML reader in this program's words.

@@ -1,0 +1,38 @@
+//! Words that set keys of the scene beside its file.
+
+use std::path::Path;
+
+use crate::scene::{Scene, SceneError, Setting};
+
+/// Keys of the scene, instead of the file's.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub(super) struct Overrides {
+    /// Set a key of the scene, as `operation.torque_nm=200`; may be given again
+    #[arg(long = "set", value_name = "KEY=VALUE", help_heading = "Overrides")]
+    set: Vec<String>,
+    /// Torque on the driven gear: short for `--set operation.torque_nm=NM`
+    #[arg(long, value_name = "NM", help_heading = "Overrides", allow_negative_numbers = true)]
+    torque_nm: Option<f64>,
+}
+
+impl Overrides {
+    /// What is set, in the order in which it holds.
+    ///
+    /// # Errors
+    /// Words that are no key with a value.
+    pub fn settings(&self) -> Result<Vec<Setting>, SceneError> {
+        let mut all = self.set.iter().map(|word| Setting::parse(word)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(torque) = self.torque_nm {
+            all.push(Setting::number("operation.torque_nm", torque)?.called("--torque-nm"));
+        }
+        Ok(all)
+    }
+
+    /// The scene with these keys.
+    ///
+    /// # Errors
+    /// As of [`Scene::read_with`].
+    pub fn read(&self, scene: &Path) -> Result<Scene, SceneError> {
+        Scene::read_with(scene, &self.settings()?)
+    }
+}
