@@ -12,11 +12,13 @@
 //! | [`cache`] | reduced gears on disk |
 //! | [`starter`] | the scene that a user begins with |
 //! | [`chart`] | accuracy against cost of every model |
+//! | [`compare`] | result folders side by side |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
 pub mod chart;
 pub mod command;
+pub mod compare;
 mod elastic_gears;
 pub mod error;
 pub mod facts;

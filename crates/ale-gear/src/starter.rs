@@ -122,7 +122,10 @@ impl Starter {
         let _ = match self.centre_distance_mm {
             Some(a) => writeln!(t, "centre_distance_mm = {a:?}"),
             None => {
-                writeln!(t, "# the centre distance follows from the profile shifts; `centre_distance_mm` states another")
+                writeln!(
+                    t,
+                    "# the centre distance follows from the profile shifts; `centre_distance_mm` states another"
+                )
             }
         };
         let _ = write!(

@@ -109,7 +109,11 @@ fn absent(file: &Path) -> Result<(), CommandError> {
 fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError> {
     let mut options = std::fs::File::options();
     options.write(true);
-    if replace { options.create(true).truncate(true) } else { options.create_new(true) };
+    if replace {
+        options.create(true).truncate(true)
+    } else {
+        options.create_new(true)
+    };
     let written = options.open(file).and_then(|mut f| f.write_all(text.as_bytes()));
     written.map_err(|e| match e.kind() {
         std::io::ErrorKind::AlreadyExists => there(file),

@@ -1,11 +1,13 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
 mod chart;
+mod compare;
 mod default_scene;
 mod init;
 mod mesh;
 mod overrides;
 mod run;
+mod schema;
 
 use clap::{Parser, Subcommand};
 
@@ -30,6 +32,10 @@ enum Command {
     Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
+    /// Result folders side by side: headline numbers with differences, curves over each other
+    Compare(compare::CompareArgs),
+    /// JSON Schema of the scene file on stdout, for completion and checks in editors
+    Schema,
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -46,6 +52,8 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Chart(args)) => args.execute(),
             Some(Command::Init(args)) => args.execute(),
+            Some(Command::Compare(args)) => args.execute(),
+            Some(Command::Schema) => Ok(schema::execute()),
             Some(Command::Mesh(command)) => command.execute(),
         }
     }

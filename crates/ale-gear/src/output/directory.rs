@@ -127,6 +127,8 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")
             || matches!(name.as_str(), "waterfall.csv" | "resonance.csv")
+            || matches!(name.as_str(), "compare.html" | "compare.csv" | "compare_curves.csv")
+            || (name.starts_with("compare_") && name.ends_with(".svg"))
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };

@@ -3,6 +3,9 @@
 mod chart_csv;
 mod chart_tables;
 mod charts;
+mod compare_csv;
+mod compare_report;
+mod compare_table;
 mod contact_files;
 mod contact_lines;
 mod directory;
@@ -29,6 +32,9 @@ mod work_precision_chart;
 
 pub use chart_csv::write_chart_csv;
 pub use chart_tables::chart_tables;
+pub use compare_csv::{write_compare_csv, write_curves_csv};
+pub use compare_report::{compare_charts, write_compare_report};
+pub use compare_table::compare_table;
 pub use contact_files::write_contact;
 pub use contact_lines::write_contact_lines;
 pub use directory::ResultDirectory;
@@ -48,7 +54,7 @@ pub use png::svg_to_png;
 pub use pvd::{PvdEntry, write_pvd};
 pub use report::write_report;
 pub use root_stress::{GearRootStress, Place, RootStressHeadline};
-pub use summary::write_summary;
+pub use summary::{SUMMARY_SCHEMA, write_summary};
 pub use table::closing_table;
 pub use vtu::{Encoding, Field, write_surface, write_vtu};
 pub use work_precision_chart::work_precision_svg;

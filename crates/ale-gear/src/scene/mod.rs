@@ -11,6 +11,7 @@ mod ladder;
 mod micro;
 mod motion;
 mod raw;
+mod schema;
 mod setting;
 mod source;
 
@@ -31,6 +32,7 @@ pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
     SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
+pub use schema::{all_keys, json_schema};
 pub use setting::Setting;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.

@@ -9,6 +9,7 @@ use toml::Spanned;
 use super::error::{Place, SceneError};
 use super::keys;
 use super::raw::{Number, Whole, Word};
+use super::schema::Table;
 use super::setting::Setting;
 
 /// A scene's text and the name that messages give it.
@@ -102,6 +103,23 @@ impl Source<'_> {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
             _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"))),
         }
+    }
+
+    /// The number of a key, within the range of its table, or the table's default; 0 where it has none.
+    pub fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
+        let (low, high, default) = table.number(key);
+        self.number(key, value, default.unwrap_or(0.0), low, high)
+    }
+
+    /// The same where it is written, else nothing.
+    pub fn optional_of(&self, table: &Table, key: &str, value: &Number) -> Result<Option<f64>, SceneError> {
+        value.as_ref().map(|_| self.number_of(table, key, value)).transpose()
+    }
+
+    /// The whole number of a key, within the range of its table, or the table's default.
+    pub fn whole_of(&self, table: &Table, key: &str, value: &Whole) -> Result<u32, SceneError> {
+        let (low, high, default) = table.whole(key);
+        self.whole(key, value, default.unwrap_or(low), low, high)
     }
 
     /// The meaning of the word of `key`; the first of `choices` is the default.
