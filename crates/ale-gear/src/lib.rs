@@ -6,6 +6,7 @@
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
 //! | `ladder` | cheaper models of the same pair, in time |
+//! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
@@ -31,8 +32,10 @@ pub mod phases;
 pub mod run;
 pub mod scene;
 pub mod starter;
+pub mod talk;
 
 mod gears;
+mod geometry_fault;
 mod iso_model;
 mod ladder;
 pub mod meshes;

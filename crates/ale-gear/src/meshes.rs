@@ -122,8 +122,20 @@ fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<()
         format_args!(
             "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
         ),
-        Some("coordinates must be in mm (not m or inch), the gear's axis on z".into()),
+        Some(match unit_of(reach / tip) {
+            Some((unit, factor)) => format!(
+                "the mesh is in {unit}: write it again in mm, {factor} times as large (Gmsh: `Mesh.ScalingFactor = {factor};`)"
+            ),
+            None => "coordinates must be in mm (not m or inch), the gear's axis on z".into(),
+        }),
     ))
+}
+
+/// The unit that a mesh is in by its size over the gear's, within a tenth; and mm in that unit.
+fn unit_of(size: f64) -> Option<(&'static str, f64)> {
+    const UNITS: [(&str, f64); 4] =
+        [("metres", 1000.0), ("inches", 25.4), ("centimetres", 10.0), ("micrometres", 1e-3)];
+    UNITS.into_iter().find(|(_, factor)| (0.9..1.1).contains(&(size * factor)))
 }
 
 /// Refuses a mesh with errors; hands on its warnings.

@@ -71,7 +71,7 @@ enum KindWord {
 
 impl InitArgs {
     /// Writes the scene; the text says what to do next.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         let to_stdout = self.file.as_os_str() == "-";
         let nothing_said = self.pair == PairArgs::default();
         let asked = nothing_said && !to_stdout && std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
@@ -91,7 +91,7 @@ impl InitArgs {
             return Ok(format!("{shown}: left as it was\n"));
         }
         write_new(&self.file, &text, self.force || asked)?;
-        Ok(format!("{shown}: written; next\n  ale-gear run {shown} --out out\n"))
+        Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
     }
 }
 

@@ -28,9 +28,6 @@ pub(super) struct RunArgs {
     /// Neither read nor write reduced gears
     #[arg(long, conflicts_with = "cache")]
     no_cache: bool,
-    /// Threads [default: all cores]
-    #[arg(long, short = 'j', value_name = "N")]
-    threads: Option<usize>,
     #[command(flatten)]
     overrides: Overrides,
     /// Write ParaView files, whatever the scene says
@@ -54,7 +51,6 @@ impl RunArgs {
             out,
             cache: None,
             no_cache: false,
-            threads: None,
             overrides: Overrides::default(),
             vtu: false,
             resume: false,
@@ -82,9 +78,6 @@ impl RunArgs {
                 ),
                 Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
             ));
-        }
-        if self.threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
         }
         self.plan_motion(&scene)?;
         Ok(scene)
@@ -140,7 +133,6 @@ impl RunArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
-        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         if let (Some(words), true) = (&scene.motion, crate::ladder::has(&scene)) {
             let table = crate::ladder::solve(&scene, words, &mut phases, &results, &self.cache())?;

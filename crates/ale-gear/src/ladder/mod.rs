@@ -75,7 +75,8 @@ pub(crate) fn solve(
     let pair = phases.run("geometry", || gears::pair(scene))?;
     let facts = Facts { geometry: gears::geometry_facts(&pair), ..Facts::default() };
     let complain = |e: LumpedError| complaint(scene, &e);
-    let case = Case { scene, words, results };
+    let doubts = gears::doubts(&pair);
+    let case = Case { scene, words, results, doubts };
     if let Some(own) = &scene.impact {
         let (model, warnings) = impact::impact(scene, own, &pair).map_err(complain)?;
         return case.run(model, 0.0, facts, warnings, phases);
@@ -106,6 +107,8 @@ struct Case<'a> {
     scene: &'a Scene,
     words: &'a MotionScene,
     results: &'a ResultDirectory,
+    /// What is to be said of the pair itself.
+    doubts: Vec<String>,
 }
 
 impl Case<'_> {
@@ -117,7 +120,8 @@ impl Case<'_> {
         mut warnings: Vec<String>,
         phases: &mut Phases,
     ) -> Result<String, CommandError> {
-        let Self { scene, words, results } = *self;
+        let Self { scene, words, results, ref doubts } = *self;
+        warnings.extend(doubts.iter().cloned());
         let coordinates = model.mass().nrows();
         facts.dof_after = [coordinates.div_ceil(2), coordinates / 2];
         let driver = [scene.pinion.teeth, scene.wheel.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
@@ -145,7 +149,7 @@ impl Case<'_> {
         let no_statistics = |e: study::StudyError| CommandError::failed(&e, e.hint());
         let judged = rows.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
         let headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
-        warnings.extend(doubts(words, &headline));
+        warnings.extend(self::doubts(words, &headline));
         let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
             .map_err(no_statistics)?;
         for (name, text) in [

@@ -113,6 +113,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         model.run(positions as usize, 1, |_, _, _| progress.tick())
     })?;
     let quasi_static = QuasiStatic::of(&history);
+    warnings.extend(gears::doubts(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(run::sector_warnings(&model));
     let dof_before = [0, 1].map(|i| run::free_dofs(&model.gears()[i]));

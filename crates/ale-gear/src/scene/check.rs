@@ -72,6 +72,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let scene = Scene {
         name: raw.name.clone().unwrap_or_else(|| default_name(source)),
         file: source.file.to_owned(),
+        written: super::Written::new(source),
         set: Vec::new(),
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,

@@ -6,6 +6,7 @@
 
 mod check;
 mod error;
+mod excerpt;
 mod keys;
 mod ladder;
 mod micro;
@@ -14,6 +15,7 @@ mod raw;
 mod schema;
 mod setting;
 mod source;
+mod written;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -34,6 +36,7 @@ pub use motion::{
 };
 pub use schema::{all_keys, json_schema};
 pub use setting::Setting;
+pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -43,6 +46,9 @@ pub struct Scene {
     /// Where the scene stands; paths in it are relative to its folder.
     #[serde(skip)]
     pub file: PathBuf,
+    /// What was written.
+    #[serde(skip)]
+    pub written: Written,
     /// Words of a command line that set keys beside the file.
     #[serde(skip)]
     pub set: Vec<String>,

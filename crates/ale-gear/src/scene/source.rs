@@ -7,6 +7,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::error::{Place, SceneError};
+use super::excerpt::excerpt;
 use super::keys;
 use super::raw::{Number, Whole, Word};
 use super::schema::Table;
@@ -32,7 +33,7 @@ impl Source<'_> {
         }
         let end = span.start.min(self.text.len());
         let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place::Line { file: self.file.into(), line }
+        Place::Line { file: self.file.into(), line, excerpt: excerpt(self.text, span, line).into() }
     }
 
     /// A message of the TOML reader in this program's words.

@@ -22,8 +22,9 @@ fn at(path: &str, schema: &Value, value: &Value) -> Result<(), String> {
             }
             "type" => is_of(value, wanted.as_str().unwrap_or_default()),
             "enum" => wanted.as_array().is_some_and(|all| all.contains(value)),
-            "minimum" => value.as_f64() >= wanted.as_f64(),
-            "maximum" => value.as_f64() <= wanted.as_f64(),
+            // A value of another type is told of by `type`.
+            "minimum" => !value.is_number() || value.as_f64() >= wanted.as_f64(),
+            "maximum" => !value.is_number() || value.as_f64() <= wanted.as_f64(),
             "minItems" => value.as_array().map(|a| a.len() as u64) >= wanted.as_u64(),
             "maxItems" => value.as_array().map(|a| a.len() as u64) <= wanted.as_u64(),
             "required" => wanted

@@ -1,0 +1,111 @@
+//! Data of which no gear, or no running pair, can be made: each refused with its number and a way out.
+
+use std::f64::consts::PI;
+
+use geometry::{Gear, GearData, GearPair, GeometryError, Side};
+
+fn data(teeth: u32) -> GearData {
+    GearData { teeth, bore_diameter: 1.5 * f64::from(teeth), ..GearData::default() }
+}
+
+fn mate(data: GearData) -> GearData {
+    GearData { helix_angle: -data.helix_angle, ..data }
+}
+
+fn pair_of(pinion: GearData, wheel: GearData, distance: Option<f64>) -> Result<GearPair, GeometryError> {
+    GearPair::new(Gear::new(pinion)?, Gear::new(mate(wheel))?, distance)
+}
+
+fn refused(pinion: GearData, wheel: GearData, distance: Option<f64>, said: &str) {
+    let error = pair_of(pinion, wheel, distance).expect_err(said);
+    let text = error.to_string();
+    assert!(text.contains(said), "`{text}` does not say `{said}`");
+    assert!(text.chars().any(|c| c.is_ascii_digit()), "`{text}` has no number");
+    assert!(error.hint().is_some_and(|h| h.len() > 10), "`{text}` has no way out");
+}
+
+#[test]
+fn physical_nonsense_has_a_number_and_a_way_out() {
+    let d = data(30);
+    refused(d, d, Some(80.0), "is too small");
+    refused(d, d, Some(95.0), "jam");
+    refused(d, d, Some(103.0), "no path of contact");
+    let spur = GearData { helix_angle: 0.0, ..d };
+    refused(spur, spur, Some(93.0), "below 1");
+    refused(GearData { profile_shift: 1.4, ..data(12) }, d, None, "pointed");
+    refused(GearData { profile_shift: -1.5, thickness_allowance: 1.5, ..d }, d, None, "no thickness");
+    refused(GearData { bore_diameter: 92.0, ..d }, d, None, "no rim");
+    refused(GearData { root_radius_coefficient: 0.6, ..d }, d, None, "too large");
+    let long = GearData { addendum_coefficient: 1.2, ..d };
+    refused(d, long, None, "interference at the root: the wheel's tip enters the fillet of the pinion");
+    refused(long, d, None, "interference at the root: the pinion's tip enters the fillet of the wheel");
+    refused(GearData { addendum_coefficient: 1.3, ..d }, d, None, "root circle");
+}
+
+/// The depth of a tip in the other gear's fillet, against both gears turned step by step.
+#[test]
+fn interference_is_what_turning_the_gears_shows() {
+    for (z, longer) in [([20, 20], 1.15), ([20, 60], 1.12), ([31, 25], 1.15), ([16, 90], 1.1)] {
+        // The tip is cut off as late as possible: a pair that is made first, and asked then, must not be refused.
+        let long = GearData { addendum_coefficient: longer, dedendum_coefficient: 1.3, ..data(z[1]) };
+        let own = GearData { dedendum_coefficient: 1.3, root_radius_coefficient: 0.4, ..data(z[0]) };
+        let error = pair_of(own, long, None).expect_err("no interference");
+        let GeometryError::Interference { depth_mm, .. } = error else { panic!("z {z:?}: {error}") };
+        let turned = deepest(&Gear::new(own).unwrap(), &Gear::new(mate(long)).unwrap());
+        assert!((depth_mm - turned).abs() <= 0.02 * turned + 1e-5, "z {z:?}: {depth_mm} mm, turned {turned} mm");
+    }
+}
+
+/// The deepest place of the wheel's tip corners within the pinion's teeth over a turn by three pitches, nominal distance, no backlash.
+fn deepest(pinion: &Gear, wheel: &Gear) -> f64 {
+    // A pair with shorter tips stands at the same distance and turns alike.
+    let short = |g: &Gear| Gear::new(GearData { addendum_coefficient: 0.8, ..*g.data() }).unwrap();
+    let pair = GearPair::new(short(pinion), short(wheel), None).unwrap();
+    let (pitch, a) = (pinion.pitch_angle(), pair.centre_distance());
+    let corner = wheel.profile().half_angle(wheel.profile().roll_tip());
+    let steps = 6000;
+    let mut worst = 0.0_f64;
+    for i in 0..steps {
+        let turn = 3.0 * pitch * (f64::from(i) / f64::from(steps) - 0.5);
+        let other = pair.wheel_angle(Side::Left, turn);
+        for tooth in -2..=2 {
+            for side in [-corner, corner] {
+                let angle = other + f64::from(tooth) * wheel.pitch_angle() + side;
+                let (x, y) = (a + wheel.tip_radius() * angle.cos(), wheel.tip_radius() * angle.sin());
+                let (r, own) = (x.hypot(y), y.atan2(x) - turn);
+                if r < pinion.root_radius() || r >= pinion.tip_radius() {
+                    continue;
+                }
+                let off = own - (own / pitch).round() * pitch;
+                worst = worst.max(r * (half_angle(pinion, r) - off.abs()));
+            }
+        }
+    }
+    worst
+}
+
+fn half_angle(gear: &Gear, radius: f64) -> f64 {
+    let p = gear.profile();
+    if radius >= gear.form_radius() {
+        return p.half_angle(((radius / gear.base_radius()).powi(2) - 1.0).max(0.0).sqrt());
+    }
+    let points: Vec<(f64, f64)> = (0..=20_000).map(|i| p.fillet(f64::from(i) / 20_000.0)).collect();
+    points.iter().min_by(|x, y| (x.0 - radius).abs().total_cmp(&(y.0 - radius).abs())).map_or(-PI, |p| p.1)
+}
+
+/// At the limit of undercut the involute reaches down to the base circle; below it the rack cuts some away.
+#[test]
+fn undercut_begins_at_its_limit() {
+    for (teeth, helix_deg) in [(12, 0.0_f64), (14, 20.0), (10, 30.0)] {
+        let at = |x: f64| {
+            Gear::new(GearData { profile_shift: x, helix_angle: helix_deg.to_radians(), ..data(teeth) }).unwrap()
+        };
+        let limit = at(0.3).undercut_limit();
+        assert!(!at(limit + 1e-6).profile().is_undercut(), "z {teeth}: undercut above {limit}");
+        assert!(at(limit - 1e-3).profile().is_undercut(), "z {teeth}: no undercut below {limit}");
+        assert!(at(limit + 1e-6).profile().roll_form() < 1e-4);
+    }
+    // 17 (1 - (1.25 - 0.38 (1 - sin 20 deg)) = 0.9999...) is the textbook's count of teeth.
+    let spur = Gear::new(GearData { helix_angle: 0.0, ..data(17) }).unwrap();
+    assert!(spur.undercut_limit().abs() < 0.01, "{}", spur.undercut_limit());
+}
