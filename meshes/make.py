@@ -418,6 +418,11 @@ def presets():
     plans["periodic_hex20.msh"] = replace(quadratic, sector=1, version=4.1)
     plans["periodic_hex8.msh"] = replace(coarse, sector=1, version=4.1)
     plans["free_tet10_pinion.msh"] = replace(pinion, kind="tet10", size=2.3)
+    for degrees in (10, 15, 20, 25):  # scenes/seeds/000: pairs that differ in the helix angle alone
+        wider = replace(pinion.gear, helix=radians(degrees), width=22.0)
+        tooth = replace(quadratic, gear=wider, sector=1)
+        name = f"seed000_beta{degrees}"
+        plans[f"{name}_pinion.msh"], plans[f"{name}_wheel.msh"] = tooth, left(tooth)
     for version in (2.2, 4.1):
         for binary in (False, True):
             flavour = f"v{str(version).replace('.', '')}_{'binary' if binary else 'ascii'}"

@@ -14,6 +14,7 @@
 //! | [`starter`] | the scene that a user begins with |
 //! | [`chart`] | accuracy against cost of every model |
 //! | [`compare`] | result folders side by side |
+//! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
@@ -27,6 +28,7 @@ mod fields;
 pub mod memory;
 mod motion;
 pub mod output;
+pub mod parameter_study;
 pub mod pattern;
 pub mod phases;
 pub mod run;

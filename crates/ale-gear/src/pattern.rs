@@ -58,11 +58,36 @@ pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Resu
     Ok([pattern(scene, pair, history, 0)?, pattern(scene, pair, history, 1)?])
 }
 
+/// A driving flank that nothing has pressed.
+///
+/// # Errors
+/// [`StudyError`] when the flank has no height.
+pub(crate) fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
+    let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
+    let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
+    FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)
+}
+
+/// A grid with the flank that it lies on.
+pub(crate) fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
+    let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
+    GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid }
+}
+
+/// What a loaded slice of a pair is to the pattern of a gear.
+pub(crate) fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
+    Touch {
+        z: [slice.z, slice.wheel_z][gear],
+        engagement,
+        roll: slice.roll[gear],
+        pressure: slice.pressure,
+        line_load: slice.line_load,
+    }
+}
+
 fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize) -> Result<GearPattern, StudyError> {
     let side = scene.side();
-    let flank = [&pair.pinion, &pair.wheel][gear].flank(side);
-    let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
-    let mut grid = FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)?;
+    let mut grid = untouched(scene, pair, gear)?;
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let per_cycle = (scene.analysis.positions_per_cycle as usize).max(1);
     for cycle in history.positions.chunks(per_cycle) {
@@ -70,7 +95,7 @@ fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize)
         // One and a half distances of two positions: neighbours are joined, others never.
         grid.press(&touches, 1.5 / per_cycle as f64)?;
     }
-    Ok(GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid })
+    Ok(on_flank(scene, pair, gear, grid))
 }
 
 /// Mid-heights of `count` slices over the face width, mm.
@@ -82,12 +107,6 @@ fn stations(width: f64, count: usize) -> Vec<f64> {
 fn touches(position: &StaticPosition, side: Side, gear: usize, pitch: f64) -> impl Iterator<Item = Touch> + '_ {
     position.pairs.iter().flat_map(move |pair| {
         let engagement = pair_in_cycle(position, pair.pair, pitch) as f64 + position.mesh_phase;
-        pair.slices.iter().filter(move |s| s.side == side).map(move |s: &SliceResult| Touch {
-            z: [s.z, s.wheel_z][gear],
-            engagement,
-            roll: s.roll[gear],
-            pressure: s.pressure,
-            line_load: s.line_load,
-        })
+        pair.slices.iter().filter(move |s| s.side == side).map(move |s| touch(s, gear, engagement))
     })
 }

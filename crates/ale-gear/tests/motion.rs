@@ -20,7 +20,19 @@ fn a_motion_settles_and_its_certificate_holds() {
     let mut names: Vec<_> =
         std::fs::read_dir(scratch.path().join("o")).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["energy.csv", "history.csv", "report.html", "spectrum.csv", "summary.json"]);
+    assert_eq!(
+        names,
+        [
+            "contact_pattern.svg",
+            "contact_pattern_pinion.csv",
+            "contact_pattern_wheel.csv",
+            "energy.csv",
+            "history.csv",
+            "report.html",
+            "spectrum.csv",
+            "summary.json"
+        ]
+    );
     let (headline, certificate) = (&summary["headline"], &summary["headline"]["certificate"]);
     let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap_or_else(|| panic!("no {key}: {of}"));
     assert!(number(certificate, "periodicity") <= 1e-6, "{certificate}");
@@ -57,7 +69,8 @@ fn a_motion_settles_and_its_certificate_holds() {
 /// A run cut short goes on from its checkpoint to the bytes of the run that was not.
 #[test]
 fn a_run_that_was_cut_goes_on_byte_for_byte() {
-    let scratch = Scratch::new().file("a.toml", scene(3, "checkpoint_every_cycles = 2\n"));
+    let scratch =
+        Scratch::new().file("a.toml", scene(3, "checkpoint_every_cycles = 2\n[output]\nroot_stress = true\n"));
     run(&scratch, "whole", &[]);
     let settled = scratch.command(&["run", "a.toml", "--out", "cut", "--stop-after-cycles", "3"]);
     assert_eq!(settled.code, Some(0), "{}", settled.stderr);
@@ -74,10 +87,45 @@ fn a_run_that_was_cut_goes_on_byte_for_byte() {
     let torn = std::fs::read_to_string(&rows).unwrap() + "0.1,torn";
     std::fs::write(&rows, torn).unwrap();
     run(&scratch, "cut", &["--resume", "-j", "1"]);
-    for file in ["history.csv", "energy.csv", "spectrum.csv"] {
+    for file in ["history.csv", "energy.csv", "spectrum.csv", "contact_pattern_pinion.csv", "contact_pattern_wheel.csv"]
+    {
         assert!(scratch.read(&format!("whole/{file}")) == scratch.read(&format!("cut/{file}")), "{file} differs");
     }
     assert!(!scratch.path().join("cut.checkpoint").exists(), "the checkpoint is left");
+}
+
+/// At a speed that goes to nothing a motion presses and bends its teeth as the pair at rest does, row by row and place by place.
+#[test]
+fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
+    let slow = "run = \"span\"\nmethod = \"generalised-alpha\"\nspectral_radius = 0.0\nmesh_damping_ratio = 0.5\n";
+    let motion = &format!("{slow}[output]\nroot_stress = true\n");
+    let moving = scene(1, motion).replace("[operation]", "[operation]\nspeed_rpm = 0.1");
+    let still = scene(1, "[output]\nroot_stress = true\n")
+        .replace("kind = \"dynamic\"\npositions_per_cycle = 4", "positions_per_cycle = 16")
+        .replace(util::MOTION_LINES, "");
+    let scratch = Scratch::new().file("a.toml", &moving).file("still.toml", &still);
+    run(&scratch, "o", &[]);
+    assert_eq!(scratch.command(&["run", "still.toml", "--out", "s"]).code, Some(0));
+    let (rows, positions) = (scratch.read("o/history.csv"), scratch.read("s/history.csv"));
+    for gear in ["pinion", "wheel"] {
+        for measure in ["max_principal", "min_principal", "von_mises"] {
+            let name = format!("{gear}_root_stress_{measure}_mpa");
+            let (moving, still) = (column(&rows, &name), column(&positions, &name));
+            // The first row is one after the beginning of the cycle, the last one at its end, where the first position is.
+            for (k, found) in moving.iter().enumerate() {
+                let law = still[(k + 1) % still.len()];
+                assert!((found / law - 1.0).abs() < 0.01, "{name}, row {k}: {found} MPa, at rest {law}");
+            }
+        }
+        let file = format!("contact_pattern_{gear}.csv");
+        let (moving, still) = (scratch.read(&format!("o/{file}")), scratch.read(&format!("s/{file}")));
+        let (p, law) = (column(&moving, "max_pressure_mpa"), column(&still, "max_pressure_mpa"));
+        let most = law.iter().copied().fold(0.0, f64::max);
+        assert_eq!(p.len(), law.len());
+        for (k, (p, law)) in p.iter().zip(&law).enumerate() {
+            assert!((p - law).abs() < 0.02 * most, "{file}, cell {k}: {p} MPa, at rest {law}, at most {most}");
+        }
+    }
 }
 
 /// Any number of threads, the same bytes.
@@ -190,8 +238,8 @@ fn wrong_motions_are_told_with_line_and_hint() {
         "21: [motion] belongs to an analysis in time\nhint: leave it out, or say `kind = \"dynamic\"` in [analysis]",
     );
     says(
-        of("[output]\nroot_stress = true\n"),
-        "25: `root_stress = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
+        of("[output]\nvtu = true\n"),
+        "25: `vtu = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
          hint: leave it out, or use `kind = \"static\"` for them",
     );
 }

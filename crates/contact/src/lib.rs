@@ -34,7 +34,9 @@ mod tooth_layer;
 pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
 pub use candidates::{Candidates, FacePair};
 pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
-pub use complementarity::{Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, Solution};
+pub use complementarity::{
+    Balance, DenseProblem, DenseSolver, Equality, HeldSolution, Law, LinearContact, Problem, Solution,
+};
 pub use condensed::{Condensed, opening};
 pub use error::ContactError;
 pub use least_gap::{SurfacePair, least_gap};

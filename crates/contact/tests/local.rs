@@ -48,6 +48,28 @@ fn slope_is_derivative_of_approach() {
     }
 }
 
+/// What is stored is what the load does: the derivative of the energy is the load times that of the approach, to round-off on the flank; to a ten-thousandth within a band of the
+/// edge, where the band's kinks meet its quadrature.
+#[test]
+fn stored_energy_is_the_work_of_the_load() {
+    for edge_radius in [0.0, 0.1] {
+        for (distance, allowed) in [(-0.5, 1e-4), (-0.05, 1e-3), (0.0, 1e-3), (0.05, 1e-3), (0.3, 3e-4), (3.0, 1e-6)] {
+            let law = contact(distance, edge_radius).law();
+            let stored = |q: f64| 0.5 * q * law.under(q).approach + law.curved_energy(q);
+            for load in [1.0, 10.0, 100.0, 1000.0] {
+                let h = 1e-4 * load;
+                let grown = (stored(load + h) - stored(load - h)) / (2.0 * h);
+                let done = load * law.under(load).slope;
+                assert!(
+                    (grown / done - 1.0).abs() < allowed,
+                    "F' = {load} N/mm, {distance} mm from the edge: stored {grown:e}, done {done:e}, off by {:e}",
+                    grown / done - 1.0
+                );
+            }
+        }
+    }
+}
+
 /// Nothing jumps as the contact runs over the edge: approach, and its rate along the flank less the geometric d^2/(2 R) that the least gap
 /// takes over past the edge.
 #[test]

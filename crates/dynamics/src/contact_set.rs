@@ -103,6 +103,11 @@ impl ContactSet {
         Ok(true)
     }
 
+    /// Whether another window's flanks and matrices are these.
+    pub(crate) fn shares_flanks(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
     /// The reduced windows of both gears.
     pub fn windows(&self) -> Option<&[Window; 2]> {
         self.windows.as_ref()
@@ -207,12 +212,19 @@ impl ContactSet {
     /// window.
     pub fn displacements(&self, e: &crate::Equilibrium) -> [Vec<f64>; 2] {
         match &self.windows {
-            Some([a, b]) if e.displacements.iter().all(Vec::is_empty) => {
-                let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
-                Condensed::new(&e.rows, compliance).displacements(&e.solution.forces)
+            Some(_) if e.displacements.iter().all(Vec::is_empty) => {
+                self.displacements_under(&e.rows, &e.solution.forces).unwrap_or_default()
             }
             _ => e.displacements.clone(),
         }
+    }
+
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with the nodes that they
+    /// rest on; `None` where no matrices of flanks are known.
+    pub(crate) fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let [a, b] = self.windows.as_ref()?;
+        let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+        Some(Condensed::new(rows, compliance).displacements(forces))
     }
 
     /// S between rows, mm/N, column by column, from the matrices as they are.

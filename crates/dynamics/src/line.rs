@@ -148,11 +148,23 @@ pub(crate) struct Standing<'a> {
 }
 
 impl Standing<'_> {
+    /// Running numbers of the two pairs beside the window.
+    fn beside(&self) -> [i64; 2] {
+        let pairs = self.window.pairs();
+        [pairs.start - 1, pairs.end]
+    }
+
+    /// Least gap of the two pairs beside the window, mm, undeformed.
+    pub fn gap_beside(&self) -> f64 {
+        self.beside().into_iter().map(|running| outside_gap(self, running)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The first of the two pairs beside the window whose undeformed flanks overlap by more than `allowed` (mm), and by how much.
     pub fn overlap_beside(&self, allowed: f64) -> Option<(i64, f64)> {
-        let pairs = self.window.pairs();
-        let beside = [pairs.start - 1, pairs.end];
-        beside.into_iter().map(|running| (running, -outside_gap(self, running))).find(|(_, overlap)| *overlap > allowed)
+        self.beside()
+            .into_iter()
+            .map(|running| (running, -outside_gap(self, running)))
+            .find(|(_, overlap)| *overlap > allowed)
     }
 }
 

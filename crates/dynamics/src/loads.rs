@@ -142,7 +142,8 @@ fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
     }
 }
 
-fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
+/// A loaded slice as the results have it.
+pub(crate) fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     let line_load = force / slice.length;
     let state = slice.local.under(line_load);
     SliceResult {
@@ -157,14 +158,7 @@ fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     }
 }
 
-/// What the local approach stores beyond half of force times approach, N mm, <= 0: its slope falls as the load grows.
-///
-/// delta = q (b - c ln q) stores (integral of q d delta) q delta / 2 - c q^2 / 4 per length of line, and c = delta / q - d delta/dq.
+/// What the local approach stores beyond half of force times approach, N mm.
 pub(crate) fn local_energy(slice: &Slice, force: f64) -> f64 {
-    let q = force / slice.length;
-    if q <= 0.0 {
-        return 0.0;
-    }
-    let state = slice.local.under(q);
-    -0.25 * slice.length * q * (state.approach - q * state.slope)
+    slice.length * slice.local.law().curved_energy(force / slice.length)
 }

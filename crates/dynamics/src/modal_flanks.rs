@@ -23,6 +23,8 @@ pub(crate) struct ModalFlanks {
     amplitudes: Vec<f64>,
     /// Largest opening of a gap by q, mm.
     largest: f64,
+    /// Largest opening of a gap by a unit of each mode.
+    sizes: Vec<f64>,
     forces: Modal,
 }
 
@@ -95,8 +97,10 @@ impl ModalFlanks {
         let counts = modes.map(GearModes::count);
         let flexibility: Vec<f64> = modes.iter().flat_map(|m| m.squares()).map(|s| 1.0 / s).collect();
         let m = flexibility.len();
+        let shapes = [shapes(0)?, shapes(1)?];
         Ok(Self {
-            shapes: [shapes(0)?, shapes(1)?],
+            sizes: sizes(&shapes, counts),
+            shapes,
             counts,
             flexibility,
             amplitudes: vec![0.0; m],
@@ -122,18 +126,20 @@ impl ModalFlanks {
         self.largest
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode.
-    pub fn sizes(&self) -> Vec<f64> {
-        let of_gear = |g: usize| {
-            let unit = move |j: usize| (0..self.counts[g]).map(|k| f64::from(u8::from(k == j))).collect::<Vec<_>>();
-            (0..self.counts[g]).map(move |j| self.shapes[g].largest(&unit(j)))
-        };
-        (0..2).flat_map(of_gear).collect()
+    /// q.
+    pub fn amplitudes(&self) -> &[f64] {
+        &self.amplitudes
     }
 
-    /// Makes room for some rows that serve until modes open gaps by `margin` (mm) more than now.
-    pub fn begin(&self, of: &mut ModalRows, rows: usize, friction: bool, margin: f64) {
-        (of.count, of.largest) = (self.count(), self.largest + margin);
+    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window where they are counts as one that moves them by a tenth
+    /// of what the others do.
+    pub fn sizes(&self) -> &[f64] {
+        &self.sizes
+    }
+
+    /// Makes room for some rows that serve until modes open gaps by more than `largest` (mm).
+    pub fn begin(&self, of: &mut ModalRows, rows: usize, friction: bool, largest: f64) {
+        (of.count, of.largest) = (self.count(), largest);
         for (list, used) in [(&mut of.openings, true), (&mut of.loads, friction)] {
             list.clear();
             list.resize(if used { rows * of.count } else { 0 }, 0.0);
@@ -169,6 +175,11 @@ impl ModalFlanks {
         }
     }
 
+    /// Gaps of the rows with the modes at other amplitudes.
+    pub fn bend_by(&self, of: &ModalRows, amplitudes: &[f64], rows: &mut [ContactRow]) {
+        rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += dot(of.opening(i), amplitudes));
+    }
+
     /// H_i q, mm.
     pub fn shift(&self, of: &ModalRows, row: usize) -> f64 {
         dot(of.opening(row), &self.amplitudes)
@@ -184,10 +195,10 @@ impl ModalFlanks {
         }
     }
 
-    /// Forces on the modes and all tangents from a solution; `rigid(i)`: J and J_t of the rigid coordinates.
-    pub fn finish(&mut self, of: &ModalRows, solver: &mut DenseSolver, rigid: impl Fn(usize) -> [[f64; 12]; 2]) {
+    /// Forces on the modes from a solution.
+    pub fn sum_forces(&mut self, of: &ModalRows, solver: &DenseSolver) {
         let m = self.count();
-        let mut forces = std::mem::take(&mut self.forces);
+        let forces = &mut self.forces;
         for list in [&mut forces.normal, &mut forces.friction] {
             list.clear();
             list.resize(m, 0.0);
@@ -199,8 +210,13 @@ impl ModalFlanks {
                 forces.friction[k] += f * (load[k] - opening[k]);
             }
         }
-        let n = 12 + m;
-        forces.tangent.resize(n * n, 0.0);
+    }
+
+    /// All tangents from a solution; `rigid(i)`: J and J_t of the rigid coordinates.
+    pub fn find_tangent(&mut self, of: &ModalRows, solver: &mut DenseSolver, rigid: impl Fn(usize) -> [[f64; 12]; 2]) {
+        let n = 12 + self.count();
+        let mut tangent = std::mem::take(&mut self.forces.tangent);
+        tangent.resize(n * n, 0.0);
         let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {
             let [j, j_t] = rigid(i);
             opening[..12].copy_from_slice(&j);
@@ -208,14 +224,32 @@ impl ModalFlanks {
             load[..12].copy_from_slice(&j_t);
             load[12..].copy_from_slice(of.load(i));
         };
-        solver.tangent_of(&mut vec![0.0; 2 * n], fill, &mut forces.tangent);
-        self.forces = forces;
+        solver.tangent_of(&mut vec![0.0; 2 * n], fill, &mut tangent);
+        self.forces.tangent = tangent;
     }
 
-    /// What [`ModalFlanks::finish`] found.
+    /// Takes tangents that [`ModalFlanks::find_tangent`] once found.
+    pub fn take_tangent(&mut self, tangent: &[f64]) {
+        self.forces.tangent.clear();
+        self.forces.tangent.extend_from_slice(tangent);
+    }
+
+    /// What was found last.
     pub fn forces(&self) -> &Modal {
         &self.forces
     }
+}
+
+fn sizes(shapes: &[Shapes; 2], counts: [usize; 2]) -> Vec<f64> {
+    let of_gear = |g: usize| {
+        let unit = move |j: usize| (0..counts[g]).map(|k| f64::from(u8::from(k == j))).collect::<Vec<_>>();
+        (0..counts[g]).map(move |j| shapes[g].largest(&unit(j)))
+    };
+    let all: Vec<f64> = (0..2).flat_map(of_gear).collect();
+    let largest = all.iter().fold(0.0f64, |m, s| m.max(*s));
+    // Nothing moves where no flank is: any size will do.
+    let least = if largest > 0.0 { 0.1 * largest } else { 1.0 };
+    all.into_iter().map(|s| s.max(least)).collect()
 }
 
 impl Shapes {

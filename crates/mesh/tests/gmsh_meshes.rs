@@ -38,25 +38,41 @@ fn flanks_and_volume_are_those_of_the_exact_gear() {
         ("sector3_tet4.msh", false, 3, 2e-2),
     ];
     for (name, left_hand, teeth, tolerance) in files {
-        let (mesh, gear) = (read(name), gear(left_hand));
-        let (volume, least) = volume_and_least_jacobian(&mesh);
-        assert!(least > 0.0, "{name}: det J = {least:e}");
-        let exact = teeth as f64 * tooth_area(&gear) * gear.face_width();
-        assert!((volume / exact - 1.0).abs() < tolerance, "{name}: {volume} mm^3, exactly {exact}");
-        let mut flanks = 0;
-        for group in &mesh.surfaces {
-            let Some((side, tooth)) = group.name.strip_prefix("flank_").and_then(|rest| rest.split_once('_')) else {
-                continue;
-            };
-            flanks += 1;
-            let side = if side == "left" { Side::Left } else { Side::Right };
-            let flank = gear.flank_of(side, tooth.parse().expect("a tooth number"));
-            for node in group.nodes() {
-                let foot = flank.locate(&Vec3::from(mesh.nodes[node as usize])).expect("above the base circle");
-                assert!(foot.distance.abs() < 1e-10, "{name}, {}: {:e} mm off", group.name, foot.distance);
-                assert!(foot.roll > flank.roll_form - 1e-6 && foot.roll < flank.roll_tip + 1e-9, "{name}");
-            }
-        }
-        assert_eq!(flanks, 2 * teeth, "{name}");
+        is_exact(name, &gear(left_hand), teeth, tolerance);
     }
+}
+
+/// The same of the pairs of seed 000, which differ in the helix angle alone.
+#[test]
+fn gears_of_the_seed_have_the_flanks_of_their_helix_angles() {
+    for (degrees, hand) in [10.0, 15.0, 20.0, 25.0].into_iter().flat_map(|d| [(d, 1.0), (d, -1.0)]) {
+        let helix_angle = hand * f64::to_radians(degrees);
+        let gear = Gear::new(GearData { helix_angle, face_width: 22.0, ..GearData::default() }).expect("sound data");
+        let name = format!("seed000_beta{degrees}_{}.msh", if hand > 0.0 { "pinion" } else { "wheel" });
+        is_exact(&name, &gear, 1, 1e-4);
+    }
+}
+
+/// What a mesh of so many teeth of a gear must keep to.
+fn is_exact(name: &str, gear: &Gear, teeth: usize, tolerance: f64) {
+    let mesh = read(name);
+    let (volume, least) = volume_and_least_jacobian(&mesh);
+    assert!(least > 0.0, "{name}: det J = {least:e}");
+    let exact = teeth as f64 * tooth_area(gear) * gear.face_width();
+    assert!((volume / exact - 1.0).abs() < tolerance, "{name}: {volume} mm^3, exactly {exact}");
+    let mut flanks = 0;
+    for group in &mesh.surfaces {
+        let Some((side, tooth)) = group.name.strip_prefix("flank_").and_then(|rest| rest.split_once('_')) else {
+            continue;
+        };
+        flanks += 1;
+        let side = if side == "left" { Side::Left } else { Side::Right };
+        let flank = gear.flank_of(side, tooth.parse().expect("a tooth number"));
+        for node in group.nodes() {
+            let foot = flank.locate(&Vec3::from(mesh.nodes[node as usize])).expect("above the base circle");
+            assert!(foot.distance.abs() < 1e-10, "{name}, {}: {:e} mm off", group.name, foot.distance);
+            assert!(foot.roll > flank.roll_form - 1e-6 && foot.roll < flank.roll_tip + 1e-9, "{name}");
+        }
+    }
+    assert_eq!(flanks, 2 * teeth, "{name}");
 }

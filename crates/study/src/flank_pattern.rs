@@ -1,6 +1,6 @@
 //! Who was pressed how hard: the envelope of moving contact lines on a flank.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::StudyError;
 
@@ -30,7 +30,7 @@ pub struct Touch {
 ///
 /// so the largest value of the grid is the largest of all touches, and what no path comes within half a step of is 0. The band
 /// reaches its half-width farther; a path ends at the last solved position that carries load.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlankPattern {
     rolls: Vec<f64>,
     stations: Vec<f64>,

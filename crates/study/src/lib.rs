@@ -8,6 +8,7 @@
 mod bifurcation;
 pub mod calculix;
 mod campbell;
+mod correlation;
 mod cycle;
 mod error;
 mod flank_pattern;
@@ -22,6 +23,7 @@ mod work_precision;
 
 pub use bifurcation::{Bifurcation, Branch, sweep, sweep_both_ways, sweep_parallel, sweeps_parallel};
 pub use campbell::{Campbell, Resonance, campbell};
+pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};

@@ -83,7 +83,7 @@ pub fn ways() -> Vec<Way> {
     let own = |name, range, edit| Way { name, engine: Engine::Own(edit), range, share: Share::Whole };
     vec![
         own("iso", Range::None, iso),
-        own("slice", Range::BelowReference, slice),
+        own(SLICE, Range::BelowReference, slice),
         own("slice, general reduction", Range::BelowReference, slice_general),
         own("nodal", Range::All, nodal),
         own("nodal with penalty", Range::BelowReference, penalty),
@@ -92,6 +92,8 @@ pub fn ways() -> Vec<Way> {
     ]
 }
 
+/// Name of the way that is reduced by sectors where it can be, with slices.
+pub(super) const SLICE: &str = "slice";
 /// Name of the way that keeps every degree of freedom: others are compared with it.
 pub(crate) const FULL: &str = "full";
 /// Name of CalculiX's points.

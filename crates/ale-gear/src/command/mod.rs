@@ -1,5 +1,6 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
+mod cache_args;
 mod chart;
 mod compare;
 mod default_scene;
@@ -9,6 +10,7 @@ mod overrides;
 mod run;
 mod schema;
 mod shell;
+mod study;
 
 use clap::{ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -52,6 +54,8 @@ enum Command {
     Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
+    /// Run several scenes and draw the same figures of all
+    Study(study::StudyArgs),
     /// Result folders side by side: headline numbers with differences, curves over each other
     Compare(compare::CompareArgs),
     /// JSON Schema of the scene file on stdout, for completion and checks in editors
@@ -91,6 +95,7 @@ impl Cli {
             None => run::RunArgs::for_default_scene()?.execute().map(told),
             Some(Command::Run(args)) => args.execute().map(told),
             Some(Command::Chart(args)) => args.execute().map(told),
+            Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Schema) => Ok(schema::execute()),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::overrides::Overrides;
+use super::{cache_args::CacheArgs, overrides::Overrides};
 use crate::cache::Cache;
 use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
@@ -22,12 +22,8 @@ pub(super) struct RunArgs {
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// Folder of reduced gears [default: the user's cache folder]
-    #[arg(long, value_name = "DIR")]
-    cache: Option<PathBuf>,
-    /// Neither read nor write reduced gears
-    #[arg(long, conflicts_with = "cache")]
-    no_cache: bool,
+    #[command(flatten)]
+    cache: CacheArgs,
     #[command(flatten)]
     overrides: Overrides,
     /// Write ParaView files, whatever the scene says
@@ -49,21 +45,12 @@ impl RunArgs {
         Ok(Self {
             scene,
             out,
-            cache: None,
-            no_cache: false,
+            cache: CacheArgs::default(),
             overrides: Overrides::default(),
             vtu: false,
             resume: false,
             stop_after_cycles: None,
         })
-    }
-
-    fn cache(&self) -> Cache {
-        match &self.cache {
-            _ if self.no_cache => Cache::off(),
-            Some(folder) => Cache::in_folder(folder.clone()),
-            None => Cache::of_user(),
-        }
     }
 
     /// Every complaint about the words is made here, before any work starts or any file is written.
@@ -115,7 +102,7 @@ impl RunArgs {
         results: ResultDirectory,
     ) -> Result<String, CommandError> {
         let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
-        match motion::solve(scene, words, &mut phases, &results, &self.cache(), &progression)? {
+        match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
             motion::Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.scene.display(),
@@ -134,32 +121,59 @@ impl RunArgs {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
-        if let (Some(words), true) = (&scene.motion, crate::ladder::has(&scene)) {
-            let table = crate::ladder::solve(&scene, words, &mut phases, &results, &self.cache())?;
-            results.finish()?;
-            return Ok(format!("{table}\nresults: {}\n", self.out.display()));
-        }
-        if let Some(words) = &scene.motion {
+        if let (Some(words), false) = (&scene.motion, crate::ladder::has(&scene)) {
             return self.move_pair(&scene, words, phases, results);
         }
-        let Solved { history, facts } = run::solve(&scene, &mut phases, &results, &self.cache())?;
-        let headline = headline(&scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
-
-        let picture = phases.run("write", || {
-            results.write("history.csv", write_history(&scene, &history).as_bytes())?;
-            write_contact(&scene, &history, &results)
-        })?;
-        let cost = Cost::of(&phases);
-        let report = write_report(&scene, &history, &facts, &cost, &headline, picture.as_deref())?;
-        results.write("report.html", report.as_bytes())?;
-        // Last of all, so that a summary means that everything is there.
-        let files = results.files()?;
-        let summary = write_summary(&scene, &facts, &cost, &headline, &history.warnings, &files);
-        results.write("summary.json", summary.as_bytes())?;
+        let mut text = write_result(&scene, &mut phases, &results, &self.cache.open())?;
         results.finish()?;
-
-        let mut text = closing_table(&scene, &facts, &cost, &headline, &history.warnings);
         text.push_str(&format!("\nresults: {}\n", self.out.display()));
         Ok(text)
     }
+}
+
+/// Runs a scene of any kind from its beginning to its end and writes every file of its result; the text is the closing table.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no result comes out.
+pub(super) fn write_result(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    match &scene.motion {
+        Some(words) if crate::ladder::has(scene) => crate::ladder::solve(scene, words, phases, results, cache),
+        Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
+            motion::Outcome::Finished(table) => Ok(table),
+            // Nobody asked it to.
+            motion::Outcome::Stopped { cycles } => {
+                Err(CommandError::failed(format_args!("{}: stopped after {cycles} cycles", scene.file.display()), None))
+            }
+        },
+        None => write_static(scene, phases, results, cache),
+    }
+}
+
+/// As [`write_result`], for positions at rest.
+fn write_static(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    let Solved { history, facts } = run::solve(scene, phases, results, cache)?;
+    let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
+
+    let picture = phases.run("write", || {
+        results.write("history.csv", write_history(scene, &history).as_bytes())?;
+        write_contact(scene, &history, results)
+    })?;
+    let cost = Cost::of(phases);
+    let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref())?;
+    results.write("report.html", report.as_bytes())?;
+    // Last of all, so that a summary means that everything is there.
+    let files = results.files()?;
+    let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
+    results.write("summary.json", summary.as_bytes())?;
+    Ok(closing_table(scene, &facts, &cost, &headline, &history.warnings))
 }

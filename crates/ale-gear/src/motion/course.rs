@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     error::CommandError,
+    pattern::GearPattern,
     phases::{Phases, Progress},
     run::Failure,
     scene::{MotionScene, Run, Scene},
@@ -67,6 +68,8 @@ pub(super) struct Finished {
     pub shot: Option<Shot>,
     /// Whether it stopped where the user asked it to, before its end.
     pub stopped: bool,
+    /// What the flanks were pressed by in the cycles of rows.
+    pub patterns: [GearPattern; 2],
 }
 
 /// Where rows and checkpoints go.
@@ -99,13 +102,13 @@ pub(super) fn run(
     let mut own = system.with_drive(system.options().drive.clone())?;
     let (mut rows, mut motion, mut course, mut shot);
     match places.from {
-        Some(Stored { motion: checkpoint, course: state, bytes, .. }) => {
-            rows = Rows::resume(scene, system, window, places.rows, bytes)?;
+        Some(Stored { motion: checkpoint, course: state, bytes, patterns, .. }) => {
+            rows = Rows::resume(scene, words, system, window, places.rows, (bytes, patterns))?;
             motion = Motion::resume(own, settings.clone(), checkpoint).map_err(fail)?;
             (course, shot) = (state, None);
         }
         None => {
-            rows = Rows::new(scene, system, window, places.rows)?;
+            rows = Rows::new(scene, words, system, window, places.rows)?;
             let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
             let start =
                 phases.run("start", || quasi_static_start(&mut own, 0.0, guess, &settings.scale)).map_err(fail)?;
@@ -132,7 +135,8 @@ pub(super) fn run(
         })?;
     }
     rows.flush()?;
-    Ok(Finished { motion, course, shot, stopped })
+    let patterns = rows.pattern().patterns(scene, motion.system().pair());
+    Ok(Finished { motion, course, shot, stopped, patterns })
 }
 
 /// What checkpoints need.
@@ -153,7 +157,8 @@ impl Keep<'_> {
         if stop || (every > 0 && motion.cycle().is_multiple_of(every)) {
             let bytes = rows.flush()?;
             if let Some(checkpoint) = motion.checkpoint() {
-                let stored = Stored::new(self.scene, self.facts_meshes, self.window, checkpoint, course.clone(), bytes);
+                let kept = (bytes, rows.pattern().grids().clone());
+                let stored = Stored::new(self.scene, self.facts_meshes, self.window, checkpoint, course.clone(), kept);
                 folder.write(&stored)?;
             }
         }
@@ -200,6 +205,7 @@ fn record(
             let mut row = |now: &_, ledger: &_| rows.push(now, ledger);
             motion.run_cycle(Some(&mut row)).map_err(|e| failure(keep.scene, e))?
         };
+        rows.end_cycle()?;
         course.recorded += 1;
         judge(course, motion, &swing, tolerance);
         progress.tick();

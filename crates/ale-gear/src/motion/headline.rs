@@ -8,6 +8,7 @@ use super::{
     course::Finished,
     elasticity::{ElasticHeadline, highest_mesh_hz},
     prepare::Prepared,
+    rows::GEARS,
     table::Columns,
 };
 use crate::scene::{MotionScene, Run, Scene};
@@ -49,6 +50,7 @@ pub(crate) struct MotionHeadline {
     pub mean_wheel_tilting_moment_nmm: f64,
     pub max_bearing_force_n: f64,
     pub max_pressure_mpa: f64,
+    pub max_root_tension_mpa: Option<[f64; 2]>,
     pub tooth_changes: u64,
     pub certificate: MotionCertificate,
 }
@@ -142,6 +144,10 @@ pub(super) fn headline(
         mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
         max_bearing_force_n: bearing[0].max(bearing[1]),
         max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
+        max_root_tension_mpa: scene
+            .output
+            .root_stress
+            .then(|| GEARS.map(|gear| rows.extent(&format!("{gear}_root_stress_max_principal_mpa"))[1])),
         tooth_changes: done.motion.system().changes().count,
         certificate: certificate(done),
     })

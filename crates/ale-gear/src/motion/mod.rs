@@ -5,6 +5,7 @@
 //! | `elasticity` | elastic frequencies beside mesh harmonics |
 //! | `options` | words of the scene in the solvers' units |
 //! | `prepare` | gears, quasi-static cycle, mechanism |
+//! | `pattern` | what the flanks are pressed by |
 //! | `course` | settle, write rows, checkpoints |
 //! | `rows`, `table` | files of rows, written on the way and read back at the end |
 //! | `store` | checkpoints on disk |
@@ -15,6 +16,7 @@ mod course;
 mod elasticity;
 mod headline;
 mod options;
+mod pattern;
 mod prepare;
 mod rows;
 mod spectra;
@@ -34,7 +36,7 @@ use store::{CheckpointFolder, Stored};
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
-pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, energy_row};
+pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
@@ -43,7 +45,10 @@ use crate::{
     cache::Cache,
     error::CommandError,
     facts::Cost,
-    output::{ResultDirectory, motion_table, sweep_table, write_motion_report, write_summary, write_sweep_report},
+    output::{
+        ResultDirectory, motion_table, sweep_table, write_motion_report, write_patterns, write_summary,
+        write_sweep_report,
+    },
     phases::Phases,
     run::{Failure, complaint},
     scene::{MotionScene, Run, Scene, SweepScene},
@@ -65,6 +70,11 @@ impl Progression {
     pub fn new(words: &MotionScene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
         let wanted = words.checkpoint_every_cycles.is_some_and(|every| every > 0) || resume || stop_after.is_some();
         Self { folder: wanted.then(|| CheckpointFolder::beside(out)), resume, stop_after }
+    }
+
+    /// A run in one piece, without checkpoints.
+    pub fn uncut() -> Self {
+        Self { folder: None, resume: false, stop_after: None }
     }
 
     /// The results are whole: nothing is to be gone on from.
@@ -237,7 +247,8 @@ fn write_motion(
         per_cycle,
         quasi_static: Some(&prepared.quasi_static.transmission_error),
     };
-    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, &warnings)?;
+    let pattern = write_patterns(scene, &done.patterns, results)?;
+    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);

@@ -12,7 +12,15 @@ use dynamics::{
     pair_motion::{COORDINATES, Instant, PairMechanism},
 };
 
-use crate::{error::CommandError, output::push_row, scene::Scene};
+use study::FlankPattern;
+
+use crate::{
+    error::CommandError,
+    output::{push_row, root_stress_columns, root_stress_row},
+    scene::{Axis, MotionScene, Scene},
+};
+
+use super::{no_statistics, pattern::PatternRecord};
 
 const LEADING: [&str; 9] = [
     "time_s",
@@ -57,6 +65,7 @@ struct Layout {
     reach: i64,
     /// Free coordinates of each gear: columns of displacement and bearing.
     free: [[bool; 5]; 2],
+    root_stress: bool,
 }
 
 impl Layout {
@@ -67,22 +76,13 @@ impl Layout {
             sense: scene.operation.rotation.sign() as i64,
             reach: window as i64 / 2 + 1,
             free,
+            root_stress: scene.output.root_stress,
         }
     }
 
     fn header(&self) -> String {
-        let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-        for gear in GEARS {
-            names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
-        }
-        names.extend((-self.reach..=self.reach).map(|k| format!("normal_force_pair_{k}_n")));
-        for (gear, free) in GEARS.iter().zip(&self.free).filter(|(_, free)| free.contains(&true)) {
-            names.extend(BEARING.iter().map(|n| format!("{gear}_{n}")));
-            let moves = DISPLACEMENT.iter().zip(free).filter(|(_, free)| **free);
-            names.extend(moves.map(|(n, _)| format!("{gear}_{n}")));
-        }
-        names.extend(TRAILING.iter().map(|&n| n.to_owned()));
-        names.join(",") + "\n"
+        let pairs = (-self.reach..=self.reach).map(|k| format!("normal_force_pair_{k}_n"));
+        names(&self.free, pairs, self.root_stress).join(",") + "\n"
     }
 
     fn row(&self, now: &Instant) -> Vec<f64> {
@@ -119,8 +119,43 @@ impl Layout {
             now.max_pressure,
             now.tooth_changes as f64,
         ]);
+        if self.root_stress {
+            // The stress is that of the driving flanks: no number where coast flanks press as well.
+            let known = now.normal_forces[1] == 0.0;
+            row.extend(
+                now.root_stress.iter().flat_map(|of| root_stress_row(of)).map(|s| if known { s } else { f64::NAN }),
+            );
+        }
         row
     }
+}
+
+/// Names of the columns, the given ones of the pairs among them.
+fn names(free: &[[bool; 5]; 2], pairs: impl Iterator<Item = String>, root_stress: bool) -> Vec<String> {
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in GEARS {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    names.extend(pairs);
+    for (gear, free) in GEARS.iter().zip(free).filter(|(_, free)| free.contains(&true)) {
+        names.extend(BEARING.iter().map(|n| format!("{gear}_{n}")));
+        let moves = DISPLACEMENT.iter().zip(free).filter(|(_, free)| **free);
+        names.extend(moves.map(|(n, _)| format!("{gear}_{n}")));
+    }
+    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    if root_stress {
+        names.extend(GEARS.iter().flat_map(|gear| root_stress_columns(gear)));
+    }
+    names
+}
+
+/// Columns that `history.csv` of a scene's motion will have, but for those of single pairs, which go with the window.
+pub(crate) fn column_names(scene: &Scene) -> Vec<String> {
+    let free = scene.gears().map(|g| {
+        let axes = g.body.as_ref().map_or(&[][..], |b| &b.free);
+        Axis::ALL.map(|axis| axes.contains(&axis))
+    });
+    names(&free, std::iter::empty(), scene.output.root_stress)
 }
 
 /// A file that grows and can be taken up again.
@@ -181,26 +216,37 @@ pub(super) struct Rows {
     history: Growing,
     energy: Growing,
     line: String,
+    pattern: PatternRecord,
 }
 
 impl Rows {
     /// Fresh files in a folder.
-    pub fn new(scene: &Scene, system: &PairMechanism, window: usize, folder: &Path) -> Result<Self, CommandError> {
+    pub fn new(
+        scene: &Scene,
+        words: &MotionScene,
+        system: &PairMechanism,
+        window: usize,
+        folder: &Path,
+    ) -> Result<Self, CommandError> {
         let layout = Layout::new(scene, system, window);
         let history = Growing::new(folder.join(HISTORY), &layout.header())?;
-        Ok(Self { history, energy: Growing::new(folder.join(ENERGY_FILE), ENERGY)?, layout, line: String::new() })
+        let energy = Growing::new(folder.join(ENERGY_FILE), ENERGY)?;
+        let pattern = PatternRecord::new(scene, words, system.pair(), None).map_err(no_statistics)?;
+        Ok(Self { history, energy, layout, line: String::new(), pattern })
     }
 
     /// Files of before, cut to these lengths.
     pub fn resume(
         scene: &Scene,
+        words: &MotionScene,
         system: &PairMechanism,
         window: usize,
         folder: &Path,
-        [history, energy]: [u64; 2],
+        ([history, energy], patterns): ([u64; 2], [FlankPattern; 2]),
     ) -> Result<Self, CommandError> {
         Ok(Self {
             layout: Layout::new(scene, system, window),
+            pattern: PatternRecord::new(scene, words, system.pair(), Some(patterns)).map_err(no_statistics)?,
             history: Growing::resume(folder.join(HISTORY), history)?,
             energy: Growing::resume(folder.join(ENERGY_FILE), energy)?,
             line: String::new(),
@@ -215,6 +261,17 @@ impl Rows {
         self.line.clear();
         push_row(&mut self.line, energy_row(now.time, ledger));
         self.energy.push(&self.line);
+        self.pattern.push(now);
+    }
+
+    /// A mesh cycle of rows is over.
+    pub fn end_cycle(&mut self) -> Result<(), CommandError> {
+        self.pattern.end_cycle().map_err(no_statistics)
+    }
+
+    /// What the flanks were pressed by in the cycles of rows.
+    pub fn pattern(&self) -> &PatternRecord {
+        &self.pattern
     }
 
     /// Writes out what is held back; the lengths of both files.

@@ -7,13 +7,14 @@ use std::{
 
 use dynamics::pair_motion::Checkpoint;
 use serde::{Deserialize, Serialize};
+use study::FlankPattern;
 
 use super::course::CourseState;
 use crate::{error::CommandError, facts::MeshFacts, scene::Scene};
 
 const STATE: &str = "state.json";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A folder beside the results' that keeps rows and state of a run under way.
 #[derive(Debug)]
@@ -34,6 +35,8 @@ pub(super) struct Stored {
     pub course: CourseState,
     /// Lengths of the files of rows.
     pub bytes: [u64; 2],
+    /// What the flanks were pressed by so far.
+    pub patterns: [FlankPattern; 2],
 }
 
 impl Stored {
@@ -44,11 +47,11 @@ impl Stored {
         window: usize,
         motion: Checkpoint,
         course: CourseState,
-        bytes: [u64; 2],
+        (bytes, patterns): ([u64; 2], [FlankPattern; 2]),
     ) -> Self {
         let program = env!("CARGO_PKG_VERSION").to_owned();
         let (scene, meshes) = (text_of(scene), text_of_meshes(meshes));
-        Self { version: VERSION, program, scene, meshes, window, motion, course, bytes }
+        Self { version: VERSION, program, scene, meshes, window, motion, course, bytes, patterns }
     }
 
     /// Whether it belongs to a run of this scene on these meshes: else it must not go on.

@@ -5,7 +5,7 @@ use dynamics::result::StaticHistory;
 use super::{ResultDirectory, contact_pattern_svg, write_contact_lines, write_contact_pattern, write_pattern_vtu};
 use crate::error::CommandError;
 use crate::gears;
-use crate::pattern::{has_slices, patterns};
+use crate::pattern::{GearPattern, has_slices, patterns};
 use crate::scene::Scene;
 
 /// Writes what the scene asks for of the contact; the picture of the pattern comes back for the report.
@@ -25,7 +25,19 @@ pub fn write_contact(
         results.write("contact_lines.csv", write_contact_lines(scene, &pair, history).as_bytes())?;
     }
     let patterns = patterns(scene, &pair, history).map_err(|e| CommandError::failed(&e, e.hint()))?;
-    for pattern in &patterns {
+    write_patterns(scene, &patterns, results)
+}
+
+/// The patterns of both gears; their picture comes back for the report.
+///
+/// # Errors
+/// Exit status 1 when the system refuses.
+pub(crate) fn write_patterns(
+    scene: &Scene,
+    patterns: &[GearPattern; 2],
+    results: &ResultDirectory,
+) -> Result<Option<String>, CommandError> {
+    for pattern in patterns {
         let file = format!("contact_pattern_{}", pattern.name);
         results.write(&format!("{file}.csv"), write_contact_pattern(pattern).as_bytes())?;
         if scene.output.vtu {
@@ -35,7 +47,7 @@ pub fn write_contact(
             results.write(&file, &content)?;
         }
     }
-    let picture = contact_pattern_svg(&patterns);
+    let picture = contact_pattern_svg(patterns);
     if let Some(svg) = &picture {
         results.write("contact_pattern.svg", svg.as_bytes())?;
     }

@@ -107,6 +107,9 @@ impl ResultDirectory {
     }
 }
 
+/// Folder of the cases of a study, each a result of its own.
+pub(crate) const CASES: &str = "cases";
+
 /// Names of the entries of a folder, ascending.
 fn names(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut names: Vec<String> = fs::read_dir(folder)?
@@ -126,13 +129,34 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
             )
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")
-            || matches!(name.as_str(), "waterfall.csv" | "resonance.csv")
+            || matches!(name.as_str(), "waterfall.csv" | "resonance.csv" | "study.csv")
             || matches!(name.as_str(), "compare.html" | "compare.csv" | "compare_curves.csv")
             || (name.starts_with("compare_") && name.ends_with(".svg"))
             || name.ends_with(".vtu")
             || name.ends_with(".pvd")
     };
-    Ok(names(folder)?.into_iter().find(|name| !ours(name)))
+    for name in names(folder)? {
+        if name == CASES && folder.join(CASES).is_dir() {
+            if let Some(stranger) = strange_case(&folder.join(CASES))? {
+                return Ok(Some(stranger));
+            }
+        } else if !ours(&name) {
+            return Ok(Some(name));
+        }
+    }
+    Ok(None)
+}
+
+/// The first entry below the folder of a study's cases that no run of this program writes.
+fn strange_case(cases: &Path) -> std::io::Result<Option<String>> {
+    for case in names(cases)? {
+        let folder = cases.join(&case);
+        let stranger = if folder.is_dir() { first_stranger(&folder)? } else { Some(String::new()) };
+        if let Some(name) = stranger {
+            return Ok(Some(format!("{CASES}/{case}/{name}").trim_end_matches('/').to_owned()));
+        }
+    }
+    Ok(None)
 }
 
 #[cfg(test)]

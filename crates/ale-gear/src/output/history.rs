@@ -7,7 +7,7 @@ use dynamics::result::StaticHistory;
 
 use super::{
     pairs,
-    root_stress::{MAX_PRINCIPAL, MEASURES, Measure, VON_MISES},
+    root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
 use crate::scene::Scene;
 
@@ -46,22 +46,7 @@ const BY_PAIR: [Measure; 2] = [MAX_PRINCIPAL, VON_MISES];
 pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let columns = pairs::columns(history, pitch);
-    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-    for gear in GEARS {
-        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
-    }
-    names.extend(columns.iter().map(|k| format!("normal_force_pair_{k}_n")));
-    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
-    if scene.output.root_stress {
-        for gear in GEARS {
-            names.extend(MEASURES.iter().map(|m| format!("{gear}_root_stress_{}_mpa", m.name)));
-        }
-        for (gear, k) in GEARS.iter().flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
-            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
-        }
-    }
-
-    let mut csv = names.join(",");
+    let mut csv = history_columns(scene, &columns).join(",");
     csv.push('\n');
     let start = history.positions.first().map_or(0.0, |p| p.pinion_angle);
     for p in &history.positions {
@@ -95,15 +80,36 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
             c.iterations as f64,
         ]);
         if scene.output.root_stress {
-            row.extend((0..2).flat_map(|gear| MEASURES.map(|m| m.stress(p, gear, None))));
+            row.extend(p.root_stress.iter().flat_map(|of| root_stress_row(of)));
             for (gear, &k) in (0..2).flat_map(|gear| columns.iter().map(move |k| (gear, k))) {
                 let tooth = pairs::teeth(p, k, pitch).map(|teeth| teeth[gear]);
-                row.extend(BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(p, gear, Some(tooth)))));
+                row.extend(
+                    BY_PAIR.map(|m| tooth.map_or(f64::NAN, |tooth| m.stress(&p.root_stress[gear], Some(tooth)))),
+                );
             }
         }
         push_row(&mut csv, row);
     }
     csv
+}
+
+/// Names of the columns for the pairs with these numbers.
+pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
+    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    for gear in GEARS {
+        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
+    }
+    names.extend(pairs.iter().map(|k| format!("normal_force_pair_{k}_n")));
+    names.extend(TRAILING.iter().map(|&n| n.to_owned()));
+    if scene.output.root_stress {
+        for gear in GEARS {
+            names.extend(root_stress_columns(gear));
+        }
+        for (gear, k) in GEARS.iter().flat_map(|gear| pairs.iter().map(move |k| (gear, k))) {
+            names.extend(BY_PAIR.iter().map(|m| format!("{gear}_root_stress_{}_pair_{k}_mpa", m.name)));
+        }
+    }
+    names
 }
 
 /// One line of numbers with commas between them.

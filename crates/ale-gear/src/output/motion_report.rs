@@ -13,7 +13,7 @@ use crate::facts::{Cost, Facts};
 use crate::motion::{MotionHeadline, SweepHeadline, SweepRow};
 use crate::scene::Scene;
 
-/// The report of one motion.
+/// The report of one motion; `pattern` is the picture of the contact pattern.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
@@ -23,17 +23,12 @@ pub(crate) fn write_motion_report(
     cost: &Cost,
     headline: &MotionHeadline,
     pictures: &MotionPictures<'_>,
+    pattern: Option<String>,
     warnings: &[String],
 ) -> Result<String, CommandError> {
-    render(
-        scene,
-        facts,
-        cost,
-        headline,
-        ("motion.html", include_str!("motion.html")),
-        motion_charts(pictures),
-        warnings,
-    )
+    let mut charts = motion_charts(pictures);
+    charts.extend(pattern);
+    render(scene, facts, cost, headline, ("motion.html", include_str!("motion.html")), charts, warnings)
 }
 
 /// The report of a sweep.

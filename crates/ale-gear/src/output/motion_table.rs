@@ -34,6 +34,9 @@ pub(crate) fn motion_table(
         line("largest force of a bearing", fixed(h.max_bearing_force_n, 1), "N");
     }
     line("maximum pressure", fixed(h.max_pressure_mpa, 0), "MPa");
+    if let Some([pinion, wheel]) = h.max_root_tension_mpa {
+        line("largest root tension, pinion, wheel", format!("{}, {}", fixed(pinion, 1), fixed(wheel, 1)), "MPa");
+    }
     line("mesh cycles, settling and written", format!("{} + {}", c.warm_up_cycles, h.cycles), "");
     line("tooth changes", h.tooth_changes.to_string(), "");
     line("contact lost, times", c.contact_losses.to_string(), "");

@@ -69,7 +69,8 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
             .into_iter()
             .map(|k| {
                 curve(&format!("pair {k}"), &|p| {
-                    pairs::teeth(p, k, pitch).map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(p, gear, Some(teeth[gear])))
+                    pairs::teeth(p, k, pitch)
+                        .map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(&p.root_stress[gear], Some(teeth[gear])))
                 })
             })
             .collect()

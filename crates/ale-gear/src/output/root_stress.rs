@@ -61,9 +61,9 @@ impl Measure {
         fillets.reduce(|best, f| if value(f) > value(best) { f } else { best })
     }
 
-    /// The worst of one gear's fillets at a position, MPa; of one tooth when it is given. NaN where there is none.
-    pub(super) fn stress(&self, position: &StaticPosition, gear: usize, tooth: Option<u32>) -> f64 {
-        let fillets = position.root_stress[gear].iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
+    /// The worst of some fillets, MPa; of one tooth when it is given. NaN where there is none.
+    pub(super) fn stress(&self, fillets: &[FilletStress], tooth: Option<u32>) -> f64 {
+        let fillets = fillets.iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
         self.worst(fillets).map_or(f64::NAN, |f| (self.peak)(f).stress)
     }
 
@@ -84,6 +84,16 @@ impl Measure {
             mesh_phase: position.mesh_phase,
         })
     }
+}
+
+/// Names of a gear's columns of root stress: the worst of the whole window.
+pub(crate) fn root_stress_columns(gear: &str) -> [String; 3] {
+    MEASURES.map(|m| format!("{gear}_root_stress_{}_mpa", m.name))
+}
+
+/// The values of these columns, MPa.
+pub(crate) fn root_stress_row(fillets: &[FilletStress]) -> [f64; 3] {
+    MEASURES.map(|m| m.stress(fillets, None))
 }
 
 /// Largest root stresses of a run that computed them.

@@ -25,6 +25,7 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
+pub(crate) use keys::nearest;
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
     StiffnessFrom, SupportScene,
@@ -34,8 +35,10 @@ pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
     SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
+pub(crate) use raw::{Number, Whole, Word};
 pub use schema::{all_keys, json_schema};
 pub use setting::Setting;
+pub(crate) use source::Source;
 pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
@@ -423,7 +426,7 @@ impl Scene {
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let (all, ranges) = setting::below(text, settings);
-        let source = source::Source { file, text: &all, settings, ranges: &ranges };
+        let source = source::Source::scene(file, &all, settings, &ranges);
         let scene = check::scene(&source, raw::read(&source)?)?;
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }

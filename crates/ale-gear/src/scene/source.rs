@@ -8,13 +8,13 @@ use toml::Spanned;
 
 use super::error::{Place, SceneError};
 use super::excerpt::excerpt;
-use super::keys;
+use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
-use super::schema::Table;
+use super::schema::{self, Table};
 use super::setting::Setting;
 
-/// A scene's text and the name that messages give it.
-pub(super) struct Source<'a> {
+/// The text of a scene, or of another file of tables, and the name that messages give it.
+pub(crate) struct Source<'a> {
     pub file: &'a Path,
     /// The file's text, and a line for each setting below it.
     pub text: &'a str,
@@ -22,6 +22,19 @@ pub(super) struct Source<'a> {
     pub settings: &'a [Setting],
     /// Where in the text.
     pub ranges: &'a [Range<usize>],
+    tables: Tables,
+}
+
+impl<'a> Source<'a> {
+    /// The text of a scene with what was set beside it.
+    pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
+        Self { file, text, settings, ranges, tables: schema::tables }
+    }
+
+    /// The text of a file with other tables.
+    pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
+        Self { file, text, settings: &[], ranges: &[], tables }
+    }
 }
 
 impl Source<'_> {
@@ -44,7 +57,7 @@ impl Source<'_> {
             let mut words = rest.split('`').skip(1).step_by(2);
             let key = words.next().unwrap_or_default().to_owned();
             let here: Vec<&str> = words.collect();
-            let advice = keys::advice(&key, &here);
+            let advice = keys::advice(self.tables, &key, &here);
             return SceneError::UnknownKey { place, key, advice };
         }
         let typed = message.strip_prefix("invalid type: ").or(message.strip_prefix("invalid value: "));

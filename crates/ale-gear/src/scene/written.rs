@@ -33,7 +33,7 @@ impl Written {
     }
 
     fn source<'a>(&'a self, file: &'a Path) -> Source<'a> {
-        Source { file, text: &self.0.all, settings: &self.0.settings, ranges: &self.0.ranges }
+        Source::scene(file, &self.0.all, &self.0.settings, &self.0.ranges)
     }
 }
 

@@ -53,6 +53,8 @@ pub struct DenseSolver {
     pub(super) permutation: [Vec<usize>; 2],
     pub(super) scratch: MemBuffer,
     pub(super) symmetric: bool,
+    /// Whether the factor is that of a solution that was put away.
+    pub(super) held: bool,
     pub(super) rotation: f64,
     pub(super) stiffness: f64,
     pub(super) iterations: usize,
@@ -86,6 +88,7 @@ impl DenseSolver {
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(cholesky.or(lu).or(solve)),
             symmetric: true,
+            held: false,
             rotation: 0.0,
             stiffness: 0.0,
             iterations: 0,
@@ -128,13 +131,6 @@ impl DenseSolver {
         self.residual
     }
 
-    /// Energy of the local compliance beyond half of force times approach, N mm, <= 0: its slope falls as the load grows.
-    ///
-    /// delta = F (b - c ln F) stores (integral of F d delta) F delta / 2 - c F^2 / 4, and c = delta / F - d delta/dF.
-    pub fn curved_energy(&self) -> f64 {
-        self.active.iter().map(|&i| -0.25 * self.forces[i] * (self.approach[i] - self.forces[i] * self.slopes[i])).sum()
-    }
-
     /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start row i from, 0 where
     /// there is none.
     ///
@@ -150,9 +146,18 @@ impl DenseSolver {
         local: impl Fn(usize, f64) -> (f64, f64),
         start: impl Fn(usize) -> f64,
     ) -> Result<(), ContactError> {
-        let n = problem.gaps.len();
         self.forces.clear();
-        self.forces.extend((0..n).map(start));
+        self.forces.extend((0..problem.gaps.len()).map(start));
+        self.newton(problem, local)
+    }
+
+    /// The same from the forces as they are.
+    pub(super) fn newton(
+        &mut self,
+        problem: &DenseProblem<'_>,
+        local: impl Fn(usize, f64) -> (f64, f64),
+    ) -> Result<(), ContactError> {
+        let n = problem.gaps.len();
         for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
             list.clear();
             list.resize(n, 0.0);
@@ -165,6 +170,7 @@ impl DenseSolver {
             self.first_guess(problem)?;
         }
         if self.active.is_empty() {
+            self.factor.clear();
             return Ok(());
         }
         self.linearise(&local);
@@ -220,7 +226,7 @@ impl DenseSolver {
     }
 
     /// Approach and slope of the local compliance of the active rows at the forces as they are.
-    fn linearise(&mut self, local: &impl Fn(usize, f64) -> (f64, f64)) {
+    pub(super) fn linearise(&mut self, local: &impl Fn(usize, f64) -> (f64, f64)) {
         for &i in &self.active {
             (self.approach[i], self.slopes[i]) = local(i, self.forces[i]);
         }
@@ -250,19 +256,34 @@ impl DenseSolver {
             (self.rotation, self.stiffness) = ((carried - moment) / stiffness, stiffness);
         }
         self.forces.fill(0.0);
-        self.openings.fill(0.0);
         for (a, &i) in self.active.iter().enumerate() {
             let force = self.x[a] - self.rotation * self.x[m + a];
             self.forces[i] = force;
-            let column = problem.compliance.col(i);
-            self.openings.iter_mut().zip(column.iter()).for_each(|(o, c)| *o += c * force);
         }
+        self.open(problem);
         Ok(())
+    }
+
+    /// Bulk openings of all rows by the forces on the active ones.
+    pub(super) fn open(&mut self, problem: &DenseProblem<'_>) {
+        self.openings.fill(0.0);
+        for &i in &self.active {
+            let force = self.forces[i];
+            let column = problem.compliance.col(i).try_as_col_major().map(|c| c.as_slice());
+            match column {
+                Some(column) => self.openings.iter_mut().zip(column).for_each(|(o, c)| *o += c * force),
+                None => {
+                    let column = problem.compliance.col(i);
+                    self.openings.iter_mut().zip(column.iter()).for_each(|(o, c)| *o += c * force);
+                }
+            }
+        }
     }
 
     /// Factor of S + diag(slopes) on the active rows.
     pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
+        self.held = false;
         self.factor.clear();
         for &j in &self.active {
             let column = problem.compliance.col(j);
@@ -336,14 +357,14 @@ impl DenseSolver {
     }
 
     /// Largest approach, mm.
-    fn scale(&self, problem: &DenseProblem<'_>) -> f64 {
+    pub(super) fn scale(&self, problem: &DenseProblem<'_>) -> f64 {
         let turned = problem.levers.iter().fold(0.0f64, |m, l| m.max((l * self.rotation).abs()));
         let opened = self.openings.iter().fold(turned, |m, o| m.max(o.abs()));
         if problem.balance == Balance::Held { problem.gaps.iter().fold(opened, |m, g| m.max(-g)) } else { opened }
     }
 
     /// Violation of the conditions by the forces as they are.
-    fn violation(&self, problem: &DenseProblem<'_>) -> f64 {
+    pub(super) fn violation(&self, problem: &DenseProblem<'_>) -> f64 {
         let gap = |i: usize| problem.gaps[i] + problem.levers[i] * self.rotation + self.openings[i];
         let of = |i: usize| {
             if self.forces[i] > 0.0 { (gap(i) + self.approach[i]).abs() } else { (-gap(i)).max(0.0) }
@@ -353,7 +374,7 @@ impl DenseSolver {
         if scale > 0.0 { worst / scale } else { worst }
     }
 
-    fn finish(&mut self) {
+    pub(super) fn finish(&mut self) {
         for &i in &self.active {
             if self.forces[i] > 0.0 {
                 self.openings[i] += self.approach[i];

@@ -11,6 +11,7 @@
 
 mod careful;
 mod dense;
+mod near;
 mod pivots;
 mod proximal;
 mod slices;
@@ -19,6 +20,7 @@ mod tangent;
 use crate::{ContactError, ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
+pub use near::HeldSolution;
 pub use proximal::solve;
 pub use slices::solve_slices;
 

@@ -9,9 +9,12 @@
 //! m: the middle of the step. Second order, no damping of its own at any frequency; forces with kinks (contact lost and gained) do no work that their
 //! potential does not know of. What V changes by itself between t_0 and t_1 is booked as parametric work.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-use super::{Forces, Ledger, Mechanism, MotionError, State, newton};
+use super::{
+    Forces, Ledger, Mechanism, MotionError, State,
+    newton::{ITERATIONS, Newton},
+};
 
 /// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
@@ -48,13 +51,15 @@ fn iterate<M: Mechanism>(
     let mut to = from.clone();
     to.time = end;
     to.q = &from.q + h * &from.v + 0.5 * h * h * &from.a;
-    let (mut change, mut last) = (f64::INFINITY, f64::INFINITY);
-    forces.tangents = true;
+    let mut newton = Newton::new(forces);
     let mut at_end = Forces::zeros(to.q.len());
-    for iteration in 0..newton::ITERATIONS {
+    for iteration in 0..ITERATIONS {
         let moved = &to.q - &from.q;
         let velocity = &moved / h;
-        forces.clear();
+        if exact {
+            newton.renew();
+        }
+        newton.prepare(forces);
         let half = &from.q + 0.5 * &moved;
         system.forces(middle, &half, &velocity, forces).map_err(fail(middle))?;
         let weighted = system.mass() * &moved;
@@ -67,7 +72,7 @@ fn iterate<M: Mechanism>(
             0.0
         };
         to.v = 2.0 * &velocity - &from.v;
-        if newton::settled(change, last) {
+        if newton.settled() {
             to.a = (&to.v - &from.v) / h;
             to.averaged.copy_from(&to.a);
             to.last_step = h;
@@ -81,20 +86,22 @@ fn iterate<M: Mechanism>(
             return Ok((to, error));
         }
         let rest = system.mass() * (&to.v - &from.v) / h - &forces.conservative - &forces.other - c * &weighted;
-        let mut matrix = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
+        let mut added = DMatrix::zeros(0, 0);
         if exact && c != 0.0 {
             // dc/dq_1 = [f_c(q_1) - f_c(q_m) + K (q_1 - q_0) / 2 - 2 c W (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0)
             at_end.clear();
             system.forces(middle, &to.q, &velocity, &mut at_end).map_err(fail(middle))?;
             let slope =
                 &at_end.conservative - &forces.conservative + 0.5 * &forces.stiffness * &moved - 2.0 * c * &weighted;
-            matrix -= &weighted * slope.transpose() / length;
+            added = &weighted * slope.transpose() / length;
         }
-        let mut step =
-            newton::solve(matrix, &rest).ok_or(MotionError::Singular { time: middle, which: "iteration" })?;
-        step *= newton::damping(iteration);
-        to.q -= &step;
-        (last, change) = (change, newton::change(&step, &to.q, scale));
+        let matrix = |forces: &Forces| {
+            let plain = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
+            if added.is_empty() { plain } else { plain - &added }
+        };
+        let singular = MotionError::Singular { time: middle, which: "iteration" };
+        to.q -= newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+        newton.measure(&to.q, scale);
     }
-    Err(MotionError::NotConverged { time: from.time, step: h, iterations: newton::ITERATIONS, change })
+    Err(MotionError::NotConverged { time: from.time, step: h, iterations: ITERATIONS, change: newton.change() })
 }

@@ -10,7 +10,10 @@
 
 use nalgebra::DVector;
 
-use super::{Forces, Mechanism, MotionError, State, newton};
+use super::{
+    Forces, Mechanism, MotionError, State,
+    newton::{ITERATIONS, Newton},
+};
 
 /// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,26 +55,26 @@ impl Coefficients {
         to.time = time;
         to.q = &from.q + h * &from.v + 0.5 * h * h * &b0;
         let mass_share = (1.0 - a_m) / ((1.0 - a_f) * beta * h * h);
-        let (mut change, mut last) = (f64::INFINITY, f64::INFINITY);
-        forces.tangents = true;
-        for iteration in 0..newton::ITERATIONS {
+        let mut newton = Newton::new(forces);
+        for iteration in 0..ITERATIONS {
             to.averaged = (&to.q - &from.q - h * &from.v) / (beta * h * h) - (0.5 - beta) / beta * &b0;
             to.v = &from.v + h * ((1.0 - gamma) * &b0 + gamma * &to.averaged);
             to.a = ((1.0 - a_m) * &to.averaged + a_m * &b0 - a_f * &from.a) / (1.0 - a_f);
-            if newton::settled(change, last) {
+            if newton.settled() {
                 let error = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h * (&to.a - &from.a);
                 to.last_step = h;
                 return Ok((to, error));
             }
-            forces.clear();
+            newton.prepare(forces);
             system.forces(time, &to.q, &to.v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
             let rest = system.mass() * &to.a - &forces.conservative - &forces.other;
-            let matrix = mass_share * system.mass() + gamma / (beta * h) * &forces.damping + &forces.stiffness;
-            let mut step = newton::solve(matrix, &rest).ok_or(MotionError::Singular { time, which: "iteration" })?;
-            step *= newton::damping(iteration);
-            to.q -= &step;
-            (last, change) = (change, newton::change(&step, &to.q, scale));
+            let matrix =
+                |forces: &Forces| mass_share * system.mass() + gamma / (beta * h) * &forces.damping + &forces.stiffness;
+            let singular = MotionError::Singular { time, which: "iteration" };
+            to.q -= newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+            newton.measure(&to.q, scale);
         }
-        Err(MotionError::NotConverged { time: from.time, step: h, iterations: newton::ITERATIONS, change })
+        let change = newton.change();
+        Err(MotionError::NotConverged { time: from.time, step: h, iterations: ITERATIONS, change })
     }
 }

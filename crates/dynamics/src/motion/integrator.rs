@@ -287,12 +287,12 @@ impl Integrator {
         let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
         book.supplied += work[0];
         book.dissipated += work[1];
-        let mut potential =
-            |time: f64, q| system.potential(time, q).map_err(|source| MotionError::Mechanism { time, source });
+        let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
+        let mut aside = |time: f64, q| system.potential_aside(time, q).map_err(fail(time));
         let known = book.potential;
         // What V changes by with the coordinates held, at either end of the step. Where the step ends comes last: a system may keep it.
-        let [still, moved] = [potential(to.time, &from.q)?, potential(from.time, &to.q)?];
-        book.potential = potential(to.time, &to.q)?;
+        let [moved, still] = [aside(from.time, &to.q)?, aside(to.time, &from.q)?];
+        book.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
         let held = [still - known, book.potential - moved];
         book.parametric += 0.5 * (held[0] + held[1]);
         Ok((to, error, book))

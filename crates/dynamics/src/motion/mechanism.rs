@@ -24,6 +24,14 @@ pub trait Mechanism {
     /// The system's own.
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
 
+    /// Potential energy beside the way of the motion, for the ledger alone: a system need not keep anything of it, and may know it to twelve digits only.
+    ///
+    /// # Errors
+    /// The system's own.
+    fn potential_aside(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+        self.potential(t, q)
+    }
+
     /// Functions whose changes of sign are events: contact gained (from below) or lost. None unless a system has some.
     fn events(&self) -> usize {
         0
@@ -65,9 +73,11 @@ pub struct Forces {
     pub damping: DMatrix<f64>,
     /// Whether the tangents are wanted.
     pub tangents: bool,
+    /// Whether [`Forces::parametric`] is wanted.
+    pub rates: bool,
     /// Power of drives and loads into the system.
     pub supplied: f64,
-    /// Explicit change of the potential with time at fixed coordinates, dV/dt; asked for together with no tangents only.
+    /// Explicit change of the potential with time at fixed coordinates, dV/dt, where [`Forces::rates`] asks for it; never together with tangents.
     pub parametric: f64,
     /// Power that dampers and friction take.
     pub dissipated: f64,
@@ -82,13 +92,14 @@ impl Forces {
             stiffness: DMatrix::zeros(n, n),
             damping: DMatrix::zeros(n, n),
             tangents: true,
+            rates: false,
             supplied: 0.0,
             parametric: 0.0,
             dissipated: 0.0,
         }
     }
 
-    /// All to zero, `tangents` as it is.
+    /// All to zero but what is wanted.
     pub fn clear(&mut self) {
         self.conservative.fill(0.0);
         self.other.fill(0.0);

@@ -58,7 +58,7 @@ impl<const S: usize> Table<S> {
         forces: &mut Forces,
         book: &mut Ledger,
     ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
-        forces.tangents = false;
+        (forces.tangents, forces.rates) = (false, true);
         let mut rates: Vec<(DVector<f64>, DVector<f64>, [f64; 3])> = Vec::with_capacity(S);
         for (stage, &node) in self.stages.iter().zip(&self.nodes) {
             let time = from.time + node * h;

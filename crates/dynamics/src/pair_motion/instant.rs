@@ -1,6 +1,7 @@
 //! One instant of a motion.
 
 use super::Displacement;
+use crate::{FilletStress, SliceResult};
 
 /// What the results hold of one instant.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,4 +38,18 @@ pub struct Instant {
     pub max_pressure: f64,
     /// Tooth changes so far.
     pub tooth_changes: u64,
+    /// Slices that carry load on the driving side, pair by pair, ascending in z; elastic part of the force.
+    pub slices: Vec<PressedSlice>,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side; empty when not
+    /// asked for ([`crate::StaticOptions::root_stress`]).
+    pub root_stress: [Vec<FilletStress>; 2],
+}
+
+/// A slice that carries load, with its pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressedSlice {
+    /// Running number of the tooth pair.
+    pub pair: i64,
+    /// Where it is pressed, and how hard.
+    pub slice: SliceResult,
 }

@@ -9,10 +9,11 @@ use nalgebra::{DMatrix, DVector, SMatrix, Translation3, UnitQuaternion, Vector3}
 use reduction::GearModes;
 use serde::{Deserialize, Serialize};
 
-use super::{COORDINATES, Displacement, modal::Posture};
+use super::{COORDINATES, Displacement, PressedSlice, modal::Posture};
 use crate::{
-    ContactSet, ElasticGear, MeshContact, StaticError, StaticOptions, Station, Wrench, equilibrium::frames,
-    line::Standing, modal_flanks::ModalFlanks, pose,
+    ContactSet, ElasticGear, FilletStress, MeshContact, StaticError, StaticOptions, Station, Wrench,
+    equilibrium::frames, line::Standing, loads::slice_result, mesh_contact::Want, modal_flanks::ModalFlanks,
+    parts::Parts, pose, root_stress::RootStress,
 };
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
@@ -73,8 +74,8 @@ pub(super) struct ModalForce {
     pub normal: DVector<f64>,
     /// Friction, m.
     pub friction: DVector<f64>,
-    /// -d(forces)/d(d, q), (12 + m) x (12 + m).
-    pub stiffness: DMatrix<f64>,
+    /// -d(forces)/d(d, q), (12 + m) x (12 + m), where it was asked for.
+    pub stiffness: Option<DMatrix<f64>>,
 }
 
 /// A slice that carries force.
@@ -177,6 +178,39 @@ impl MeshSide {
         Ok(())
     }
 
+    /// The fillets of both gears, for [`MeshSide::root_stress`].
+    pub fn root_fillets(&self, pair: &GearPair) -> RootStress {
+        RootStress::new(pair, &self.gears)
+    }
+
+    /// Slices that carried load in the last evaluation.
+    pub fn pressed_slices(&self) -> Vec<PressedSlice> {
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces());
+        loaded
+            .filter(|(_, f)| **f > 0.0)
+            .map(|((row, slice), &f)| PressedSlice {
+                pair: self.window.first() + set.pair_of(row.patches.0) as i64,
+                slice: slice_result(slice, set.side(row.patches.0), f),
+            })
+            .collect()
+    }
+
+    /// Stress in the root fillets of the window under the forces of the last evaluation, which was at these poses.
+    pub fn root_stress(
+        &mut self,
+        pair: &GearPair,
+        poses: &[Pose; 2],
+        roots: &RootStress,
+    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let rows = self.contact.supported_rows(poses);
+        let set = self.contact.contact_set();
+        let displacements =
+            (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
+        let parts = Parts { pair, gears: &self.gears, set, window: &self.window, options: &self.options };
+        roots.of(&parts, displacements.as_ref())
+    }
+
     /// Goes over to a window, with the matrices of `set` where they serve it.
     fn enter(&mut self, pair: &GearPair, window: ToothWindow, mut set: ContactSet) -> Result<(), StaticError> {
         if set.move_to(&self.gears, &window)? {
@@ -215,11 +249,25 @@ impl MeshSide {
         })
     }
 
-    /// Contact with the gears displaced and deformed.
-    pub fn evaluate(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<SideForce, ContactError> {
+    /// Strain energy of contact with the gears displaced and deformed, N mm; the last evaluation is lost.
+    pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<f64, ContactError> {
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
-        let force = self.contact.evaluate_near(&poses)?;
+        self.contact.evaluate_near(&poses, Want::Energy)?;
+        Ok(self.contact.strain_energy())
+    }
+
+    /// Contact with the gears displaced and deformed; without `tangents` stiffness is any.
+    pub fn evaluate(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &Posture,
+        tangents: bool,
+    ) -> Result<SideForce, ContactError> {
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
+        let force = self.contact.evaluate_near(&poses, if tangents { Want::Tangent } else { Want::Forces })?;
         let all = vector(&force.wrench);
         let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
         let friction = self.friction(&poses);
@@ -228,7 +276,7 @@ impl MeshSide {
             ModalForce {
                 normal: DVector::from_column_slice(&forces.normal),
                 friction: DVector::from_column_slice(&forces.friction),
-                stiffness: -DMatrix::from_row_slice(n, n, &forces.tangent),
+                stiffness: tangents.then(|| -DMatrix::from_row_slice(n, n, &forces.tangent)),
             }
         });
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })
@@ -288,7 +336,7 @@ impl MeshSide {
         })
     }
 
-    /// Damping of the slices that carry force: force on the coordinates, -df/d(velocity), and power taken.
+    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to `matrix`.
     ///
     /// ```text
     /// F_d = -c h dg/dt,  |F_d| <= F
@@ -303,15 +351,18 @@ impl MeshSide {
         poses: &[Pose; 2],
         rate: &Displacement,
         per_length: f64,
-    ) -> (Displacement, SMatrix<f64, 12, 12>, f64) {
-        let (mut total, mut matrix, mut taken) = (Displacement::zeros(), SMatrix::<f64, 12, 12>::zeros(), 0.0);
+        mut matrix: Option<&mut SMatrix<f64, 12, 12>>,
+    ) -> (Displacement, f64) {
+        let (mut total, mut taken) = (Displacement::zeros(), 0.0);
         for slice in self.pressed(poses, rate, per_length) {
             let [force, slope, power] = slice.resisted();
             total -= force * slice.j;
-            matrix += slope * slice.j * slice.j.transpose();
             taken += power;
+            if let Some(matrix) = &mut matrix {
+                **matrix += slope * slice.j * slice.j.transpose();
+            }
         }
-        (total, matrix, taken)
+        (total, taken)
     }
 
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
@@ -339,15 +390,20 @@ impl MeshSide {
     ///
     /// # Errors
     /// [`StaticError::Starved`].
-    pub fn check_beside(&self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
+    pub fn check_beside(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
         // Nothing is pressed where nothing overlaps, and a pair beside the window comes last.
         let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
         if deepest == 0.0 {
             return Ok(());
         }
-        let Self { options, window, ahead, .. } = self;
-        let (set, station) = (self.contact.contact_set(), Station::at_cycles(cycles + ahead));
-        let standing = Standing { pair, options, set, window, station, poses };
+        let Self { options, window, ahead, contact, .. } = self;
+        let set = contact.contact_set().clone();
+        let station = Station::at_cycles(cycles + *ahead);
+        let gap = |poses: &[Pose; 2]| Standing { pair, options, set: &set, window, station, poses }.gap_beside();
+        if contact.gap_beside(poses, gap) > -1e-3 * deepest {
+            return Ok(());
+        }
+        let standing = Standing { pair, options, set: &set, window, station, poses };
         match standing.overlap_beside(1e-3 * deepest) {
             None => Ok(()),
             Some((running, overlap)) => Err(StaticError::Starved {

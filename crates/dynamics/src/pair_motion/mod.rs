@@ -20,7 +20,7 @@ mod sweep;
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
-pub use instant::Instant;
+pub use instant::{Instant, PressedSlice};
 pub use low_frequency::{ElasticRatio, LOW_FREQUENCY_LIMIT, harmonic_that_matters};
 pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
 pub use mesh_side::{Changes, SidePlace};

@@ -147,7 +147,9 @@ impl<'a> ModalBalance<'a> {
         let Some(modal) = &force.modal else { return 0.0 };
         self.conservative += &modal.normal;
         self.other += &modal.friction;
-        self.stiffness += &modal.stiffness;
+        if let Some(stiffness) = &modal.stiffness {
+            self.stiffness += stiffness;
+        }
         -modal.friction.dot(rate)
     }
 

@@ -151,17 +151,32 @@ impl Table {
 /// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`, `pinion.shaft.discs.0.at_mm`.
 pub fn all_keys() -> Vec<String> {
     let mut all = Vec::new();
-    collect("", &SCENE, &mut all);
+    walk("", &SCENE, &mut |path, table| {
+        let leaf = |key: &&Key| !matches!(key.kind, Kind::Table(_) | Kind::Tables(_));
+        // Of a list of tables the first one stands for all.
+        let path = path.strip_prefix('[').and_then(|p| p.strip_suffix(']')).map_or(path.into(), |p| format!("{p}.0"));
+        let dotted = |key: &Key| if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+        all.extend(table.keys.iter().filter(leaf).map(dotted));
+    });
     all
 }
 
-fn collect(prefix: &str, table: &Table, all: &mut Vec<String>) {
+/// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.
+pub(in crate::scene) fn tables() -> Vec<(String, Vec<&'static str>)> {
+    let mut all = Vec::new();
+    walk("", &SCENE, &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
+    all
+}
+
+/// Visits a table and those in it, with their names.
+fn walk(path: &str, table: &'static Table, visit: &mut impl FnMut(&str, &'static Table)) {
+    visit(path, table);
+    let inner = |key: &Key| if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
     for key in table.keys {
-        let path = format!("{prefix}{}", key.name);
         match key.kind {
-            Kind::Table(inner) => collect(&format!("{path}."), inner, all),
-            Kind::Tables(inner) => collect(&format!("{path}.0."), inner, all),
-            _ => all.push(path),
+            Kind::Table(of) => walk(&inner(key), of, visit),
+            Kind::Tables(of) => walk(&format!("[{}]", inner(key)), of, visit),
+            _ => {}
         }
     }
 }
@@ -187,8 +202,7 @@ mod tests {
             text += &format!("[{name}]\n{lines}{own}");
         }
         if !table.is_empty() && needed.iter().all(|(name, _)| *name != table) {
-            let list = table.ends_with("discs") || table.ends_with("supports");
-            text += &if list { format!("[[{table}]]\n{line}\n") } else { format!("[{table}]\n{line}\n") };
+            text += &format!("[{table}]\n{line}\n");
         }
         text
     }
@@ -198,25 +212,16 @@ mod tests {
         Scene::parse(&text, "a.toml".as_ref()).expect_err(&text).to_string()
     }
 
-    fn tables() -> Vec<(String, &'static Table)> {
-        fn into(path: &str, table: &'static Table, all: &mut Vec<(String, &'static Table)>) {
-            all.push((path.to_owned(), table));
-            for key in table.keys {
-                if let Kind::Table(inner) | Kind::Tables(inner) = key.kind {
-                    let path = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
-                    into(&path, inner, all);
-                }
-            }
-        }
+    fn every_table() -> Vec<(String, &'static Table)> {
         let mut all = Vec::new();
-        into("", &SCENE, &mut all);
+        walk("", &SCENE, &mut |path, table| all.push((path.to_owned(), table)));
         all
     }
 
     /// What the reader takes is what the tables list, no more and no less: the reader itself names what it knows when it meets another key.
     #[test]
     fn the_tables_are_the_words_that_are_read() {
-        for (path, table) in tables() {
+        for (path, table) in every_table() {
             let text = scene_with(&path, "zzz_unknown = 1");
             let error = toml::from_str::<crate::scene::raw::RawScene>(&text).expect_err(&text);
             let said = error.message().to_owned();
@@ -231,7 +236,7 @@ mod tests {
     /// Every key has the type that the reader wants: a value of another type is refused as such.
     #[test]
     fn the_types_are_those_that_are_read() {
-        for (path, table) in tables() {
+        for (path, table) in every_table() {
             for key in table.keys {
                 let (wrong, expected) = match key.kind {
                     Kind::Number { .. } => ("\"x\"", "must be a number"),
@@ -284,7 +289,7 @@ mod tests {
                 "[analysis]\nmodel = \"lumped8\"\n[pinion.bearing]\nstiffness_x_n_per_mm = 1e5\nstiffness_y_n_per_mm = 1e5\nstiffness_z_n_per_mm = 1e5\n[wheel.bearing]\nstiffness_x_n_per_mm = 1e5\nstiffness_y_n_per_mm = 1e5\nstiffness_z_n_per_mm = 1e5\n",
             ),
         ];
-        for (path, table) in tables() {
+        for (path, table) in every_table() {
             // Shafts are many tables deep; their one list is that of the axes, checked in `ladder/shaft.rs`.
             if path.contains("shaft") {
                 continue;

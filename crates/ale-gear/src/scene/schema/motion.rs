@@ -150,7 +150,7 @@ pub(in crate::scene) static MOTION: Table = keys(
 pub(in crate::scene) static RAMP: Table = Table {
     about: "run-up or run-down: the driver's speed changes by a smooth step",
     keys: &[
-        bare("from_rpm", 1e-3, 1e7, "speed at first, 1/min"),
+        bare("from_rpm", 0.0, 1e7, "speed at first, 1/min; 0: from rest"),
         bare("to_rpm", 1e-3, 1e7, "speed in the end, 1/min"),
         bare("duration_s", 1e-6, 1e6, "how long the change takes, s"),
         number("before_s", 0.0, 1e6, 0.0, "time at the first speed before, s"),

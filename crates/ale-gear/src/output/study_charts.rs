@@ -1,0 +1,106 @@
+//! Figures of a study.
+
+use super::{
+    charts::{Curve, line_chart},
+    motion_charts::thinned,
+};
+use crate::motion::Columns;
+use crate::parameter_study::{CaseRun, Findings, Follow, OverTime, Study, last_cycles};
+
+/// A figure: a sentence above its charts.
+pub(super) struct Figure {
+    pub text: String,
+    pub charts: Vec<String>,
+}
+
+/// All figures, in the order of the study file.
+pub(super) fn figures(study: &Study, runs: &[CaseRun], findings: &Findings) -> Vec<Figure> {
+    let follow = study.follow.iter().map(|f| following(study, runs, findings, f));
+    let over_time = study.over_time.iter().map(|o| over_time(study, runs, o));
+    let over_value = (!study.quantities.is_empty()).then(|| over_value(study, findings));
+    follow.chain(over_time).chain(over_value).collect()
+}
+
+/// Columns of one case over mesh cycles, one under the other, and each pair of them against each other.
+fn following(study: &Study, runs: &[CaseRun], findings: &Findings, follow: &Follow) -> Figure {
+    let case = &study.cases[follow.case];
+    let rows = last_cycles(&case.scene, &runs[follow.case].rows, follow.cycles);
+    let cycles = mesh_cycles(&rows);
+    let chart = |name: &str| {
+        let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.get(name)) };
+        line_chart(&format!("{name}, {}", case.label), "mesh cycles", name, &[curve], false)
+    };
+    let against = |beside: &String| {
+        let curve = Curve { label: beside.clone(), points: points(rows.get(beside), rows.get(&follow.column)) };
+        line_chart(
+            &format!("{} against {beside}, {}", follow.column, case.label),
+            beside,
+            &follow.column,
+            &[curve],
+            false,
+        )
+    };
+    let said: Vec<String> = findings
+        .followers
+        .iter()
+        .filter(|f| f.column == follow.column && follow.beside.contains(&f.beside))
+        .map(|f| format!("{:+.3} with {}", f.correlation[follow.case].unwrap_or(f64::NAN), f.beside))
+        .collect();
+    Figure {
+        text: format!("Correlation of {} over all rows of {}: {}.", follow.column, case.label, said.join(", ")),
+        charts: std::iter::once(&follow.column)
+            .chain(&follow.beside)
+            .filter_map(|name| chart(name))
+            .chain(follow.beside.iter().filter_map(against))
+            .collect(),
+    }
+}
+
+/// One column of all cases over time, each from the beginning of its cycles shown.
+fn over_time(study: &Study, runs: &[CaseRun], over: &OverTime) -> Figure {
+    let curves: Vec<Curve> = study
+        .cases
+        .iter()
+        .zip(runs)
+        .map(|(case, run)| {
+            let rows = last_cycles(&case.scene, &run.rows, over.cycles);
+            let time = rows.get("time_s");
+            let begin = time.first().copied().unwrap_or(0.0);
+            let since: Vec<f64> = time.iter().map(|t| 1e3 * (t - begin)).collect();
+            Curve { label: case.label.clone(), points: thinned(&points(&since, rows.get(&over.column))) }
+        })
+        .collect();
+    let chart = line_chart(&format!("{} against time", over.column), "time [ms]", &over.column, &curves, false);
+    Figure { text: String::new(), charts: chart.into_iter().collect() }
+}
+
+/// The quantities over the parameter, one chart each.
+fn over_value(study: &Study, findings: &Findings) -> Figure {
+    let charts = study.quantities.iter().enumerate().filter_map(|(k, quantity)| {
+        let mut at: Vec<(f64, f64)> =
+            study.cases.iter().zip(&findings.cases).map(|(case, found)| (case.value, found.quantities[k])).collect();
+        at.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let name = quantity.name();
+        let title = format!("{name} against {}", study.parameter);
+        line_chart(&title, &study.parameter, &name, &[Curve { label: name.clone(), points: at }], false)
+    });
+    Figure { text: String::new(), charts: charts.collect() }
+}
+
+fn points(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
+    x.iter().zip(y).map(|(x, y)| (*x, *y)).collect()
+}
+
+/// Mesh cycles since the beginning of the first one, from the phases: rows need not be evenly spaced.
+fn mesh_cycles(rows: &Columns) -> Vec<f64> {
+    let mut whole = 0.0;
+    let mut last = 0.0;
+    let count = |phase: &f64| {
+        if *phase < last - 0.5 {
+            whole += 1.0;
+        }
+        last = *phase;
+        whole + phase
+    };
+    rows.get("mesh_phase").iter().map(count).collect()
+}

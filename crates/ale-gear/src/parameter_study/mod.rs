@@ -1,0 +1,17 @@
+//! Studies: the same figures of several scenes, side by side.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `file` | reads and checks the study file and its scenes |
+//! | `columns` | which columns a scene's rows will have, told before anything is run |
+//! | `cases` | runs the scenes, in parallel, each into a folder of its own |
+//! | `findings` | what is read off the rows: quantities, correlations |
+
+mod cases;
+mod columns;
+mod file;
+mod findings;
+
+pub(crate) use cases::{CaseRun, run_cases};
+pub use file::{Case, Follow, FullRun, OverTime, Quantity, Study, Take};
+pub(crate) use findings::{Findings, findings, last_cycles};

@@ -1,0 +1,206 @@
+//! `ale-gear study` end to end on small scenes: files, numbers, threads, and what wrong files are told.
+
+mod util;
+
+use util::{ISO_SCENE, Scratch, column, motion_scene};
+
+/// Three pairs without meshes that differ in the helix angle.
+fn iso_cases() -> Scratch {
+    let scene = |degrees: u32| ISO_SCENE.replace("helix_angle_deg = 20.0", &format!("helix_angle_deg = {degrees}"));
+    Scratch::new().file("a.toml", scene(10)).file("b.toml", scene(15)).file("c.toml", scene(20))
+}
+
+const ISO_STUDY: &str = r#"name = "three angles"
+parameter = "helix angle [deg]"
+[[case]]
+scene = "a.toml"
+label = "10 deg"
+value = 10
+[[case]]
+scene = "b.toml"
+label = "15 deg"
+value = 15
+[[case]]
+scene = "c.toml"
+label = "20 deg"
+value = 20
+[[quantity]]
+column = "ste_um"
+take = "peak_to_peak"
+[[quantity]]
+column = "wheel_force_z_n"
+[[over_time]]
+column = "wheel_moment_y_nmm"
+[[follow]]
+case = "20 deg"
+column = "ste_um"
+beside = ["contact_line_length_mm", "pairs_in_contact"]
+"#;
+
+/// The numbers of a study are those of its cases' own rows; every case has a whole result of its own.
+#[test]
+fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
+    let scratch = iso_cases().file("s.toml", ISO_STUDY);
+    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let csv = scratch.read("o/study.csv");
+    assert_eq!(
+        csv.lines().next().unwrap(),
+        "label,value,eps_alpha,eps_beta,eps_gamma,peak_to_peak_ste_um,mean_wheel_force_z_n,\
+         correlation_ste_um_contact_line_length_mm,correlation_ste_um_pairs_in_contact"
+    );
+    let numbers = csv.lines().map(|l| l.split_once(',').unwrap().1).collect::<Vec<_>>().join("\n");
+    let (swing, axial) = (column(&numbers, "peak_to_peak_ste_um"), column(&numbers, "mean_wheel_force_z_n"));
+    for (i, folder) in ["01-10-deg", "02-15-deg", "03-20-deg"].iter().enumerate() {
+        let rows = scratch.read(&format!("o/cases/{folder}/history.csv"));
+        let ste = column(&rows, "ste_um");
+        let (low, high) = ste.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
+        assert_eq!(swing[i], high - low, "{folder}");
+        let force = column(&rows, "wheel_force_z_n");
+        assert_eq!(axial[i], force.iter().sum::<f64>() / force.len() as f64, "{folder}");
+        for file in ["summary.json", "report.html"] {
+            assert!(!scratch.read(&format!("o/cases/{folder}/{file}")).is_empty());
+        }
+    }
+    // ISO's stiffness goes with the length of the lines, and the error as one over it: all but a straight line.
+    let follows = column(&numbers, "correlation_ste_um_contact_line_length_mm");
+    assert!(follows.iter().all(|r| *r < -0.98), "{follows:?}");
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    assert_eq!(summary["cases"][2]["quantities"]["mean_wheel_force_z_n"].as_f64(), Some(axial[2]));
+    assert_eq!(summary["files"], serde_json::json!(["cases", "report.html", "study.csv"]));
+    let page = scratch.read("o/report.html");
+    // Three columns over cycles, two against others, one over time, two over the angle.
+    assert_eq!(page.matches("<svg").count(), 8);
+    assert!(!page.contains("src=") && !page.contains("href="));
+    for text in ["three angles", "20 deg", "peak_to_peak_ste_um", "results: o"] {
+        assert!(run.stdout.contains(text), "{text} is not in\n{}", run.stdout);
+    }
+    // An earlier study is replaced; a folder with somebody's file among the cases is not.
+    assert_eq!(scratch.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    let scratch = scratch.file("o/cases/01-10-deg/thesis.tex", "years of work");
+    let refused = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert!(refused.stderr.contains("holds `cases/01-10-deg/thesis.tex`"), "{}", refused.stderr);
+    assert_eq!(refused.code, Some(2));
+}
+
+/// Motions side by side: any number of threads writes the same bytes. The whole model of a case is timed beside it.
+#[test]
+fn a_study_of_motions_does_not_see_the_number_of_threads() {
+    let study = "parameter = \"torque [N m]\"\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 50\nset = [\"operation.torque_nm=50\"]\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"heavy\"\nvalue = 150\n\
+                 [[quantity]]\ncolumn = \"dte_um\"\ntake = \"largest\"\n\
+                 [[over_time]]\ncolumn = \"dte_um\"\ncycles = 1\n\
+                 [full]\ncase = \"heavy\"\npositions = 1\n";
+    let scratch = Scratch::new().file("a.toml", motion_scene(2, "")).file("s.toml", study);
+    for (out, threads) in [("one", "1"), ("two", "2")] {
+        let run = scratch.ale_gear(["study", "s.toml", "--out", out, "-j", threads]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    }
+    for file in ["study.csv", "cases/01-light/history.csv", "cases/02-heavy/energy.csv"] {
+        assert!(scratch.read(&format!("one/{file}")) == scratch.read(&format!("two/{file}")), "{file} differs");
+    }
+    let of = |case: &str| -> serde_json::Value {
+        serde_json::from_str(&scratch.read(&format!("one/cases/{case}/summary.json"))).unwrap()
+    };
+    for (case, torque) in [("01-light", 50.0), ("02-heavy", 150.0)] {
+        assert_eq!(of(case)["inputs"]["operation"]["torque_nm"].as_f64(), Some(torque), "{case}");
+    }
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("one/summary.json")).unwrap();
+    let full = &summary["full"];
+    let number = |key: &str| full["at_rest"][key].as_f64().unwrap_or_else(|| panic!("no {key}: {full}"));
+    assert_eq!((full["case"].as_str(), number("full_positions_run")), (Some("heavy"), 1.0));
+    assert!(number("times_faster_position") > 1.0, "{full}");
+    assert!(number("dof") > 5.0 * number("dof_kept"), "{full}");
+    // The reduced model interpolates its bulk compliance.
+    assert!(number("relative_difference_of_ste").abs() < 1e-4, "{full}");
+    assert!(full["full_position_over_motion_step"].as_f64().unwrap() > 1.0, "{full}");
+}
+
+/// Wrong files are told by line and key before any work; nothing is written.
+#[test]
+fn wrong_studies_are_told_with_line_and_hint() {
+    let says = |old: &str, new: &str, text: &str| {
+        assert!(ISO_STUDY.contains(old), "{old}");
+        let scratch = iso_cases().file("s.toml", ISO_STUDY.replacen(old, new, 1));
+        let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+        assert_eq!(run.stderr, format!("ale-gear: {text}\n"), "for {new}");
+        assert_eq!((run.code, scratch.names().len()), (Some(2), 4));
+    };
+    says("parameter =", "paramter =", "s.toml:2: unknown key `paramter`\nhint: did you mean `parameter`?");
+    says("take =", "takes =", "s.toml:17: unknown key `takes`\nhint: did you mean `take`?");
+    says("name =", "beside = 1\nname =", "s.toml:1: unknown key `beside`\nhint: `beside` belongs to [[follow]]");
+    says(
+        "\"peak_to_peak\"",
+        "\"peak\"",
+        "s.toml:17: `take` is \"peak\", allowed is \"mean\" or \"peak_to_peak\" or \"least\" or \"largest\"",
+    );
+    says(
+        "column = \"ste_um\"",
+        "column = \"dte_um\"",
+        "s.toml:16: `column` is \"dte_um\", allowed is a column of history.csv of the case \"10 deg\"\nhint: did you mean \"ste_um\"?",
+    );
+    says(
+        "\"pairs_in_contact\"",
+        "\"pairs_in_contct\"",
+        "s.toml:25: `beside` is \"pairs_in_contct\", allowed is a column of history.csv of the case \"10 deg\"\nhint: did you \
+         mean \"pairs_in_contact\"?",
+    );
+    says(
+        "case = \"20 deg\"",
+        "case = \"21 deg\"",
+        "s.toml:23: `case` is \"21 deg\", allowed is \"10 deg\" or \"15 deg\" or \"20 deg\"\nhint: did you mean \"20 deg\"?",
+    );
+    says(
+        "label = \"15 deg\"",
+        "label = \"10 deg\"",
+        "s.toml:7: there are two cases with the label \"10 deg\"\nhint: give each a `label` of its own",
+    );
+    says("value = 10\n", "", "s.toml:3: [[case]] has no `value`\nhint: give its place on the axis of the parameter");
+    says(
+        "value = 10",
+        "value = \"10\"",
+        "s.toml:6: `value` must be a number, found string \"10\"\nhint: write numbers without \
+         quotes and without a unit: the unit is in the key",
+    );
+    says(
+        "\"a.toml\"",
+        "\"z.toml\"",
+        "s.toml:4: z.toml cannot be read: No such file or directory (os error 2)\nhint: paths are relative to the study file",
+    );
+    says(
+        "[[over_time]]",
+        "[full]\npositions = 1\n[[over_time]]",
+        "s.toml:20: the case \"10 deg\" has no gears with slices to reduce\nhint: name a `case` with the model \"reduced\" and the method \
+         \"slice\", or leave [full] out",
+    );
+    says(
+        "value = 10\n",
+        "value = 10\nset = [\"operation.torqe_nm=3\"]\n",
+        "s.toml:7: set operation.torqe_nm: unknown key `torqe_nm`\nhint: did you mean `torque_nm`?",
+    );
+    let nothing = iso_cases().file("s.toml", &ISO_STUDY[..ISO_STUDY.find("[[quantity]]").unwrap()]);
+    let run = nothing.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!(
+        run.stderr,
+        "ale-gear: s.toml:1: a study that asks for nothing\nhint: say what to draw: [[quantity]], [[over_time]], [[follow]]\n"
+    );
+}
+
+/// A scene that is wrong is told by its own line; a sweep has no rows.
+#[test]
+fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
+    let wrong =
+        iso_cases().file("b.toml", ISO_SCENE.replace("face_width_mm", "face_widht_mm")).file("s.toml", ISO_STUDY);
+    let run = wrong.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!(run.stderr, "ale-gear: b.toml:12: unknown key `face_widht_mm`\nhint: did you mean `face_width_mm`?\n");
+    let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 2 }\n";
+    let sweep = iso_cases().file("b.toml", motion_scene(1, sweep)).file("s.toml", ISO_STUDY);
+    let run = sweep.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert!(
+        run.stderr.starts_with("ale-gear: s.toml:8: b.toml is a sweep, which has no rows over time\n"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!((run.code, sweep.names().len()), (Some(2), 4));
+}

@@ -1,0 +1,142 @@
+//! Contact whose gaps have moved by little: the factor of a tangent near by in place of one for every step.
+//!
+//! ```text
+//! F <- F - (S + diag delta'_0)^-1 (g0 + S F + delta(F))
+//! ```
+//! Newton's method with a tangent that is held. What it leaves of an error is the change of the local slopes since the tangent was made, some thousandths of it; that it has arrived is told by the same
+//! conditions as for any solution, and where it does not, or where rows come or go, Newton's own steps go on from there.
+
+use super::{DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
+use crate::ContactError;
+
+/// A solution and the factor of its tangent, put away.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct HeldSolution {
+    forces: Vec<f64>,
+    openings: Vec<f64>,
+    approach: Vec<f64>,
+    slopes: Vec<f64>,
+    active: Vec<usize>,
+    factor: Vec<f64>,
+    permutation: [Vec<usize>; 2],
+    symmetric: bool,
+}
+
+/// Steps with a held tangent before Newton's own; three or four do.
+const STEPS: usize = 8;
+/// What a step must leave of the violation for another one with the same tangent.
+const SLOW: f64 = 0.25;
+
+impl HeldSolution {
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.forces.is_empty()
+    }
+
+    /// Size, bytes.
+    pub fn bytes(&self) -> usize {
+        let doubles = [&self.forces, &self.openings, &self.approach, &self.slopes, &self.factor];
+        doubles.iter().map(|list| list.len() * size_of::<f64>()).sum()
+    }
+}
+
+impl DenseSolver {
+    /// Puts the last solution away, with its factor.
+    pub fn put_away(&mut self, held: &mut HeldSolution) {
+        held.forces.clone_from(&self.forces);
+        held.openings.clone_from(&self.openings);
+        held.approach.clone_from(&self.approach);
+        held.slopes.clone_from(&self.slopes);
+        held.active.clone_from(&self.active);
+        held.factor.clone_from(&self.factor);
+        held.permutation.clone_from(&self.permutation);
+        held.symmetric = self.symmetric;
+        self.held = true;
+    }
+
+    /// Takes up a solution that was put away, as if it had just been found.
+    pub fn take_up(&mut self, held: &HeldSolution) {
+        self.forces.clone_from(&held.forces);
+        self.openings.clone_from(&held.openings);
+        self.approach.clone_from(&held.approach);
+        self.slopes.clone_from(&held.slopes);
+        self.active.clone_from(&held.active);
+        self.factor.clone_from(&held.factor);
+        self.permutation.clone_from(&held.permutation);
+        (self.symmetric, self.held) = (held.symmetric, true);
+        (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
+    }
+
+    /// Solves the contact of bodies that are held, from the last solution on: of the same rows with the same compliance, whose gaps have moved by little. `accuracy`: violation of
+    /// the conditions, relative to the largest approach, that counts as solved; where it is below that of any solution it is raised to that.
+    ///
+    /// The factor remains the one that was at hand unless rows come or go, so [`DenseSolver::tangent_of`] belongs to forces near by.
+    ///
+    /// # Errors
+    /// As [`DenseSolver::solve`].
+    pub fn solve_near(
+        &mut self,
+        problem: &DenseProblem<'_>,
+        local: impl Fn(usize, f64) -> (f64, f64),
+        accuracy: f64,
+    ) -> Result<(), ContactError> {
+        let m = self.active.len();
+        if self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+            return self.solve(problem, local, |_| 0.0);
+        }
+        self.iterations = 0;
+        let accuracy = accuracy.max(TOLERANCE);
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            self.linearise(&local);
+            self.open(problem);
+            if self.takes_sides(problem) {
+                break;
+            }
+            self.residual = self.violation(problem);
+            if self.residual < accuracy {
+                self.finish();
+                return Ok(());
+            }
+            if self.residual > SLOW * before {
+                break;
+            }
+            before = self.residual;
+            self.correct(problem, m);
+        }
+        self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
+        let iterations = self.iterations;
+        self.newton(problem, local)?;
+        self.iterations += iterations;
+        Ok(())
+    }
+
+    /// One step with the factor at hand.
+    fn correct(&mut self, problem: &DenseProblem<'_>, m: usize) {
+        self.iterations += 1;
+        self.x.clear();
+        for &i in &self.active {
+            self.x.push(problem.gaps[i] + self.approach[i] + self.openings[i]);
+        }
+        self.back_substitute(m, 1);
+        for (x, &i) in self.x.iter().zip(&self.active) {
+            self.forces[i] -= x;
+        }
+    }
+
+    /// Whether an active row pulls, or another one overlaps.
+    fn takes_sides(&self, problem: &DenseProblem<'_>) -> bool {
+        if self.active.iter().any(|&i| self.forces[i] <= 0.0) {
+            return true;
+        }
+        let least = -PIVOT_TOLERANCE * self.scale(problem);
+        let mut active = self.active.iter().peekable();
+        (0..problem.gaps.len())
+            .any(|i| active.next_if(|a| **a == i).is_none() && problem.gaps[i] + self.openings[i] < least)
+    }
+
+    /// Whether the factor is that of a solution that was put away or taken up: rows have neither come nor gone since.
+    pub fn is_held(&self) -> bool {
+        self.held
+    }
+}
