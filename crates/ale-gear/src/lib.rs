@@ -11,6 +11,7 @@
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
+//! | [`reduce`] | reduction of a scene's gears by itself |
 //! | [`starter`] | the scene that a user begins with |
 //! | [`chart`] | accuracy against cost of every model |
 //! | [`compare`] | result folders side by side |
@@ -42,3 +43,4 @@ mod iso_model;
 mod ladder;
 pub mod meshes;
 mod partial;
+pub mod reduce;

@@ -1,6 +1,6 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use geometry::{Gear, Side, Vec3};
+use geometry::{Gear, GearPair, Side, Vec3};
 use mesh::{
     DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity, StructuredOptions,
     SurfaceGroup, generate,
@@ -19,6 +19,16 @@ pub struct SceneMesh {
     pub facts: MeshFacts,
     /// What the user should know of it.
     pub warnings: Vec<String>,
+}
+
+/// The meshes of pinion and wheel.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], CommandError> {
+    let pinion = gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
+    let wheel = gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
+    Ok([pinion, wheel])
 }
 
 /// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.

@@ -47,11 +47,7 @@ pub(crate) fn solve_and_keep(
         solved.history.warnings.extend(gears::doubts(&pair));
         return Ok((solved, None));
     }
-    let meshes = phases.run("mesh", || {
-        let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-        let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-        Ok::<_, CommandError>([pinion, wheel])
-    })?;
+    let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
     let mut warnings = gears::doubts(&pair);
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     let mut options = options(scene, &pair);

@@ -78,7 +78,14 @@ fn physical_nonsense_names_its_line() {
     );
     refused(pair("centre_distance_mm = 95.0"), &["a.toml:11: [pair]: the teeth jam"]);
     refused(pair("centre_distance_mm = 103.0"), &["a.toml:11: [pair]: the pair has no path of contact"]);
-    refused(pair("addendum_coefficient = 1.2"), &["a.toml:11: [pair]: interference at the root", "mm"]);
+    refused(
+        pair("root_radius_coefficient = 0.45\naddendum_coefficient = 1.24").replacen(
+            "[wheel]\nteeth = 30",
+            "[wheel]\nteeth = 120",
+            1,
+        ),
+        &["a.toml:12: [pair]: interference at the root: the wheel's tip enters the fillet of the pinion by 0."],
+    );
     refused(
         ISO_SCENE
             .replace("helix_angle_deg = 20.0", "helix_angle_deg = 0.0")

@@ -75,7 +75,13 @@ pub(super) struct GroupArgs {
 }
 
 impl GroupArgs {
-    fn names(self) -> Result<GroupNames, CommandError> {
+    /// Whether a name is given.
+    pub(super) fn any(&self) -> bool {
+        [&self.bore, &self.flank_left, &self.flank_right, &self.cut_0, &self.cut_1].iter().any(|n| n.is_some())
+    }
+
+    /// The names that the mesh has for the parts.
+    pub(super) fn names(self) -> Result<GroupNames, CommandError> {
         let ours = GroupNames::default();
         for (flag, name) in [("--flank-left", &self.flank_left), ("--flank-right", &self.flank_right)] {
             if let Some(name) = name.as_ref().filter(|n| !n.contains("{k}")) {
@@ -120,13 +126,16 @@ impl MeshCommand {
 }
 
 fn read(file: &Path) -> Result<Mesh, CommandError> {
-    Mesh::read(file).map_err(|e| {
-        let hint = match e {
-            MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
-            _ => e.hint(),
-        };
-        CommandError::input(&e, hint)
-    })
+    Mesh::read(file).map_err(complaint)
+}
+
+/// A complaint about a file on the command line.
+pub(super) fn complaint(e: MeshError) -> CommandError {
+    let hint = match e {
+        MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
+        _ => e.hint(),
+    };
+    CommandError::input(&e, hint)
 }
 
 /// A short table of what is in a mesh.

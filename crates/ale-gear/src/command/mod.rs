@@ -7,6 +7,7 @@ mod default_scene;
 mod init;
 mod mesh;
 mod overrides;
+mod reduce;
 mod run;
 mod schema;
 mod shell;
@@ -56,6 +57,8 @@ enum Command {
     Chart(chart::ChartArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
+    /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
+    Reduce(reduce::ReduceArgs),
     /// Result folders side by side: headline numbers with differences, curves over each other
     Compare(compare::CompareArgs),
     /// JSON Schema of the scene file on stdout, for completion and checks in editors
@@ -92,11 +95,12 @@ impl Cli {
         // A table at the end of work is talk; what a command is made for is data.
         let told = |text: String| if quiet { String::new() } else { text };
         match self.command {
-            None => run::RunArgs::for_default_scene()?.execute().map(told),
-            Some(Command::Run(args)) => args.execute().map(told),
+            None => run::RunArgs::for_default_scene()?.execute(quiet),
+            Some(Command::Run(args)) => args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),
+            Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Schema) => Ok(schema::execute()),
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),

@@ -31,7 +31,7 @@ use crate::{
     facts::{Cost, Facts},
     gears,
     motion::{self, Columns, ENERGY_FILE, HISTORY},
-    output::{MotionPictures, ResultDirectory, ladder_table, write_ladder_report, write_summary},
+    output::{MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report, write_summary},
     phases::Phases,
     scene::{Driver, Model, MotionScene, Run, Scene},
 };
@@ -171,6 +171,7 @@ impl Case<'_> {
         };
         let report = write_ladder_report(scene, &facts, &cost, &headline, &pictures, &warnings)?;
         results.write("report.html", report.as_bytes())?;
+        write_columnar(scene, results)?;
         let files = results.files()?;
         let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
         results.write("summary.json", summary.as_bytes())?;

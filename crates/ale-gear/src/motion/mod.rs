@@ -46,7 +46,7 @@ use crate::{
     error::CommandError,
     facts::Cost,
     output::{
-        ResultDirectory, motion_table, sweep_table, write_motion_report, write_patterns, write_summary,
+        ResultDirectory, motion_table, sweep_table, write_columnar, write_motion_report, write_patterns, write_summary,
         write_sweep_report,
     },
     phases::Phases,
@@ -250,6 +250,7 @@ fn write_motion(
     let pattern = write_patterns(scene, &done.patterns, results)?;
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
     results.write("report.html", report.as_bytes())?;
+    write_columnar(scene, results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;

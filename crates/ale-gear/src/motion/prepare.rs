@@ -42,11 +42,7 @@ impl<'a> Inputs<'a> {
         cache: &'a Cache,
     ) -> Result<Self, CommandError> {
         let pair = phases.run("geometry", || gears::pair(scene))?;
-        let meshes = phases.run("mesh", || {
-            let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-            let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-            Ok::<_, CommandError>([pinion, wheel])
-        })?;
+        let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
         Ok(Self { scene, words, pair, meshes, cache })
     }
 }

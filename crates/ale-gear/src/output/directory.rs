@@ -122,11 +122,10 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 /// The first entry of the folder that no run of this program writes.
 fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
     let ours = |name: &String| {
-        matches!(name.as_str(), "summary.json" | "history.csv" | "report.html" | "contact_lines.csv")
-            || matches!(
-                name.as_str(),
-                "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
-            )
+        matches!(
+            name.as_str(),
+            "summary.json" | "history.csv" | "history.parquet" | "report.html" | "contact_lines.csv"
+        ) || matches!(name.as_str(), "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg")
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")
             || matches!(name.as_str(), "waterfall.csv" | "resonance.csv" | "study.csv")

@@ -3,6 +3,7 @@
 mod chart_csv;
 mod chart_tables;
 mod charts;
+mod columnar;
 mod compare_csv;
 mod compare_report;
 mod compare_table;
@@ -35,6 +36,7 @@ mod work_precision_chart;
 
 pub use chart_csv::write_chart_csv;
 pub use chart_tables::chart_tables;
+pub(crate) use columnar::write_columnar;
 pub use compare_csv::{write_compare_csv, write_curves_csv};
 pub use compare_report::{compare_charts, write_compare_report};
 pub use compare_table::compare_table;

@@ -451,6 +451,7 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
     Ok(OutputScene {
         root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
         contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
+        parquet: raw.parquet.as_ref().is_some_and(|on| *on.get_ref()),
         vtu: raw.vtu.as_ref().is_some_and(|on| *on.get_ref()),
         fields,
         vtu_every: s.whole_of(&schema::OUTPUT, "vtu_every", &raw.vtu_every)?,
@@ -571,6 +572,15 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             place: s.place(&torque.span()),
             what: "`torque_nm` is 0: a motion begins under load, and its scales are taken from it".into(),
             advice: "give the torque that the motion begins with; `table_s_nm` in [load] may take it away later".into(),
+        });
+    }
+    if let (Some(asked), true, Some(super::Run::Sweep)) =
+        (&raw.output.parquet, scene.output.parquet, scene.motion.as_ref().map(|m| m.run))
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&asked.span()),
+            what: "`parquet` writes the history, and a sweep has none".into(),
+            advice: "leave it out: resonance.csv has a row a speed".into(),
         });
     }
     let sweeps = scene.motion.as_ref().filter(|m| m.run != super::Run::Steady && m.run != super::Run::Span);

@@ -98,6 +98,10 @@ pub struct Scene {
     pub output: OutputScene,
 }
 
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
 fn is_zero(value: &u32) -> bool {
     *value == 0
 }
@@ -373,6 +377,9 @@ pub struct OutputScene {
     pub root_stress: bool,
     /// The contact lines slice by slice.
     pub contact_lines: bool,
+    /// The history column by column as well, in `history.parquet`.
+    #[serde(skip_serializing_if = "is_false")]
+    pub parquet: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

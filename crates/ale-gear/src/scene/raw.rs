@@ -224,6 +224,7 @@ pub(super) struct RawAnalysis {
 pub(super) struct RawOutput {
     pub root_stress: Option<Spanned<bool>>,
     pub contact_lines: Option<Spanned<bool>>,
+    pub parquet: Option<Spanned<bool>>,
     pub vtu: Option<Spanned<bool>>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ale_gear::scene::all_keys;
 use serde_json::Value;
 
-use crate::rows::{Base, FLANK, FLANK_CASE, GEAR, REST};
+use crate::rows::{Base, FLANK, GEAR, REST};
 use crate::util::{ISO_SCENE, Run, Scratch, motion_scene, repository};
 
 /// Words of a run with the key at the case's value, and with it at the other one.
@@ -34,7 +34,7 @@ fn case(key: &str) -> Option<Case> {
         let name = flank.rsplit('.').next()?;
         let (_, list, value) = FLANK.iter().find(|row| row.0 == name)?;
         let table = key.strip_suffix(name)?;
-        return words(Base::Reduced, &format!("{FLANK_CASE}; {}", list.replace('~', table)), value);
+        return words(Base::Flanks, &list.replace('~', table), value);
     }
     let (_, base, list, value) = GEAR.iter().find(|row| row.0 == own)?;
     words(*base, list, value)
@@ -56,13 +56,17 @@ fn scene(base: Base) -> String {
             "[wheel]\nmesh = \"sector_wheel.msh\"",
             1,
         ),
-        Base::Motion => motion_scene(0, "warm_up_cycles = 2\n"),
+        Base::Motion => motion_scene(0, "run = \"span\"\n"),
         Base::Modes => motion_scene(1, "warm_up_cycles = 1\n")
             .replace("kind = \"dynamic\"\n", "kind = \"dynamic\"\nmodel = \"reduced+modes\"\n"),
         Base::Lumped8 => seed("004"),
         Base::Lumped12 => seed("003"),
         Base::Shaft18 => seed("002"),
         Base::Impact => seed("001"),
+        Base::Flanks => {
+            ISO_SCENE.replace("model = \"iso\"\n", "model = \"impact\"\ncycles = 4\n")
+                + "[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 16\n[load]\ntable_s_nm = [[0.0, 150.0], [0.003, 150.0], [0.0031, -150.0]]\n"
+        }
     }
 }
 

@@ -90,6 +90,9 @@ fn the_page_and_the_schema_list_the_same_keys() {
     let mut in_scene = true;
     for line in page.lines() {
         // Sections about other files and about command lines have tables of their own.
+        if line.starts_with("# The ") {
+            in_scene = line.contains("scene file");
+        }
         if let Some(title) = line.strip_prefix("## ") {
             in_scene = title.starts_with("`[") || title.starts_with("Motion") || title.starts_with("Cheaper");
         }

@@ -1,6 +1,6 @@
 //! Cheaper models of the same pair.
 
-use super::{Key, Table, bare, bare_word, keys, number, numbers, rows, tables, word, words};
+use super::{Key, Table, bare, bare_word, keys, list, number, numbers, rows, word, words};
 
 const INF: f64 = f64::INFINITY;
 
@@ -94,8 +94,8 @@ pub(in crate::scene) static SHAFT: Table = Table {
         numbers("nodes_mm", "further places at which the shaft's own mass is put, mm"),
         number("run_out_um", 0.0, 1e4, 0.0, "eccentricity of the gear's teeth, um"),
         number("run_out_phase_deg", -360.0, 360.0, 0.0, "its angle before the line of action at the start, degrees"),
-        tables("discs", &DISC),
-        tables("supports", &SUPPORT),
+        list("discs", &DISC),
+        list("supports", &SUPPORT),
     ],
     needed: &["segments_mm", "gear_at_mm"],
 };

@@ -122,7 +122,7 @@ const fn table(name: &'static str, of: &'static Table) -> Key {
     key(name, Kind::Table(of), of.about)
 }
 
-const fn tables(name: &'static str, of: &'static Table) -> Key {
+const fn list(name: &'static str, of: &'static Table) -> Key {
     key(name, Kind::Tables(of), of.about)
 }
 

@@ -152,6 +152,7 @@ pub(in crate::scene) static OUTPUT: Table = keys(
     &[
         switch("root_stress", false, "stress in the root fillets at every position"),
         switch("contact_lines", false, "contact_lines.csv: every loaded slice of every position"),
+        switch("parquet", false, "history.parquet: the columns of history.csv for long runs"),
         switch("vtu", false, "ParaView files"),
         words("fields", &["displacement", "pressure", "stress"], "fields of the ParaView files; default: all"),
         whole("vtu_every", 1, 1_000_000, 1, "one ParaView file every so many positions"),
