@@ -4,6 +4,7 @@ use dynamics::result::StaticHistory;
 use serde::Serialize;
 
 use crate::phases::{Phase, Phases};
+use crate::view::View;
 
 /// A solved scene.
 #[derive(Debug, Clone)]
@@ -12,6 +13,8 @@ pub struct Solved {
     pub history: StaticHistory,
     /// What it took.
     pub facts: Facts,
+    /// The gears in space; `None` for a model without meshes, and where nobody asked.
+    pub view: Option<View>,
 }
 
 /// What a run was made of and what it cost.

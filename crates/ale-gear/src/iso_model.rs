@@ -51,7 +51,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<Solved, CommandErr
             .to_owned(),
     ];
     let facts = Facts { geometry: gears::geometry_facts(pair), model, ..Facts::default() };
-    Ok(Solved { history: StaticHistory { positions, warnings }, facts })
+    Ok(Solved { history: StaticHistory { positions, warnings }, facts, view: None })
 }
 
 /// F_bt, N: torque on the driven gear over its base radius.

@@ -9,6 +9,7 @@
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
+//! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
 //! | [`reduce`] | reduction of a scene's gears by itself |
@@ -44,3 +45,4 @@ mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
+pub mod view;

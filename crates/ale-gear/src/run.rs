@@ -16,6 +16,7 @@ use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
 use crate::scene::{Analysis, Driver, Flanks, Gap, Method, Model, Reduction, Rotation, Scene};
+use crate::view::ViewRecorder;
 use crate::{gears, iso_model, meshes};
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go there.
@@ -28,10 +29,10 @@ pub fn solve(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<Solved, CommandError> {
-    Ok(solve_and_keep(scene, phases, results, cache)?.0)
+    Ok(solve_scene(scene, phases, results, cache, true)?.0)
 }
 
-/// As [`solve`]; the model comes back too, its gears reduced: for more of the same. `None` for a model without meshes.
+/// As [`solve`], without the gears in space; the model comes back too, its gears reduced: for more of the same. `None` for a model without meshes.
 ///
 /// # Errors
 /// Those of [`solve`].
@@ -40,6 +41,16 @@ pub(crate) fn solve_and_keep(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
+) -> Result<(Solved, Option<StaticModel>), CommandError> {
+    solve_scene(scene, phases, results, cache, false)
+}
+
+fn solve_scene(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+    in_space: bool,
 ) -> Result<(Solved, Option<StaticModel>), CommandError> {
     let pair = phases.run("geometry", || gears::pair(scene))?;
     if scene.analysis.model == Model::Iso {
@@ -52,7 +63,7 @@ pub(crate) fn solve_and_keep(
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     let mut options = options(scene, &pair);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
-    let (model, mut history, first_result_s) = loop {
+    let Attempt { model, mut history, first_result_s, recorder } = loop {
         match attempt(inputs, phases, &options) {
             Ok(solved) => break solved,
             Err(Failure::Command(e)) => return Err(e),
@@ -83,8 +94,10 @@ pub(crate) fn solve_and_keep(
     facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     warnings.extend(sector_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
+    let view =
+        in_space.then(|| phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings))).flatten();
     history.warnings.extend(warnings);
-    Ok((Solved { history, facts }, Some(model)))
+    Ok((Solved { history, facts, view }, Some(model)))
 }
 
 /// Wall time (s) of the scene's positions once more on gears that are reduced already.
@@ -146,12 +159,16 @@ struct Inputs<'a> {
     meshes: &'a [SceneMesh; 2],
 }
 
+/// What comes of one width of the window.
+struct Attempt {
+    model: StaticModel,
+    history: StaticHistory,
+    first_result_s: Option<f64>,
+    recorder: ViewRecorder,
+}
+
 /// Reduction and run with one width of the window.
-fn attempt(
-    inputs: Inputs<'_>,
-    phases: &mut Phases,
-    options: &StaticOptions,
-) -> Result<(StaticModel, StaticHistory, Option<f64>), Failure> {
+fn attempt(inputs: Inputs<'_>, phases: &mut Phases, options: &StaticOptions) -> Result<Attempt, Failure> {
     let Inputs { scene, results, cache, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let ElasticGears { gears, keys, mut warnings } =
@@ -160,6 +177,7 @@ fn attempt(
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let steps = per_cycle * scene.analysis.cycles as usize;
     let mut fields = FieldWriter::new(scene, results);
+    let mut recorder = ViewRecorder::new(scene);
     let (start, mut first_result_s) = (phases.start(), None);
     let mut history = phases.run_steps("solve", steps as u64, |progress| {
         let mut failed = None;
@@ -167,6 +185,7 @@ fn attempt(
             first_result_s.get_or_insert_with(|| start.elapsed().as_secs_f64());
             progress.tick();
             progress.say(format!("STE {:.3} um", 1e3 * position.transmission_error));
+            recorder.position(index, position, model);
             if failed.is_none() {
                 failed = fields.position(index, position, model).err();
             }
@@ -182,7 +201,7 @@ fn attempt(
         warnings.extend(phases.run("store", || keys.save(cache, model.gears())));
     }
     history.warnings.extend(warnings);
-    Ok((model, history, first_result_s))
+    Ok(Attempt { model, history, first_result_s, recorder })
 }
 
 /// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector of 8 000 degrees of

@@ -63,7 +63,8 @@ fn a_motion_settles_and_its_certificate_holds() {
         );
     }
     let page = scratch.read("o/report.html");
-    assert!(page.contains("<svg") && !page.contains("src=") && !page.contains("href="));
+    assert!(page.contains("<svg") && !page.contains("src=") && !page.contains("href="), "the page stands alone");
+    assert!(page.contains("class=\"plot\">{") && page.contains("class=\"view\">{"), "charts and gears for the script");
 }
 
 /// A run cut short goes on from its checkpoint to the bytes of the run that was not.

@@ -13,8 +13,20 @@ impl GearReducer {
     /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from coordinates: a grid with
     /// more nodes than the mesh can tell apart.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
+        self.field(window, u, None)
+    }
+
+    /// The same at some nodes of the mesh, in their order: of a cyclic gear only the sectors that hold them are gone through.
+    ///
+    /// # Errors
+    /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.
+    pub fn expand_at(&self, window: &Window, u: &[f64], nodes: &[u32]) -> Result<Vec<[f64; 3]>, ReductionError> {
+        self.field(window, u, Some(nodes))
+    }
+
+    fn field(&self, window: &Window, u: &[f64], nodes: Option<&[u32]>) -> Result<Vec<[f64; 3]>, ReductionError> {
         match self.method()? {
-            Method::Cyclic(cyclic) => cyclic.expand(&self.forces(window, u)?, window.shift),
+            Method::Cyclic(cyclic) => cyclic.expand(&self.forces(window, u)?, window.shift, nodes),
             Method::General(general, turn) => {
                 let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
                 let field = if self.is_last(window) {
@@ -25,10 +37,15 @@ impl GearReducer {
                     general.fields(Seen::Loads(&self.loads(window)?), &column(u), &column(&f))?
                 };
                 let field = self.dofs.to_nodes(field.col_as_slice(0))?;
-                Ok(match turn {
+                let field = match turn {
                     Some(turn) if window.shift > 0 => self.turned(window, &field, turn),
                     _ => field,
-                })
+                };
+                let Some(nodes) = nodes else { return Ok(field) };
+                let count = field.len();
+                let wrong = |n: u32| fem::FemError::Shape { what: "nodes", expected: count, found: n as usize };
+                let at = |&n: &u32| field.get(n as usize).copied().ok_or_else(|| wrong(n));
+                Ok(nodes.iter().map(at).collect::<Result<_, _>>()?)
             }
         }
     }

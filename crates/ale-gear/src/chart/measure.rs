@@ -50,7 +50,8 @@ pub(super) fn measure(point: &Point, results: &ResultDirectory) -> Result<Measur
 
 fn own(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandError> {
     let mut phases = Phases::quiet();
-    let (Solved { history, facts }, model) = run::solve_and_keep(&point.scene, &mut phases, results, &Cache::off())?;
+    let (Solved { history, facts, .. }, model) =
+        run::solve_and_keep(&point.scene, &mut phases, results, &Cache::off())?;
     let wall =
         |solve: bool| -> f64 { phases.rows().iter().filter(|p| (p.name == "solve") == solve).map(|p| p.wall_s).sum() };
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);

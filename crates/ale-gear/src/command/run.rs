@@ -177,7 +177,7 @@ fn write_static(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<String, CommandError> {
-    let Solved { history, facts } = run::solve(scene, phases, results, cache)?;
+    let Solved { history, facts, view } = run::solve(scene, phases, results, cache)?;
     let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
     let picture = phases.run("write", || {
@@ -185,7 +185,7 @@ fn write_static(
         write_contact(scene, &history, results)
     })?;
     let cost = Cost::of(phases);
-    let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref())?;
+    let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
     results.write("report.html", report.as_bytes())?;
     // Last of all, so that a summary means that everything is there.
     write_columnar(scene, results)?;

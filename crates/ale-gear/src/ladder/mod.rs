@@ -168,6 +168,7 @@ impl Case<'_> {
             waterfall: &[],
             per_cycle: words.steps_per_mesh_cycle as usize,
             quasi_static: static_errors.as_deref(),
+            view: None,
         };
         let report = write_ladder_report(scene, &facts, &cost, &headline, &pictures, &warnings)?;
         results.write("report.html", report.as_bytes())?;

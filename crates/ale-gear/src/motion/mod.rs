@@ -246,6 +246,7 @@ fn write_motion(
         waterfall: &waterfall,
         per_cycle,
         quasi_static: Some(&prepared.quasi_static.transmission_error),
+        view: prepared.view.as_ref(),
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
@@ -333,7 +334,8 @@ fn write_sweep(
     }
     results.write("resonance.csv", sweep::write(&rows).as_bytes())?;
     let cost = Cost::of(phases);
-    let report = write_sweep_report(scene, &prepared.facts, &cost, &headline, &rows, &warnings)?;
+    let report =
+        write_sweep_report(scene, &prepared.facts, &cost, &headline, (&rows, prepared.view.as_ref()), &warnings)?;
     results.write("report.html", report.as_bytes())?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);

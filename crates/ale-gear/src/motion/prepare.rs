@@ -22,6 +22,7 @@ use crate::{
     phases::Phases,
     run::{self, Failure},
     scene::{Flanks, MotionScene, Scene},
+    view::{View, ViewRecorder},
 };
 
 /// Gears, geometry and window of a run.
@@ -85,6 +86,7 @@ pub(super) struct Prepared {
     pub quasi_static: QuasiStatic,
     pub elasticity: Elasticity,
     pub facts: Facts,
+    pub view: Option<View>,
     pub warnings: Vec<String>,
 }
 
@@ -105,13 +107,18 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     let ElasticGears { gears, keys, mut warnings } = driving;
     let mut model = phases.run("contact", || StaticModel::new(pair.clone(), gears, contact.clone()))?;
     let positions = scene.analysis.positions_per_cycle;
+    let mut recorder = ViewRecorder::new(scene);
     let history = phases.run_steps("quasi-static", u64::from(positions), |progress| {
-        model.run(positions as usize, 1, |_, _, _| progress.tick())
+        model.run(positions as usize, 1, |index, position, model| {
+            progress.tick();
+            recorder.position(index, position, model);
+        })
     })?;
     let quasi_static = QuasiStatic::of(&history);
     warnings.extend(gears::doubts(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(run::sector_warnings(&model));
+    let view = phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings)).map(View::quasi_static);
     let dof_before = [0, 1].map(|i| run::free_dofs(&model.gears()[i]));
     let facts = Facts {
         geometry: gears::geometry_facts(pair),
@@ -159,7 +166,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         stop_at_events: words.stop_at_events,
         scale,
     };
-    Ok(Prepared { system, settings, quasi_static, elasticity, facts, warnings })
+    Ok(Prepared { system, settings, quasi_static, elasticity, facts, view, warnings })
 }
 
 /// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.

@@ -1,28 +1,58 @@
-//! Charts of a history as SVG text, to be put into the report as they are.
+//! Charts of a report: a picture that prints and needs no script, and beside it the points for the script that zooms.
 
 use plotters::prelude::*;
 
+use super::plot_data::{Plot, embedded};
+
 /// One curve.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
     pub label: String,
     pub points: Vec<(f64, f64)>,
 }
 
-pub(super) const COLOURS: [RGBColor; 6] = [
-    RGBColor(31, 95, 168),
-    RGBColor(200, 80, 30),
-    RGBColor(40, 130, 70),
-    RGBColor(130, 70, 150),
-    RGBColor(120, 120, 40),
-    RGBColor(90, 90, 90),
+/// Colours that the colour-blind can tell apart, without the yellow, which paper swallows.
+/// Source: Okabe and Ito, Color Universal Design, 2008.
+pub(super) const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
 ];
+
+/// Stretches of a long record in the picture: of each the least and the largest value are drawn.
+const STRETCHES: usize = 800;
 
 /// Height of a legend's line over the height of the chart.
 const LEGEND_ROOM: f64 = 0.09;
 
-/// Curves over one pair of axes. The value axis begins at zero when `from_zero` is set; without points, or with
-/// nothing finite, the chart is left out and `None` comes back.
+/// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
+/// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    let curves: Vec<Curve> = curves.iter().filter(seen).cloned().collect();
+    let svg = picture(title, x, y, &curves, from_zero)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
+}
+
+/// The same for the lines of a spectrum: one stick each.
+pub(super) fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
+    let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
+    let svg = picture(title, x, y, &[Curve { label: curve.label.clone(), points: sticks }], true)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
+}
+
+/// A picture with what the script puts in its place on a screen.
+pub(super) fn figure(svg: &str, plots: &[String]) -> String {
+    let wide = if plots.len() > 1 { " wide" } else { "" };
+    format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
+}
+
+/// The chart as SVG.
+fn picture(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
     let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
     let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
     points().next()?;
@@ -43,6 +73,23 @@ pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_z
     let mut svg = String::new();
     draw(&mut svg, title, x, y, curves, [x_low, x_high, y_low, y_high]).ok()?;
     Some(svg)
+}
+
+/// Least and largest value of each stretch, so that a long record keeps its envelope.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= 2 * STRETCHES {
+        return points.to_vec();
+    }
+    let mut kept = Vec::with_capacity(2 * STRETCHES);
+    for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
+        let low = stretch.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let high = stretch.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        if let (Some(low), Some(high)) = (low, high) {
+            let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+            kept.extend([*first.1, *second.1]);
+        }
+    }
+    kept
 }
 
 fn draw(
@@ -66,7 +113,7 @@ fn draw(
     chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
     for (k, curve) in curves.iter().enumerate() {
         let colour = COLOURS[k % COLOURS.len()];
-        let finite = curve.points.iter().copied().filter(|(a, b)| a.is_finite() && b.is_finite());
+        let finite = thinned(&curve.points).into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
         chart
             .draw_series(LineSeries::new(finite, colour.stroke_width(2)))
             .map_err(|e| fail(&e))?

@@ -2,13 +2,16 @@
 
 use dynamics::result::StaticHistory;
 
-use super::{ResultDirectory, contact_pattern_svg, write_contact_lines, write_contact_pattern, write_pattern_vtu};
+use super::{
+    ResultDirectory, contact_pattern_svg, heat_map::contact_pattern_figure, write_contact_lines, write_contact_pattern,
+    write_pattern_vtu,
+};
 use crate::error::CommandError;
 use crate::gears;
 use crate::pattern::{GearPattern, has_slices, patterns};
 use crate::scene::Scene;
 
-/// Writes what the scene asks for of the contact; the picture of the pattern comes back for the report.
+/// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.
 ///
 /// # Errors
 /// Exit status 1 when the system refuses, or a result is no number.
@@ -51,5 +54,5 @@ pub(crate) fn write_patterns(
     if let Some(svg) = &picture {
         results.write("contact_pattern.svg", svg.as_bytes())?;
     }
-    Ok(picture)
+    Ok(picture.map(|svg| contact_pattern_figure(&svg, &patterns)))
 }

@@ -4,6 +4,11 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::{
+    charts::figure,
+    field_map::{FieldMap, Side, share},
+    plot_data::embedded,
+};
 use crate::pattern::GearPattern;
 
 /// Columns of a flank at most; more stations share columns, which then show the larger value.
@@ -26,6 +31,39 @@ pub fn contact_pattern_svg(patterns: &[GearPattern; 2]) -> Option<String> {
     let mut svg = String::new();
     draw(&mut svg, patterns).ok()?;
     Some(svg)
+}
+
+/// The picture with the cells of both flanks, as a part of a page.
+pub(super) fn contact_pattern_figure(svg: &str, patterns: &[GearPattern; 2]) -> String {
+    let largest = patterns.iter().map(GearPattern::largest_pressure).fold(0.0, f64::max);
+    figure(svg, &patterns.each_ref().map(|pattern| embedded("map", &field_map(pattern, largest))))
+}
+
+fn field_map(pattern: &GearPattern, largest: f64) -> FieldMap<'static> {
+    let GearPattern { grid, flank, name, .. } = pattern;
+    let (rolls, count) = (grid.rolls(), grid.stations().len());
+    let pressure = grid.max_pressure();
+    let z = (0..=count).map(|i| flank.half_width * (2.0 * i as f64 / count as f64 - 1.0)).collect();
+    let places = (0..rolls.len()).flat_map(|i| (0..count).map(move |station| station * rolls.len() + i));
+    FieldMap {
+        title: format!("Contact pattern: {name}, {} flank", flank.side.name()),
+        sides: [
+            Side { label: "z [mm]", edges: z },
+            Side { label: "diameter [mm]", edges: (0..=rolls.len()).map(|i| edge(pattern, i)).collect() },
+        ],
+        quantity: "largest pressure [MPa]",
+        largest,
+        decades: None,
+        beside: None,
+        shares: places.map(|at| share(pressure[at], largest, None)).collect(),
+    }
+}
+
+/// Diameter at the lower edge of a strip of the grid, mm; the first and the last strip are half as high as the others.
+fn edge(pattern: &GearPattern, strip: usize) -> f64 {
+    let rolls = pattern.grid.rolls();
+    let (below, above) = (strip.saturating_sub(1), strip.min(rolls.len() - 1));
+    pattern.diameter(0.5 * (rolls[below] + rolls[above]))
 }
 
 fn draw(svg: &mut String, patterns: &[GearPattern; 2]) -> Result<(), String> {
@@ -76,8 +114,7 @@ fn cells(pattern: &GearPattern) -> Vec<([(f64, f64); 2], f64)> {
     let GearPattern { grid, flank, .. } = pattern;
     let (rolls, count) = (grid.rolls(), grid.stations().len());
     let shared = count.div_ceil(COLUMNS).max(1);
-    let edge = |station: usize| flank.half_width * (2.0 * station.min(count) as f64 / count as f64 - 1.0);
-    let between = |i: usize, j: usize| pattern.diameter(0.5 * (rolls[i] + rolls[j]));
+    let along = |station: usize| flank.half_width * (2.0 * station.min(count) as f64 / count as f64 - 1.0);
     let mut cells = Vec::new();
     for first in (0..count).step_by(shared) {
         let columns = first..(first + shared).min(count);
@@ -85,8 +122,8 @@ fn cells(pattern: &GearPattern) -> Vec<([(f64, f64); 2], f64)> {
             let values = columns.clone().map(|station| grid.max_pressure()[station * rolls.len() + i]);
             let pressure = values.fold(0.0, f64::max);
             if pressure > 0.0 {
-                let low = (edge(columns.start), between(i.saturating_sub(1), i));
-                let high = (edge(columns.end), between(i, (i + 1).min(rolls.len() - 1)));
+                let low = (along(columns.start), edge(pattern, i));
+                let high = (along(columns.end), edge(pattern, i + 1));
                 cells.push(([low, high], pressure));
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{
     charts::{Curve, line_chart},
-    motion_charts::{MotionPictures, motion_charts, thinned},
+    motion_charts::{MotionPictures, motion_charts},
     motion_report::render,
 };
 use crate::error::CommandError;
@@ -41,7 +41,7 @@ pub(crate) fn write_ladder_report(
 /// Velocity over displacement.
 fn portrait(rows: &Columns, name: &str, title: &str) -> Option<String> {
     let (x, v) = (rows.get(&format!("{name}_um")), rows.get(&format!("{name}_rate_um_per_s")));
-    let points: Vec<(f64, f64)> = x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect();
-    let curve = Curve { label: name.replace('_', " "), points: thinned(&points) };
+    let points = x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect();
+    let curve = Curve { label: name.replace('_', " "), points };
     line_chart(title, "displacement [um]", "velocity [mm/s]", &[curve], false)
 }

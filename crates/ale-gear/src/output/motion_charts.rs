@@ -1,19 +1,20 @@
 //! Charts of a motion and of a sweep.
 
-use plotters::prelude::*;
-
-use super::charts::{Curve, line_chart};
+use super::{
+    charts::{Curve, figure, line_chart, stick_chart},
+    field_map::{FieldMap, Side, share},
+    plot_data::{Numbers, embedded},
+};
 use crate::motion::{Columns, SPECTRA, Spectrum, SweepRow, WaterfallLine};
 use crate::scene::SweepWay;
+use crate::view::View;
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 const SHOWN_CYCLES: usize = 4;
-/// Buckets of a long record: of each the least and the largest value are drawn.
-const BUCKETS: usize = 1500;
 /// Orders of the spectrum that are drawn.
 const SHOWN_ORDERS: f64 = 12.0;
-/// Columns and rows of the waterfall's picture at most.
-const CELLS: [usize; 2] = [240, 200];
+/// Columns and rows of the waterfall at most.
+const CELLS: [usize; 2] = [360, 300];
 /// Decades of the waterfall's colours.
 const DECADES: f64 = 4.0;
 
@@ -32,6 +33,8 @@ pub(crate) struct MotionPictures<'a> {
     pub per_cycle: usize,
     /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
     pub quasi_static: Option<&'a [f64]>,
+    /// The gears in space with their fields; `None` where a model has none.
+    pub view: Option<&'a View>,
 }
 
 /// All charts of a motion.
@@ -43,7 +46,7 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
     let (unit, axis) = if steady { (1e3, "time [ms], last mesh cycles") } else { (1.0, "time [s]") };
     let points = |column: &[f64]| -> Vec<(f64, f64)> {
         let column = column.get(first..).unwrap_or_default();
-        thinned(&time.iter().zip(column).map(|(t, x)| (unit * (t - begin), *x)).collect::<Vec<_>>())
+        time.iter().zip(column).map(|(t, x)| (unit * (t - begin), *x)).collect()
     };
     let curve = |label: &str, name: &str| Curve { label: label.to_owned(), points: points(of.rows.get(name)) };
     let mut errors = vec![curve("DTE", "dte_um")];
@@ -62,9 +65,7 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
     let energy_time = of.energy.get("time_s");
     let residual = Curve {
         label: "residual".into(),
-        points: thinned(
-            &energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (*t, *x)).collect::<Vec<_>>(),
-        ),
+        points: energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (*t, *x)).collect(),
     };
     let mut all = vec![
         line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
@@ -109,37 +110,15 @@ fn repeated(of: &MotionPictures<'_>, ste: &[f64], time: &[f64], begin: f64, unit
     time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect()
 }
 
-/// Least and largest value of each bucket, so that a long record keeps its envelope.
-pub(super) fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= 2 * BUCKETS {
-        return points.to_vec();
-    }
-    let mut kept = Vec::with_capacity(2 * BUCKETS);
-    for bucket in points.chunks(points.len().div_ceil(BUCKETS)) {
-        let low = bucket.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        let high = bucket.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
-        if let (Some(low), Some(high)) = (low, high) {
-            let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
-            kept.extend([*first.1, *second.1]);
-        }
-    }
-    kept
-}
-
 /// Lines of one quantity as sticks.
 fn spectrum_chart(spectrum: &Spectrum, quantity: usize) -> Option<String> {
-    let mut points = Vec::new();
-    for (order, amplitude) in spectrum.orders.iter().zip(&spectrum.amplitudes[quantity]).skip(1) {
-        if *order > SHOWN_ORDERS {
-            break;
-        }
-        points.extend([(*order, 0.0), (*order, *amplitude), (*order, 0.0)]);
-    }
+    let lines = spectrum.orders.iter().copied().zip(spectrum.amplitudes[quantity].iter().copied()).skip(1);
+    let points = lines.take_while(|(order, _)| *order <= SHOWN_ORDERS).collect();
     let (title, unit) = match SPECTRA[quantity] {
         "dte_um" => ("Spectrum of the dynamic transmission error", "amplitude [um]"),
         _ => ("Spectrum of the sum of normal forces", "amplitude [N]"),
     };
-    line_chart(title, "mesh order", unit, &[Curve { label: "amplitude".into(), points }], true)
+    stick_chart(title, "mesh order", unit, Curve { label: "amplitude".into(), points })
 }
 
 /// Largest minus smallest DTE over speed, way by way, and the largest force.
@@ -170,54 +149,35 @@ pub(super) fn sweep_charts(rows: &[SweepRow]) -> Vec<String> {
     .collect()
 }
 
-/// Amplitudes of the DTE over order and speed, colours by decades.
+/// Amplitudes of the DTE over order and time, colours by decades.
 fn waterfall_chart(lines: &[WaterfallLine], per_cycle: usize) -> Option<String> {
-    if lines.is_empty() {
-        return None;
-    }
-    let mut svg = String::new();
-    draw_waterfall(&mut svg, lines, per_cycle).ok()?;
-    Some(svg)
-}
-
-fn draw_waterfall(svg: &mut String, lines: &[WaterfallLine], per_cycle: usize) -> Result<(), String> {
-    fn text(e: impl std::fmt::Display) -> String {
-        e.to_string()
-    }
-    let bins = (lines[0].amplitudes.len() - 1).max(1);
+    let (first, last) = (lines.first()?, lines.last()?);
+    let bins = (first.amplitudes.len() - 1).max(1);
     let per_bin = 0.5 * per_cycle as f64 / bins as f64;
     let shown = ((SHOWN_ORDERS / per_bin).floor() as usize).clamp(1, bins);
     let largest = lines.iter().flat_map(|l| &l.amplitudes[1..=shown]).fold(0.0, |m: f64, a| m.max(*a));
-    let end = lines.last().map_or(1.0, |l| l.time);
-    let root = SVGBackend::with_string(svg, (820, 420)).into_drawing_area();
-    root.fill(&WHITE).map_err(text)?;
-    let mut chart = ChartBuilder::on(&root)
-        .caption(
-            format!("Waterfall of the DTE, colours over {DECADES:.0} decades up to {largest:.3} um"),
-            ("sans-serif", 18),
-        )
-        .margin(12)
-        .x_label_area_size(44)
-        .y_label_area_size(72)
-        .build_cartesian_2d(0.0..per_bin * shown as f64, lines[0].time..end.max(lines[0].time + 1e-9))
-        .map_err(text)?;
-    chart.configure_mesh().disable_mesh().x_desc("mesh order").y_desc("time [s]").draw().map_err(text)?;
     let (across, along) = (shown.div_ceil(CELLS[0]).max(1), lines.len().div_ceil(CELLS[1]).max(1));
-    for (i, block) in lines.chunks(along).enumerate() {
-        let low = block[0].time;
-        let high = lines.get((i + 1) * along).map_or(end, |l| l.time);
-        for from in (1..=shown).step_by(across) {
-            let to = (from + across).min(shown + 1);
-            let value = block.iter().flat_map(|l| &l.amplitudes[from..to]).fold(0.0, |m: f64, a| m.max(*a));
-            let share = if largest > 0.0 && value > 0.0 { 1.0 + (value / largest).log10() / DECADES } else { 0.0 };
-            if share > 0.0 {
-                let colour: RGBColor = ViridisRGB.get_color(share as f32);
-                let at = |k: usize| per_bin * (k as f64 - 0.5);
-                let cell = Rectangle::new([(at(from), low), (at(to), high)], colour.filled());
-                chart.draw_series([cell]).map_err(text)?;
-            }
-        }
-    }
-    drop(chart);
-    root.present().map_err(text)
+    let columns: Vec<usize> = (1..=shown).step_by(across).collect();
+    let rows: Vec<&[WaterfallLine]> = lines.chunks(along).collect();
+    let cell = |block: &[WaterfallLine], from: usize| {
+        let to = (from + across).min(shown + 1);
+        let value = block.iter().flat_map(|l| &l.amplitudes[from..to]).fold(0.0, |m: f64, a| m.max(*a));
+        share(value, largest, Some(DECADES))
+    };
+    let order = |k: usize| per_bin * (k as f64 - 0.5);
+    let end = last.time.max(first.time + 1e-9);
+    let mean = |block: &[WaterfallLine]| block.iter().map(|l| l.speed_rpm).sum::<f64>() / block.len() as f64;
+    let map = FieldMap {
+        title: format!("Waterfall of the DTE, colours over {DECADES:.0} decades up to {largest:.3} um"),
+        sides: [
+            Side { label: "mesh order", edges: columns.iter().map(|&k| order(k)).chain([order(shown + 1)]).collect() },
+            Side { label: "time [s]", edges: rows.iter().map(|block| block[0].time).chain([end]).collect() },
+        ],
+        quantity: "DTE amplitude [um]",
+        largest,
+        decades: Some(DECADES),
+        beside: Some(("pinion speed [1/min]", Numbers(rows.iter().map(|block| mean(block)).collect(), 6))),
+        shares: rows.iter().flat_map(|block| columns.iter().map(|&from| cell(block, from))).collect(),
+    };
+    Some(figure(&map.picture()?, &[embedded("map", &map)]))
 }

@@ -1,17 +1,16 @@
 //! `report.html` of a motion and of a sweep.
 
-use minijinja::{context, value::Serde};
 use serde::Serialize;
 
 use super::{
     motion_charts::{MotionPictures, motion_charts, sweep_charts},
-    page,
-    table::model_name,
+    page::Page,
 };
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::motion::{MotionHeadline, SweepHeadline, SweepRow};
 use crate::scene::Scene;
+use crate::view::View;
 
 /// The report of one motion; `pattern` is the picture of the contact pattern.
 ///
@@ -26,9 +25,10 @@ pub(crate) fn write_motion_report(
     pattern: Option<String>,
     warnings: &[String],
 ) -> Result<String, CommandError> {
-    let mut charts = motion_charts(pictures);
-    charts.extend(pattern);
-    render(scene, facts, cost, headline, ("motion.html", include_str!("motion.html")), charts, warnings)
+    let charts = motion_charts(pictures);
+    let page =
+        Page { scene, facts, cost, headline, charts, pattern: pattern.as_deref(), view: pictures.view, warnings };
+    page.render(("motion.html", include_str!("motion.html")))
 }
 
 /// The report of a sweep.
@@ -40,13 +40,14 @@ pub(crate) fn write_sweep_report(
     facts: &Facts,
     cost: &Cost,
     headline: &SweepHeadline,
-    rows: &[SweepRow],
+    (rows, view): (&[SweepRow], Option<&View>),
     warnings: &[String],
 ) -> Result<String, CommandError> {
-    render(scene, facts, cost, headline, ("sweep.html", include_str!("sweep.html")), sweep_charts(rows), warnings)
+    let page = Page { scene, facts, cost, headline, charts: sweep_charts(rows), pattern: None, view, warnings };
+    page.render(("sweep.html", include_str!("sweep.html")))
 }
 
-/// A page with charts, from a template that knows its headline.
+/// A page with charts and the bare gears, from a template that knows its headline.
 pub(super) fn render<H: Serialize>(
     scene: &Scene,
     facts: &Facts,
@@ -56,19 +57,6 @@ pub(super) fn render<H: Serialize>(
     charts: Vec<String>,
     warnings: &[String],
 ) -> Result<String, CommandError> {
-    let context = context! {
-        name => &scene.name,
-        model => model_name(scene),
-        version => env!("CARGO_PKG_VERSION"),
-        scene => scene.to_toml(),
-        scene_file => scene.file.display().to_string(),
-        set => &scene.set,
-        vtu => false,
-        headline => Serde(headline),
-        facts => Serde(facts),
-        cost => Serde(cost),
-        charts => charts,
-        warnings => warnings.to_vec(),
-    };
-    page::render(name, template, context)
+    let page = Page { scene, facts, cost, headline, charts, pattern: None, view: None, warnings };
+    page.render((name, template))
 }

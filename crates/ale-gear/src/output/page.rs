@@ -1,10 +1,89 @@
-//! Pages from templates.
+//! Pages from templates, with all that their scripts need.
 
-use minijinja::{Environment, Value};
+use minijinja::{Environment, Value, context, value::Serde};
+use serde::Serialize;
 
+use super::{plot_data::embedded, table::model_name};
 use crate::error::CommandError;
+use crate::facts::{Cost, Facts};
+use crate::gears;
+use crate::scene::{Driver, Scene};
+use crate::view::View;
 
-/// A template, filled in; the parts that all pages share are at hand in it.
+/// What a page shows of a run.
+#[derive(Debug)]
+pub(super) struct Page<'a, H> {
+    pub scene: &'a Scene,
+    pub facts: &'a Facts,
+    pub cost: &'a Cost,
+    /// Numbers that the page's own template names.
+    pub headline: &'a H,
+    /// Parts of the page, each a figure.
+    pub charts: Vec<String>,
+    /// The contact pattern, where there is one.
+    pub pattern: Option<&'a str>,
+    /// The gears in space with their fields; without, they are drawn from geometry alone.
+    pub view: Option<&'a View>,
+    pub warnings: &'a [String],
+}
+
+impl<H: Serialize> Page<'_, H> {
+    /// The page, from a template that knows its headline.
+    ///
+    /// # Errors
+    /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+    pub(super) fn render(self, (name, template): (&str, &str)) -> Result<String, CommandError> {
+        let Self { scene, facts, cost, headline, charts, pattern, view, warnings } = self;
+        let view = match view {
+            Some(view) => embedded("view", view),
+            None => embedded("view", &View::of_geometry(scene, &gears::pair(scene)?)),
+        };
+        let context = context! {
+            name => &scene.name,
+            model => model_name(scene),
+            version => env!("CARGO_PKG_VERSION"),
+            scene => scene.to_toml(),
+            scene_file => scene.file.display().to_string(),
+            set => &scene.set,
+            vtu => scene.output.vtu,
+            glance => glance(scene, facts),
+            headline => Serde(headline),
+            facts => Serde(facts),
+            cost => Serde(cost),
+            charts => charts,
+            pattern => pattern,
+            view => view,
+            warnings => warnings.to_vec(),
+        };
+        render(name, template, context)
+    }
+}
+
+/// Pair and load in a few words each.
+fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
+    let (pinion, wheel, pair) = (&scene.pinion, &scene.wheel, &scene.pair);
+    let ratio = f64::from(wheel.teeth) / f64::from(pinion.teeth);
+    let (driven, driver) = match scene.operation.driver {
+        Driver::Pinion => ("wheel", "pinion"),
+        Driver::Wheel => ("pinion", "wheel"),
+    };
+    let rows = [
+        ("teeth, ratio", format!("{} : {}, {ratio:.3}", pinion.teeth, wheel.teeth)),
+        ("normal module", format!("{} mm", pair.normal_module_mm)),
+        ("helix angle of the pinion", format!("{} deg", pinion.helix_angle_deg)),
+        ("face width", format!("{} mm", pair.face_width_mm)),
+        ("centre distance", format!("{:.3} mm", facts.geometry.centre_distance_mm)),
+        ("contact ratio", format!("{:.3}", facts.geometry.eps_gamma)),
+        ("", format!("{} N m", scene.operation.torque_nm)),
+        ("", format!("{} 1/min", scene.operation.speed_rpm)),
+    ];
+    let mut rows = rows.map(|(label, value)| [label.to_owned(), value]);
+    rows[6][0] = format!("torque on the {driven}");
+    rows[7][0] = format!("speed of the {driver}");
+    rows.into()
+}
+
+/// A template, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
 ///
 /// # Errors
 /// Exit status 1 if it cannot be filled; that would be a fault of this program.
@@ -18,13 +97,37 @@ pub(super) fn render(name: &str, template: &str, context: Value) -> Result<Strin
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
         ("warnings.html", include_str!("warnings.html")),
+        ("page.html", include_str!("page.html")),
+        ("view.html", include_str!("view.html")),
         ("tail.html", include_str!("tail.html")),
     ];
     for (part, text) in parts {
         environment.add_template(part, text).map_err(failed)?;
     }
     environment.add_template(name, template).map_err(failed)?;
-    environment.get_template(name).and_then(|page| page.render(context)).map_err(failed)
+    environment.get_template(name).and_then(|page| page.render(context)).map(with_scripts).map_err(failed)
+}
+
+/// The page with the scripts that its parts ask for: charts and maps, gears in space.
+fn with_scripts(mut page: String) -> String {
+    let has = |class: &str| page.contains(&format!("class=\"{class}\">"));
+    let mut scripts = String::new();
+    let in_space = has("view");
+    if in_space || has("plot") || has("map") {
+        scripts += concat!("<!-- uPlot: ", include_str!("../../assets/uPlot.LICENSE"), "-->\n");
+        scripts += concat!("<style>", include_str!("../../assets/uPlot.min.css"), "</style>\n");
+        scripts += concat!("<script>", include_str!("../../assets/uPlot.iife.min.js"), "</script>\n");
+        scripts += concat!("<script>", include_str!("charts.js"), "</script>\n");
+    }
+    if in_space {
+        scripts += concat!("<!-- three.js: ", include_str!("../../assets/three.LICENSE"), "-->\n");
+        scripts += concat!("<script>", include_str!("../../assets/three.min.js"), "</script>\n");
+        scripts += concat!("<script>", include_str!("view.js"), "</script>\n");
+    }
+    if let Some(end) = page.rfind("</body>") {
+        page.insert_str(end, &scripts);
+    }
+    page
 }
 
 /// A number with so many decimals, `-` when there is none.

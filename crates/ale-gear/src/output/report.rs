@@ -3,17 +3,16 @@
 use std::f64::consts::PI;
 
 use dynamics::result::{StaticHistory, StaticPosition};
-use minijinja::{context, value::Serde};
 
 use super::charts::{Curve, line_chart};
-use super::{Headline, page, pairs, root_stress::MAX_PRINCIPAL, table::model_name};
+use super::{Headline, page::Page, pairs, root_stress::MAX_PRINCIPAL};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
+use crate::view::View;
 
-const TEMPLATE: &str = include_str!("report.html");
-
-/// The report as HTML, charts inlined as SVG; `pattern` is the picture of the contact pattern, where there is one.
+/// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the gears in space, where
+/// there are such.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
@@ -24,26 +23,19 @@ pub fn write_report(
     cost: &Cost,
     headline: &Headline,
     pattern: Option<&str>,
+    view: Option<&View>,
 ) -> Result<String, CommandError> {
-    page::render(
-        "report.html",
-        TEMPLATE,
-        context! {
-            name => &scene.name,
-            model => model_name(scene),
-            version => env!("CARGO_PKG_VERSION"),
-            scene => scene.to_toml(),
-            scene_file => scene.file.display().to_string(),
-            set => &scene.set,
-            vtu => scene.output.vtu,
-            headline => Serde(headline),
-            facts => Serde(facts),
-            cost => Serde(cost),
-            charts => charts(scene, history),
-            pattern => pattern,
-            warnings => &history.warnings,
-        },
-    )
+    let page = Page {
+        scene,
+        facts,
+        cost,
+        headline,
+        charts: charts(scene, history),
+        pattern,
+        view,
+        warnings: &history.warnings,
+    };
+    page.render(("report.html", include_str!("report.html")))
 }
 
 fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {

@@ -1,9 +1,6 @@
 //! Figures of a study.
 
-use super::{
-    charts::{Curve, line_chart},
-    motion_charts::thinned,
-};
+use super::charts::{Curve, line_chart};
 use crate::motion::Columns;
 use crate::parameter_study::{CaseRun, Findings, Follow, OverTime, Study, last_cycles};
 
@@ -67,7 +64,7 @@ fn over_time(study: &Study, runs: &[CaseRun], over: &OverTime) -> Figure {
             let time = rows.get("time_s");
             let begin = time.first().copied().unwrap_or(0.0);
             let since: Vec<f64> = time.iter().map(|t| 1e3 * (t - begin)).collect();
-            Curve { label: case.label.clone(), points: thinned(&points(&since, rows.get(&over.column))) }
+            Curve { label: case.label.clone(), points: points(&since, rows.get(&over.column)) }
         })
         .collect();
     let chart = line_chart(&format!("{} against time", over.column), "time [ms]", &over.column, &curves, false);

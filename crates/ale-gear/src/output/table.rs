@@ -8,42 +8,86 @@ use crate::scene::Scene;
 
 /// Headline numbers, degrees of freedom before and after, time and peak memory of each phase.
 pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headline, warnings: &[String]) -> String {
-    let mut t = String::new();
+    let mut t = Lines::new(facts);
     let h = headline;
-    let g = &facts.geometry;
-    let mut line = |label: &str, value: String, unit: &str| push_line(&mut t, label, &value, unit);
-    line("contact ratio eps_gamma", format!("{:.4}", g.eps_gamma), "");
-    line("mean STE", fixed(h.mean_ste_um, 4), "um");
-    line(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), fixed(h.peak_to_peak_ste_um, 4), "um");
-    line("mean mesh stiffness, secant", fixed(h.mean_mesh_stiffness_n_per_um, 2), "N/um");
-    line("mean mesh stiffness, tangent", fixed(h.mean_mesh_stiffness_tangent_n_per_um, 2), "N/um");
-    line("mean contact-line length", fixed(h.mean_contact_line_length_mm, 3), "mm");
-    line("  unloaded, analytic", fixed(h.mean_geometric_line_length_mm, 3), "mm");
-    line("mean sum of normal forces", fixed(h.mean_normal_force_n, 1), "N");
-    line("mean axial force on the wheel", fixed(h.mean_wheel_force_n[2], 1), "N");
-    line("mean tilting moment on the pinion", fixed(h.mean_pinion_tilting_moment_nmm, 0), "N mm");
-    line("largest force of one pair", fixed(h.max_pair_force_n, 1), "N");
+    t.number("mean STE", h.mean_ste_um, 4, "um");
+    t.number(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), h.peak_to_peak_ste_um, 4, "um");
+    t.number("mean mesh stiffness, secant", h.mean_mesh_stiffness_n_per_um, 2, "N/um");
+    t.number("mean mesh stiffness, tangent", h.mean_mesh_stiffness_tangent_n_per_um, 2, "N/um");
+    t.number("mean contact-line length", h.mean_contact_line_length_mm, 3, "mm");
+    t.number("  unloaded, analytic", h.mean_geometric_line_length_mm, 3, "mm");
+    t.number("mean sum of normal forces", h.mean_normal_force_n, 1, "N");
+    t.number("mean axial force on the wheel", h.mean_wheel_force_n[2], 1, "N");
+    t.number("mean tilting moment on the pinion", h.mean_pinion_tilting_moment_nmm, 0, "N mm");
+    t.number("largest force of one pair", h.max_pair_force_n, 1, "N");
     if h.mean_friction_power_loss_w != 0.0 {
-        line("mean power lost to friction", fixed(h.mean_friction_power_loss_w, 2), "W");
-        line("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
+        t.number("mean power lost to friction", h.mean_friction_power_loss_w, 2, "W");
+        t.text("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
     }
-    line("maximum pressure", fixed(h.max_pressure_mpa, 0), "MPa");
+    t.number("maximum pressure", h.max_pressure_mpa, 0, "MPa");
     if let Some(root) = &h.root_stress {
         for (name, gear) in [("pinion", &root.pinion), ("wheel", &root.wheel)] {
             let at = gear.max_principal;
-            line(&format!("largest root tension, {name}"), fixed(at.stress_mpa, 1), &place(&at));
-            line(&format!("largest root von Mises, {name}"), fixed(gear.von_mises.stress_mpa, 1), "MPa");
+            t.number(&format!("largest root tension, {name}"), at.stress_mpa, 1, &place(&at));
+            t.number(&format!("largest root von Mises, {name}"), gear.von_mises.stress_mpa, 1, "MPa");
         }
     }
-    line("tooth changes", h.tooth_changes.to_string(), "");
-    line("worst torque residual", format!("{:.1e}", h.worst_torque_residual), "");
-    line("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
-    line("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
+    t.text("tooth changes", h.tooth_changes, "");
+    t.science("worst torque residual", h.worst_torque_residual, "");
+    t.text("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
+    t.text("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
     for (name, way) in ["pinion", "wheel"].iter().zip(&facts.reduction) {
-        line(&format!("reduction, {name}"), (*way).to_owned(), "");
+        t.text(&format!("reduction, {name}"), *way, "");
     }
 
-    framed(scene, &t, cost, warnings)
+    t.framed(scene, cost, warnings)
+}
+
+/// The lines of a closing table, each a label, a value and its unit.
+#[derive(Debug)]
+pub(super) struct Lines(String);
+
+impl Lines {
+    /// Begins with what every analysis has: the contact ratio.
+    pub(super) fn new(facts: &Facts) -> Self {
+        let mut lines = Self(String::new());
+        lines.text("contact ratio eps_gamma", format!("{:.4}", facts.geometry.eps_gamma), "");
+        lines
+    }
+
+    /// A value in words.
+    pub(super) fn text(&mut self, label: &str, value: impl std::fmt::Display, unit: &str) {
+        push_line(&mut self.0, label, &value.to_string(), unit);
+    }
+
+    /// A number with `decimals` places (see [`fixed`]), `-` when there is none.
+    pub(super) fn number(&mut self, label: &str, value: impl Into<Option<f64>>, decimals: usize, unit: &str) {
+        self.text(label, value.into().map_or_else(|| "-".to_owned(), |v| fixed(v, decimals)), unit);
+    }
+
+    /// A small number as power of ten, `-` when there is none.
+    pub(super) fn science(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
+        self.text(label, value.into().map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}")), unit);
+    }
+
+    /// The transmission errors of a motion beside those of the quasi-static cycle: means, then peak to peak, um.
+    pub(super) fn errors(&mut self, dynamic: [f64; 2], quasi_static: [Option<f64>; 2]) {
+        for (k, label) in ["mean DTE", "peak-to-peak DTE"].into_iter().enumerate() {
+            self.number(label, dynamic[k], 4, "um");
+            self.number("  quasi-static", quasi_static[k], 4, "um");
+        }
+    }
+
+    /// Mesh cycles of a motion, and how nearly it repeats itself.
+    pub(super) fn cycles(&mut self, [settling, written]: [u64; 2], periodicity: Option<f64>, period: Option<usize>) {
+        self.text("mesh cycles, settling and written", format!("{settling} + {written}"), "");
+        self.science("repeats itself to", periodicity, &format!("after {} cycle(s)", period.unwrap_or(1)));
+    }
+
+    /// The table: the case above the lines, phases and warnings below.
+    pub(super) fn framed(self, scene: &Scene, cost: &Cost, warnings: &[String]) -> String {
+        framed(scene, &self.0, cost, warnings)
+    }
 }
 
 /// Headline lines with the case above them, phases and warnings below.

@@ -47,20 +47,39 @@ impl CyclicGear {
         self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
     }
 
-    /// Displacement (mm) of every node of the larger mesh under forces on the coordinates of the window that stands `shift` pitches on, in the
-    /// mesh's frame.
-    pub(crate) fn expand(&self, forces: &[f64], shift: u32) -> Result<Vec<[f64; 3]>, ReductionError> {
+    /// Displacement (mm) of nodes of the larger mesh (`None`: of every one) under forces on the coordinates of the window that stands `shift`
+    /// pitches on, in the mesh's frame. Only sectors with such nodes are gone through.
+    pub(crate) fn expand(
+        &self,
+        forces: &[f64],
+        shift: u32,
+        nodes: Option<&[u32]>,
+    ) -> Result<Vec<[f64; 3]>, ReductionError> {
         let z = self.part.teeth;
-        let mut copies: Vec<u32> = self.part.places.iter().map(|p| (p.copy + z - shift % z) % z).collect();
+        let every: Vec<u32>;
+        let nodes = match nodes {
+            Some(nodes) => nodes,
+            None => {
+                every = (0..self.part.places.len() as u32).collect();
+                &every
+            }
+        };
+        let place = |&node: &u32| {
+            let count = self.part.places.len();
+            let wrong = || fem::FemError::Shape { what: "nodes", expected: count, found: node as usize };
+            self.part.places.get(node as usize).copied().ok_or_else(wrong)
+        };
+        let places = nodes.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+        let loaded = |copy: u32| (copy + z - shift % z) % z;
+        let mut copies: Vec<u32> = places.iter().map(|p| loaded(p.copy)).collect();
         copies.sort_unstable();
         copies.dedup();
         let fields = self.fields(&copies, forces)?;
-        let mut all = Vec::with_capacity(self.part.places.len());
-        for place in &self.part.places {
-            let column = copies.binary_search(&((place.copy + z - shift % z) % z)).unwrap_or_default();
-            all.push(self.at(place.node, place.copy, fields.as_ref(), column));
-        }
-        Ok(all)
+        let at = |p: &mesh::Origin| {
+            let column = copies.binary_search(&loaded(p.copy)).unwrap_or_default();
+            self.at(p.node, p.copy, fields.as_ref(), column)
+        };
+        Ok(places.iter().map(at).collect())
     }
 
     /// Displacement of a sector's node in one column of its fields, turned by so many pitches.

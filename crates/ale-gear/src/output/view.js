@@ -1,0 +1,251 @@
+// The gears in space: turns, steps through the mesh cycle, shows pressure, displacement and root stress.
+"use strict";
+(() => {
+  const $ = id => document.getElementById(id);
+  const { bytes, viridis, short, VIRIDIS } = window.report;
+  const BODY = [[0.62, 0.68, 0.75], [0.75, 0.70, 0.62]];
+  const SHADES = Array.from({ length: 256 }, (_, i) => new THREE.Color().setRGB(...viridis(i / 255).map(c => c / 255), THREE.SRGBColorSpace).toArray());
+  // Edges sharper than this (cosine) stay edges.
+  const CREASE = Math.cos(0.6);
+  const TAU = 2 * Math.PI;
+
+  const unpack = pack => pack.lists.map(text => {
+    const whole = new Int16Array(bytes(text).buffer);
+    return Float32Array.from(whole, n => n === -32768 ? NaN : n * pack.unit);
+  });
+
+  // A surface corner by corner, with normals that are smooth but at edges.
+  const surface = shape => {
+    const points = unpack(shape.points)[0], corners = new Uint16Array(bytes(shape.triangles).buffer), count = corners.length / 3;
+    const normals = new Float32Array(3 * count), around = Array.from({ length: points.length / 3 }, () => []);
+    for (let t = 0; t < count; t++) {
+      const [a, b, c] = [0, 1, 2].map(k => 3 * corners[3 * t + k]);
+      const u = [0, 1, 2].map(i => points[b + i] - points[a + i]), v = [0, 1, 2].map(i => points[c + i] - points[a + i]);
+      normals.set([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], 3 * t);
+      for (let k = 0; k < 3; k++) around[corners[3 * t + k]].push(t);
+    }
+    const size = t => Math.hypot(normals[3 * t], normals[3 * t + 1], normals[3 * t + 2]) || 1;
+    const position = new Float32Array(9 * count), normal = new Float32Array(9 * count);
+    corners.forEach((point, corner) => {
+      const own = Math.floor(corner / 3), sum = [0, 0, 0];
+      for (const t of around[point]) {
+        let dot = 0;
+        for (let i = 0; i < 3; i++) dot += normals[3 * t + i] * normals[3 * own + i];
+        if (dot > CREASE * size(t) * size(own)) for (let i = 0; i < 3; i++) sum[i] += normals[3 * t + i];
+      }
+      const length = Math.hypot(...sum) || 1;
+      for (let i = 0; i < 3; i++) {
+        position[3 * corner + i] = points[3 * point + i];
+        normal[3 * corner + i] = sum[i] / length;
+      }
+    });
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
+    return { geometry, points, corners };
+  };
+
+  const largestOf = lists => lists.reduce((m, list) => list.reduce((n, v) => Number.isFinite(v) ? Math.max(n, v) : n, m), 0);
+  const sizes = list => Float32Array.from({ length: list.length / 3 }, (_, i) => Math.hypot(list[3 * i], list[3 * i + 1], list[3 * i + 2]));
+
+  // One gear: all its teeth, those of the window with their fields.
+  class GearInSpace {
+    constructor(data, index) {
+      Object.assign(this, { data, index, pitch: TAU / data.teeth });
+      this.group = new THREE.Group();
+      this.body = new THREE.Color().setRGB(...BODY[index], THREE.SRGBColorSpace);
+      const plain = new THREE.MeshLambertMaterial({ color: this.body, side: THREE.DoubleSide });
+      this.teeth = new THREE.InstancedMesh(surface(data.sector).geometry, plain, data.teeth);
+      this.teeth.frustumCulled = false;
+      this.group.add(this.teeth);
+      this.bands = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true }));
+      this.bands.frustumCulled = false;
+      this.bands.renderOrder = 1;
+      this.group.add(this.bands);
+      if (data.window) this.addWindow(data.window);
+    }
+
+    addWindow(data) {
+      const { geometry, points, corners } = surface(data.shape);
+      geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * corners.length), 3));
+      const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+      mesh.frustumCulled = false;
+      this.group.add(mesh);
+      const displacement = unpack(data.displacement);
+      this.window = {
+        mesh, points, corners, displacement, teeth: data.teeth,
+        fields: { displacement: displacement.map(sizes), stress: unpack(data.stress), pressure: unpack(data.pressure) },
+      };
+    }
+
+    largest(quantity) { return this.window ? largestOf(this.window.fields[quantity] ?? []) : 0; }
+
+    show(frame, k, quantity, largest, times) {
+      const { window: own, data, index } = this, shift = frame.shift[index];
+      this.group.rotation.z = frame.angles[index];
+      const hidden = new Set(own ? own.teeth.map(t => (t + shift) % data.teeth) : []);
+      const turn = new THREE.Matrix4();
+      for (let t = 0; t < data.teeth; t++) {
+        if (hidden.has(t)) turn.makeScale(0, 0, 0); else turn.makeRotationZ(t * this.pitch);
+        this.teeth.setMatrixAt(t, turn);
+      }
+      this.teeth.instanceMatrix.needsUpdate = true;
+      if (own) {
+        own.mesh.rotation.z = shift * this.pitch;
+        this.paint(own, own.fields[quantity][k], own.displacement[k], quantity, largest, times);
+      }
+      this.press(frame.bands, quantity === "pressure" ? largest : 0);
+    }
+
+    paint(own, values, moved, quantity, largest, times) {
+      const { position, color } = own.mesh.geometry.attributes, body = this.body.toArray();
+      own.corners.forEach((point, corner) => {
+        const value = values ? values[point] : NaN;
+        const bare = !Number.isFinite(value) || !(largest > 0) || (quantity === "pressure" && value <= 0);
+        color.array.set(bare ? body : SHADES[Math.round(255 * Math.min(1, Math.max(0, value / largest)))], 3 * corner);
+        for (let i = 0; i < 3; i++) position.array[3 * corner + i] = own.points[3 * point + i] + 1e-3 * times * (moved ? moved[3 * point + i] : 0);
+      });
+      position.needsUpdate = color.needsUpdate = true;
+    }
+
+    // Ribbons along the contact lines, a little above the flanks.
+    press(bands, largest) {
+      const [radius, sigma, twist] = this.data.flank, g = this.index, positions = [], colours = [], faces = [];
+      const cos = 1 / Math.hypot(1, twist * radius), sin = cos * twist * radius, least = 0.012 * this.pitch * radius;
+      for (const band of largest > 0 ? bands : []) {
+        const at = (u, z) => {
+          const phi = band.teeth[g] * this.pitch + twist * z + band.side * (sigma - u), [s, c] = [Math.sin(phi), Math.cos(phi)], up = least * band.side;
+          return [radius * (c - band.side * u * s) - up * s * cos, radius * (s + band.side * u * c) + up * c * cos, z - up * sin];
+        };
+        band.pressure.forEach((pressure, i) => {
+          const u = band.roll[g][i], half = Math.max(band.half_width[i] / cos, least) / (radius * Math.max(u, 0.05)), first = positions.length / 3;
+          positions.push(...at(u - half, band.z[g][i]), ...at(u + half, band.z[g][i]));
+          const shade = SHADES[Math.round(255 * Math.min(1, pressure / largest))];
+          colours.push(...shade, ...shade);
+          // Slices that are no neighbours belong to two pieces of a line.
+          const gap = i > 0 ? Math.abs(band.z[g][i] - band.z[g][i - 1]) : Infinity;
+          const step = band.pressure.length > 1 ? Math.abs(band.z[g].at(-1) - band.z[g][0]) / (band.pressure.length - 1) : 0;
+          if (gap < 2.5 * step) faces.push(first - 2, first - 1, first + 1, first - 2, first + 1, first);
+        });
+      }
+      this.bands.geometry.dispose();
+      this.bands.geometry = new THREE.BufferGeometry();
+      this.bands.geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+      this.bands.geometry.setAttribute("color", new THREE.Float32BufferAttribute(colours, 3));
+      this.bands.geometry.setIndex(faces);
+      this.bands.visible = faces.length > 0;
+    }
+  }
+
+  const QUANTITIES = { pressure: "pressure [MPa]", displacement: "displacement [um]", stress: "first principal stress [MPa]" };
+
+  const start = (data, stage) => {
+    const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    stage.replaceChildren(renderer.domElement);
+    const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(28, 1, 1, 1e5), controls = new THREE.OrbitControls(camera, stage);
+    scene.background = new THREE.Color(0xffffff);
+    scene.add(new THREE.HemisphereLight(0xffffff, 0xb0b0b0, 2.7), camera);
+    const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
+    lamp.position.set(0.6, 0.8, 1);
+    camera.add(lamp);
+    const gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
+    gears.forEach(gear => scene.add(gear.group));
+    const bands = data.frames.flatMap(f => f.bands);
+    const reach = data.gears.map(g => 1.1 * g.flank[0] + 0.05 * data.gears[1].centre), centre = data.gears[1].centre;
+    const largest = Object.fromEntries(Object.keys(QUANTITIES).map(q => [q, Math.max(...gears.map(g => g.largest(q)))]));
+    largest.pressure = bands.reduce((m, b) => b.pressure.reduce((n, p) => Math.max(n, p), m), largest.pressure);
+    // The slider's end: the largest displacement as long as a tenth of a gear's radius.
+    const most = largest.displacement > 0 ? 100 * Math.max(...reach) / largest.displacement : 0;
+    const state = { frame: 0, quantity: "pressure", shown: 0 };
+
+    const draw = () => { renderer.render(scene, camera); state.shown += 1; };
+    const update = () => {
+      const frame = data.frames[state.frame], solid = state.quantity !== "pressure";
+      const times = solid ? most * Number($("scale").value) / 100 : 0;
+      gears.forEach(gear => gear.show(frame, state.frame, state.quantity, largest[state.quantity], times));
+      gears[0].group.position.x = 0;
+      const apart = Number($("apart").value);
+      gears[1].group.position.x = centre + 0.006 * apart * centre;
+      // In mesh the bands lie between flanks, where nobody sees them: they shine through.
+      gears.forEach(gear => { gear.bands.material.depthTest = apart > 0; });
+      $("phase").textContent = `phase ${frame.phase.toFixed(3)}`;
+      $("times").textContent = `${short(times, 2)} x`;
+      $("deformed").hidden = !solid || most === 0;
+      bar();
+      draw();
+    };
+    const bar = () => {
+      const top = largest[state.quantity], stops = VIRIDIS.map(c => `rgb(${c.join()})`).join();
+      $("scale-bar").hidden = !(top > 0);
+      $("scale-bar").innerHTML = `<span>0</span><i style="background:linear-gradient(to right,${stops})"></i><span>${short(top, 4)}</span><b>${QUANTITIES[state.quantity]}</b>`;
+    };
+    const look = {
+      whole: () => [[0.5 * centre, 0, 0], [0.25, -0.35, 1], 1.15 * (centre + reach[0] + reach[1])],
+      front: () => [[0.5 * centre, 0, 0], [0, 0, 1], 1.1 * (centre + reach[0] + reach[1])],
+      mesh: () => [[data.gears[0].flank[0] * 1.05, 0, 0], [-0.1, -0.5, 1], 1.1 * Math.min(...reach)],
+    };
+    const view = name => {
+      const [target, direction, width] = look[name](), aspect = stage.clientWidth / stage.clientHeight;
+      const across = 2 * Math.tan(camera.fov * Math.PI / 360) * Math.max(0.1, Math.min(aspect, 1.6));
+      camera.position.set(...direction).setLength(width / across).add(new THREE.Vector3(...target));
+      controls.target.set(...target);
+      controls.update();
+      draw();
+    };
+    const resize = () => {
+      renderer.setSize(stage.clientWidth, stage.clientHeight);
+      camera.aspect = stage.clientWidth / stage.clientHeight;
+      camera.updateProjectionMatrix();
+      draw();
+    };
+
+    controls.addEventListener("change", draw);
+    stage.addEventListener("keydown", event => {
+      const turns = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+      const nearer = { "+": 0.9, "-": 1 / 0.9 }[event.key];
+      if (!turns && !nearer) return;
+      event.preventDefault();
+      const around = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+      around.theta += turns?.[0] ?? 0;
+      around.phi = Math.min(Math.PI - 0.05, Math.max(0.05, around.phi + (turns?.[1] ?? 0)));
+      around.radius *= nearer ?? 1;
+      camera.position.setFromSpherical(around).add(controls.target);
+      controls.update();
+      draw();
+    });
+    $("frame").max = data.frames.length - 1;
+    $("frame").addEventListener("input", () => { state.frame = Number($("frame").value); update(); });
+    ["scale", "apart"].forEach(id => $(id).addEventListener("input", update));
+    for (const input of document.querySelectorAll("#quantity input")) {
+      input.disabled = !(largest[input.value] > 0);
+      input.addEventListener("change", () => { state.quantity = input.value; update(); });
+    }
+    $("quantity").hidden = !Object.values(largest).some(v => v > 0);
+    document.querySelectorAll("[data-look]").forEach(button => button.addEventListener("click", () => view(button.dataset.look)));
+    let running = 0;
+    $("play").addEventListener("click", () => {
+      if (running) clearInterval(running);
+      running = running ? 0 : setInterval(() => { $("frame").value = state.frame = (state.frame + 1) % data.frames.length; update(); }, 90);
+      $("play").textContent = running ? "pause" : "play";
+    });
+    addEventListener("resize", resize);
+    $("view-note").textContent = data.note;
+    resize();
+    view("whole");
+    update();
+    window.report.view = { state, renderer, look: view };
+  };
+
+  const holder = document.querySelector("script.view"), stage = $("stage");
+  if (!holder || !stage) return;
+  try {
+    start(JSON.parse(holder.textContent), stage);
+  } catch (error) {
+    // A browser without WebGL shows all the rest.
+    stage.textContent = `This browser shows no picture in space (${error.message}).`;
+    stage.classList.add("failed");
+    document.querySelector(".controls").hidden = true;
+    window.report.failed = error.message;
+  }
+})();

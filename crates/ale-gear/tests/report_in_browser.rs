@@ -1,0 +1,190 @@
+//! Reports in a browser: they open without complaint, draw their charts and the gears, and their slider moves them.
+//!
+//! Needs Chromium or Chrome; where there is none the tests say so and pass. Pictures stay in `target/report`.
+#![allow(clippy::print_stderr, reason = "who reads a skipped test's output wants to know that it was skipped")]
+
+mod util;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+use util::{Scratch, motion_scene, repository};
+
+/// Names under which the browser is known, the wish of the caller first.
+const BROWSERS: [&str; 5] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome"];
+/// WebGL without a graphics card, and nothing fetched from anywhere.
+const FLAGS: [&str; 11] = [
+    "--headless=new",
+    "--dump-dom",
+    "--hide-scrollbars",
+    "--no-sandbox",
+    "--disable-dev-shm-usage",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--proxy-server=127.0.0.1:9",
+    "--enable-logging=stderr",
+    "--virtual-time-budget=5000",
+];
+/// Widths and heights of windows, pixels; the browser has no narrower one.
+const DESK: [u32; 2] = [1280, 3600];
+const PHONE: [u32; 2] = [500, 5200];
+/// Largest report, bytes.
+const LARGEST: u64 = 6_000_000;
+
+/// Looks at the page from inside, and leaves what it saw in an element of its own.
+const SELF_CHECK: &str = r##"<script>
+addEventListener("load", () => {
+  const seen = { charts: [], failed: window.report?.failed ?? null };
+  // Colours of a canvas other than its corner's.
+  const marks = canvas => {
+    const copy = document.createElement("canvas"), pen = copy.getContext("2d", { willReadFrequently: true });
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    pen.drawImage(canvas, 0, 0);
+    const all = new Uint32Array(pen.getImageData(0, 0, copy.width, copy.height).data.buffer), corner = all[0];
+    let sum = 0, different = 0;
+    all.forEach((pixel, i) => { if (pixel !== corner) { different += 1; sum = (sum * 31 + pixel * (i % 8191)) >>> 0; } });
+    return { different, sum };
+  };
+  for (const canvas of document.querySelectorAll("figure.chart canvas")) seen.charts.push(marks(canvas).different);
+  seen.figures = document.querySelectorAll("figure.chart script").length;
+  const stage = document.querySelector("#stage canvas"), slider = document.getElementById("frame");
+  if (stage && slider) {
+    const steps = Number(slider.max) + 1, go = k => { slider.value = k; slider.dispatchEvent(new Event("input")); };
+    seen.steps = steps;
+    seen.gears = marks(stage).different;
+    const before = marks(stage).sum;
+    go(Math.floor(steps / 2));
+    seen.moved = marks(stage).sum !== before;
+    seen.phase = document.getElementById("phase").textContent;
+    seen.quantities = [...document.querySelectorAll("#quantity input")].map(input => {
+      if (input.disabled) return [input.value, null];
+      input.click();
+      return [input.value, marks(stage).sum];
+    });
+  }
+  // The picture that is kept shows the first field at the first position.
+  document.querySelector("#quantity input:not(:disabled)")?.click();
+  document.querySelector("[data-look=mesh]")?.click();
+  seen.wide = document.documentElement.scrollWidth > innerWidth;
+  const answer = document.createElement("pre");
+  answer.hidden = true;
+  answer.textContent = "SEEN" + JSON.stringify(seen) + "END";
+  document.body.append(answer);
+});
+</script>"##;
+
+/// The browser, if the machine has one.
+fn browser() -> Option<PathBuf> {
+    let wished = std::env::var_os("CHROME").map(PathBuf::from).into_iter();
+    let folders: Vec<PathBuf> =
+        std::env::var_os("PATH").map(|p| std::env::split_paths(&p).collect()).unwrap_or_default();
+    let known = BROWSERS.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    let found = wished.chain(known).find(|path| path.is_file());
+    if found.is_none() {
+        eprintln!("skipped: no browser is installed (looked for {})", BROWSERS.join(", "));
+    }
+    found
+}
+
+/// Opens the report of a run in a window of some width and keeps a picture; what the page saw of itself comes back.
+fn look(scratch: &Scratch, browser: &Path, name: &str, [width, height]: [u32; 2]) -> Value {
+    let bytes = std::fs::metadata(scratch.path().join("o/report.html")).unwrap().len();
+    assert!(bytes < LARGEST, "{name}: the report has {bytes} bytes");
+    let page = scratch.read("o/report.html");
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "{name}: the report needs a network");
+    let checked = scratch.path().join("checked.html");
+    std::fs::write(&checked, page.replacen("</body>", &format!("{SELF_CHECK}</body>"), 1)).unwrap();
+    let pictures = repository().join("target/report");
+    std::fs::create_dir_all(&pictures).unwrap();
+    let opened = Command::new(browser)
+        .args(FLAGS)
+        .arg(format!("--user-data-dir={}", scratch.path().join("profile").display()))
+        .arg(format!("--window-size={width},{height}"))
+        .arg(format!("--screenshot={}", pictures.join(format!("{name}_{width}.png")).display()))
+        .arg(format!("file://{}", checked.display()))
+        .output()
+        .unwrap();
+    let [text, said] = [&opened.stdout, &opened.stderr].map(|b| String::from_utf8_lossy(b).into_owned());
+    let complaints: Vec<&str> = said.lines().filter(|l| l.contains(":CONSOLE")).collect();
+    assert!(complaints.is_empty(), "{name}: the console says {complaints:#?}");
+    // The script itself has no brace after the word.
+    let seen = text.split_once("SEEN{").and_then(|(_, rest)| rest.split_once("}END"));
+    let seen = format!("{{{}}}", seen.unwrap_or_else(|| panic!("{name}: the page did not finish: {said}")).0);
+    eprintln!("{name}, {width} wide: {bytes} bytes, {seen}");
+    serde_json::from_str(&seen).unwrap()
+}
+
+/// What holds for every report.
+fn check(seen: &Value, name: &str) {
+    assert_eq!(seen["failed"], Value::Null, "{name}: no picture in space");
+    let charts: Vec<u64> = seen["charts"].as_array().unwrap().iter().map(|c| c.as_u64().unwrap()).collect();
+    assert_eq!(charts.len() as u64, seen["figures"].as_u64().unwrap(), "{name}: every chart has a canvas");
+    assert!(charts.len() >= 3 && charts.iter().all(|&c| c > 500), "{name}: pixels drawn in the charts: {charts:?}");
+    let gears = seen["gears"].as_u64().unwrap();
+    assert!(gears > 20_000, "{name}: the gears cover {gears} pixels");
+    assert_eq!(seen["moved"], Value::Bool(true), "{name}: the slider moves nothing: {seen}");
+    assert_eq!(seen["wide"], Value::Bool(false), "{name}: the page is wider than the window");
+}
+
+/// Fields that the picture in space can show, each with another picture.
+fn quantities(seen: &Value) -> Vec<String> {
+    let shown = seen["quantities"].as_array().unwrap().iter().filter(|q| !q[1].is_null());
+    let (names, mut sums): (Vec<String>, Vec<u64>) =
+        shown.map(|q| (q[0].as_str().unwrap().to_owned(), q[1].as_u64().unwrap())).unzip();
+    sums.sort_unstable();
+    sums.dedup();
+    assert_eq!(sums.len(), names.len(), "each field has a picture of its own: {seen}");
+    names
+}
+
+/// The run of a scene; the browser looks at its report.
+fn report_of(name: &str, scene: &str) -> Option<Value> {
+    let browser = browser()?;
+    let scratch = Scratch::new().file("a.toml", scene);
+    let done = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
+    let seen = look(&scratch, &browser, name, DESK);
+    check(&seen, name);
+    if name == "static" {
+        check(&look(&scratch, &browser, name, PHONE), "static on a phone");
+    }
+    Some(seen)
+}
+
+fn all() -> [String; 3] {
+    ["pressure", "displacement", "stress"].map(String::from)
+}
+
+#[test]
+fn a_static_report_shows_charts_pattern_and_gears_with_fields() {
+    let meshes = repository().join("meshes");
+    let scene = std::fs::read_to_string(repository().join("scenes/coarse.toml")).unwrap();
+    let scene = scene.replace("../meshes", &meshes.display().to_string());
+    let Some(seen) = report_of("static", &scene) else { return };
+    assert_eq!(quantities(&seen), all());
+    assert_eq!(seen["charts"].as_array().unwrap().len(), 7, "five charts and two flanks");
+    assert_eq!((seen["steps"].as_u64(), seen["phase"].as_str()), (Some(16), Some("phase 0.500")));
+}
+
+#[test]
+fn a_motion_is_shown_with_its_quasi_static_fields() {
+    let Some(seen) = report_of("motion", &motion_scene(4, "")) else { return };
+    assert_eq!(quantities(&seen), all());
+}
+
+#[test]
+fn a_run_up_has_its_waterfall() {
+    let ramp =
+        "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 3000.0\nto_rpm = 9000.0\nduration_s = 0.04\nwaterfall_cycles = 4\n";
+    let Some(seen) = report_of("ramp", &motion_scene(0, ramp)) else { return };
+    assert_eq!(quantities(&seen), all());
+}
+
+#[test]
+fn gears_without_meshes_turn_too() {
+    let Some(seen) = report_of("iso", util::ISO_SCENE) else { return };
+    assert!(quantities(&seen).is_empty(), "{seen}");
+    assert_eq!(seen["steps"].as_u64(), Some(32));
+}
