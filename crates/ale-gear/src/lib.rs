@@ -14,6 +14,7 @@
 //! | [`cache`] | reduced gears on disk |
 //! | [`reduce`] | reduction of a scene's gears by itself |
 //! | [`starter`] | the scene that a user begins with |
+//! | [`rexs`] | gear data from REXS files |
 //! | [`chart`] | accuracy against cost of every model |
 //! | [`compare`] | result folders side by side |
 //! | [`parameter_study`] | the same figures of several scenes, side by side |
@@ -45,4 +46,5 @@ mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
+pub mod rexs;
 pub mod view;

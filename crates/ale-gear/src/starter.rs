@@ -25,6 +25,10 @@ pub struct Starter {
     pub profile_shift: [f64; 2],
     /// Working centre distance, mm; `None`: the one without backlash that follows from the shifts.
     pub centre_distance_mm: Option<f64>,
+    /// Normal pressure angle, degrees; `None`: 20.
+    pub pressure_angle_deg: Option<f64>,
+    /// Tip diameters of pinion and wheel, mm; `None`: from addendum and profile shift.
+    pub tip_diameter_mm: [Option<f64>; 2],
     /// Equilibrium at every position, or motion in time.
     pub kind: Kind,
 }
@@ -42,6 +46,8 @@ impl Default for Starter {
             speed_rpm: 1000.0,
             profile_shift: [0.0, 0.0],
             centre_distance_mm: None,
+            pressure_angle_deg: None,
+            tip_diameter_mm: [None, None],
             kind: Kind::Static,
         }
     }
@@ -98,6 +104,9 @@ impl Starter {
                 self.profile_shift[i],
                 self.bore(i)
             );
+            if let Some(tip) = self.tip_diameter_mm[i] {
+                let _ = writeln!(t, "tip_diameter_mm = {tip:?}");
+            }
             if i == 0 {
                 t.push_str("# mesh = \"pinion.msh\"             # a Gmsh mesh instead of the built-in mesher\n");
                 t.push_str(MODIFICATION);
@@ -113,12 +122,12 @@ impl Starter {
     }
 
     fn pair_and_load(&self, t: &mut String) {
-        let _ = write!(
-            t,
-            "[pair]\nnormal_module_mm = {:?}\nface_width_mm = {:?}\n\
-             # normal_pressure_angle_deg = 20.0\n",
-            self.module_mm, self.face_width_mm
-        );
+        let _ =
+            write!(t, "[pair]\nnormal_module_mm = {:?}\nface_width_mm = {:?}\n", self.module_mm, self.face_width_mm);
+        let _ = match self.pressure_angle_deg {
+            Some(angle) => writeln!(t, "normal_pressure_angle_deg = {angle:?}"),
+            None => writeln!(t, "# normal_pressure_angle_deg = 20.0"),
+        };
         let _ = match self.centre_distance_mm {
             Some(a) => writeln!(t, "centre_distance_mm = {a:?}"),
             None => {
@@ -201,6 +210,8 @@ mod tests {
                 speed_rpm: 1500.0,
                 profile_shift: [0.3, 0.1],
                 centre_distance_mm: Some(84.0),
+                pressure_angle_deg: Some(20.0),
+                tip_diameter_mm: [None, Some(111.9)],
                 kind,
             };
             let scene = read(&asked.text("a.toml"));

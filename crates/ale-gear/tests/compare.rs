@@ -103,3 +103,25 @@ fn what_is_no_result_is_refused() {
     assert_eq!(clash.code, Some(2), "{}", clash.stdout);
     assert!(clash.stderr.contains("is one of the folders to compare"), "{}", clash.stderr);
 }
+
+/// A page that was lost comes back as it was, from what stands beside it, for a run of any kind.
+#[test]
+fn a_report_is_made_again_from_its_folder() {
+    let scratch = runs();
+    for folder in ["a", "m", "l"] {
+        let page = scratch.read(&format!("{folder}/report.html"));
+        std::fs::remove_file(scratch.path().join(folder).join("report.html")).unwrap();
+        let run = scratch.ale_gear(["report", folder]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+        assert!(scratch.read(&format!("{folder}/report.html")) == page, "{folder}: another page");
+        assert!(
+            scratch.ale_gear(["report", folder, "--output", "-"]).stdout == page,
+            "{folder}: another page on stdout"
+        );
+    }
+    std::fs::write(scratch.path().join("a/report.json.gz"), "no gzip").unwrap();
+    let damaged = scratch.ale_gear(["report", "a"]);
+    assert_eq!(damaged.code, Some(2));
+    assert!(damaged.stderr.contains("hint: run the scene again"), "{}", damaged.stderr);
+    assert_eq!(scratch.ale_gear(["report", "nowhere"]).code, Some(2));
+}

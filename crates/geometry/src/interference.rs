@@ -5,34 +5,31 @@ use std::f64::consts::PI;
 use crate::{Gear, GearPair};
 
 /// Positions at which the tip edge is looked at on its way through the tooth space.
-const SAMPLES: u32 = 400;
+const SAMPLES: u32 = 240;
 
 impl GearPair {
     /// Largest depth (mm, arc in the transverse section) to which the mate's tip edge enters a tooth of the pinion (0) or the wheel (1),
     /// driving flanks touching along the line of action; 0: it passes free.
     ///
     /// ```text
-    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]      s from the tip's contact backwards
+    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]      s from the tip's contact onwards
     /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
     /// ```
-    /// Above the root form circle both flanks are involutes and roll on each other; only a tip that reaches below it can enter.
+    /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out again.
     pub fn interference(&self, gear: usize) -> f64 {
         let (own, mate) = if gear == 0 { (&self.pinion, &self.wheel) } else { (&self.wheel, &self.pinion) };
         let (rb, rb_mate, a) = (own.base_radius(), mate.base_radius(), self.centre_distance());
         let a_wt = self.working_pressure_angle();
         // Roll angle of this gear where the mate's tip touches; negative beyond the tangent point.
         let touch = (self.tangent_length() - rb_mate * mate.profile().roll_tip()) / rb;
-        if touch >= own.profile().roll_form() {
-            return 0.0;
-        }
         let (sin, cos) = a_wt.sin_cos();
         let contact = [rb * (cos + touch * sin), rb * (sin - touch * cos)];
         let start = contact[1].atan2(contact[0] - a);
         let centre_line = a_wt - touch + own.profile().base_half_angle();
-        // Backwards until the corner is well past the line of centres.
+        // From a little before the tip touches until the corner is well past the line of centres.
         let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
         let depth = |k: u32| {
-            let turn = -2.0 * to_centres * f64::from(k) / f64::from(SAMPLES);
+            let turn = to_centres * (2.5 * f64::from(k) / f64::from(SAMPLES) - 0.25);
             let (s, c) = (start + turn).sin_cos();
             let (x, y) = (a + mate.tip_radius() * c, mate.tip_radius() * s);
             let radius = x.hypot(y);

@@ -1,7 +1,5 @@
 //! Data of which no gear, or no running pair, can be made: each refused with its number and a way out.
 
-use std::f64::consts::PI;
-
 use geometry::{Gear, GearData, GearPair, GeometryError, Side};
 
 fn data(teeth: u32) -> GearData {
@@ -65,7 +63,8 @@ fn deepest(pinion: &Gear, wheel: &Gear) -> f64 {
     let pair = GearPair::new(short(pinion), short(wheel), None).unwrap();
     let (pitch, a) = (pinion.pitch_angle(), pair.centre_distance());
     let corner = wheel.profile().half_angle(wheel.profile().roll_tip());
-    let steps = 6000;
+    let outline = outline(pinion);
+    let steps = 3000;
     let mut worst = 0.0_f64;
     for i in 0..steps {
         let turn = 3.0 * pitch * (f64::from(i) / f64::from(steps) - 0.5);
@@ -79,20 +78,25 @@ fn deepest(pinion: &Gear, wheel: &Gear) -> f64 {
                     continue;
                 }
                 let off = own - (own / pitch).round() * pitch;
-                worst = worst.max(r * (half_angle(pinion, r) - off.abs()));
+                worst = worst.max(r * (half_angle(&outline, r) - off.abs()));
             }
         }
     }
     worst
 }
 
-fn half_angle(gear: &Gear, radius: f64) -> f64 {
-    let p = gear.profile();
-    if radius >= gear.form_radius() {
-        return p.half_angle(((radius / gear.base_radius()).powi(2) - 1.0).max(0.0).sqrt());
-    }
-    let points: Vec<(f64, f64)> = (0..=20_000).map(|i| p.fillet(f64::from(i) / 20_000.0)).collect();
-    points.iter().min_by(|x, y| (x.0 - radius).abs().total_cmp(&(y.0 - radius).abs())).map_or(-PI, |p| p.1)
+/// Radii (ascending) and half tooth angles from root to tip.
+fn outline(gear: &Gear) -> Vec<(f64, f64)> {
+    let (p, n) = (gear.profile(), 20_000);
+    let part = |i: i32| f64::from(i) / f64::from(n);
+    let fillet = (0..=n).map(|i| p.fillet(part(i)));
+    let roll = |i: i32| p.roll_form() + part(i) * (p.roll_tip() - p.roll_form());
+    let flank = (1..=n).map(|i| (p.radius(roll(i)), p.half_angle(roll(i))));
+    fillet.chain(flank).collect()
+}
+
+fn half_angle(outline: &[(f64, f64)], radius: f64) -> f64 {
+    outline[outline.partition_point(|p| p.0 < radius).min(outline.len() - 1)].1
 }
 
 /// At the limit of undercut the involute reaches down to the base circle; below it the rack cuts some away.

@@ -68,8 +68,8 @@ impl CompareArgs {
         let results = ResultDirectory::create(out)?;
         results.write("compare.csv", write_compare_csv(&runs, &numbers).as_bytes())?;
         results.write("compare_curves.csv", write_curves_csv(&curves).as_bytes())?;
-        for (name, svg) in &charts {
-            results.write(&format!("compare_{name}.svg"), svg.as_bytes())?;
+        for chart in &charts {
+            results.write(&format!("compare_{}.svg", chart.name), chart.svg.as_bytes())?;
         }
         results.write("compare.html", write_compare_report(&runs, &numbers, &inputs, &charts)?.as_bytes())?;
         results.finish()?;

@@ -8,6 +8,7 @@ use dialoguer::{Confirm, Input, Select};
 
 use crate::error::CommandError;
 use crate::gears;
+use crate::rexs::read_pair;
 use crate::scene::{Kind, Scene};
 use crate::starter::Starter;
 
@@ -21,6 +22,12 @@ pub(super) struct InitArgs {
     file: PathBuf,
     #[command(flatten)]
     pair: PairArgs,
+    /// Take the pair from a REXS file (XML); the words on the pair go before it
+    #[arg(long, value_name = "FILE")]
+    rexs: Option<PathBuf>,
+    /// Which cylindrical stage of the REXS file
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "rexs")]
+    stage: usize,
     /// Replace a file that is there
     #[arg(long)]
     force: bool,
@@ -73,12 +80,12 @@ impl InitArgs {
     /// Writes the scene; the text says what to do next.
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         let to_stdout = self.file.as_os_str() == "-";
-        let nothing_said = self.pair == PairArgs::default();
+        let nothing_said = self.pair == PairArgs::default() && self.rexs.is_none();
         let asked = nothing_said && !to_stdout && std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
         if !to_stdout && !asked && !self.force {
             absent(&self.file)?;
         }
-        let starter = if asked { ask()? } else { self.pair.starter()? };
+        let starter = if asked { ask()? } else { self.pair.over(self.of_file()?)? };
         let shown = if to_stdout { "scene.toml".into() } else { self.file.display().to_string() };
         let text = starter.text(&shown);
         // What would not run is not written.
@@ -92,6 +99,20 @@ impl InitArgs {
         }
         write_new(&self.file, &text, self.force || asked)?;
         Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
+    }
+}
+
+impl InitArgs {
+    /// The pair of the REXS file, or the default one.
+    fn of_file(&self) -> Result<Starter, CommandError> {
+        let default = Starter::default();
+        let Some(file) = &self.rexs else { return Ok(default) };
+        let text = std::fs::read_to_string(file).map_err(|e| {
+            let hint = Some("is the path right, as seen from here?".into());
+            CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
+        })?;
+        read_pair(&text, self.stage, &default)
+            .map_err(|e| CommandError::input(format_args!("{}: {e}", file.display()), e.hint()))
     }
 }
 
@@ -126,10 +147,10 @@ fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError>
 }
 
 impl PairArgs {
-    fn starter(&self) -> Result<Starter, CommandError> {
-        let d = Starter::default();
+    /// What is said here, and the rest as it was.
+    fn over(&self, d: Starter) -> Result<Starter, CommandError> {
         Ok(Starter {
-            name: self.name.clone().unwrap_or_default(),
+            name: self.name.clone().unwrap_or(d.name),
             teeth: two("--teeth", &self.teeth, d.teeth)?,
             module_mm: self.module_mm.unwrap_or(d.module_mm),
             helix_deg: self.helix_deg.unwrap_or(d.helix_deg),
@@ -137,7 +158,9 @@ impl PairArgs {
             torque_nm: self.torque_nm.unwrap_or(d.torque_nm),
             speed_rpm: self.speed_rpm.unwrap_or(d.speed_rpm),
             profile_shift: two("--profile-shift", &self.profile_shift, d.profile_shift)?,
-            centre_distance_mm: self.centre_distance_mm,
+            centre_distance_mm: self.centre_distance_mm.or(d.centre_distance_mm),
+            pressure_angle_deg: d.pressure_angle_deg,
+            tip_diameter_mm: d.tip_diameter_mm,
             kind: match self.kind {
                 None => d.kind,
                 Some(KindWord::Static) => Kind::Static,

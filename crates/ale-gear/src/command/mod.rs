@@ -8,6 +8,7 @@ mod init;
 mod mesh;
 mod overrides;
 mod reduce;
+mod report;
 mod run;
 mod schema;
 mod shell;
@@ -61,6 +62,8 @@ enum Command {
     Reduce(reduce::ReduceArgs),
     /// Result folders side by side: headline numbers with differences, curves over each other
     Compare(compare::CompareArgs),
+    /// Make report.html of a result folder again, with the pages of this version
+    Report(report::ReportArgs),
     /// JSON Schema of the scene file on stdout, for completion and checks in editors
     Schema,
     /// Script on stdout that completes words in a shell
@@ -102,6 +105,7 @@ impl Cli {
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
+            Some(Command::Report(args)) => args.execute(quiet),
             Some(Command::Schema) => Ok(schema::execute()),
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
             Some(Command::Man) => shell::man(),

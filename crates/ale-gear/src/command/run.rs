@@ -186,7 +186,7 @@ fn write_static(
     })?;
     let cost = Cost::of(phases);
     let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     // Last of all, so that a summary means that everything is there.
     write_columnar(scene, results)?;
     let files = results.files()?;

@@ -68,7 +68,7 @@ impl StudyArgs {
             warnings: &warnings,
         };
         let table = study_table(of);
-        results.write("report.html", write_study_report(of, &table)?.as_bytes())?;
+        write_study_report(of, &table)?.write(&results)?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
         results.write("summary.json", write_study_summary(of, &files).as_bytes())?;

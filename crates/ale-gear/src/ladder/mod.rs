@@ -171,7 +171,7 @@ impl Case<'_> {
             view: None,
         };
         let report = write_ladder_report(scene, &facts, &cost, &headline, &pictures, &warnings)?;
-        results.write("report.html", report.as_bytes())?;
+        report.write(results)?;
         write_columnar(scene, results)?;
         let files = results.files()?;
         let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);

@@ -250,7 +250,7 @@ fn write_motion(
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     write_columnar(scene, results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
@@ -336,7 +336,7 @@ fn write_sweep(
     let cost = Cost::of(phases);
     let report =
         write_sweep_report(scene, &prepared.facts, &cost, &headline, (&rows, prepared.view.as_ref()), &warnings)?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;

@@ -52,7 +52,7 @@ pub(super) fn figure(svg: &str, plots: &[String]) -> String {
 }
 
 /// The chart as SVG.
-fn picture(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+pub(super) fn picture(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
     let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
     let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
     points().next()?;

@@ -2,21 +2,32 @@
 
 use minijinja::context;
 
-use super::charts::{Curve, line_chart};
+use super::charts::{Curve, line_chart, picture};
 use super::compare_table::{letter, number, per_cent};
 use super::page;
 use crate::compare::{NumberRow, Overlay, ResultFolder, WordRow};
 use crate::error::CommandError;
 
-const TEMPLATE: &str = include_str!("compare.html");
+/// A chart of one quantity.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CompareChart {
+    /// The quantity, with unit.
+    pub name: String,
+    /// For a page: with zoom and values under the pointer.
+    pub figure: String,
+    /// As a picture.
+    pub svg: String,
+}
 
-/// A chart of each quantity: its name and the picture as SVG. A quantity without a finite value has none.
-pub fn compare_charts(overlays: &[Overlay]) -> Vec<(String, String)> {
+/// A chart of each quantity. A quantity without a finite value has none.
+pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
     let chart = |overlay: &Overlay| {
         let curve = |t: &crate::compare::Trace| Curve { label: t.label.clone(), points: t.points.clone() };
         let curves: Vec<Curve> = overlay.traces.iter().map(curve).collect();
-        let svg = line_chart(&overlay.name, overlay.over, &overlay.name, &curves, false)?;
-        Some((overlay.name.clone(), svg))
+        let name = overlay.name.clone();
+        let figure = line_chart(&name, overlay.over, &name, &curves, false)?;
+        let svg = picture(&name, overlay.over, &name, &curves, false)?;
+        Some(CompareChart { name, figure, svg })
     };
     overlays.iter().filter_map(chart).collect()
 }
@@ -29,7 +40,7 @@ pub fn write_compare_report(
     runs: &[ResultFolder],
     numbers: &[NumberRow],
     inputs: &[WordRow],
-    charts: &[(String, String)],
+    charts: &[CompareChart],
 ) -> Result<String, CommandError> {
     let name = |run: &ResultFolder| run.summary()["name"].as_str().unwrap_or_default().to_owned();
     let model =
@@ -56,10 +67,9 @@ pub fn write_compare_report(
             context! { key => &row.key, cells => cells }
         })
         .collect();
-    let pictures: Vec<String> = charts.iter().map(|(_, svg)| svg.clone()).collect();
+    let pictures: Vec<String> = charts.iter().map(|c| c.figure.clone()).collect();
     page::render(
         "compare.html",
-        TEMPLATE,
         context! {
             name => format!("{} runs side by side", runs.len()),
             version => env!("CARGO_PKG_VERSION"),

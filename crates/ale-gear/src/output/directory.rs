@@ -124,7 +124,7 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
     let ours = |name: &String| {
         matches!(
             name.as_str(),
-            "summary.json" | "history.csv" | "history.parquet" | "report.html" | "contact_lines.csv"
+            "summary.json" | "history.csv" | "history.parquet" | "report.html" | "report.json.gz" | "contact_lines.csv"
         ) || matches!(name.as_str(), "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg")
             || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
             || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")

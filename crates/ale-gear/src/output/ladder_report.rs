@@ -1,6 +1,7 @@
 //! `report.html` of a cheaper model in motion.
 
 use super::{
+    Rendered,
     charts::{Curve, line_chart},
     motion_charts::{MotionPictures, motion_charts},
     motion_report::render,
@@ -32,10 +33,10 @@ pub(crate) fn write_ladder_report(
     headline: &LadderHeadline,
     pictures: &MotionPictures<'_>,
     warnings: &[String],
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let mut charts = motion_charts(pictures);
     charts.extend(PORTRAITS.iter().filter_map(|(name, title)| portrait(pictures.rows, name, title)));
-    render(scene, facts, cost, headline, ("ladder.html", include_str!("ladder.html")), charts, warnings)
+    render(scene, facts, cost, headline, "ladder.html", charts, warnings)
 }
 
 /// Velocity over displacement.

@@ -92,7 +92,7 @@ fn seen(scratch: &Scratch, run: Run) -> String {
     for path in names {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let content = match name.as_str() {
-            "report.html" => String::new(),
+            "report.html" | "report.json.gz" => String::new(),
             "summary.json" => summary(&std::fs::read_to_string(&path).unwrap()),
             _ => String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned(),
         };

@@ -52,6 +52,28 @@ fn shipped_scenes_fit_the_schema() {
     fits(&schema, &as_json(&starter)).unwrap();
 }
 
+/// Another's validator says the same, and that the schema is one of the draft that it names.
+#[test]
+fn an_independent_validator_agrees() {
+    use std::process::Command;
+    let there = Command::new("python3").args(["-c", "import jsonschema, tomllib"]).output();
+    if !there.is_ok_and(|o| o.status.success()) {
+        use std::io::Write;
+        let _ = writeln!(std::io::stderr(), "skipped: python3 with jsonschema is not installed");
+        return;
+    }
+    let scratch = util::Scratch::new().file("schema.json", json_schema().to_string());
+    let files: Vec<_> = scenes()
+        .into_iter()
+        .filter(|path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[pinion]")))
+        .collect();
+    let script = repository().join("tests/verification/scripts/scene_schema.py");
+    let run =
+        Command::new("python3").arg(script).arg(scratch.path().join("schema.json")).args(&files).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    assert_eq!(String::from_utf8_lossy(&run.stdout).trim(), files.len().to_string());
+}
+
 /// What the program refuses does not fit: unknown keys, wrong types, values out of range, words that are none, missing keys.
 #[test]
 fn wrong_scenes_do_not_fit_the_schema() {
