@@ -111,6 +111,18 @@ fn physical_nonsense_names_its_line() {
     );
 }
 
+/// What only another model writes is not read and ignored.
+#[test]
+fn a_ramp_without_waterfall_takes_no_word_on_it() {
+    let scene = with("model = \"iso\"", "model = \"impact\"")
+        + "[motion]\nrun = \"ramp\"\n[motion.ramp]\nfrom_rpm = 500.0\nto_rpm = 900.0\nduration_s = 0.1\nwaterfall_cycles = 8\n";
+    says(
+        &scene,
+        "ale-gear: a.toml:23: `waterfall_cycles` means nothing to the model \"impact\"\n\
+         hint: leave it out: of a ramp of this model the last speed has a spectrum\n",
+    );
+}
+
 /// Undercut is no error, but a user hears of it, with the number that avoids it.
 #[test]
 fn undercut_is_told_with_its_way_out() {

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::path::Path;
 
 use flate2::{Compression, read::GzDecoder, write::GzEncoder};
-use minijinja::Value;
+use minijinja::{Value, value::Serde};
 use serde::{Deserialize, Serialize};
 
 use super::{ResultDirectory, page};
@@ -71,6 +71,6 @@ pub fn report_again(folder: &Path) -> Result<String, CommandError> {
     let mut json = Vec::new();
     GzDecoder::new(bytes.as_slice()).read_to_end(&mut json).map_err(|e| refuse(&e))?;
     let Source { template, context } = serde_json::from_slice(&json).map_err(|e| refuse(&e))?;
-    page::render(&template, Value::from_serialize(&context))
+    page::render(&template, Value::from(Serde(&context)))
         .map_err(|e| refuse(&format_args!("is of another version: {e}")))
 }
