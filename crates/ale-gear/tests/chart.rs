@@ -49,12 +49,15 @@ fn every_point_is_a_run_or_says_why_not() {
         }
         measured.push((row[0].clone(), value("mean_ste_um").unwrap(), value("positions_run").unwrap()));
     }
-    for way in ["iso", "slice", "slice, general reduction", "nodal", "full", "reference"] {
+    let cheap = ["lumped8", "lumped12", "shaft18", "impact", "lumped12, fed by slice"];
+    for way in cheap.into_iter().chain(["iso", "slice", "slice, general reduction", "nodal", "full", "reference"]) {
         assert!(measured.iter().any(|(name, ..)| name == way), "no point of {way}:\n{csv}");
     }
     // Each of them computes the same gears: nothing is off by a unit, a sign or a factor.
     for (way, ste, _) in &measured {
-        assert!((5.0..20.0).contains(ste), "{way}: {ste} um");
+        // Rigid gears, whose dent has the stiffness of two balls, yield three times as much.
+        let most = if way == "impact" { 60.0 } else { 20.0 };
+        assert!((5.0..most).contains(ste), "{way}: {ste} um");
     }
     let page = scratch.read("page.md");
     assert!(page.starts_with("# Cost\n<!-- chart small -->\n") && page.ends_with("<!-- end -->\nrest\n"), "{page}");

@@ -4,13 +4,13 @@ use std::convert::Infallible;
 
 use dynamics::{
     Wrench,
-    motion::{Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl},
+    motion::{Mechanism, MotionError, Scheme, State, StepControl},
 };
 use geometry::Vec3;
 use nalgebra::DVector;
 use serde::Serialize;
 
-use crate::{LumpedPair, MeshFrame};
+use crate::{LumpedPair, MeshFrame, Recorded, Recording, recording::record};
 
 /// One row of a history.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -71,15 +71,24 @@ pub struct RunPlan {
     pub cycles: usize,
 }
 
-/// Rows of a run and its energy.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LumpedHistory {
-    /// Rows, evenly spaced over whole mesh cycles (of the mean speed), the end left out.
-    pub rows: Vec<HistoryRow>,
-    /// Energy from the start of the run to its end.
-    pub ledger: Ledger,
-    /// State at the end: the start of the next run.
-    pub state: State,
+impl RunPlan {
+    /// The same in time, for a mesh cycle that takes `period` (s).
+    ///
+    /// # Errors
+    /// [`MotionError::Options`] for a plan without rows.
+    fn recording(&self, period: f64) -> Result<Recording, MotionError<Infallible>> {
+        if self.rows_per_cycle == 0 || self.steps_per_row == 0 || self.cycles == 0 {
+            return Err(MotionError::Options("a run takes at least one cycle, row and step"));
+        }
+        let steps = self.rows_per_cycle as f64 * self.steps_per_row as f64;
+        Ok(Recording {
+            scheme: self.scheme,
+            control: StepControl::Fixed(period / steps),
+            settle: self.settling_cycles as f64 * period,
+            duration: self.cycles as f64 * period,
+            rows: self.cycles * self.rows_per_cycle,
+        })
+    }
 }
 
 /// State in which a run starts: the loaded pair at rest as for speed to zero, moving with the nominal rotation; all zero where nothing holds it.
@@ -97,27 +106,10 @@ pub fn run<M: LumpedModel>(
     model: &mut M,
     plan: &RunPlan,
     from: Option<State>,
-) -> Result<LumpedHistory, MotionError<Infallible>> {
-    if plan.rows_per_cycle == 0 || plan.steps_per_row == 0 || plan.cycles == 0 {
-        return Err(MotionError::Options("a run takes at least one cycle, row and step"));
-    }
-    let mut state = from.unwrap_or_else(|| starting_state(model));
-    let (begin, period) = (state.time, 1.0 / model.pair().clock.mesh_frequency());
-    let row_time = period / plan.rows_per_cycle as f64;
-    let control = StepControl::Fixed(row_time / plan.steps_per_row as f64);
-    let mut integrator = Integrator::new(plan.scheme, control, model.scale());
-    let settled = plan.settling_cycles * plan.rows_per_cycle;
-    if settled > 0 {
-        integrator.advance(model, &mut state, begin + settled as f64 * row_time, |_, _| ())?;
-    }
-    let mut rows = Vec::with_capacity(plan.cycles * plan.rows_per_cycle);
-    for k in 0..plan.cycles * plan.rows_per_cycle {
-        rows.push(model.row(state.time, &state.q, &state.v));
-        let until = begin + (settled + k + 1) as f64 * row_time;
-        integrator.advance(model, &mut state, until, |_, _| ())?;
-    }
-    let ledger = integrator.ledger().copied().unwrap_or_default();
-    Ok(LumpedHistory { rows, ledger, state })
+) -> Result<Recorded<HistoryRow>, MotionError<Infallible>> {
+    let recording = plan.recording(1.0 / model.pair().clock.mesh_frequency())?;
+    let (state, scale) = (from.unwrap_or_else(|| starting_state(model)), model.scale());
+    record(model, state, scale, &recording, |model, state| model.row(state.time, &state.q, &state.v))
 }
 
 /// Mesh forces of a model in its own axes, for [`HistoryRow`].

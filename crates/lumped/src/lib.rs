@@ -35,7 +35,7 @@ pub use dead_zone::{Beyond, DeadZone};
 pub use error::LumpedError;
 pub use fourier::{Fourier, FourierTorque};
 pub use frame::MeshFrame;
-pub use history::{HistoryRow, LumpedHistory, LumpedModel, RunPlan, run, starting_state};
+pub use history::{HistoryRow, LumpedModel, RunPlan, run, starting_state};
 pub use mesh_cycle::MeshCycle;
 pub use pair::{LumpedPair, Operation};
 pub use plane_of_action::{LineMeans, LineSharing, PlaneOfAction};

@@ -2,24 +2,22 @@
 
 use std::convert::Infallible;
 
-use dynamics::motion::{Integrator, Ledger, Mechanism, Scheme, State, StepControl};
+use dynamics::motion::{Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
-
-use crate::LumpedError;
 
 /// What is to be run, and which rows are kept of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recording {
     /// Method of integration.
     pub scheme: Scheme,
-    /// Steps.
+    /// Steps; one ends at every row.
     pub control: StepControl,
     /// Time that passes before rows are kept, s.
     pub settle: f64,
     /// Time over which rows are kept, s.
     pub duration: f64,
-    /// Every how many steps a row is kept; 0 counts as 1.
-    pub every: u64,
+    /// Rows, evenly spaced from the beginning of that time, its end left out; >= 1.
+    pub rows: usize,
 }
 
 /// Rows, the state at the end, and energy from the start to the end.
@@ -27,7 +25,7 @@ pub struct Recording {
 pub struct Recorded<R> {
     /// Rows, ascending in time.
     pub rows: Vec<R>,
-    /// State at the end.
+    /// State at the end: the start of the next run.
     pub state: State,
     /// Energy.
     pub ledger: Ledger,
@@ -40,16 +38,18 @@ pub(crate) fn record<M: Mechanism<Error = Infallible>, R>(
     scale: DVector<f64>,
     plan: &Recording,
     mut row: impl FnMut(&mut M, &State) -> R,
-) -> Result<Recorded<R>, LumpedError> {
+) -> Result<Recorded<R>, MotionError<Infallible>> {
+    if plan.rows == 0 {
+        return Err(MotionError::Options("a run takes at least one row"));
+    }
     let mut integrator = Integrator::new(plan.scheme, plan.control, scale);
-    let begin = state.time;
-    integrator.advance(system, &mut state, begin + plan.settle, |_, _| ())?;
-    let (mut rows, mut count) = (Vec::new(), 0u64);
-    integrator.advance(system, &mut state, begin + plan.settle + plan.duration, |system, seen| {
-        count += 1;
-        if count.is_multiple_of(plan.every.max(1)) {
-            rows.push(row(system, seen.state));
-        }
-    })?;
+    let first = state.time + plan.settle;
+    integrator.advance(system, &mut state, first, |_, _| ())?;
+    let spacing = plan.duration / plan.rows as f64;
+    let mut rows = Vec::with_capacity(plan.rows);
+    for k in 1..=plan.rows {
+        rows.push(row(system, &state));
+        integrator.advance(system, &mut state, first + k as f64 * spacing, |_, _| ())?;
+    }
     Ok(Recorded { rows, ledger: integrator.ledger().copied().unwrap_or_default(), state })
 }

@@ -349,7 +349,7 @@ fn three_shafts_make_a_train() {
         control: StepControl::Fixed(TAU / (200.0 * 30.0) / 200.0),
         settle: 0.0,
         duration: 0.01,
-        every: 1,
+        rows: 190,
     };
     assert!(model.history(1, &run).unwrap().rows.iter().all(|r| r.normal_force.is_finite() && r.normal_force > 0.0));
 }
@@ -407,7 +407,7 @@ fn mirrored_systems_answer_mirrored() {
         control: StepControl::Fixed(5e-6),
         settle: 0.0,
         duration: 4e-3,
-        every: 50,
+        rows: 16,
     };
     let rows = |system: &ShaftSystem| ShaftMechanism::new(system).unwrap().history(0, &run).unwrap().rows;
     let mut system = gearbox(300.0, 0.01);
@@ -449,7 +449,7 @@ fn slow_running_is_static() {
         control: StepControl::Fixed(period / 400.0),
         settle: 0.25 * period,
         duration: period,
-        every: 20,
+        rows: 20,
     };
     for row in model.history(0, &run).unwrap().rows {
         let q = model.static_state(row.time).unwrap();

@@ -116,8 +116,9 @@ fn backlash_brings_sidebands_at_shaft_frequency() {
         system.torques[1].torque = 5e3 * 46.0 / 30.0;
         system.meshes[0].run_out[0].eccentricity = 0.02;
         let mut model = ShaftMechanism::new(&system).unwrap();
-        let control = StepControl::Fixed(model.mesh_period(0).unwrap() / f64::from(STEPS));
-        let plan = Recording { scheme: Scheme::RungeKutta4, control, settle: 0.2, duration: 0.6, every: 2 };
+        let step = model.mesh_period(0).unwrap() / f64::from(STEPS);
+        let (control, rows) = (StepControl::Fixed(step), (0.3 / step).round() as usize);
+        let plan = Recording { scheme: Scheme::RungeKutta4, control, settle: 0.2, duration: 0.6, rows };
         let rows = model.history(0, &plan).unwrap().rows;
         let forces: Vec<f64> = rows.iter().map(|r| r.normal_force).collect();
         study::spectrum(&forces, 0.5 * f64::from(STEPS) * 1500.0, Window::BlackmanHarris).unwrap()

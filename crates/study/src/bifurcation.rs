@@ -5,11 +5,11 @@ use serde::Serialize;
 
 /// What a motion settled to at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Branch {
+pub struct Branch<P = Vec<f64>> {
     /// Value of the parameter.
     pub value: f64,
-    /// Points of the section there, in their order in time.
-    pub points: Vec<f64>,
+    /// Points of the section there, in their order in time; or whatever else the caller's run says of the motion.
+    pub points: P,
 }
 
 /// Both directions of a sweep, each in ascending order of the parameter.
@@ -27,11 +27,11 @@ pub struct Bifurcation {
 ///
 /// # Errors
 /// The first of `run`.
-pub fn sweep<S, E>(
+pub fn sweep<S, P, E>(
     values: &[f64],
     state: &mut S,
-    mut run: impl FnMut(f64, &mut S) -> Result<Vec<f64>, E>,
-) -> Result<Vec<Branch>, E> {
+    mut run: impl FnMut(f64, &mut S) -> Result<P, E>,
+) -> Result<Vec<Branch<P>>, E> {
     values.iter().map(|&value| run(value, state).map(|points| Branch { value, points })).collect()
 }
 
@@ -57,11 +57,11 @@ pub fn sweep_both_ways<S, E>(
 ///
 /// # Errors
 /// That of the first value, in the order of `values`, that fails.
-pub fn sweep_parallel<E: Send>(
+pub fn sweep_parallel<P: Send, E: Send>(
     values: &[f64],
-    run: impl Fn(f64) -> Result<Vec<f64>, E> + Sync,
-) -> Result<Vec<Branch>, E> {
-    let all: Vec<Result<Branch, E>> =
+    run: impl Fn(f64) -> Result<P, E> + Sync,
+) -> Result<Vec<Branch<P>>, E> {
+    let all: Vec<Result<Branch<P>, E>> =
         values.par_iter().map(|&value| run(value).map(|points| Branch { value, points })).collect();
     all.into_iter().collect()
 }
@@ -70,11 +70,11 @@ pub fn sweep_parallel<E: Send>(
 ///
 /// # Errors
 /// That of the first start that fails.
-pub fn sweeps_parallel<S: Send, E: Send>(
+pub fn sweeps_parallel<S: Send, P: Send, E: Send>(
     starts: Vec<(Vec<f64>, S)>,
-    run: impl Fn(f64, &mut S) -> Result<Vec<f64>, E> + Sync,
-) -> Result<Vec<Vec<Branch>>, E> {
-    let all: Vec<Result<Vec<Branch>, E>> =
+    run: impl Fn(f64, &mut S) -> Result<P, E> + Sync,
+) -> Result<Vec<Vec<Branch<P>>>, E> {
+    let all: Vec<Result<Vec<Branch<P>>, E>> =
         starts.into_par_iter().map(|(values, mut state)| sweep(&values, &mut state, &run)).collect();
     all.into_iter().collect()
 }

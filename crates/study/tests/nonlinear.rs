@@ -118,7 +118,7 @@ fn hysteresis_is_where_both_ways_differ() {
     backward.reverse();
     assert_eq!((&pair[0], &backward), (&both.forward, &both.backward));
     // The first failure is handed on.
-    let failed = sweep_parallel(&[1.0, 2.0, 3.0], |v| if v > 1.5 { Err(v) } else { Ok(vec![]) });
+    let failed = sweep_parallel(&[1.0, 2.0, 3.0], |v| if v > 1.5 { Err::<Vec<f64>, f64>(v) } else { Ok(vec![]) });
     assert_eq!(failed, Err(2.0));
 }
 

@@ -3,7 +3,7 @@
 use mesh::GearMesh;
 use study::{Answer, Work};
 
-use super::{Point, calculix_point, plan::Engine};
+use super::{Point, calculix_point, ladder_point, plan::Engine};
 use crate::{
     cache::Cache,
     error::CommandError,
@@ -12,7 +12,7 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     run,
-    scene::{Model, Scene},
+    scene::{Model, Scene, StiffnessFrom},
 };
 
 /// What one point gave and took.
@@ -25,7 +25,7 @@ pub(super) struct Measured {
 }
 
 /// Repeats of a cheap cycle, so that the clock's steps do not show.
-const REPEATS: u32 = 200;
+pub(super) const REPEATS: u32 = 200;
 /// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are alike.
 const LONG: f64 = 20.0;
 
@@ -36,6 +36,7 @@ const LONG: f64 = 20.0;
 pub(super) fn measure(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandError> {
     let measured = match point.way.engine {
         Engine::Own(_) => own(point, results),
+        Engine::Ladder(_) => ladder_point::measure(point, results),
         Engine::Calculix => calculix_point::measure(point),
     };
     measured.map(|mut m| {
@@ -105,7 +106,8 @@ pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], CommandError>
 /// # Errors
 /// As meshing complains.
 pub(super) fn degrees_of_freedom(scene: &Scene) -> Result<usize, CommandError> {
-    if scene.analysis.model == Model::Iso {
+    let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
+    if scene.analysis.model == Model::Iso || (crate::ladder::has(scene) && !fed) {
         return Ok(0);
     }
     let pair = gears::pair(scene)?;

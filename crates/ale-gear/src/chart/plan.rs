@@ -1,5 +1,6 @@
 //! The points of the chart: ways to compute a cycle times mesh densities. Each point is a scene of its own.
 
+use super::ladder_scene;
 use crate::scene::{Gap, MesherScene, Method, Model, Reduction, Scene};
 
 /// A density of the built-in mesher, quadratic elements.
@@ -36,6 +37,8 @@ impl Density {
 pub enum Engine {
     /// This program, the scene edited.
     Own(fn(&mut Scene)),
+    /// A cheaper model, the scene edited: the pair at rest under the load, phase by phase.
+    Ladder(fn(&mut Scene)),
     /// CalculiX on the same mesh.
     Calculix,
 }
@@ -81,8 +84,14 @@ pub(super) const PENALTY: f64 = 1e7;
 /// The ways, cheapest first. One more is one more line.
 pub fn ways() -> Vec<Way> {
     let own = |name, range, edit| Way { name, engine: Engine::Own(edit), range, share: Share::Whole };
+    let ladder = |name, range, edit| Way { name, engine: Engine::Ladder(edit), range, share: Share::Whole };
     vec![
         own("iso", Range::None, iso),
+        ladder("lumped8", Range::None, ladder_scene::lumped8),
+        ladder("lumped12", Range::None, ladder_scene::lumped12),
+        ladder("shaft18", Range::None, ladder_scene::shaft18),
+        ladder("impact", Range::None, ladder_scene::impact),
+        ladder(FED, Range::BelowReference, ladder_scene::lumped12_fed),
         own(SLICE, Range::BelowReference, slice),
         own("slice, general reduction", Range::BelowReference, slice_general),
         own("nodal", Range::All, nodal),
@@ -94,6 +103,8 @@ pub fn ways() -> Vec<Way> {
 
 /// Name of the way that is reduced by sectors where it can be, with slices.
 pub(super) const SLICE: &str = "slice";
+/// Name of a cheaper model that the reduced one feeds.
+pub(crate) const FED: &str = "lumped12, fed by slice";
 /// Name of the way that keeps every degree of freedom: others are compared with it.
 pub(crate) const FULL: &str = "full";
 /// Name of CalculiX's points.
@@ -112,7 +123,7 @@ fn reduced(scene: &mut Scene) {
     scene.analysis.reduction = Some(Reduction::Auto);
 }
 
-fn slice(scene: &mut Scene) {
+pub(super) fn slice(scene: &mut Scene) {
     reduced(scene);
     scene.contact.method = Method::Slice;
     scene.contact.penalty_mpa_per_mm = None;
@@ -176,7 +187,7 @@ impl Point {
     pub fn new(scene: &Scene, way: Way, density: Option<Density>, part: u32) -> Self {
         let mut own = meshed(scene, density);
         match way.engine {
-            Engine::Own(edit) => edit(&mut own),
+            Engine::Own(edit) | Engine::Ladder(edit) => edit(&mut own),
             // It takes the whole meshes, as `full` does.
             Engine::Calculix => full(&mut own),
         }
@@ -195,7 +206,7 @@ impl Point {
 }
 
 /// The scene with both gears made by the built-in mesher at a density.
-fn meshed(scene: &Scene, density: Option<Density>) -> Scene {
+pub(super) fn meshed(scene: &Scene, density: Option<Density>) -> Scene {
     let mut own = scene.clone();
     let Some(density) = density else { return own };
     for gear in [&mut own.pinion, &mut own.wheel] {

@@ -3,8 +3,9 @@
 use study::{Answer, AnswerError, Work};
 
 use super::{
-    Density, Point, Way, guard,
+    Density, MotionRow, Point, Way, guard,
     measure::{Measured, degrees_of_freedom, measure},
+    motion,
     plan::{Engine, Range, Share, densities, reference},
     ways,
 };
@@ -19,17 +20,19 @@ pub struct ChartOptions {
     pub part: u32,
     /// A point that would take longer than this, by what the one before it took, is left out, s.
     pub limit_s: f64,
+    /// Whether the models are run in motion too.
+    pub motion: bool,
 }
 
 impl ChartOptions {
     /// Four densities.
     pub fn whole(limit_s: f64) -> Self {
-        Self { densities: Density::ALL.to_vec(), part: 2, limit_s }
+        Self { densities: Density::ALL.to_vec(), part: 2, limit_s, motion: false }
     }
 
     /// A look in less than a minute.
     pub fn quick(limit_s: f64) -> Self {
-        Self { densities: Density::QUICK.to_vec(), part: 1, limit_s }
+        Self { densities: Density::QUICK.to_vec(), part: 1, limit_s, motion: false }
     }
 }
 
@@ -75,6 +78,8 @@ pub struct WorkPrecision {
     pub reference_note: String,
     /// The points, way by way, coarse to fine.
     pub rows: Vec<PointRow>,
+    /// The models in motion; empty where they were not asked for.
+    pub motion: Vec<MotionRow>,
 }
 
 /// A point as it was measured, not yet compared.
@@ -86,7 +91,8 @@ struct Raw {
 
 /// Number of points that [`chart`] tells `seen` of.
 pub fn point_count(options: &ChartOptions) -> usize {
-    1 + ways().iter().map(|w| densities(w, &options.densities).len()).sum::<usize>()
+    let in_motion = if options.motion { motion::WAYS } else { 0 };
+    1 + in_motion + ways().iter().map(|w| densities(w, &options.densities).len()).sum::<usize>()
 }
 
 /// Runs every point of `scene`. `seen` is told of each before it runs.
@@ -121,7 +127,13 @@ pub fn chart(
         })
         .collect();
     let Measured { work: reference_work, answer: reference, .. } = reference;
-    Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows })
+    // The finest mesh that is not the reference's own.
+    let density = options.densities.iter().rev().nth(1).or(options.densities.first());
+    let motion = match density.filter(|_| options.motion) {
+        Some(density) => motion::rows(scene, *density, results, seen),
+        None => Vec::new(),
+    };
+    Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows, motion })
 }
 
 /// The points of one way, coarse to fine.

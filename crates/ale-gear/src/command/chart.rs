@@ -24,6 +24,9 @@ pub(super) struct ChartArgs {
     /// Coarse meshes and few positions: less than a minute
     #[arg(long)]
     quick: bool,
+    /// Run the models in motion at the scene's torque and speed as well
+    #[arg(long)]
+    motion: bool,
     /// Leave out what would take longer than this, by what the coarser mesh took
     #[arg(long, value_name = "S", default_value = "240")]
     limit_s: f64,
@@ -45,12 +48,13 @@ impl ChartArgs {
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
         }
-        let options = if self.quick {
+        let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
             ChartOptions::quick(self.limit_s)
         } else {
             ChartOptions::whole(self.limit_s)
         };
+        options.motion = self.motion;
         Ok((scene, options))
     }
 
@@ -66,6 +70,7 @@ impl ChartArgs {
             })
         })?;
         let quick = if self.quick { " --quick" } else { "" };
+        let quick = if self.motion { format!("{quick} --motion") } else { quick.to_owned() };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
         let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());

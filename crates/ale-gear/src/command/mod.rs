@@ -13,6 +13,7 @@ mod run;
 mod schema;
 mod shell;
 mod study;
+mod sweep;
 
 use clap::{ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -73,6 +74,8 @@ enum Command {
     },
     /// Manual page on stdout (roff), as in `ale-gear man | man -l -`
     Man,
+    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
+    Sweep(sweep::SweepArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
@@ -102,6 +105,7 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
+            Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),

@@ -6,11 +6,9 @@ use dynamics::{
 };
 use lumped::LumpedError;
 
-use super::{model::LadderModel, settle::Returns};
+use super::{model::Model, settle::Returns};
 use crate::{
-    motion::{ENERGY, energy_row, scheme},
-    output::push_row,
-    phases::Progress,
+    motion::{Columns, ENERGY, energy_row, scheme},
     scene::{Analysis, MotionScene, Run, Scene},
 };
 
@@ -18,11 +16,13 @@ use crate::{
 #[derive(Debug)]
 pub(super) struct Course {
     /// `history.csv`.
-    pub history: String,
+    pub history: Columns,
     /// `energy.csv`.
-    pub energy: String,
+    pub energy: Columns,
     /// One row a mesh cycle, at its beginning.
-    pub section: String,
+    pub section: Columns,
+    /// Where it ends.
+    pub end: State,
     /// Mesh cycles with rows.
     pub cycles: u64,
     /// The last of these, which the headline and the spectra are of.
@@ -54,28 +54,43 @@ fn cycles(scene: &Scene, words: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     words.duration_s.or(ramp).map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
 }
 
-/// Runs a model from rest under the load. Frequencies of the mesh and of its resonance (0: none) say how long steps are.
-///
-/// # Errors
-/// [`LumpedError`] where there is nothing to start from, or a step does not settle.
-pub(super) fn run(
-    model: &mut impl LadderModel,
-    scene: &Scene,
-    words: &MotionScene,
-    [mesh_hz, resonance_hz]: [f64; 2],
-    progress: &Progress,
-) -> Result<Course, LumpedError> {
-    let per_cycle = u64::from(words.steps_per_mesh_cycle);
-    let steps_per_row = steps_per_row(words, [mesh_hz, resonance_hz]);
-    let period = 1.0 / mesh_hz;
-    let step = period / per_cycle as f64 / f64::from(steps_per_row);
+/// The integrator that a scene asks for, steps as long as this at the most.
+pub(super) fn integrator(model: &Model, words: &MotionScene, step: f64) -> Integrator {
     let control = match words.error_tolerance {
         None => StepControl::Fixed(step),
         Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * step, least: 1e-7 * step, largest: step },
     };
-    let mut state = model.start()?;
-    let mut integrator =
-        Integrator::new(scheme(words), control, model.scale()).stopping_at_events(words.stop_at_events);
+    Integrator::new(scheme(words), control, model.scale()).stopping_at_events(words.stop_at_events)
+}
+
+/// Length of a step of a scene, s.
+pub(super) fn step(words: &MotionScene, frequencies_hz: [f64; 2]) -> f64 {
+    let rows = f64::from(words.steps_per_mesh_cycle) * frequencies_hz[0];
+    1.0 / rows / f64::from(steps_per_row(words, frequencies_hz))
+}
+
+/// Runs a model from a state at the beginning of a mesh cycle, else from rest under the load. Frequencies of the mesh and of its resonance (0: none) say how long steps are.
+///
+/// The clock begins at 0 whatever the state's own says.
+///
+/// # Errors
+/// [`LumpedError`] where there is nothing to start from, or a step does not settle.
+pub(super) fn run(
+    model: &mut Model,
+    scene: &Scene,
+    words: &MotionScene,
+    [mesh_hz, resonance_hz]: [f64; 2],
+    from: Option<&State>,
+    tick: impl Fn(),
+) -> Result<Course, LumpedError> {
+    let per_cycle = u64::from(words.steps_per_mesh_cycle);
+    let steps_per_row = steps_per_row(words, [mesh_hz, resonance_hz]);
+    let period = 1.0 / mesh_hz;
+    let mut state = match from {
+        Some(from) => State::new(0.0, from.q.clone(), from.v.clone()),
+        None => model.start()?,
+    };
+    let mut integrator = integrator(model, words, step(words, [mesh_hz, resonance_hz]));
     let dte = model.columns().iter().position(|n| n == "dte_um");
     let settles = words.run == Run::Steady;
     let (tolerance, most) = (words.periodic_tolerance.unwrap_or(0.0), u64::from(words.warm_up_cycles.unwrap_or(0)));
@@ -99,21 +114,21 @@ pub(super) fn run(
         }
     }
     let cycles = cycles(scene, words, mesh_hz);
-    let header = model.columns().join(",") + "\n";
-    let (mut history, mut section, mut energy) = (header.clone(), header, ENERGY.to_owned());
+    let mut history = Columns::named(model.columns());
+    let (mut section, mut energy) = (history.clone(), Columns::named(ENERGY.trim_end().split(',')));
     for row in 0..cycles * per_cycle {
         let values = model.row(&state);
         if row % per_cycle == 0 {
-            push_row(&mut section, values.iter().copied());
-            progress.tick();
+            section.push(values.iter().copied());
+            tick();
         }
-        push_row(&mut history, values);
-        push_row(&mut energy, energy_row(state.time, &ledger(model, &integrator, &state)));
+        history.push(values);
+        energy.push(energy_row(state.time, &ledger(model, &integrator, &state)));
         let until = (warm_up * per_cycle + row + 1) as f64 * period / per_cycle as f64;
         advance(model, &mut integrator, &mut state, until)?;
     }
     let ledger = ledger(model, &integrator, &state);
-    push_row(&mut energy, energy_row(state.time, &ledger));
+    energy.push(energy_row(state.time, &ledger));
     // Of a ramp the last speed is judged.
     let judged = match words.ramp {
         Some(ramp) => ((ramp.after_s * mesh_hz).floor() as u64).clamp(1, cycles),
@@ -123,6 +138,7 @@ pub(super) fn run(
         history,
         energy,
         section,
+        end: state,
         cycles,
         judged,
         warm_up,
@@ -134,7 +150,7 @@ pub(super) fn run(
 }
 
 /// Energy so far; before the first step what the start holds.
-fn ledger(model: &mut impl LadderModel, integrator: &Integrator, state: &State) -> Ledger {
+fn ledger(model: &mut Model, integrator: &Integrator, state: &State) -> Ledger {
     match integrator.ledger() {
         Some(ledger) => *ledger,
         None => {
@@ -144,11 +160,6 @@ fn ledger(model: &mut impl LadderModel, integrator: &Integrator, state: &State) 
     }
 }
 
-fn advance(
-    model: &mut impl LadderModel,
-    integrator: &mut Integrator,
-    state: &mut State,
-    until: f64,
-) -> Result<(), LumpedError> {
+fn advance(model: &mut Model, integrator: &mut Integrator, state: &mut State, until: f64) -> Result<(), LumpedError> {
     Ok(integrator.advance(model, state, until, |_, _| ())?)
 }

@@ -1,7 +1,7 @@
 //! Rigid gears on their true flanks.
 
 use dynamics::{
-    motion::State,
+    motion::{Mechanism, State},
     pair_motion::{COORDINATES, Torque},
 };
 use geometry::GearPair;
@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use super::{
     bodies::{bearings, bodies},
-    model::LadderModel,
+    model::{LadderModel, StaticPoint},
 };
 use crate::{
     motion::{GEARS, WRENCH, drive, torque},
@@ -150,7 +150,17 @@ impl LadderModel for ImpactMechanism {
         all
     }
 
-    fn static_errors(&self, _: usize) -> Option<Vec<f64>> {
-        None
+    fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
+        let at = |k: usize| {
+            let mut there = self.beginning_at(k as f64 / phases as f64).ok()?;
+            let state = State::new(0.0, there.static_state().ok()?, DVector::zeros(self.mass().nrows()));
+            let row = Self::row(&mut there, 0.0, &state.q, &state.v);
+            Some(StaticPoint { error: 1e-3 * row.transmission_error_um, line_length: Some(row.contact_line_length) })
+        };
+        (0..phases).map(at).collect()
+    }
+
+    fn natural_frequencies_hz(&self, _: f64) -> Vec<f64> {
+        Vec::new()
     }
 }

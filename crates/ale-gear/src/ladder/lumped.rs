@@ -14,11 +14,10 @@ use std::f64::consts::TAU;
 
 use super::{
     bodies::{bodies, supports8, supports12, torques},
-    mesh_cycle::{Sources, half_a_cycle_on, mesh_cycle},
-    model::LadderModel,
+    mesh_cycle::{Fed, half_a_cycle_on},
+    model::{LadderModel, StaticPoint},
 };
 use crate::{
-    error::CommandError,
     motion::{GEARS, RPM, WRENCH},
     run,
     scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing},
@@ -38,46 +37,47 @@ const LEADING: [&str; 9] = [
 /// Mesh cycles at t = 0: the pinion begins half a pitch before the middle of pair 0, as everywhere in this program.
 const START: f64 = -0.5;
 
-/// A pair of the scene, its excitation and its bodies, with warnings.
-pub(super) struct Made {
-    pub pair: LumpedPair,
-    pub bodies: [RigidBody; 2],
-    pub warnings: Vec<String>,
+/// Sense in which the driver turns: scenes say how the pinion does.
+fn driver_sense(scene: &Scene, pair: &GearPair) -> Sense {
+    match (scene.operation.driver, run::options(scene, pair).sense) {
+        (Driver::Pinion, sense) => sense,
+        (Driver::Wheel, Sense::Ccw) => Sense::Cw,
+        (Driver::Wheel, Sense::Cw) => Sense::Ccw,
+    }
 }
 
-/// What both models have in common.
+/// Contact lines of a scene's pair.
+pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
+    let driver = run::options(scene, pair).driver;
+    PlaneOfAction::of_pair(pair, driver, &MeshFrame::of_pair(pair, driver, driver_sense(scene, pair)))
+}
+
+/// What both models have in common: pair with excitation, and its bodies.
+///
+/// # Errors
+/// [`LumpedError`] for what has no meaning.
 pub(super) fn lumped_pair(
     scene: &Scene,
     words: &MeshScene,
     pair: &GearPair,
-    sources: Sources<'_>,
-) -> Result<Made, CommandError> {
-    let running = run::options(scene, pair);
-    // Scenes say how the pinion turns, lumped pairs how the driver does.
-    let sense = match (scene.operation.driver, running.sense) {
-        (Driver::Pinion, sense) => sense,
-        (Driver::Wheel, Sense::Ccw) => Sense::Cw,
-        (Driver::Wheel, Sense::Cw) => Sense::Ccw,
-    };
-    let frame = MeshFrame::of_pair(pair, running.driver, sense);
-    let fed = mesh_cycle(scene, words, pair, &PlaneOfAction::of_pair(pair, running.driver, &frame), sources)?;
+    fed: &Fed,
+) -> Result<(LumpedPair, [RigidBody; 2]), LumpedError> {
     let bodies = bodies(scene, pair);
     let operation = Operation {
-        driver: running.driver,
-        sense,
+        driver: run::options(scene, pair).driver,
+        sense: driver_sense(scene, pair),
         speed: scene.operation.speed_rpm * RPM,
         torque: scene.operation.torque(),
         friction: scene.contact.friction,
     };
-    let made = LumpedPair::new(pair, &operation, bodies, half_a_cycle_on(&fed.cycle));
-    let mut made = made.map_err(|e| super::complaint(scene, &e))?;
+    let mut made = LumpedPair::new(pair, &operation, bodies, half_a_cycle_on(&fed.cycle))?;
     made.clock = MeshClock { start: START, ..made.clock };
     made.torques = torques(scene, pair, made.torques[0].mean());
     made.plane.sharing = match words.line_sharing {
         Some(Sharing::Line) => LineSharing::ByLine,
         Some(Sharing::Length) | None => LineSharing::ByLength,
     };
-    Ok(Made { pair: made, bodies, warnings: fed.warnings })
+    Ok((made, bodies))
 }
 
 /// Driver's first.
@@ -91,9 +91,9 @@ pub(super) fn eight(
     words: &Lumped8Scene,
     mesh: &MeshScene,
     gears: &GearPair,
-    made: Made,
+    mut pair: LumpedPair,
+    bodies: &[RigidBody; 2],
 ) -> Result<Motion8, LumpedError> {
-    let Made { mut pair, bodies, .. } = made;
     if let Some(hz) = words.speed_fluctuation_hz {
         pair.clock.fluctuation = words.speed_fluctuation_rpm * RPM;
         pair.clock.fluctuation_frequency = TAU * hz;
@@ -103,14 +103,13 @@ pub(super) fn eight(
         Law::Projected => MeshLaw::Projected,
     };
     let half_backlash = mesh.half_backlash_um.map_or_else(|| law.half_backlash(gears), |b| 1e-3 * b);
-    let supports = by_role(&pair, supports8(scene, &bodies));
+    let supports = by_role(&pair, supports8(scene, bodies));
     let ratio = scene.motion.as_ref().and_then(|m| m.mesh_damping_ratio).unwrap_or(0.0);
     Lumped8::new(pair, supports, ratio, half_backlash, law)?.motion()
 }
 
 /// The model with twelve.
-pub(super) fn twelve(scene: &Scene, words: &Lumped12Scene, made: Made) -> Result<Motion12, LumpedError> {
-    let Made { mut pair, .. } = made;
+pub(super) fn twelve(scene: &Scene, words: &Lumped12Scene, mut pair: LumpedPair) -> Result<Motion12, LumpedError> {
     if let Some(degrees) = words.orientation_deg {
         pair.frame.orientation = degrees.to_radians();
     }
@@ -191,15 +190,18 @@ macro_rules! ladder_model {
                 values(&LumpedModel::row(self, state.time, &state.q, &state.v), &$coordinates)
             }
 
-            fn static_errors(&self, phases: usize) -> Option<Vec<f64>> {
+            fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
+                let period = 1.0 / self.pair().clock.mesh_frequency();
                 let at = |k: usize| {
-                    let q = self.quasi_static(START + k as f64 / phases as f64)?;
-                    Some(LumpedModel::row(self, 0.0, &q, &DVector::zeros(q.len())).transmission_error)
+                    let share = k as f64 / phases as f64;
+                    let q = self.quasi_static(START + share)?;
+                    let row = LumpedModel::row(self, share * period, &q, &DVector::zeros(q.len()));
+                    Some(StaticPoint { error: row.transmission_error, line_length: Some(row.contact_line_length) })
                 };
                 (0..phases).map(at).collect()
             }
 
-            fn natural_frequencies_hz(&self) -> Vec<f64> {
+            fn natural_frequencies_hz(&self, _: f64) -> Vec<f64> {
                 $frequencies(self)
             }
         }

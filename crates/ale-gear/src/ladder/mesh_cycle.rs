@@ -15,21 +15,31 @@ use crate::{
     phases::Phases,
     run,
     scene::{
-        Analysis, ContactScene, Flanks, Kind, Law, MeshScene, Model, OutputScene, Reduction, Scene, StiffnessFrom,
+        Analysis, ContactScene, Flanks, Kind, Law, MeshScene, Model, Operation, OutputScene, Reduction, Scene,
+        StiffnessFrom,
     },
 };
 
 /// A cycle in the phase of scenes, with what its making said.
+#[derive(Debug, Clone)]
 pub(super) struct Fed {
     pub cycle: MeshCycle,
     pub warnings: Vec<String>,
 }
 
 /// What a run needs of the places where it may look.
-pub(super) struct Sources<'a> {
+pub(crate) struct Sources<'a> {
     pub phases: &'a mut Phases,
     pub results: &'a ResultDirectory,
     pub cache: &'a Cache,
+    /// What the reduced model has fed last, by the scene that it was solved for: scenes that differ in speed only share it.
+    fed: Option<(Scene, Fed)>,
+}
+
+impl<'a> Sources<'a> {
+    pub fn new(phases: &'a mut Phases, results: &'a ResultDirectory, cache: &'a Cache) -> Self {
+        Self { phases, results, cache, fed: None }
+    }
 }
 
 /// The cycle of a scene, stated on the transverse line of action.
@@ -41,7 +51,7 @@ pub(super) fn mesh_cycle(
     words: &MeshScene,
     pair: &GearPair,
     plane: &PlaneOfAction,
-    sources: Sources<'_>,
+    sources: &mut Sources<'_>,
 ) -> Result<Fed, CommandError> {
     let complain = |e: lumped::LumpedError| super::complaint(scene, &e);
     let error = Fourier {
@@ -65,7 +75,11 @@ pub(super) fn mesh_cycle(
             Ok(Fed { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
         }
         StiffnessFrom::Reduced => {
-            let solved = run::solve(&static_scene(scene), sources.phases, sources.results, sources.cache)?;
+            let asked = static_scene(scene);
+            if let Some((_, fed)) = sources.fed.as_ref().filter(|(known, _)| *known == asked) {
+                return Ok(fed.clone());
+            }
+            let solved = run::solve(&asked, sources.phases, sources.results, sources.cache)?;
             let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
             let driven =
                 [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];
@@ -76,7 +90,9 @@ pub(super) fn mesh_cycle(
                 scene.operation.torque() / driven.base_radius(),
             )
             .map_err(complain)?;
-            Ok(Fed { cycle, warnings: solved.history.warnings })
+            let fed = Fed { cycle, warnings: solved.history.warnings };
+            sources.fed = Some((asked, fed.clone()));
+            Ok(fed)
         }
     }
 }
@@ -101,6 +117,9 @@ fn static_scene(scene: &Scene) -> Scene {
     Scene {
         pinion: without_body(&scene.pinion),
         wheel: without_body(&scene.wheel),
+        // As speed goes to zero, whatever it is.
+        operation: Operation { speed_rpm: 1000.0, ..scene.operation },
+        set: Vec::new(),
         contact: ContactScene { friction: 0.0, flanks: Flanks::Driving, ..scene.contact },
         drive: None,
         load: None,

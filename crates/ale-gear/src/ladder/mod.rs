@@ -6,23 +6,26 @@
 //! | `mesh_cycle` | stiffness over the mesh cycle: given, fed by the reduced model, ISO's |
 //! | `lumped` | the models with eight and twelve coordinates |
 //! | `shafts`, `impact` | lumped shafts, rigid gears |
-//! | `model` | what a model must answer to be run |
+//! | `model`, `recipe` | what a model must answer to be run; what it is made of |
+//! | `campbell` | natural frequencies over speed |
+//! | `sweep` | a run at each value of a key: bifurcation diagrams, resonance curves |
 //! | `course`, `settle` | a run of any of them |
 //! | `headline` | what is read off the rows |
 
 mod bodies;
+mod campbell;
 mod course;
 mod headline;
 mod impact;
 mod lumped;
 mod mesh_cycle;
 mod model;
+mod recipe;
 mod settle;
 mod shafts;
+mod sweep;
 
-use std::f64::consts::TAU;
-
-use ::lumped::{LumpedError, shaft18::ShaftMechanism};
+use ::lumped::LumpedError;
 use study::Window;
 
 use crate::{
@@ -31,16 +34,22 @@ use crate::{
     facts::{Cost, Facts},
     gears,
     motion::{self, Columns, ENERGY_FILE, HISTORY},
-    output::{MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report, write_summary},
+    output::{
+        LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
+        write_summary,
+    },
     phases::Phases,
-    scene::{Driver, Model, MotionScene, Run, Scene},
+    scene::{Driver, Model as Name, MotionScene, Run, Scene},
 };
 use course::Course;
 use headline::Known;
-use mesh_cycle::Sources;
-use model::LadderModel;
 
+pub(crate) use campbell::CampbellDiagram;
 pub(crate) use headline::LadderHeadline;
+pub(crate) use mesh_cycle::Sources;
+pub(crate) use model::Model;
+pub(crate) use recipe::{Made, Recipe};
+pub(crate) use sweep::{Once, SweepPoint, SweepRequest, SweepSummary, sweep_key};
 
 /// One row a mesh cycle.
 const SECTION: &str = "section.csv";
@@ -58,7 +67,7 @@ fn complaint(scene: &Scene, error: &LumpedError) -> CommandError {
 
 /// Whether a scene's model is one of this module.
 pub(crate) fn has(scene: &Scene) -> bool {
-    matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact)
+    matches!(scene.analysis.model, Name::Lumped8 | Name::Lumped12 | Name::Shaft18 | Name::Impact)
 }
 
 /// Runs the model of a scene and writes all files of the result; the text is the closing table.
@@ -72,105 +81,90 @@ pub(crate) fn solve(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<String, CommandError> {
-    let pair = phases.run("geometry", || gears::pair(scene))?;
-    let facts = Facts { geometry: gears::geometry_facts(&pair), ..Facts::default() };
-    let complain = |e: LumpedError| complaint(scene, &e);
-    let doubts = gears::doubts(&pair);
-    let case = Case { scene, words, results, doubts };
-    if let Some(own) = &scene.impact {
-        let (model, warnings) = impact::impact(scene, own, &pair).map_err(complain)?;
-        return case.run(model, 0.0, facts, warnings, phases);
+    if let Some(speeds) = &words.sweep {
+        return sweep::over_speed(scene, (words, speeds), phases, results, cache);
     }
-    if let (Some(mesh), Some(own)) = (&scene.mesh, &scene.shaft18) {
-        let made = shafts::system(scene, own, mesh, &pair, Sources { phases, results, cache })?;
-        let model = ShaftMechanism::new(&made.system).map_err(complain)?;
-        return case.run(model, made.resonance / TAU, facts, made.warnings, phases);
-    }
-    if let Some(mesh) = &scene.mesh {
-        let made = lumped::lumped_pair(scene, mesh, &pair, Sources { phases, results, cache })?;
-        let (warnings, resonance) = (made.warnings.clone(), made.pair.natural_frequency() / TAU);
-        if let Some(own) = &scene.lumped8 {
-            let model = lumped::eight(scene, own, mesh, &pair, made).map_err(complain)?;
-            return case.run(model, resonance, facts, warnings, phases);
-        }
-        if let Some(own) = &scene.lumped12 {
-            let model = lumped::twelve(scene, own, made).map_err(complain)?;
-            return case.run(model, resonance, facts, warnings, phases);
-        }
-    }
-    // The scene's checks let no other model come here.
-    Err(CommandError::input(format_args!("{}: no model of the ladder", scene.file.display()), None))
+    let recipe = Recipe::gather(scene, &mut Sources::new(phases, results, cache))?;
+    let made = recipe.model()?;
+    Case { recipe: &recipe, words, results }.run(made, phases)
+}
+
+/// Rows of a run alone, and the mesh cycles that it took in all: for comparing models.
+///
+/// # Errors
+/// Exit status 1 when no motion comes out.
+pub(crate) fn steady_rows(recipe: &Recipe, made: Made, words: &MotionScene) -> Result<(Columns, u64), CommandError> {
+    let Made { mut model, resonance_hz, .. } = made;
+    let frequencies = [recipe.mesh_frequency_hz(words), resonance_hz];
+    let course = course::run(&mut model, &recipe.scene, words, frequencies, None, || ())
+        .map_err(|e| complaint(&recipe.scene, &e))?;
+    within_bounds(&course.history)?;
+    Ok((course.history, course.warm_up + course.cycles))
 }
 
 /// What every model of a scene is run with.
 struct Case<'a> {
-    scene: &'a Scene,
+    recipe: &'a Recipe,
     words: &'a MotionScene,
     results: &'a ResultDirectory,
-    /// What is to be said of the pair itself.
-    doubts: Vec<String>,
 }
 
 impl Case<'_> {
-    fn run(
-        &self,
-        mut model: impl LadderModel,
-        resonance_hz: f64,
-        mut facts: Facts,
-        mut warnings: Vec<String>,
-        phases: &mut Phases,
-    ) -> Result<String, CommandError> {
-        let Self { scene, words, results, ref doubts } = *self;
-        warnings.extend(doubts.iter().cloned());
-        let coordinates = model.mass().nrows();
-        facts.dof_after = [coordinates.div_ceil(2), coordinates / 2];
-        let driver = [scene.pinion.teeth, scene.wheel.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
-        let speed_rpm = words.ramp.map_or(scene.operation.speed_rpm, |r| r.to_rpm);
-        let mesh_frequency_hz = speed_rpm / 60.0 * f64::from(driver);
-        let frequencies = model.natural_frequencies_hz();
-        if !frequencies.is_empty() {
-            facts.model.insert("natural_frequencies_hz".into(), frequencies.into());
+    fn run(&self, made: Made, phases: &mut Phases) -> Result<String, CommandError> {
+        let Self { recipe, words, results } = *self;
+        let scene = &recipe.scene;
+        let coordinates = made.coordinates();
+        let Made { mut model, resonance_hz, mut warnings, shafts } = made;
+        warnings.extend(gears::doubts(&recipe.pair));
+        let mut facts = facts(recipe, coordinates);
+        let mesh_frequency_hz = recipe.mesh_frequency_hz(words);
+        let campbell = phases.run("modes", || campbell::campbell(recipe, (&model, resonance_hz), shafts.as_ref()))?;
+        if let Some(campbell) = &campbell {
+            facts.model.extend(campbell.facts());
+            results.write(campbell::FILE, campbell.to_csv().as_bytes())?;
         }
-        let static_errors =
-            phases.run("quasi-static", || model.static_errors(scene.analysis.positions_per_cycle as usize));
+        let static_cycle =
+            phases.run("quasi-static", || model.static_cycle(scene.analysis.positions_per_cycle as usize));
+        let static_errors: Option<Vec<f64>> = static_cycle.map(|all| all.iter().map(|p| p.error).collect());
         let course = phases
             .run_steps("motion", u64::from(scene.analysis.cycles), |progress| {
-                course::run(&mut model, scene, words, [mesh_frequency_hz, resonance_hz], progress)
+                course::run(&mut model, scene, words, [mesh_frequency_hz, resonance_hz], None, || progress.tick())
             })
             .map_err(|e| complaint(scene, &e))?;
-        let (rows, energy) = (read(HISTORY, &course.history)?, read(ENERGY_FILE, &course.energy)?);
+        within_bounds(&course.history)?;
         let known = Known {
             coordinates,
             mesh_frequency_hz,
             resonance_hz: (resonance_hz > 0.0).then_some(resonance_hz),
-            static_normal_force: static_normal_force(scene, &facts),
+            static_normal_force: static_normal_force(recipe),
             static_errors: static_errors.as_deref(),
         };
         let no_statistics = |e: study::StudyError| CommandError::failed(&e, e.hint());
-        let judged = rows.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
+        let judged = course.history.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
         let headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
-        warnings.extend(self::doubts(words, &headline));
+        warnings.extend(doubts(words, &headline));
         let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
             .map_err(no_statistics)?;
         for (name, text) in [
-            (HISTORY, &course.history),
-            (ENERGY_FILE, &course.energy),
-            (SECTION, &course.section),
-            ("spectrum.csv", &motion::write_spectrum(&spectrum)),
+            (HISTORY, course.history.to_csv()),
+            (ENERGY_FILE, course.energy.to_csv()),
+            (SECTION, course.section.to_csv()),
+            ("spectrum.csv", motion::write_spectrum(&spectrum)),
         ] {
             results.write(name, text.as_bytes())?;
         }
         let cost = Cost::of(phases);
         let pictures = MotionPictures {
-            rows: &rows,
-            energy: &energy,
+            rows: &course.history,
+            energy: &course.energy,
             spectrum: Some(&spectrum),
             waterfall: &[],
             per_cycle: words.steps_per_mesh_cycle as usize,
             quasi_static: static_errors.as_deref(),
             view: None,
         };
-        let report = write_ladder_report(scene, &facts, &cost, &headline, &pictures, &warnings)?;
+        let drawn = LadderPictures { motion: pictures, section: &course.section, campbell: campbell.as_ref() };
+        let report = write_ladder_report(scene, &facts, &cost, &headline, &drawn, &warnings)?;
         report.write(results)?;
         write_columnar(scene, results)?;
         let files = results.files()?;
@@ -180,19 +174,28 @@ impl Case<'_> {
     }
 }
 
-/// Columns of what this run has just written.
-fn read(name: &str, text: &str) -> Result<Columns, CommandError> {
-    Columns::parse(text).ok_or_else(|| {
-        let hint = Some("the motion has left all bounds: take smaller steps, or look at supports and damping".into());
-        CommandError::failed(format_args!("{name}: holds what is no number"), hint)
-    })
+/// Geometry, and coordinates as degrees of freedom.
+fn facts(recipe: &Recipe, coordinates: usize) -> Facts {
+    let dof_after = [coordinates.div_ceil(2), coordinates / 2];
+    Facts { geometry: gears::geometry_facts(&recipe.pair), dof_after, ..Facts::default() }
+}
+
+/// Rows that hold numbers only.
+fn within_bounds(rows: &Columns) -> Result<(), CommandError> {
+    if rows.is_finite() {
+        return Ok(());
+    }
+    let hint = Some("the motion has left all bounds: take smaller steps, or look at supports and damping".into());
+    Err(CommandError::failed(format_args!("{HISTORY}: holds what is no number"), hint))
 }
 
 /// F_bn = T / (r_b cos b_b) of the mean load on the driven gear, N.
-fn static_normal_force(scene: &Scene, facts: &Facts) -> f64 {
-    let driven = usize::from(scene.operation.driver == Driver::Pinion);
-    let cos = facts.geometry.base_helix_angle_deg.to_radians().cos();
-    scene.operation.torque() / (facts.geometry.base_radius_mm[driven] * cos)
+fn static_normal_force(recipe: &Recipe) -> f64 {
+    let driven = match recipe.scene.operation.driver {
+        Driver::Pinion => &recipe.pair.wheel,
+        Driver::Wheel => &recipe.pair.pinion,
+    };
+    recipe.scene.operation.torque() / (driven.base_radius() * recipe.pair.base_helix_angle().cos())
 }
 
 /// None for a record of whole periods, where every line stands in one bin.

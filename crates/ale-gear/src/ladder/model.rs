@@ -1,13 +1,25 @@
 //! What the command wants of a model of the ladder, whatever it is made of.
 
-use std::convert::Infallible;
+use std::{
+    convert::Infallible,
+    ops::{Deref, DerefMut},
+};
 
-use dynamics::motion::{Mechanism, State};
+use dynamics::motion::{Forces, Mechanism, State};
 use lumped::LumpedError;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
+
+/// The loaded pair at one phase as speed goes to zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StaticPoint {
+    /// Transmission error, mm.
+    pub error: f64,
+    /// Length of the contact lines, mm; `None` where the model has none.
+    pub line_length: Option<f64>,
+}
 
 /// A model that can be run and read.
-pub(super) trait LadderModel: Mechanism<Error = Infallible> {
+pub(crate) trait LadderModel: Mechanism<Error = Infallible> + Send {
     /// State in which a run begins: at rest under the load as for speed to zero, moving with the nominal rotation.
     fn start(&mut self) -> Result<State, LumpedError>;
 
@@ -20,11 +32,60 @@ pub(super) trait LadderModel: Mechanism<Error = Infallible> {
     /// A row at a state.
     fn row(&mut self, state: &State) -> Vec<f64>;
 
-    /// Transmission error under the mean load at `phases` evenly spaced phases as speed goes to zero, mm; `None` where the model does not tell.
-    fn static_errors(&self, phases: usize) -> Option<Vec<f64>>;
+    /// The pair under the mean load at `phases` evenly spaced phases as speed goes to zero; `None` where it finds nothing to rest on.
+    fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>>;
 
-    /// Undamped natural frequencies at rest, Hz, ascending; nothing where the model is not linear.
-    fn natural_frequencies_hz(&self) -> Vec<f64> {
-        Vec::new()
+    /// Undamped natural frequencies at `share` of the scene's speed, Hz, ascending, the free turn among them; nothing where the model is not linear.
+    fn natural_frequencies_hz(&self, share: f64) -> Vec<f64>;
+}
+
+/// Any of them.
+pub(crate) struct Model(Box<dyn LadderModel>);
+
+impl Model {
+    pub(super) fn of(model: impl LadderModel + 'static) -> Self {
+        Self(Box::new(model))
+    }
+}
+
+impl Deref for Model {
+    type Target = dyn LadderModel;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.0
+    }
+}
+
+impl DerefMut for Model {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut *self.0
+    }
+}
+
+impl Mechanism for Model {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        self.0.mass()
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        self.0.forces(t, q, v, out)
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
+        self.0.potential(t, q)
+    }
+
+    fn events(&self) -> usize {
+        self.0.events()
+    }
+
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
+        self.0.event_values(t, q, v, out)
+    }
+
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), Infallible> {
+        self.0.accepted(t, q, v)
     }
 }

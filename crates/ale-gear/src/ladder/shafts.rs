@@ -13,11 +13,10 @@ use nalgebra::DVector;
 
 use super::{
     bodies::bodies,
-    mesh_cycle::{Fed, Sources, mesh_cycle},
-    model::LadderModel,
+    mesh_cycle::Fed,
+    model::{LadderModel, StaticPoint},
 };
 use crate::{
-    error::CommandError,
     motion::{GEARS, WRENCH},
     run,
     scene::{DiscScene, Driver, GearScene, MeshScene, Scene, Shaft18Scene, ShaftScene},
@@ -37,28 +36,23 @@ const LEADING: [&str; 8] = [
     "normal_force_n",
 ];
 
-/// The system of a scene, the mesh resonance of its gears alone (rad/s), and warnings.
-pub(super) struct Made {
-    pub system: ShaftSystem,
-    pub resonance: f64,
-    pub warnings: Vec<String>,
+/// Contact lines of a scene's pair.
+pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
+    let running = run::options(scene, pair);
+    PlaneOfAction::of_pair(pair, running.driver, &MeshFrame::of_pair(pair, running.driver, running.sense))
 }
 
-/// Shafts, mesh and torques of a scene.
+/// Shafts, mesh and torques of a scene, and the mesh resonance of its gears alone, rad/s.
 ///
 /// # Errors
-/// As of [`mesh_cycle`].
+/// [`LumpedError`] for what has no meaning.
 pub(super) fn system(
     scene: &Scene,
     words: &Shaft18Scene,
     mesh: &MeshScene,
     pair: &GearPair,
-    sources: Sources<'_>,
-) -> Result<Made, CommandError> {
-    let running = run::options(scene, pair);
-    let frame = MeshFrame::of_pair(pair, running.driver, running.sense);
-    let plane = PlaneOfAction::of_pair(pair, running.driver, &frame);
-    let Fed { cycle, warnings } = mesh_cycle(scene, mesh, pair, &plane, sources)?;
+    fed: &Fed,
+) -> Result<(ShaftSystem, f64), LumpedError> {
     let bodies = bodies(scene, pair);
     let (mut shafts, mut torques) = (Vec::new(), Vec::new());
     let sense = scene.operation.rotation.sign();
@@ -68,7 +62,7 @@ pub(super) fn system(
         shafts.push(shaft);
         torques.push(ShaftTorque { place: Place { shaft: i, station: at }, torque: sense * torque_about_z(scene, i) });
     }
-    let mesh = live_mesh(scene, mesh, pair, &cycle).map_err(|e| super::complaint(scene, &e))?;
+    let mesh = live_mesh(scene, mesh, pair, &fed.cycle)?;
     let cos = pair.base_helix_angle().cos();
     let inverse_mass: f64 = [&pair.pinion, &pair.wheel]
         .iter()
@@ -85,7 +79,7 @@ pub(super) fn system(
         stiffness_damping: words.stiffness_damping_s,
         gravity: words.gravity_m_per_s2.map(|g| 1e3 * g),
     };
-    Ok(Made { system, resonance, warnings })
+    Ok((system, resonance))
 }
 
 /// Torque on a gear's shaft about +z, N mm, for a pinion that turns counter-clockwise. The driver is pushed the way it turns, the driven gear held back; the gears turn against each other, so
@@ -219,18 +213,18 @@ impl LadderModel for ShaftMechanism {
         all
     }
 
-    fn static_errors(&self, phases: usize) -> Option<Vec<f64>> {
+    fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
         let period = self.mesh_period(0)?;
         let at = |k: usize| {
             let t = period * k as f64 / phases as f64;
             let q = self.static_state(t).ok()?;
             let row = Self::row(self, 0, t, &q, &DVector::zeros(q.len()))?;
-            Some(1e-3 * row.transmission_error_um)
+            Some(StaticPoint { error: 1e-3 * row.transmission_error_um, line_length: None })
         };
         (0..phases).map(at).collect()
     }
 
-    fn natural_frequencies_hz(&self) -> Vec<f64> {
-        self.modes().map_or_else(|_| Vec::new(), |m| m.frequencies.iter().map(|w| w / std::f64::consts::TAU).collect())
+    fn natural_frequencies_hz(&self, share: f64) -> Vec<f64> {
+        self.whirl(share).iter().flatten().map(|m| m.frequency_hz).collect()
     }
 }

@@ -141,6 +141,34 @@ pub(crate) fn solve(
     }
 }
 
+/// Rows of a motion alone, written into `folder`: for comparing models.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out.
+pub(crate) fn rows_of(
+    scene: &Scene,
+    words: &MotionScene,
+    phases: &mut Phases,
+    folder: &Path,
+) -> Result<Columns, CommandError> {
+    let cache = Cache::off();
+    let inputs = Inputs::new(scene, words, phases, &cache)?;
+    let mut window = None;
+    loop {
+        let places = Places { rows: folder, checkpoint: None, from: None, stop_after: None };
+        let done = prepare(&inputs, phases, window)
+            .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
+        match done {
+            Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
+            Err(Failure::Command(e)) => return Err(e),
+            Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
+                Some(teeth) => window = Some(teeth),
+                None => return Err(complaint(scene, &e)),
+            },
+        }
+    }
+}
+
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),

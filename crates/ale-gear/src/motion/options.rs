@@ -147,6 +147,7 @@ pub(crate) fn scheme(words: &MotionScene) -> Scheme {
         Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: words.spectral_radius.unwrap_or(0.9) },
         Integration::Newmark => Scheme::Newmark,
         Integration::DormandPrince => Scheme::DormandPrince,
+        Integration::RungeKutta4 => Scheme::RungeKutta4,
     }
 }
 

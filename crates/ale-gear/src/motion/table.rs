@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use crate::error::CommandError;
+use crate::{error::CommandError, output::push_row};
 
 /// Columns by name.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -12,6 +12,32 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
+    /// Columns without rows.
+    pub fn named<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
+        let names: BTreeMap<String, usize> = names.into_iter().enumerate().map(|(i, n)| (n.into(), i)).collect();
+        let values = vec![Vec::new(); names.len()];
+        Self { names, values }
+    }
+
+    /// One more row, in the order of the names.
+    pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
+        self.values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+
+    /// The file of these rows.
+    pub fn to_csv(&self) -> String {
+        let mut text = self.names_from("").join(",") + "\n";
+        for row in 0..self.len() {
+            push_row(&mut text, self.values.iter().map(|column| column[row]));
+        }
+        text
+    }
+
+    /// Whether every value is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.values.iter().flatten().all(|x| x.is_finite())
+    }
+
     /// Reads a file that this program has written.
     ///
     /// # Errors

@@ -50,7 +50,8 @@
   const lines = (plot, place) => {
     const sticks = plot.kind === "sticks";
     const series = plot.names.map((name, k) => ({
-      label: name, stroke: plot.colours[k], width: 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
+      // A curve without a name is more of the one before and needs no line in the legend.
+      label: name, class: name ? undefined : "unnamed", stroke: plot.colours[k], width: 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
       points: { show: !sticks && plot.data[0].length < 40, size: 4 },
       paths: sticks ? uPlot.paths.bars({ size: [0.0, 4, 2] }) : undefined, fill: sticks ? plot.colours[k] : undefined,
       value: (u, v) => short(v),
@@ -93,8 +94,10 @@
     }, [[left, right], [low, high]], place);
   };
 
-  const path = (plot, place, words) => {
-    const [xs, ys] = plot.data;
+  // Curves with an abscissa each, drawn as a line or as dots.
+  const curves = (plot, place, words) => {
+    const dots = plot.kind === "dots", FEW = 100;
+    const pairs = plot.names.map((name, k) => ({ name, colour: plot.colours[k], xs: plot.data[2 * k], ys: plot.data[2 * k + 1] }));
     const ends = values => {
       const finite = values.filter(v => v !== null);
       const [low, high] = [finite.reduce((a, b) => Math.min(a, b)), finite.reduce((a, b) => Math.max(a, b))];
@@ -102,20 +105,33 @@
       return [low - margin, high + margin];
     };
     words.dataset.hint = words.textContent = plot.x + ", " + plot.y;
-    const draw = (u, ctx) => {
-      ctx.strokeStyle = plot.colours[0];
+    if (pairs.length > 1) {
+      const key = document.createElement("p");
+      key.className = "small";
+      for (const { name, colour } of pairs.filter(pair => pair.name)) {
+        const mark = Object.assign(document.createElement("span"), { textContent: "\u25cf " });
+        mark.style.color = colour;
+        key.append(mark, name + "  ");
+      }
+      words.before(key);
+    }
+    const mark = (ctx, at, size) => { ctx.beginPath(); ctx.arc(at[0], at[1], size, 0, 2 * Math.PI); ctx.fill(); };
+    const draw = (u, ctx) => pairs.forEach(({ colour, xs, ys }) => {
+      const size = (xs.length <= FEW ? 2.5 : 1) * devicePixelRatio;
+      ctx.strokeStyle = ctx.fillStyle = colour;
       ctx.lineWidth = 1.2 * devicePixelRatio;
-      ctx.beginPath();
+      const line = new Path2D();
       let down = false;
       xs.forEach((x, i) => {
         if (x === null || ys[i] === null) { down = false; return; }
         const at = [u.valToPos(x, "x", true), u.valToPos(ys[i], "y", true)];
-        if (down) ctx.lineTo(...at); else ctx.moveTo(...at);
+        if (dots) { mark(ctx, at, size); return; }
+        if (down) line.lineTo(...at); else line.moveTo(...at);
         down = true;
       });
-      ctx.stroke();
-    };
-    return frame(plot.x, plot.y, [...ends(xs), ...ends(ys)], place, words, draw,
+      if (!dots) ctx.stroke(line);
+    });
+    return frame(plot.x, plot.y, [...ends(pairs.flatMap(p => p.xs)), ...ends(pairs.flatMap(p => p.ys))], place, words, draw,
       (x, y) => `${plot.x}: ${short(x)}, ${plot.y}: ${short(y)}`, false);
   };
 
@@ -179,9 +195,9 @@
     title.textContent = data.title;
     box.append(title, place);
     figure.append(box);
-    const plain = script.className === "plot" && data.kind !== "path";
+    const own = data.kind === "path" || data.kind === "dots", plain = script.className === "plot" && !own;
     if (!plain) box.append(words);
-    const made = plain ? lines(data, place) : script.className === "map" ? map(data, place, words) : path(data, place, words);
+    const made = plain ? lines(data, place) : script.className === "map" ? map(data, place, words) : curves(data, place, words);
     all.push([made, place]);
   };
   for (const figure of document.querySelectorAll("figure.chart")) {

@@ -12,8 +12,8 @@ pub(super) struct Curve {
 }
 
 /// Colours that the colour-blind can tell apart, without the yellow, which paper swallows.
-/// Source: Okabe and Ito, Color Universal Design, 2008.
-pub(super) const COLOURS: [RGBColor; 7] = [
+/// Source: the first seven Okabe and Ito, Color Universal Design, 2008; the others Tol, Colour schemes, 2021 (muted).
+pub(super) const COLOURS: [RGBColor; 12] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -21,6 +21,11 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
     RGBColor(0, 0, 0),
+    RGBColor(51, 34, 136),
+    RGBColor(136, 34, 85),
+    RGBColor(153, 153, 51),
+    RGBColor(120, 120, 120),
+    RGBColor(110, 60, 20),
 ];
 
 /// Stretches of a long record in the picture: of each the least and the largest value are drawn.
@@ -32,16 +37,50 @@ const LEGEND_ROOM: f64 = 0.09;
 /// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
 /// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
-    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
-    let curves: Vec<Curve> = curves.iter().filter(seen).cloned().collect();
-    let svg = picture(title, x, y, &curves, from_zero)?;
+    let curves = with_points(curves);
+    let svg = picture(title, [x, y], &curves, from_zero, Marks::Lines)?;
     Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
+}
+
+/// The same with dots in place of lines: sections and bifurcation diagrams.
+pub(super) fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    let curves = with_points(curves);
+    let svg = picture(title, [x, y], &curves, false, Marks::Dots)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::dots(title, x, y, &curves))]))
+}
+
+/// [`dot_chart`] as SVG alone, for a file of its own.
+pub(super) fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], &with_points(curves), false, Marks::Dots)
+}
+
+/// [`line_chart`] as SVG alone, likewise.
+pub(super) fn line_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], &with_points(curves), false, Marks::Lines)
+}
+
+/// Frequencies over speed: each order of excitation in a colour of its own, the modes all alike.
+pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
+    let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();
+    line_chart(title, "speed of the driver [1/min]", "frequency [Hz]", &curves, true)
+}
+
+/// Curves that have something to draw.
+fn with_points(curves: &[Curve]) -> Vec<Curve> {
+    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    curves.iter().filter(seen).cloned().collect()
+}
+
+/// Which of the palette's colours a curve has: one without a name is more of the last that has one.
+pub(super) fn colour_of<'a>(labels: impl Iterator<Item = &'a str>, k: usize) -> usize {
+    labels.take(k + 1).enumerate().filter(|(_, label)| !label.is_empty()).last().map_or(0, |(own, _)| own)
+        % COLOURS.len()
 }
 
 /// The same for the lines of a spectrum: one stick each.
 pub(super) fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
     let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
-    let svg = picture(title, x, y, &[Curve { label: curve.label.clone(), points: sticks }], true)?;
+    let svg = picture(title, [x, y], &[Curve { label: curve.label.clone(), points: sticks }], true, Marks::Lines)?;
     Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
 }
 
@@ -51,8 +90,20 @@ pub(super) fn figure(svg: &str, plots: &[String]) -> String {
     format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
 }
 
+/// Dots of a curve in the still picture at most.
+const DOTS: usize = 3000;
+/// Points of a curve up to which they are drawn large.
+const FEW: usize = 100;
+
+/// How points are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Marks {
+    Lines,
+    Dots,
+}
+
 /// The chart as SVG.
-pub(super) fn picture(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks: Marks) -> Option<String> {
     let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
     let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
     points().next()?;
@@ -65,13 +116,14 @@ pub(super) fn picture(title: &str, x: &str, y: &str, curves: &[Curve], from_zero
     };
     let (x_low, x_high) = span(|p| p.0, false);
     let (y_low, mut y_high) = span(|p| p.1, from_zero);
-    if curves.len() > 1 {
+    let named = curves.iter().filter(|c| !c.label.is_empty()).count();
+    if named > 1 {
         // Room for the legend above the curves.
-        y_high += LEGEND_ROOM * curves.len() as f64 * (y_high - y_low);
+        y_high += LEGEND_ROOM * named as f64 * (y_high - y_low);
     }
 
     let mut svg = String::new();
-    draw(&mut svg, title, x, y, curves, [x_low, x_high, y_low, y_high]).ok()?;
+    draw(&mut svg, title, axes, curves, [x_low, x_high, y_low, y_high], marks).ok()?;
     Some(svg)
 }
 
@@ -95,10 +147,10 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 fn draw(
     svg: &mut String,
     title: &str,
-    x: &str,
-    y: &str,
+    [x, y]: [&str; 2],
     curves: &[Curve],
     [x_low, x_high, y_low, y_high]: [f64; 4],
+    marks: Marks,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let fail = |e: &dyn std::fmt::Display| e.to_string();
     let root = SVGBackend::with_string(svg, (820, 360)).into_drawing_area();
@@ -112,11 +164,23 @@ fn draw(
         .map_err(|e| fail(&e))?;
     chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
     for (k, curve) in curves.iter().enumerate() {
-        let colour = COLOURS[k % COLOURS.len()];
-        let finite = thinned(&curve.points).into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
-        chart
-            .draw_series(LineSeries::new(finite, colour.stroke_width(2)))
-            .map_err(|e| fail(&e))?
+        let colour = COLOURS[colour_of(curves.iter().map(|c| c.label.as_str()), k)];
+        let shown = match marks {
+            Marks::Lines => thinned(&curve.points),
+            Marks::Dots => curve.points.iter().step_by(curve.points.len().div_ceil(DOTS).max(1)).copied().collect(),
+        };
+        let finite = shown.into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
+        // A few points are to be seen, many to be told apart.
+        let dot = if curve.points.len() <= FEW { 3 } else { 1 };
+        let series = match marks {
+            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
+            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
+        };
+        let series = series.map_err(|e| fail(&e))?;
+        if curve.label.is_empty() {
+            continue;
+        }
+        series
             .label(curve.label.as_str())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
     }

@@ -2,7 +2,7 @@
 
 use minijinja::context;
 
-use super::charts::{Curve, line_chart, picture};
+use super::charts::{Curve, line_chart, line_picture};
 use super::compare_table::{letter, number, per_cent};
 use super::page;
 use crate::compare::{NumberRow, Overlay, ResultFolder, WordRow};
@@ -26,7 +26,7 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
         let curves: Vec<Curve> = overlay.traces.iter().map(curve).collect();
         let name = overlay.name.clone();
         let figure = line_chart(&name, overlay.over, &name, &curves, false)?;
-        let svg = picture(&name, overlay.over, &name, &curves, false)?;
+        let svg = line_picture(&name, overlay.over, &name, &curves)?;
         Some(CompareChart { name, figure, svg })
     };
     overlays.iter().filter_map(chart).collect()

@@ -2,25 +2,36 @@
 
 use super::{
     Rendered,
-    charts::{Curve, line_chart},
-    motion_charts::{MotionPictures, motion_charts},
+    charts::{Curve, dot_chart, frequency_chart, line_chart},
+    motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
     motion_report::render,
 };
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
-use crate::ladder::LadderHeadline;
+use crate::ladder::{CampbellDiagram, LadderHeadline};
 use crate::motion::Columns;
 use crate::scene::Scene;
 
 /// Displacements that have a phase portrait where the model has them; their rates are named alike.
 const PORTRAITS: [(&str, &str); 6] = [
-    ("pinion_along", "Phase portrait of the pinion along the line of action"),
-    ("wheel_along", "Phase portrait of the wheel along the line of action"),
-    ("pinion_y", "Phase portrait of the pinion along y"),
-    ("wheel_y", "Phase portrait of the wheel along y"),
-    ("pinion_z", "Phase portrait of the pinion along its axis"),
-    ("wheel_z", "Phase portrait of the wheel along its axis"),
+    ("pinion_along", "the pinion along the line of action"),
+    ("wheel_along", "the wheel along the line of action"),
+    ("pinion_y", "the pinion along y"),
+    ("wheel_y", "the wheel along y"),
+    ("pinion_z", "the pinion along its axis"),
+    ("wheel_z", "the wheel along its axis"),
 ];
+
+/// What the charts of a run are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LadderPictures<'a> {
+    /// Those of every motion.
+    pub motion: MotionPictures<'a>,
+    /// One row a mesh cycle.
+    pub section: &'a Columns,
+    /// Natural frequencies over speed, of a linear model.
+    pub campbell: Option<&'a CampbellDiagram>,
+}
 
 /// The report of one run.
 ///
@@ -31,18 +42,56 @@ pub(crate) fn write_ladder_report(
     facts: &Facts,
     cost: &Cost,
     headline: &LadderHeadline,
-    pictures: &MotionPictures<'_>,
+    pictures: &LadderPictures<'_>,
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
-    let mut charts = motion_charts(pictures);
-    charts.extend(PORTRAITS.iter().filter_map(|(name, title)| portrait(pictures.rows, name, title)));
+    let mut charts = motion_charts(&pictures.motion);
+    for (name, whose) in PORTRAITS {
+        charts.extend(displacement(&pictures.motion, name, whose));
+        charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
+    }
+    charts.extend(pictures.campbell.and_then(campbell_chart));
     render(scene, facts, cost, headline, "ladder.html", charts, warnings)
 }
 
-/// Velocity over displacement.
-fn portrait(rows: &Columns, name: &str, title: &str) -> Option<String> {
+/// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.
+fn plane(rows: &Columns, name: &str) -> Vec<(f64, f64)> {
     let (x, v) = (rows.get(&format!("{name}_um")), rows.get(&format!("{name}_rate_um_per_s")));
-    let points = x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect();
-    let curve = Curve { label: name.replace('_', " "), points };
-    line_chart(title, "displacement [um]", "velocity [mm/s]", &[curve], false)
+    x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect()
+}
+
+/// Displacement over time, the last mesh cycles.
+fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<String> {
+    let (time, x) = (of.rows.get("time_s"), of.rows.get(&format!("{name}_um")));
+    let first = x.len().saturating_sub(SHOWN_CYCLES * of.per_cycle);
+    let begin = time.get(first).copied().unwrap_or(0.0);
+    let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
+    let curve = Curve { label: name.replace('_', " "), points: points };
+    line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
+}
+
+/// Velocity over displacement, and the same once a mesh cycle: phase portrait with its Poincare section.
+fn portrait(rows: &Columns, section: &Columns, name: &str, whose: &str) -> Option<String> {
+    let motion = Curve { label: "motion".into(), points: plane(rows, name) };
+    let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
+    let title = format!("Phase portrait of {whose}, and its Poincare section");
+    dot_chart(&title, "displacement [um]", "velocity [mm/s]", &[motion, once])
+}
+
+/// Natural frequencies over speed with the orders that may meet them.
+fn campbell_chart(of: &CampbellDiagram) -> Option<String> {
+    let d = &of.diagram;
+    let highest = d.frequencies.iter().flatten().copied().fold(0.0, f64::max);
+    let rpm = |s: f64| 60.0 * s;
+    let modes = d.frequencies.iter().enumerate().map(|(m, line)| Curve {
+        label: if m == 0 { "natural frequencies".into() } else { String::new() },
+        points: d.speeds.iter().zip(line).map(|(s, f)| (rpm(*s), *f)).collect(),
+    });
+    let last = d.speeds.last().copied().unwrap_or(0.0);
+    let orders = d.orders.iter().zip(&of.names).map(|(order, name)| {
+        // No line leaves the diagram: it would squeeze the modes together.
+        let end = last.min(1.05 * highest / order);
+        Curve { label: name.clone(), points: vec![(0.0, 0.0), (rpm(end), order * end)] }
+    });
+    frequency_chart("Campbell diagram", modes.collect(), orders.collect())
 }

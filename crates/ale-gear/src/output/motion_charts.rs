@@ -10,7 +10,7 @@ use crate::scene::SweepWay;
 use crate::view::View;
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
-const SHOWN_CYCLES: usize = 4;
+pub(super) const SHOWN_CYCLES: usize = 4;
 /// Orders of the spectrum that are drawn.
 const SHOWN_ORDERS: f64 = 12.0;
 /// Columns and rows of the waterfall at most.

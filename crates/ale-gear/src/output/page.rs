@@ -98,6 +98,7 @@ pub(super) fn render(name: &str, context: Value) -> Result<String, CommandError>
         ("motion.html", include_str!("motion.html")),
         ("sweep.html", include_str!("sweep.html")),
         ("ladder.html", include_str!("ladder.html")),
+        ("ladder_sweep.html", include_str!("ladder_sweep.html")),
         ("study.html", include_str!("study.html")),
         ("compare.html", include_str!("compare.html")),
         ("head.html", include_str!("head.html")),

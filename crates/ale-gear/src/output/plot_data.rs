@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
-use super::charts::{COLOURS, Curve};
+use super::charts::{COLOURS, Curve, colour_of};
 
 /// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every curve.
 const PLACES: usize = 6000;
@@ -21,9 +21,11 @@ pub(super) enum Kind {
     Sticks,
     /// One curve that may turn back.
     Path,
+    /// A dot for each point, curve by curve with an abscissa of its own.
+    Dots,
 }
 
-/// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates.
+/// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates; of dots abscissa and ordinate in turn.
 #[derive(Debug, Serialize)]
 pub(super) struct Plot<'a> {
     kind: Kind,
@@ -57,10 +59,16 @@ impl<'a> Plot<'a> {
         Self::of(Kind::Sticks, [title, x, y], std::slice::from_ref(curve), true, vec![at, height])
     }
 
+    /// A dot for each point.
+    pub(super) fn dots(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
+        let columns = curves.iter().flat_map(|curve| path(std::slice::from_ref(curve))).collect();
+        Self::of(Kind::Dots, [title, x, y], curves, false, columns)
+    }
+
     fn of(kind: Kind, [title, x, y]: [&'a str; 3], curves: &'a [Curve], zero: bool, columns: Vec<Vec<f64>>) -> Self {
         let names: Vec<&str> = curves.iter().map(|c| c.label.as_str()).collect();
-        let colours = (0..names.len()).map(colour).collect();
-        let digits = |k: usize| if k == 0 || kind == Kind::Path { DIGITS[1] } else { DIGITS[0] };
+        let colours = (0..names.len()).map(|k| colour(colour_of(names.iter().copied(), k))).collect();
+        let digits = |k: usize| DIGITS[usize::from(k == 0 || matches!(kind, Kind::Path | Kind::Dots))];
         let data = columns.into_iter().enumerate().map(|(k, c)| Numbers(c, digits(k))).collect();
         Self { kind, title, x, y, zero, names, colours, data }
     }
@@ -187,6 +195,15 @@ mod tests {
         let loops = [curve(&[(0.0, 1.0), (1.0, 0.0), (0.0, -1.0)])];
         let json = serde_json::to_string(&Plot::new("t", "x", "y", &loops, false)).unwrap();
         assert!(json.contains(r#""kind":"path""#) && json.contains("[[0,1,0],[1,0,-1]]"), "{json}");
+    }
+
+    #[test]
+    fn dots_keep_places_of_their_own_and_the_colour_of_their_name() {
+        let unnamed = Curve { label: String::new(), points: vec![(3.0, 4.0)] };
+        let curves = [curve(&[(2.0, 1.0), (1.0, 1.0)]), unnamed];
+        let json = serde_json::to_string(&Plot::dots("t", "x", "y", &curves)).unwrap();
+        assert!(json.contains(r#""kind":"dots""#) && json.contains("[[2,1],[1,1],[3],[4]]"), "{json}");
+        assert!(json.contains(r##""colours":["#0072b2","#0072b2"]"##), "{json}");
     }
 
     /// A single spike in a long record is still there.

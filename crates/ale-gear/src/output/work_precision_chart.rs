@@ -10,7 +10,7 @@ const WIDTH: u32 = 1040;
 /// Height of a row of panels.
 const PANEL: i32 = 290;
 /// Height of title and legend.
-const HEAD: u32 = 96;
+const HEAD: u32 = 136;
 /// Errors below this are drawn on the axis: round-off and luck are no accuracy.
 const LEAST: f64 = 1e-5;
 

@@ -40,7 +40,8 @@ impl<'a> Source<'a> {
 impl Source<'_> {
     /// File and line of a byte range, or the setting that it lies in.
     pub fn place(&self, span: &Range<usize>) -> Place {
-        let within = |r: &Range<usize>| r.contains(&span.start);
+        // Its end too, where something is missing.
+        let within = |r: &Range<usize>| (r.start..=r.end).contains(&span.start);
         if let Some(setting) = self.ranges.iter().position(within).and_then(|i| self.settings.get(i)) {
             return Place::Setting { label: setting.label().into() };
         }

@@ -92,6 +92,6 @@ impl ImpactMechanism {
         let n = q.len();
         let scale = self.scale();
         let start = State::new(0.0, q, DVector::zeros(n));
-        record(self, start, scale, plan, |system, state| system.row(state.time, &state.q, &state.v))
+        Ok(record(self, start, scale, plan, |system, state| system.row(state.time, &state.q, &state.v))?)
     }
 }

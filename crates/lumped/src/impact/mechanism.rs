@@ -70,6 +70,14 @@ impl ImpactMechanism {
         Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
     }
 
+    /// The same pair that begins at other mesh cycles, whole and part.
+    ///
+    /// # Errors
+    /// As of [`Self::new`].
+    pub fn beginning_at(&self, cycles: f64) -> Result<Self, LumpedError> {
+        Self::new(self.pair.clone(), ImpactOptions { start_cycles: cycles, ..self.options.clone() })
+    }
+
     /// The pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair

@@ -21,11 +21,13 @@
 //! And what is not a misprint, but wrong by statics: see [`MeshLaw::Projected`].
 
 mod dimensionless;
+mod equations18;
 mod mechanism;
 mod mesh_law;
 mod parameters;
 
-pub use dimensionless::{Dimensionless, Equations18};
+pub use dimensionless::Dimensionless;
+pub use equations18::Equations18;
 pub use mechanism::Motion8;
 pub use mesh_law::MeshLaw;
 pub use parameters::{Lumped8, Support8};

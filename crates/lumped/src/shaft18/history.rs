@@ -14,7 +14,8 @@ pub struct ShaftRow {
     pub time: f64,
     /// Phase of the mesh, 0 .. 1.
     pub mesh_phase: f64,
-    /// Dynamic transmission error on the transverse line of action, um: from the turns of the gears, positive when the driven gear lags.
+    /// Dynamic transmission error on the transverse line of action, um: from the turns of the gears, positive when the driven gear lags; 0 where the driving flanks of the error-free, unloaded
+    /// pair touch, half the backlash off the middle of the clearance.
     pub transmission_error_um: f64,
     /// Compression of the mesh along the normal, mm: everything that moves the flanks against each other.
     pub compression: f64,
@@ -38,7 +39,7 @@ impl ShaftMechanism {
         Some(ShaftRow {
             time,
             mesh_phase: phase - phase.floor(),
-            transmission_error_um: 1e3 * live.turns.dot(q) / live.line.cos_base_helix,
+            transmission_error_um: 1e3 * (live.turns.dot(q) - live.zone.half_width) / live.line.cos_base_helix,
             compression: state.compression[0],
             compression_rate: state.compression[1],
             stiffness: state.stiffness[0],
@@ -91,8 +92,8 @@ impl ShaftMechanism {
         let still = DVector::zeros(n);
         let first = self.row(mesh, 0.0, &q, &still).ok_or(LumpedError::NoMesh { mesh, count: self.meshes.len() })?;
         let scale = self.scale();
-        record(self, State::new(0.0, q, still), scale, plan, |system, state| {
+        Ok(record(self, State::new(0.0, q, still), scale, plan, |system, state| {
             system.row(mesh, state.time, &state.q, &state.v).unwrap_or(first)
-        })
+        })?)
     }
 }

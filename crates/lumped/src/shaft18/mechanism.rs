@@ -7,7 +7,10 @@ use fem::{Modes, beam::BeamTheory, natural_modes};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{LumpedShaft, Mesh, MeshLine, RunOut, ShaftSystem};
-use crate::{DeadZone, Fourier, LumpedError};
+use crate::{
+    DeadZone, Fourier, LumpedError,
+    modes::{Mode, damped_modes, undamped_modes},
+};
 
 /// A system of lumped shafts as an integrator sees it: deviations q from the steady turn of all shafts in the ratios of their teeth.
 ///
@@ -211,6 +214,17 @@ impl ShaftMechanism {
         let mut k = self.stiffness.clone();
         self.meshes.iter().for_each(|m| k.ger(m.stiffness.mean, &m.lever, &m.lever, 1.0));
         k
+    }
+
+    /// Undamped modes of the shafts that turn at `share` of their speed, every mesh in contact at its mean stiffness, ascending in frequency; gyroscopic moments
+    /// part the whirls. Shafts that turn freely have one at about 0. `None` only if the matrices hold no numbers.
+    pub fn whirl(&self, share: f64) -> Option<Vec<Mode>> {
+        let k = self.mean_stiffness();
+        if share == 0.0 {
+            undamped_modes(&self.mass, &k)
+        } else {
+            damped_modes(&self.mass, &(share * &self.gyroscopic), &k)
+        }
     }
 
     /// Undamped natural frequencies and shapes at rest, every mesh in contact at its mean stiffness; shafts that turn freely have one at 0.

@@ -8,7 +8,7 @@ use super::check::Torques;
 use super::{Rung, StiffnessFrom};
 use crate::scene::raw::{RawGear, RawScene};
 use crate::scene::source::Source;
-use crate::scene::{BodyScene, DriveBy, Model, Run, Scene, SceneError};
+use crate::scene::{BodyScene, DriveBy, Model, Run, Scene, SceneError, SteadyBy};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -165,13 +165,19 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
         Err(conflict(s, &at, format!("`{key}` means nothing to the model \"{}\"", rung.name), advice))
     };
     let ramps = words.run == Run::Ramp && scene.impact.is_some();
-    if let (Some(word), false) = (&raw.run, ramps || matches!(words.run, Run::Steady | Run::Span)) {
+    let known = ramps || matches!(words.run, Run::Steady | Run::Span | Run::Sweep);
+    if let (Some(word), false) = (&raw.run, known) {
         return Err(SceneError::NotYet {
             place: s.place(&word.span()),
             key: format!("run = \"{}\"", word.get_ref()),
             what: format!("this analysis of the model \"{}\"", rung.name),
-            instead: "use `run = \"steady\"` or \"span\"".into(),
+            instead: "use `run = \"steady\"`, \"span\" or \"sweep\"".into(),
         });
+    }
+    let by = raw.sweep.as_ref().and_then(|w| w.get_ref().steady_by.as_ref());
+    let shoots = words.sweep.as_ref().is_some_and(|w| w.steady_by == SteadyBy::Shooting);
+    if let (Some(by), true) = (by, shoots) {
+        return refuse(by.span(), "steady_by", "leave it out: a cheap model gets there in a moment by waiting");
     }
     if let (Some(at), false) = (span(&raw.mesh_damping_ratio), rung.mesh_damping) {
         let advice = match scene.analysis.model {

@@ -280,6 +280,7 @@ pub(in crate::scene) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) 
             ("generalised-alpha", Integration::GeneralisedAlpha),
             ("newmark", Integration::Newmark),
             ("dormand-prince", Integration::DormandPrince),
+            ("rk4", Integration::RungeKutta4),
         ],
     )?;
     let alpha = method == Integration::GeneralisedAlpha;

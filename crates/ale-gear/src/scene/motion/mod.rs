@@ -247,6 +247,9 @@ pub enum Integration {
     /// Dormand-Prince 5(4), explicit.
     #[serde(rename = "dormand-prince")]
     DormandPrince,
+    /// Runge-Kutta's classical method of fourth order, explicit.
+    #[serde(rename = "rk4")]
+    RungeKutta4,
 }
 
 /// Speed of the driver that changes by a smooth step.

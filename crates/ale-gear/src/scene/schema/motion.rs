@@ -100,7 +100,7 @@ pub(in crate::scene) static MOTION: Table = keys(
     "integration and analysis in time",
     &[
         word("run", &["steady", "shooting", "span", "ramp", "sweep"], "what is run"),
-        word("method", &["energy", "generalised-alpha", "newmark", "dormand-prince"], "method of integration"),
+        word("method", &["energy", "generalised-alpha", "newmark", "dormand-prince", "rk4"], "method of integration"),
         number("spectral_radius", 0.0, 1.0, 0.9, "spectral radius at infinite frequency (generalised-alpha)"),
         whole("steps_per_mesh_cycle", 8, 100_000, 64, "rows in a mesh cycle, and least number of steps"),
         whole(

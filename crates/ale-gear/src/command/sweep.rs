@@ -1,0 +1,203 @@
+//! `ale-gear sweep`: a scene run at many values of one of its keys.
+
+use std::path::PathBuf;
+
+use super::{cache_args::CacheArgs, overrides::Overrides};
+use crate::{
+    error::CommandError,
+    ladder::{self, Once, SweepRequest},
+    output::ResultDirectory,
+    phases::Phases,
+    scene::{Kind, Scene, Setting, SweepWay},
+};
+
+/// Words of `ale-gear sweep`.
+#[derive(Debug, clap::Args)]
+pub(super) struct SweepArgs {
+    /// Scene file of a motion with the model lumped8, lumped12, shaft18 or impact
+    scene: PathBuf,
+    /// Folder for the results; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+    /// The key that changes, as `operation.speed_rpm`
+    #[arg(long)]
+    key: String,
+    /// Its first value
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    from: f64,
+    /// Its last value
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    to: f64,
+    /// How many values
+    #[arg(long, value_name = "N", default_value = "101")]
+    points: u32,
+    /// Space them evenly in the logarithm
+    #[arg(long)]
+    log: bool,
+    /// Which way: up and down go on from the last motion, apart begins each at rest
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "up,down")]
+    ways: Vec<Way>,
+    /// How often the section has a point
+    #[arg(long, value_enum, default_value = "mesh-cycle")]
+    once: Once,
+    /// Column of `history.csv` whose section is taken
+    #[arg(long, value_name = "COLUMN", default_value = "dte_um")]
+    of: String,
+    /// Points of a section
+    #[arg(long, value_name = "N", default_value = "64")]
+    cycles: u32,
+    /// Mesh cycles before it, at the most [default: the scene's `warm_up_cycles`, or 400]
+    #[arg(long, value_name = "N")]
+    settle: Option<u32>,
+    /// Mesh cycles over which the largest Lyapunov exponent is found; 0: it is not [default: 200, impact: 0]
+    #[arg(long, value_name = "N")]
+    lyapunov: Option<u32>,
+    #[command(flatten)]
+    overrides: Overrides,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// Which way values are gone through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Way {
+    /// Upwards, from motion to motion
+    Up,
+    /// Downwards likewise
+    Down,
+    /// Each from rest
+    Apart,
+}
+
+impl Way {
+    fn word(self) -> SweepWay {
+        match self {
+            Self::Up => SweepWay::Up,
+            Self::Down => SweepWay::Down,
+            Self::Apart => SweepWay::Apart,
+        }
+    }
+}
+
+/// A choice as it is written on the command line.
+fn word_of(choice: &impl clap::ValueEnum) -> String {
+    choice.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default()
+}
+
+/// Settling cycles where nobody says.
+const SETTLE: u32 = 400;
+/// Stretches of the exponent likewise.
+const STRETCHES: u32 = 200;
+/// Most values, and most points of a section.
+const MOST: u32 = 100_000;
+
+impl SweepArgs {
+    /// All values, ascending.
+    fn values(&self) -> Result<Vec<f64>, CommandError> {
+        let refuse = |what: String, hint: &str| Err(CommandError::input(what, Some(hint.into())));
+        for (word, n, low) in [("--points", self.points, 2), ("--cycles", self.cycles, 1)] {
+            if !(low..=MOST).contains(&n) {
+                return refuse(format!("`{word}` is {n}, allowed is {low} .. {MOST}"), "a diagram has a few hundred");
+            }
+        }
+        if !(self.from.is_finite() && self.to.is_finite() && self.from < self.to) {
+            let what = format!("`--from {}` is not below `--to {}`", self.from, self.to);
+            return refuse(what, "the way is said by `--ways`");
+        }
+        if self.log && self.from <= 0.0 {
+            return refuse(format!("`--log` from {}", self.from), "logarithms begin above 0");
+        }
+        let last = self.points - 1;
+        Ok((0..=last)
+            .map(|i| match (i, self.log) {
+                (0, _) => self.from,
+                (i, _) if i == last => self.to,
+                (i, true) => self.from * (self.to / self.from).powf(f64::from(i) / f64::from(last)),
+                (i, false) => self.from + (self.to - self.from) * f64::from(i) / f64::from(last),
+            })
+            .collect())
+    }
+
+    /// Every complaint about words and scenes is made here, before any work starts or any file is written.
+    fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepRequest), CommandError> {
+        let (values, settings) = (self.values()?, self.overrides.settings()?);
+        // As it stands first: what is wrong with the scene is not wrong with the key.
+        self.fits(&Scene::read_with(&self.scene, &settings)?)?;
+        let mut scenes = Vec::with_capacity(values.len());
+        for value in values {
+            let own = Setting::number(&self.key, value)?.called(&format!("--key {} = {value}", self.key));
+            let all: Vec<Setting> = settings.iter().cloned().chain([own]).collect();
+            let mut scene = Scene::read_with(&self.scene, &all)?;
+            self.fits(&scene)?;
+            if let Some(motion) = &mut scene.motion {
+                let settle = self.settle.or(motion.warm_up_cycles).unwrap_or(SETTLE);
+                motion.warm_up_cycles = Some(settle);
+                motion.periodic_tolerance = Some(motion.periodic_tolerance.unwrap_or(1e-6));
+            }
+            // What the key is set to is in the tables; the settings are those of the whole.
+            scene.set = settings.iter().map(Setting::word).collect();
+            scenes.push((value, scene));
+        }
+        let impact = scenes.first().is_some_and(|(_, scene)| scene.impact.is_some());
+        let mut ways: Vec<SweepWay> = Vec::new();
+        for way in self.ways.iter().map(|w| w.word()) {
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+        let request = SweepRequest {
+            key: self.key.clone(),
+            ways,
+            once: self.once,
+            of: self.of.clone(),
+            points: self.cycles,
+            stretches: self.lyapunov.unwrap_or(if impact { 0 } else { STRETCHES }),
+            again: Some(self.again()),
+        };
+        Ok((scenes, request))
+    }
+
+    /// The words behind the scene and the folder that make this sweep again.
+    fn again(&self) -> String {
+        let ways: Vec<String> = self.ways.iter().map(word_of).collect();
+        let mut words = format!(
+            "--key {} --from {} --to {} --points {}{} --ways {} --once {} --of {} --cycles {}",
+            self.key,
+            self.from,
+            self.to,
+            self.points,
+            if self.log { " --log" } else { "" },
+            ways.join(","),
+            word_of(&self.once),
+            self.of,
+            self.cycles
+        );
+        for (word, value) in [("--settle", self.settle), ("--lyapunov", self.lyapunov)] {
+            if let Some(value) = value {
+                words.push_str(&format!(" {word} {value}"));
+            }
+        }
+        words
+    }
+
+    /// Refuses scenes that have no motion of a model of the ladder.
+    fn fits(&self, scene: &Scene) -> Result<(), CommandError> {
+        if scene.analysis.kind == Kind::Dynamic && ladder::has(scene) {
+            return Ok(());
+        }
+        let hint = "other models sweep their speed by `[motion] run = \"sweep\"`; any other key: one `ale-gear run --set KEY=VALUE` a value";
+        let what = "a sweep wants a motion of the model \"lumped8\", \"lumped12\", \"shaft18\" or \"impact\"";
+        Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
+    }
+
+    /// Runs all values; the text is the closing table.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let mut phases = Phases::with_bars();
+        let (scenes, request) = self.plan()?;
+        let results = ResultDirectory::create(&self.out)?;
+        let cache = self.cache.open();
+        let table = ladder::sweep_key(&scenes, &request, &mut phases, &results, &cache)?;
+        results.finish()?;
+        Ok(format!("{table}\nresults: {}\n", self.out.display()))
+    }
+}

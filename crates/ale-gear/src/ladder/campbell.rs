@@ -1,0 +1,136 @@
+//! Natural frequencies over speed, mesh and shaft orders through them, and a continuum beside the lumped ones.
+
+use ::lumped::shaft18::{Shaft, ShaftSystem, continuum_modes};
+use fem::beam::BeamTheory;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::f64::consts::TAU;
+use study::{Campbell, campbell as diagram};
+
+use super::{Model, Recipe, complaint};
+use crate::{error::CommandError, motion::Columns, scene::Driver};
+
+/// Name of the file.
+pub(super) const FILE: &str = "campbell.csv";
+/// Speeds of the diagram, standstill among them.
+const SPEEDS: u32 = 25;
+/// The diagram ends at so many times the scene's speed, or where the first mesh order has passed the mesh resonance.
+const BEYOND: f64 = 2.0;
+/// Beam elements on the shortest shaft.
+const ELEMENTS: f64 = 16.0;
+/// Frequencies below this share of the highest are free turns.
+const FREE: f64 = 1e-6;
+
+/// Frequencies over speed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CampbellDiagram {
+    /// Lines and where they meet; its speeds are the driver's turns a second.
+    pub diagram: Campbell,
+    /// Name of each order.
+    pub names: Vec<String>,
+    at_rest_hz: Vec<f64>,
+    continuum_hz: Option<Vec<f64>>,
+}
+
+/// An excitation that meets a mode.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Meeting<'a> {
+    excitation: &'a str,
+    mode: usize,
+    speed_rpm: f64,
+    frequency_hz: f64,
+}
+
+/// Diagram of a linear model; `None` of one that is not.
+///
+/// # Errors
+/// Exit status 2 for shafts that are none.
+pub(super) fn campbell(
+    recipe: &Recipe,
+    (model, resonance_hz): (&Model, f64),
+    shafts: Option<&ShaftSystem>,
+) -> Result<Option<CampbellDiagram>, CommandError> {
+    let at_rest_hz = model.natural_frequencies_hz(0.0);
+    let Some(&highest) = at_rest_hz.last() else { return Ok(None) };
+    let elastic = |all: Vec<f64>| -> Vec<f64> { all.into_iter().filter(|f| *f > FREE * highest).collect() };
+    let (names, orders): (Vec<String>, Vec<f64>) = orders(recipe).into_iter().unzip();
+    let own = recipe.scene.operation.speed_rpm / 60.0;
+    let last = (BEYOND * own).max(1.1 * resonance_hz / f64::from(recipe.driver_teeth()));
+    let speeds: Vec<f64> = (0..SPEEDS).map(|i| last * f64::from(i) / f64::from(SPEEDS - 1)).collect();
+    let count = elastic(at_rest_hz.clone()).len();
+    let of_speed = |speed: f64| {
+        let all = elastic(model.natural_frequencies_hz(speed / own));
+        // A free turn that round-off lifts above zero is the lowest.
+        let surplus = all.len().saturating_sub(count);
+        all[surplus..].to_vec()
+    };
+    let diagram = diagram(&speeds, &orders, of_speed).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    let continuum_hz = shafts.map(|system| continuum(system).map_err(|e| complaint(&recipe.scene, &e))).transpose()?;
+    Ok(Some(CampbellDiagram { diagram, names, at_rest_hz, continuum_hz }))
+}
+
+/// Orders of excitation over the driver's turns: three of the mesh, and both shafts.
+fn orders(recipe: &Recipe) -> Vec<(String, f64)> {
+    let teeth = [recipe.scene.pinion.teeth, recipe.scene.wheel.teeth].map(f64::from);
+    let driver = f64::from(recipe.driver_teeth());
+    let mesh = (1..=3u32).map(|k| (format!("mesh order {k}"), f64::from(k) * driver));
+    let name = |i: usize| match (i == 0) == (recipe.scene.operation.driver == Driver::Pinion) {
+        true => "driver's turn".to_owned(),
+        false => "driven gear's turn".to_owned(),
+    };
+    let shafts = (0..2).map(|i| (name(i), driver / teeth[i]));
+    let mut all: Vec<(String, f64)> = mesh.chain(shafts).collect();
+    // Gears with as many teeth turn alike.
+    all.dedup_by(|b, a| a.1 == b.1);
+    all
+}
+
+/// Frequencies of the shafts in Timoshenko beams, Hz, as many as are worth a comparison.
+fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, ::lumped::LumpedError> {
+    let shortest = system.shafts.iter().map(Shaft::length).fold(f64::INFINITY, f64::min);
+    let modes = continuum_modes(system, shortest / ELEMENTS, BeamTheory::Timoshenko)?;
+    Ok(modes.frequencies.iter().map(|w| w / TAU).collect())
+}
+
+impl CampbellDiagram {
+    /// What the summary says of it.
+    pub fn facts(&self) -> Map<String, Value> {
+        let mut facts = Map::new();
+        facts.insert("natural_frequencies_hz".into(), json!(self.at_rest_hz));
+        if let Some(continuum) = &self.continuum_hz {
+            let as_many = &continuum[..self.at_rest_hz.len().min(continuum.len())];
+            facts.insert("continuum_frequencies_hz".into(), json!(as_many));
+        }
+        let free = self.at_rest_hz.len() - self.diagram.frequencies.len().min(self.at_rest_hz.len());
+        let name = |order: f64| {
+            let at = self.diagram.orders.iter().position(|o| *o == order);
+            at.map_or("", |i| self.names[i].as_str())
+        };
+        let meetings: Vec<Meeting<'_>> = self
+            .diagram
+            .resonances
+            .iter()
+            .map(|r| Meeting {
+                excitation: name(r.order),
+                mode: free + r.mode + 1,
+                speed_rpm: 60.0 * r.speed,
+                frequency_hz: r.frequency,
+            })
+            .collect();
+        facts.insert("critical_speeds".into(), json!(meetings));
+        facts
+    }
+
+    /// `campbell.csv`: one row a speed.
+    pub fn to_csv(&self) -> String {
+        let modes = (1..=self.diagram.frequencies.len()).map(|m| format!("elastic_mode_{m}_hz"));
+        let lines = self.names.iter().map(|n| n.replace([' ', '\''], "_") + "_hz");
+        let mut rows = Columns::named(std::iter::once("speed_rpm".to_owned()).chain(modes).chain(lines));
+        for (s, &speed) in self.diagram.speeds.iter().enumerate() {
+            let modes = self.diagram.frequencies.iter().map(|m| m[s]);
+            let lines = self.diagram.orders.iter().map(|o| o * speed);
+            rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
+        }
+        rows.to_csv()
+    }
+}

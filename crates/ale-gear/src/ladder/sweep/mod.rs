@@ -1,0 +1,188 @@
+//! A run at each value of a key: bifurcation diagrams and resonance curves.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `point`, `free_turn` | one value: settle, section, exponent, and what the exponent leaves out |
+//! | `files` | `sweep.csv`, `bifurcation.csv`, what is read off them |
+
+mod files;
+mod free_turn;
+mod point;
+
+use rayon::prelude::*;
+use serde::Serialize;
+use study::Branch;
+
+pub(crate) use files::SweepSummary;
+pub(crate) use point::SweepPoint;
+
+use super::{Recipe, Sources, facts};
+use crate::{
+    cache::Cache,
+    error::CommandError,
+    facts::Cost,
+    output::{ResultDirectory, bifurcation_picture, ladder_sweep_table, write_ladder_sweep_report, write_summary},
+    phases::Phases,
+    scene::{MotionScene, Run, Scene, SweepScene, SweepWay},
+};
+
+/// How often a section has a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Once {
+    /// Once a mesh cycle.
+    MeshCycle,
+    /// Once a turn of the pinion.
+    PinionTurn,
+    /// Once a turn of the wheel.
+    WheelTurn,
+}
+
+/// What a sweep is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SweepRequest {
+    /// The key that changes, with dots.
+    pub key: String,
+    /// Which way its values are gone through.
+    pub ways: Vec<SweepWay>,
+    /// How often a section has a point.
+    pub once: Once,
+    /// The column of `history.csv` whose section is taken.
+    pub of: String,
+    /// Points of a section, >= 1.
+    pub points: u32,
+    /// Stretches of a mesh cycle over which the exponent is found; 0: it is not.
+    pub stretches: u32,
+    /// Words of `ale-gear sweep` that make it again, behind the scene's file; `None` where the scene says it all.
+    pub again: Option<String>,
+}
+
+/// A value with all that its model is made of.
+struct Value {
+    value: f64,
+    recipe: Recipe,
+}
+
+/// The scene of one value as it is run: to the periodic state, then as many cycles as the section takes.
+fn settled(scene: &Scene, words: &MotionScene, request: &SweepRequest) -> Scene {
+    let every = match request.once {
+        Once::MeshCycle => 1,
+        Once::PinionTurn => scene.pinion.teeth,
+        Once::WheelTurn => scene.wheel.teeth,
+    };
+    let motion = MotionScene { run: Run::Steady, duration_s: None, ramp: None, sweep: None, ..words.clone() };
+    let mut own = scene.clone();
+    own.analysis.cycles = request.points.saturating_mul(every);
+    own.motion = Some(motion);
+    own
+}
+
+/// Runs the model of a scene at each value, way by way; writes all files of the result, the text is the closing table.
+///
+/// `scenes` in ascending order of the value; the first stands for what they have in common.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out at some value.
+pub(crate) fn sweep_key(
+    scenes: &[(f64, Scene)],
+    request: &SweepRequest,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    let mut sources = Sources::new(phases, results, cache);
+    let mut values = Vec::new();
+    for (value, scene) in scenes {
+        let Some(words) = &scene.motion else { continue };
+        let recipe = Recipe::gather(&settled(scene, words, request), &mut sources)?;
+        values.push(Value { value: *value, recipe });
+    }
+    let Some(first) = values.first() else {
+        return Err(CommandError::input("a sweep over no values", Some("give `--points 2` or more".into())));
+    };
+    let made = first.recipe.model()?;
+    point::known_column(&made.model, &first.recipe.scene, &request.of)?;
+    let (facts, mut warnings) = (facts(&first.recipe, made.coordinates()), made.warnings);
+    let count = (values.len() * request.ways.len()) as u64;
+    let points = phases.run_steps("sweep", count, |progress| {
+        let at = |value: f64, from: Option<&_>| {
+            let there = values.iter().find(|v| v.value == value).unwrap_or(first);
+            let found = point::run(&there.recipe, value, request, from);
+            progress.tick();
+            found
+        };
+        let ways: Vec<Result<Vec<SweepPoint>, CommandError>> =
+            request.ways.par_iter().map(|&way| one_way(way, &values, at)).collect();
+        ways.into_iter().collect::<Result<Vec<_>, _>>()
+    })?;
+    let points: Vec<SweepPoint> = points.into_iter().flatten().collect();
+    let summary = files::summary(&first.recipe.scene, request, &points);
+    warnings.extend(summary.doubts());
+    results.write("sweep.csv", files::sweep_csv(request, &points).as_bytes())?;
+    results.write("bifurcation.csv", files::bifurcation_csv(request, &points).as_bytes())?;
+    if let Some(picture) = bifurcation_picture(&request.key, &request.of, &points) {
+        results.write("bifurcation.svg", picture.as_bytes())?;
+    }
+    let scene = &first.recipe.scene;
+    let cost = Cost::of(phases);
+    let report = write_ladder_sweep_report(scene, &facts, &cost, &summary, &points, &warnings)?;
+    report.write(results)?;
+    let files = results.files()?;
+    results.write("summary.json", write_summary(scene, &facts, &cost, &summary, &warnings, &files).as_bytes())?;
+    Ok(ladder_sweep_table(scene, &facts, &cost, &summary, &warnings))
+}
+
+/// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state.
+fn one_way(
+    way: SweepWay,
+    values: &[Value],
+    at: impl Fn(f64, Option<&dynamics::motion::State>) -> Result<point::Found, CommandError> + Sync,
+) -> Result<Vec<SweepPoint>, CommandError> {
+    let mut along: Vec<f64> = values.iter().map(|v| v.value).collect();
+    let mut state = None;
+    let onwards = |value: f64, state: &mut Option<dynamics::motion::State>| {
+        let found = at(value, state.as_ref())?;
+        *state = Some(found.end);
+        Ok::<_, CommandError>(found.point)
+    };
+    let mut branches: Vec<Branch<SweepPoint>> = match way {
+        SweepWay::Apart => study::sweep_parallel(&along, |value| at(value, None).map(|found| found.point))?,
+        SweepWay::Up => study::sweep(&along, &mut state, onwards)?,
+        SweepWay::Down => {
+            along.reverse();
+            study::sweep(&along, &mut state, onwards)?
+        }
+    };
+    branches.sort_by(|a, b| a.value.total_cmp(&b.value));
+    Ok(branches.into_iter().map(|b| SweepPoint { way, ..b.points }).collect())
+}
+
+/// The sweep over speed of a scene that says `run = "sweep"`.
+///
+/// # Errors
+/// As of [`sweep_key`].
+pub(super) fn over_speed(
+    scene: &Scene,
+    (words, speeds): (&MotionScene, &SweepScene),
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    let at = |speed_rpm: f64| {
+        let mut own = scene.clone();
+        own.operation.speed_rpm = speed_rpm;
+        own.motion = Some(words.clone());
+        (speed_rpm, own)
+    };
+    let scenes: Vec<(f64, Scene)> = speeds.all_rpm().into_iter().map(at).collect();
+    let request = SweepRequest {
+        key: "operation.speed_rpm".into(),
+        ways: speeds.ways.clone(),
+        once: Once::MeshCycle,
+        of: "dte_um".into(),
+        points: scene.analysis.cycles.max(1),
+        stretches: 0,
+        again: None,
+    };
+    sweep_key(&scenes, &request, phases, results, cache)
+}

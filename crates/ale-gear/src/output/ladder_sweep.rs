@@ -1,0 +1,105 @@
+//! What a sweep of a cheaper model shows: diagrams, page, closing table.
+
+use super::{
+    Rendered,
+    charts::{Curve, dot_chart, dot_picture, line_chart},
+    motion_report::render,
+    table::Lines,
+};
+use crate::{
+    error::CommandError,
+    facts::{Cost, Facts},
+    ladder::{SweepPoint, SweepSummary},
+    scene::{Scene, SweepWay},
+};
+
+const WAYS: [(SweepWay, &str); 3] =
+    [(SweepWay::Apart, "each value by itself"), (SweepWay::Up, "upwards"), (SweepWay::Down, "downwards")];
+
+const BIFURCATION: &str = "Bifurcation diagram: section of the motion";
+
+/// Values of each way as a curve; a point of the sweep may have several.
+fn by_way(points: &[SweepPoint], values: impl Fn(&SweepPoint) -> Vec<f64>) -> Vec<Curve> {
+    let curve = |(way, label): &(SweepWay, &str)| {
+        let own = points.iter().filter(|p| p.way == *way);
+        let points = own.flat_map(|p| values(p).into_iter().map(|y| (p.value, y)).collect::<Vec<_>>()).collect();
+        Curve { label: (*label).into(), points }
+    };
+    WAYS.iter().map(curve).collect()
+}
+
+/// The bifurcation diagram as SVG; `None` without points.
+pub(crate) fn bifurcation_picture(key: &str, of: &str, points: &[SweepPoint]) -> Option<String> {
+    dot_picture(BIFURCATION, key, of, &by_way(points, |p| p.points.clone()))
+}
+
+/// Bifurcation diagram first, then what goes with it.
+fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String> {
+    let exponent = by_way(points, |p| p.lyapunov.iter().map(|l| l.exponent).collect());
+    [
+        dot_chart(BIFURCATION, key, of, &by_way(points, |p| p.points.clone())),
+        line_chart("Peak to peak", key, of, &by_way(points, |p| vec![p.peak_to_peak()]), true),
+        line_chart("Largest Lyapunov exponent: above zero in chaos", key, "exponent [1/s]", &exponent, true),
+        line_chart("Smallest normal force", key, "force [N]", &by_way(points, |p| vec![p.normal_force_n[0]]), true),
+        line_chart("Mean", key, of, &by_way(points, |p| vec![p.mean]), false),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The report of a sweep.
+///
+/// # Errors
+/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+pub(crate) fn write_ladder_sweep_report(
+    scene: &Scene,
+    facts: &Facts,
+    cost: &Cost,
+    summary: &SweepSummary,
+    points: &[SweepPoint],
+    warnings: &[String],
+) -> Result<Rendered, CommandError> {
+    let charts = bifurcation_charts(&summary.key, &summary.section_of, points);
+    render(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)
+}
+
+/// A few values as text, the rest as dots.
+fn listed(values: &[f64]) -> String {
+    const SHOWN: usize = 6;
+    let mut text: Vec<String> = values.iter().take(SHOWN).map(|v| format!("{v:.4}")).collect();
+    if values.len() > SHOWN {
+        text.push("...".into());
+    }
+    if text.is_empty() { "-".into() } else { text.join(", ") }
+}
+
+/// The table at the end of a sweep.
+pub(crate) fn ladder_sweep_table(
+    scene: &Scene,
+    facts: &Facts,
+    cost: &Cost,
+    s: &SweepSummary,
+    warnings: &[String],
+) -> String {
+    let mut t = Lines::new(facts);
+    t.text(&s.key, format_args!("{} .. {}", s.range[0], s.range[1]), &format!("{} values", s.values));
+    for p in &s.largest {
+        let way = WAYS.iter().find(|(way, _)| *way == p.way).map_or("", |(_, name)| name);
+        let unit = format!("({}) at {}", s.section_of, p.value);
+        t.number(&format!("largest peak to peak, {way}"), p.peak_to_peak(), 4, &unit);
+    }
+    t.text("sections of one point", format_args!("{} of {}", s.period_one, s.points), "");
+    t.text("sections of a few points", s.subharmonic.len(), "");
+    t.text("sections that do not come back", s.not_periodic.len(), "");
+    if let Some(chaotic) = &s.chaotic {
+        let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
+        t.text("chaotic (exponent above 0)", chaotic.len(), &format!("at {}", listed(&values)));
+    }
+    if let Some(bands) = &s.hysteresis {
+        let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
+        t.text("two answers", bands.len(), &text.join(", "));
+    }
+    t.text("points at which flanks part", s.parting, "");
+    t.framed(scene, cost, warnings)
+}
