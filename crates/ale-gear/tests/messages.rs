@@ -51,10 +51,7 @@ fn the_line_is_shown_with_a_mark() {
     );
     shown(&with("teeth = 30", "teeth = \"30\""), "  2 | teeth = \"30\"\n    |         ^^^^\n");
     shown(&with("teeth = 30", "teeth = -3"), "  2 | teeth = -3\n    |         ^^\n");
-    shown(
-        &with("[analysis]", "[analysis]\nwindow_teeth = 24\n[contact]\ngap = \"facet\"\n[output]"),
-        "gap = \"facet\"\n     |       ^^^^^^^",
-    );
+    shown(&format!("{ISO_SCENE}[contact]\ngap = \"facet\"\n"), "  18 | gap = \"facet\"\n     |       ^^^^^^^\n");
     shown("[pair\n", "  1 | [pair\n");
 }
 
@@ -101,7 +98,7 @@ fn physical_nonsense_names_its_line() {
         with("bore_diameter_mm = 60.0", "bore_diameter_mm = 92.0"),
         &["a.toml:4: [pinion]: bore diameter 92 mm leaves no rim"],
     );
-    refused(pair("root_radius_coefficient = 0.6"), &["a.toml:11: [pair", "root radius coefficient 0.6 is too large"]);
+    refused(pair("root_radius_coefficient = 0.6"), &["a.toml:11: [pinion]: root radius coefficient 0.6 is too large"]);
     // A default at fault has no line of its own: the heading of its table says where to put it.
     refused(
         with("teeth = 30", "teeth = 12")
