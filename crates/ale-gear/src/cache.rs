@@ -41,7 +41,8 @@ impl Cache {
         Self { folder: directories::ProjectDirs::from("", "", "ale-gear").map(|p| p.cache_dir().to_owned()) }
     }
 
-    fn file(&self, key: &RecordKey) -> Option<PathBuf> {
+    /// Where the record of a key is kept, there or not; `None` without a folder.
+    pub(crate) fn file(&self, key: &RecordKey) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
     }
 

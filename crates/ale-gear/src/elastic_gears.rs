@@ -1,5 +1,7 @@
 //! From meshes to elastic gears: reduced, from the cache, or whole.
 
+use std::path::PathBuf;
+
 use dynamics::{ElasticGear, FullGear, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
@@ -27,6 +29,11 @@ pub(crate) struct ElasticGears {
 pub(crate) struct RecordKeys([Option<RecordKey>; 2]);
 
 impl RecordKeys {
+    /// Where the records of pinion and wheel are kept; `None` where nothing is.
+    pub(crate) fn files(&self, cache: &Cache) -> [Option<PathBuf>; 2] {
+        [0, 1].map(|i| cache.file(self.0[i].as_ref()?))
+    }
+
     /// Writes what was reduced in this run; the warnings are about what could not be written.
     pub(crate) fn save(&self, cache: &Cache, gears: &[ElasticGear; 2]) -> Vec<String> {
         let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {

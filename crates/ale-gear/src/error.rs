@@ -13,6 +13,8 @@ pub struct CommandError {
     pub status: u8,
     /// One line: what, where, what was expected.
     pub message: String,
+    /// The line of a file that is meant, with a mark below it.
+    pub excerpt: Option<String>,
     /// One line: what to do next.
     pub hint: Option<String>,
 }
@@ -20,12 +22,12 @@ pub struct CommandError {
 impl CommandError {
     /// The input is wrong: exit status 2.
     pub fn input(message: impl Display, hint: Option<String>) -> Self {
-        Self { status: 2, message: message.to_string(), hint }
+        Self { status: 2, message: message.to_string(), excerpt: None, hint }
     }
 
     /// The input is fine, but no result came out: exit status 1.
     pub fn failed(message: impl Display, hint: Option<String>) -> Self {
-        Self { status: 1, message: message.to_string(), hint }
+        Self { status: 1, message: message.to_string(), excerpt: None, hint }
     }
 
     /// A file of the result cannot be written.
@@ -34,18 +36,25 @@ impl CommandError {
         Self::failed(format_args!("{}: cannot be written: {error}", path.display()), Some(hint))
     }
 
-    /// The whole text for stderr, ending in a newline.
-    pub fn text(&self) -> String {
-        match &self.hint {
-            Some(hint) => format!("ale-gear: {}\nhint: {hint}\n", self.message),
-            None => format!("ale-gear: {}\n", self.message),
-        }
+    /// The whole text for stderr, ending in a newline; `coloured` for a terminal.
+    pub fn text(&self, coloured: bool) -> String {
+        let (red, blue, cyan, plain) =
+            if coloured { ("\x1b[1;31m", "\x1b[34m", "\x1b[36m", "\x1b[0m") } else { ("", "", "", "") };
+        let excerpt = self.excerpt.iter().map(|e| format!("{blue}{e}{plain}\n"));
+        let hint = self.hint.iter().map(|h| format!("{cyan}hint:{plain} {h}\n"));
+        format!("{red}ale-gear:{plain} {}\n", self.message) + &excerpt.chain(hint).collect::<String>()
+    }
+
+    /// The same with the place in a file that it is about, if that is known.
+    #[must_use]
+    pub fn about(self, excerpt: Option<&str>) -> Self {
+        Self { excerpt: excerpt.map(str::to_owned), ..self }
     }
 }
 
 impl From<SceneError> for CommandError {
     fn from(error: SceneError) -> Self {
         let hint = error.hint();
-        Self::input(error, hint)
+        Self::input(&error, hint).about(error.excerpt())
     }
 }

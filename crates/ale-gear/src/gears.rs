@@ -7,6 +7,7 @@ use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, G
 
 use crate::error::CommandError;
 use crate::facts::GeometryFacts;
+use crate::geometry_fault::geometry_fault;
 use crate::scene::{FlankScene, GearScene, Scene, Shape};
 
 /// Gear data of pinion and wheel in the program's own units.
@@ -85,17 +86,31 @@ fn flank(scene: &Scene, f: &FlankScene) -> Result<FlankModification, DataFileErr
 /// # Errors
 /// Exit status 2 when no running pair can be made of the data.
 pub(crate) fn pair(scene: &Scene) -> Result<GearPair, CommandError> {
-    let complaint = |whose: &str, e: &GeometryError| {
-        CommandError::input(format_args!("{}: {whose}: {e}", scene.file.display()), e.hint())
-    };
+    let complaint = |table: &str, e: &GeometryError| geometry_fault(scene, table, e);
     let gear = |whose: &str, of: &GearScene| {
         let nominal = Gear::new(data(scene, of)).map_err(|e| complaint(whose, &e))?;
         let ground = modifications(scene, of).map_err(|e| CommandError::input(&e, e.hint()))?;
         nominal.with_modifications(ground).map_err(|e| complaint(whose, &e))
     };
-    let pinion = gear("[pinion]", &scene.pinion)?;
-    let wheel = gear("[wheel]", &scene.wheel)?;
-    GearPair::new(pinion, wheel, scene.pair.centre_distance_mm).map_err(|e| complaint("[pair]", &e))
+    let pinion = gear("pinion", &scene.pinion)?;
+    let wheel = gear("wheel", &scene.wheel)?;
+    GearPair::new(pinion, wheel, scene.pair.centre_distance_mm).map_err(|e| complaint("pair", &e))
+}
+
+/// What a user should know of a pair that runs.
+pub(crate) fn doubts(pair: &GearPair) -> Vec<String> {
+    let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
+    let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
+    let told = undercut.map(|(whose, gear)| {
+        format!(
+            "the {whose} is undercut: its involute begins at diameter {:.3} mm and its roots are weak; a `profile_shift` of {:.3} or more (it is {}) \
+             or more teeth avoid that",
+            2.0 * gear.form_radius(),
+            (1e3 * gear.undercut_limit()).ceil() / 1e3,
+            gear.data().profile_shift
+        )
+    });
+    told.collect()
 }
 
 /// What the summary says of a pair.

@@ -6,18 +6,24 @@
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
 //! | `ladder` | cheaper models of the same pair, in time |
+//! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`pattern`] | contact pattern on the flanks |
 //! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
+//! | [`reduce`] | reduction of a scene's gears by itself |
+//! | [`starter`] | the scene that a user begins with |
+//! | [`rexs`] | gear data from REXS files |
 //! | [`chart`] | accuracy against cost of every model |
+//! | [`compare`] | result folders side by side |
 //! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
 pub mod chart;
 pub mod command;
+pub mod compare;
 mod elastic_gears;
 pub mod error;
 pub mod facts;
@@ -30,10 +36,15 @@ pub mod pattern;
 pub mod phases;
 pub mod run;
 pub mod scene;
+pub mod starter;
+pub mod talk;
 
 mod gears;
+mod geometry_fault;
 mod iso_model;
 mod ladder;
 pub mod meshes;
 mod partial;
+pub mod reduce;
+pub mod rexs;
 pub mod view;

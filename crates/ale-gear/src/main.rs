@@ -11,7 +11,7 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            complain(&error.text());
+            complain(&error.text(ale_gear::talk::colours_on_stderr()));
             ExitCode::from(error.status)
         }
     }

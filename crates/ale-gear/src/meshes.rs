@@ -1,6 +1,6 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use geometry::{Gear, Side, Vec3};
+use geometry::{Gear, GearPair, Side, Vec3};
 use mesh::{
     DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity, StructuredOptions,
     SurfaceGroup, generate,
@@ -19,6 +19,16 @@ pub struct SceneMesh {
     pub facts: MeshFacts,
     /// What the user should know of it.
     pub warnings: Vec<String>,
+}
+
+/// The meshes of pinion and wheel.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], CommandError> {
+    let pinion = gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
+    let wheel = gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
+    Ok([pinion, wheel])
 }
 
 /// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
@@ -122,8 +132,20 @@ fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<()
         format_args!(
             "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
         ),
-        Some("coordinates must be in mm (not m or inch), the gear's axis on z".into()),
+        Some(match unit_of(reach / tip) {
+            Some((unit, factor)) => format!(
+                "the mesh is in {unit}: write it again in mm, {factor} times as large (Gmsh: `Mesh.ScalingFactor = {factor};`)"
+            ),
+            None => "coordinates must be in mm (not m or inch), the gear's axis on z".into(),
+        }),
     ))
+}
+
+/// The unit that a mesh is in by its size over the gear's, within a tenth; and mm in that unit.
+fn unit_of(size: f64) -> Option<(&'static str, f64)> {
+    const UNITS: [(&str, f64); 4] =
+        [("metres", 1000.0), ("inches", 25.4), ("centimetres", 10.0), ("micrometres", 1e-3)];
+    UNITS.into_iter().find(|(_, factor)| (0.9..1.1).contains(&(size * factor)))
 }
 
 /// Refuses a mesh with errors; hands on its warnings.

@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde::Serialize;
 
 use crate::memory;
+use crate::talk::{self, Loudness};
 
 /// What one phase cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -47,7 +48,9 @@ impl Progress {
 
     /// A word beside the bar.
     pub fn say(&self, message: impl Into<String>) {
-        self.0.set_message(message.into());
+        let message = message.into();
+        talk::say(Loudness::Details, || format!("  {}: {message}", self.0.prefix()));
+        self.0.set_message(message);
     }
 }
 
@@ -94,15 +97,21 @@ impl Phases {
 
     fn measure<T>(&mut self, name: &str, bar: ProgressBar, work: impl FnOnce(&Progress) -> T) -> T {
         // indicatif draws nothing when stderr is no terminal.
-        bar.set_draw_target(if self.bars { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() });
+        bar.set_draw_target(if self.bars && talk::loudness() == Loudness::Bars {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        });
         bar.set_prefix(name.to_owned());
         bar.enable_steady_tick(Duration::from_millis(120));
+        talk::say(Loudness::Steps, || format!("{name} ..."));
         let own_peak = memory::reset_peak();
         let start = Instant::now();
         let result = work(&Progress(bar.clone()));
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
         bar.finish_and_clear();
+        talk::say(Loudness::Steps, || format!("{name}: {wall_s:.2} s"));
         self.highest = match (self.highest, peak) {
             (Some(a), Some(b)) => Some(f64::max(a, b)),
             (a, b) => a.or(b),

@@ -54,14 +54,13 @@ fn solve_scene(
 ) -> Result<(Solved, Option<StaticModel>), CommandError> {
     let pair = phases.run("geometry", || gears::pair(scene))?;
     if scene.analysis.model == Model::Iso {
-        return Ok((phases.run("solve", || iso_model::solve(scene, &pair))?, None));
+        let mut solved = phases.run("solve", || iso_model::solve(scene, &pair))?;
+        solved.history.warnings.extend(gears::doubts(&pair));
+        return Ok((solved, None));
     }
-    let meshes = phases.run("mesh", || {
-        let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-        let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-        Ok::<_, CommandError>([pinion, wheel])
-    })?;
-    let mut warnings: Vec<String> = meshes.iter().flat_map(|m| m.warnings.clone()).collect();
+    let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
+    let mut warnings = gears::doubts(&pair);
+    warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     let mut options = options(scene, &pair);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
     let Attempt { model, mut history, first_result_s, recorder } = loop {

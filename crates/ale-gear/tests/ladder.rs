@@ -47,7 +47,8 @@ fn seed_004_has_its_normal_force() {
         .map(|e| e.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    let all = ["energy.csv", "history.csv", "report.html", "section.csv", "spectrum.csv", "summary.json"];
+    let all =
+        ["energy.csv", "history.csv", "report.html", "report.json.gz", "section.csv", "spectrum.csv", "summary.json"];
     assert_eq!(names, all);
     assert_eq!(scratch.read("o/history.csv").lines().count(), 1 + 4 * 64);
     assert_eq!(scratch.read("o/section.csv").lines().count(), 1 + 4);

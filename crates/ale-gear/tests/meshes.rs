@@ -2,7 +2,7 @@
 
 mod util;
 
-use util::{ISO_SCENE, Scratch};
+use util::{ISO_SCENE, Scratch, repository};
 
 /// A small sector: one quadratic layer is enough to see every part.
 fn scene(order: u32, sector: u32) -> String {
@@ -69,4 +69,51 @@ fn the_mesh_of_another_gear_is_refused() {
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("off the wheel's flank"), "{}", run.stderr);
     assert_eq!(scratch.names(), ["a.toml", "b.toml", "p.msh"]);
+}
+
+/// A mesh in another unit is noticed in a run, with the unit and the factor.
+#[test]
+fn meshes_in_metres_and_inches_are_noticed() {
+    let file = repository().join("meshes/coarse_hex8_pinion.msh");
+    let mm = mesh::Mesh::read(&file).unwrap();
+    for (unit, factor) in [("metres", 1000.0), ("inches", 25.4), ("centimetres", 10.0)] {
+        let mut scaled = mm.clone();
+        scaled.nodes.iter_mut().flatten().for_each(|x| *x /= factor);
+        let scene = ISO_SCENE.replace("[wheel]", "mesh = \"p.msh\"\n[wheel]").replace("model = \"iso\"\n", "");
+        let scratch = Scratch::new().file("a.toml", scene);
+        scaled.write(&scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+        let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+        assert_eq!(run.code, Some(2), "{unit}: {}", run.stderr);
+        assert!(
+            run.stderr.contains(&format!("hint: the mesh is in {unit}: write it again in mm, {factor} times")),
+            "{}",
+            run.stderr
+        );
+    }
+}
+
+/// A mesh with names of its own is checked by them; without them its bore is missed.
+#[test]
+fn own_names_of_groups_are_checked_by_flags() {
+    let file = repository().join("meshes/coarse_hex8_pinion.msh");
+    let mut named = mesh::Mesh::read(&file).unwrap();
+    let own = |name: &str| name.replace("bore", "Hub").replace("flank_left_", "L").replace("flank_right_", "R");
+    named.surfaces.iter_mut().for_each(|s| s.name = own(&s.name));
+    let scratch = Scratch::new();
+    named.write(&scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+    let without = scratch.ale_gear(["mesh", "check", "p.msh"]);
+    assert!(without.stderr.contains("bore") || without.stdout.contains("bore"), "{}{}", without.stdout, without.stderr);
+    let with = ["mesh", "check", "p.msh", "--bore", "Hub", "--flank-left", "L{k}", "--flank-right", "R{k}"];
+    let run = scratch.command(&with);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(!run.stdout.contains("bore"), "{}", run.stdout);
+    let json = scratch.command(&[&with[..], &["--json"]].concat());
+    let findings: serde_json::Value =
+        serde_json::from_str(&json.stdout).unwrap_or_else(|e| panic!("{e}: {}", json.stdout));
+    assert!(findings.is_array());
+    let wrong = scratch.ale_gear(["mesh", "check", "p.msh", "--flank-left", "L"]);
+    assert_eq!((wrong.code, wrong.stdout.as_str()), (Some(2), ""));
+    let info = scratch.ale_gear(["mesh", "info", "p.msh", "--json"]);
+    let info: serde_json::Value = serde_json::from_str(&info.stdout).unwrap();
+    assert_eq!(info["nodes"], named.nodes.len());
 }

@@ -7,9 +7,15 @@ use util::{ISO_SCENE, Scratch};
 fn says(scene: &str, text: &str) {
     let scratch = Scratch::new().file("a.toml", scene);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-    assert_eq!(run.stderr, text, "for\n{scene}");
+    assert_eq!(without_excerpt(&run.stderr), text, "for\n{scene}");
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
     assert_eq!(scratch.names(), ["a.toml"], "something was left behind");
+}
+
+/// The message without the lines of the file that it shows: `  7 | ...` and the mark below.
+fn without_excerpt(stderr: &str) -> String {
+    let shown = |line: &&str| !(line.starts_with("  ") && line.contains(" | "));
+    stderr.lines().filter(shown).map(|line| format!("{line}\n")).collect()
 }
 
 /// The complete scene with one line replaced.
@@ -28,6 +34,101 @@ fn a_misspelt_key_names_line_and_neighbour() {
         &with("torque_nm = ", "torque = "),
         "ale-gear: a.toml:14: unknown key `torque`\nhint: did you mean `torque_nm`?\n",
     );
+}
+
+/// The line itself, with a mark below the word that is meant: of every kind of complaint.
+#[test]
+fn the_line_is_shown_with_a_mark() {
+    let shown = |scene: &str, text: &str| {
+        let scratch = Scratch::new().file("a.toml", scene);
+        let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+        assert!(run.stderr.contains(text), "{}", run.stderr);
+        assert!(!run.stderr.contains('\x1b'), "colours into a pipe: {}", run.stderr);
+    };
+    shown(
+        "[pair]\nface_widht_mm = 25.0 # wide\n",
+        "ale-gear: a.toml:2: unknown key `face_widht_mm`\n  2 | face_widht_mm = 25.0 # wide\n    | ^^^^^^^^^^^^^\nhint: ",
+    );
+    shown(&with("teeth = 30", "teeth = \"30\""), "  2 | teeth = \"30\"\n    |         ^^^^\n");
+    shown(&with("teeth = 30", "teeth = -3"), "  2 | teeth = -3\n    |         ^^\n");
+    shown(&format!("{ISO_SCENE}[contact]\ngap = \"facet\"\n"), "  18 | gap = \"facet\"\n     |       ^^^^^^^\n");
+    shown("[pair\n", "  1 | [pair\n");
+}
+
+/// What only the geometry can judge names the line of the key at fault, or the heading of its table.
+#[test]
+fn physical_nonsense_names_its_line() {
+    let refused = |scene: String, said: &[&str]| {
+        let scratch = Scratch::new().file("a.toml", scene);
+        let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+        for text in said {
+            assert!(run.stderr.contains(text), "no `{text}` in\n{}", run.stderr);
+        }
+        assert!(run.stderr.contains("\nhint: "), "{}", run.stderr);
+        assert_eq!((run.code, scratch.names().len()), (Some(2), 1), "{}", run.stderr);
+    };
+    let pair = |line: &str| with("[pair]\n", &format!("[pair]\n{line}\n"));
+    let pinion = |line: &str| with("teeth = 30\n", &format!("teeth = 30\n{line}\n"));
+    refused(
+        pair("centre_distance_mm = 80.0"),
+        &["a.toml:11: [pair]: centre distance 80 mm is too small", "11 | centre_distance_mm = 80.0"],
+    );
+    refused(pair("centre_distance_mm = 95.0"), &["a.toml:11: [pair]: the teeth jam"]);
+    refused(pair("centre_distance_mm = 103.0"), &["a.toml:11: [pair]: the pair has no path of contact"]);
+    refused(
+        pair("root_radius_coefficient = 0.45\naddendum_coefficient = 1.24").replacen(
+            "[wheel]\nteeth = 30",
+            "[wheel]\nteeth = 120",
+            1,
+        ),
+        &["a.toml:12: [pair]: interference at the root: the wheel's tip enters the fillet of the pinion by 0."],
+    );
+    refused(
+        ISO_SCENE
+            .replace("helix_angle_deg = 20.0", "helix_angle_deg = 0.0")
+            .replace("[pair]\n", "[pair]\ncentre_distance_mm = 93.2\n"),
+        &["a.toml:11: [pair]: total contact ratio", "below 1"],
+    );
+    refused(pinion("profile_shift = 1.9"), &["a.toml:3: [pinion]: the teeth are pointed", "3 | profile_shift = 1.9"]);
+    refused(
+        pinion("profile_shift = -1.5").replacen("thickness_allowance_mm = 0.05", "thickness_allowance_mm = 1.5", 1),
+        &["a.toml:3: [pinion]: the teeth have no thickness"],
+    );
+    refused(
+        with("bore_diameter_mm = 60.0", "bore_diameter_mm = 92.0"),
+        &["a.toml:4: [pinion]: bore diameter 92 mm leaves no rim"],
+    );
+    refused(pair("root_radius_coefficient = 0.6"), &["a.toml:11: [pinion]: root radius coefficient 0.6 is too large"]);
+    // A default at fault has no line of its own: the heading of its table says where to put it.
+    refused(
+        with("teeth = 30", "teeth = 12")
+            .replace("bore_diameter_mm = 60.0\n", "")
+            .replace("[pair]\n", "[pair]\nnormal_pressure_angle_deg = 35.0\n"),
+        &["a.toml:1: [pinion]"],
+    );
+}
+
+/// What only another model writes is not read and ignored.
+#[test]
+fn a_ramp_without_waterfall_takes_no_word_on_it() {
+    let scene = with("model = \"iso\"", "model = \"impact\"")
+        + "[motion]\nrun = \"ramp\"\n[motion.ramp]\nfrom_rpm = 500.0\nto_rpm = 900.0\nduration_s = 0.1\nwaterfall_cycles = 8\n";
+    says(
+        &scene,
+        "ale-gear: a.toml:23: `waterfall_cycles` means nothing to the model \"impact\"\n\
+         hint: leave it out: of a ramp of this model the last speed has a spectrum\n",
+    );
+}
+
+/// Undercut is no error, but a user hears of it, with the number that avoids it.
+#[test]
+fn undercut_is_told_with_its_way_out() {
+    let scene = with("teeth = 30", "teeth = 12").replacen("bore_diameter_mm = 60.0", "bore_diameter_mm = 15.0", 1);
+    let scratch = Scratch::new().file("a.toml", scene);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("the pinion is undercut"), "{}", run.stdout);
+    assert!(run.stdout.contains("`profile_shift` of 0."), "{}", run.stdout);
 }
 
 #[test]
@@ -105,7 +206,11 @@ fn gears_that_cannot_run_together_are_refused() {
     );
     let scratch = Scratch::new().file("a.toml", with("[pair]", "[pair]\ncentre_distance_mm = 80"));
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-    assert!(run.stderr.starts_with("ale-gear: a.toml: [pair]: centre distance 80 mm is too small"), "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("ale-gear: a.toml:11: [pair]: centre distance 80 mm is too small"),
+        "{}",
+        run.stderr
+    );
     assert_eq!((run.code, scratch.names().len()), (Some(2), 1));
 }
 
@@ -198,7 +303,11 @@ fn micro_geometry_off_the_flank_names_the_range() {
     let off = format!("{scene}[pinion.modification]\ntip_relief_um = 5\ntip_relief_start_diameter_mm = 120\n");
     let scratch = Scratch::new().file("a.toml", off);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-    assert!(run.stderr.starts_with("ale-gear: a.toml: [pinion]: start of tip relief: 120.0000 mm"), "{}", run.stderr);
+    assert!(
+        run.stderr.starts_with("ale-gear: a.toml:19: [pinion]: start of tip relief: 120.0000 mm"),
+        "{}",
+        run.stderr
+    );
     assert!(run.stderr.contains("\nhint: put the start of tip relief between "), "{}", run.stderr);
     assert_eq!(run.code, Some(2));
     let grid = format!("{scene}[wheel.modification]\ntopography = \"grid.csv\"\n");

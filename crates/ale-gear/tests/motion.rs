@@ -29,6 +29,7 @@ fn a_motion_settles_and_its_certificate_holds() {
             "energy.csv",
             "history.csv",
             "report.html",
+            "report.json.gz",
             "spectrum.csv",
             "summary.json"
         ]

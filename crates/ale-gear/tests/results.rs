@@ -57,7 +57,7 @@ fn a_result_folder_is_complete_and_replaces_its_forerunner() {
     assert_eq!(again.code, Some(0), "{}", again.stderr);
     let mut names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["history.csv", "report.html", "summary.json"]);
+    assert_eq!(names, ["history.csv", "report.html", "report.json.gz", "summary.json"]);
     assert_eq!(std::fs::read_dir(folder.parent().unwrap()).unwrap().count(), 1, "a temporary folder is left");
     let later: serde_json::Value = serde_json::from_str(&scratch.read("deep/er/o/summary.json")).unwrap();
     assert_eq!(later["inputs"]["operation"]["torque_nm"], 300.0);

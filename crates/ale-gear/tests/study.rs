@@ -67,7 +67,7 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     assert!(follows.iter().all(|r| *r < -0.98), "{follows:?}");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     assert_eq!(summary["cases"][2]["quantities"]["mean_wheel_force_z_n"].as_f64(), Some(axial[2]));
-    assert_eq!(summary["files"], serde_json::json!(["cases", "report.html", "study.csv"]));
+    assert_eq!(summary["files"], serde_json::json!(["cases", "report.html", "report.json.gz", "study.csv"]));
     let page = scratch.read("o/report.html");
     // Three columns over cycles, two against others, one over time, two over the angle.
     assert_eq!(page.matches("<svg").count(), 8);

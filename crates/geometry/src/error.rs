@@ -24,6 +24,12 @@ pub enum GeometryError {
         /// Diameter at which the tooth has no thickness left, mm.
         pointed_diameter_mm: f64,
     },
+    /// Nothing is left of the tooth at the reference circle.
+    #[error("the teeth have no thickness: {thickness_mm:.4} mm in the normal section at the reference circle")]
+    Thickness {
+        /// Normal tooth thickness, mm; not positive.
+        thickness_mm: f64,
+    },
     /// The rounding of the rack tip is wider than the rack's tooth.
     #[error("root radius coefficient {coefficient} is too large: at most {largest:.4} fits the tooth space")]
     RootRadius {
@@ -71,6 +77,21 @@ pub enum GeometryError {
         gear: &'static str,
         /// Clearance, mm; negative.
         clearance_mm: f64,
+    },
+    /// A tip runs into the fillet of the other gear.
+    #[error(
+        "interference at the root: the {tip}'s tip enters the fillet of the {root} by {depth_mm:.4} mm; its teeth are involute \
+         from diameter {form_diameter_mm:.3} mm only"
+    )]
+    Interference {
+        /// Whose tip.
+        tip: &'static str,
+        /// Whose fillet.
+        root: &'static str,
+        /// Largest depth along the arc in the transverse section, mm.
+        depth_mm: f64,
+        /// Root form diameter of the gear whose fillet it is, mm.
+        form_diameter_mm: f64,
     },
     /// The teeth do not reach each other.
     #[error(
@@ -126,6 +147,7 @@ impl GeometryError {
                     "lower the profile shift or the addendum, or set the tip diameter below {pointed_diameter_mm:.3} mm"
                 )
             }
+            Self::Thickness { .. } => "raise the profile shift, or lower the thickness allowance".into(),
             Self::RootRadius { largest, .. } => format!("use a root radius coefficient of at most {largest:.4}"),
             Self::Bore { root_diameter_mm, .. } => {
                 format!("a rim of about two modules needs a bore well below {root_diameter_mm:.1} mm")
@@ -134,6 +156,9 @@ impl GeometryError {
             Self::CentreDistance { least_mm, .. } => format!("the centre distance must exceed {least_mm:.4} mm"),
             Self::Jammed { .. } => "raise the centre distance or the thickness allowances".into(),
             Self::TipClearance { .. } => "raise the centre distance or the dedendum, or shorten the tip".into(),
+            Self::Interference { tip, root, .. } => format!(
+                "shorten the {tip}'s tip (addendum, tip diameter), raise the dedendum or the centre distance, or shift the {root}'s profile outwards"
+            ),
             Self::NoContact { .. } => "lower the centre distance or raise the tip diameters".into(),
             Self::ContactRatio { .. } => {
                 "lower the centre distance, or raise addendum, helix angle or face width".into()

@@ -185,6 +185,18 @@ impl Gear {
         self.profile.radius(self.profile.roll_form())
     }
 
+    /// Profile shift coefficient below which the rack's tip cuts away involute (undercut).
+    ///
+    /// ```text
+    /// x_min = h_d* - rho* (1 - sin a_n) - z sin^2(a_t) / (2 cos b)        h_d*, rho* over the normal module
+    /// ```
+    pub fn undercut_limit(&self) -> f64 {
+        let d = &self.data;
+        let straight = d.dedendum_coefficient - d.root_radius_coefficient * (1.0 - d.normal_pressure_angle.sin());
+        let sin = self.transverse_pressure_angle().sin();
+        straight - f64::from(d.teeth) * sin * sin / (2.0 * d.helix_angle.cos())
+    }
+
     /// Root radius, mm.
     pub fn root_radius(&self) -> f64 {
         self.reference_radius() + self.data.normal_module * (self.data.profile_shift - self.data.dedendum_coefficient)

@@ -13,6 +13,7 @@ mod data;
 mod error;
 mod flank;
 mod gear;
+mod interference;
 pub mod modification;
 mod pair;
 mod profile;

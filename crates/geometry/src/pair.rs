@@ -6,6 +6,9 @@ use serde::Serialize;
 
 use crate::{Gear, GeometryError, Side};
 
+/// Depth over the module from which on a tip in a fillet is more than rounded data.
+const INTERFERENCE_MODULES: f64 = 1e-3;
+
 /// A running pair: pinion at the origin, wheel at (a, 0, 0).
 ///
 /// ```text
@@ -60,6 +63,19 @@ impl GearPair {
             let clearance = self.centre_distance - tip.tip_radius() - mate.root_radius();
             if clearance < 0.0 {
                 return Err(GeometryError::TipClearance { gear, clearance_mm: clearance });
+            }
+        }
+        let names = ["pinion", "wheel"];
+        for (i, gear) in [&self.pinion, &self.wheel].into_iter().enumerate() {
+            let depth_mm = self.interference(i);
+            if depth_mm > INTERFERENCE_MODULES * a.normal_module {
+                let form_diameter_mm = 2.0 * gear.form_radius();
+                return Err(GeometryError::Interference {
+                    tip: names[1 - i],
+                    root: names[i],
+                    depth_mm,
+                    form_diameter_mm,
+                });
             }
         }
         if self.path_length() <= 0.0 {

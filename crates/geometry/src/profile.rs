@@ -64,7 +64,7 @@ impl TransverseProfile {
     /// The section of a gear.
     ///
     /// # Errors
-    /// [`GeometryError::PointedTooth`], [`GeometryError::RootRadius`].
+    /// [`GeometryError::Thickness`], [`GeometryError::PointedTooth`], [`GeometryError::RootRadius`].
     pub(crate) fn new(data: &GearData) -> Result<Self, GeometryError> {
         let (m, z, x) = (data.normal_module, f64::from(data.teeth), data.profile_shift);
         let (alpha, beta) = (data.normal_pressure_angle, data.helix_angle);
@@ -72,6 +72,9 @@ impl TransverseProfile {
         let reference_radius = 0.5 * m * z / beta.cos();
         let base_radius = reference_radius * alpha_t.cos();
         let thickness = 0.5 * PI * m + 2.0 * x * m * alpha.tan() - data.thickness_allowance;
+        if thickness <= 0.0 {
+            return Err(GeometryError::Thickness { thickness_mm: thickness });
+        }
         let base_half_angle = thickness / (m * z) + involute(alpha_t);
         let tip_radius = match data.tip_diameter {
             Some(d) => 0.5 * d,

@@ -34,9 +34,6 @@ pub(super) struct ChartArgs {
     /// Run the models in motion at the scene's torque and speed as well
     #[arg(long)]
     motion: bool,
-    /// Threads [default: all cores]
-    #[arg(long, short = 'j', value_name = "N")]
-    threads: Option<usize>,
     /// Leave out what would take longer than this, by what the coarser mesh took
     #[arg(long, value_name = "S", default_value = "240")]
     limit_s: f64,
@@ -52,9 +49,6 @@ impl ChartArgs {
     /// Every complaint about the words is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<(Scene, ChartOptions), CommandError> {
         let mut scene = self.overrides.read(&self.scene)?;
-        if self.threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
-        }
         if !(self.limit_s > 0.0 && self.limit_s.is_finite()) {
             return Err(CommandError::input(format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s), None));
         }
@@ -77,13 +71,12 @@ impl ChartArgs {
     /// Runs all points; the text is the tables.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let (scene, options) = self.plan()?;
-        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         let mut phases = Phases::with_bars();
         let quick = if self.quick { " --quick" } else { "" };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
         if self.methods {
-            let command = format!("ale-gear chart --methods {} --out DIR{quick}{set}", self.scene.display());
+            let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
             return self.of_methods(&scene, &mut phases, results, &command);
         }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
@@ -92,8 +85,8 @@ impl ChartArgs {
                 progress.tick();
             })
         })?;
-        let quick = if self.motion { format!("{quick} --motion") } else { quick.to_owned() };
-        let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
+        let motion = if self.motion { " --motion" } else { "" };
+        let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;

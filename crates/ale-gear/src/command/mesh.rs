@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Subcommand, ValueEnum};
-use mesh::{GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
+use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
 
 use crate::error::CommandError;
 use crate::scene::Scene;
@@ -17,6 +17,9 @@ pub(super) enum MeshCommand {
     Info {
         /// Gmsh file, format 2.2 or 4.1, text or binary
         file: PathBuf,
+        /// As JSON
+        #[arg(long)]
+        json: bool,
     },
     /// What is wrong with a mesh file; exit status 2 if it cannot be used
     Check {
@@ -25,6 +28,11 @@ pub(super) enum MeshCommand {
         /// Number of teeth of the whole gear, for the periodic faces of a sector
         #[arg(long, value_name = "Z")]
         teeth: Option<u32>,
+        #[command(flatten)]
+        groups: GroupArgs,
+        /// Findings as JSON
+        #[arg(long)]
+        json: bool,
     },
     /// Write the mesh that the built-in mesher makes of a scene's gear
     Generate {
@@ -45,6 +53,54 @@ pub(super) enum MeshCommand {
     },
 }
 
+/// The mesh's own names of the parts of the gear, as `[pinion.groups]` of a scene has them.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Names of the mesh's own groups")]
+pub(super) struct GroupArgs {
+    /// The bore [default: bore]
+    #[arg(long, value_name = "NAME")]
+    bore: Option<String>,
+    /// Counter-clockwise side of the teeth, {k} for the tooth number [default: flank_left_{k}]
+    #[arg(long, value_name = "NAME_{k}")]
+    flank_left: Option<String>,
+    /// Clockwise side [default: flank_right_{k}]
+    #[arg(long, value_name = "NAME_{k}")]
+    flank_right: Option<String>,
+    /// Clockwise cut face of a sector [default: cut_0]
+    #[arg(long, value_name = "NAME")]
+    cut_0: Option<String>,
+    /// Counter-clockwise cut face [default: cut_1]
+    #[arg(long, value_name = "NAME")]
+    cut_1: Option<String>,
+}
+
+impl GroupArgs {
+    /// Whether a name is given.
+    pub(super) fn any(&self) -> bool {
+        [&self.bore, &self.flank_left, &self.flank_right, &self.cut_0, &self.cut_1].iter().any(|n| n.is_some())
+    }
+
+    /// The names that the mesh has for the parts.
+    pub(super) fn names(self) -> Result<GroupNames, CommandError> {
+        let ours = GroupNames::default();
+        for (flag, name) in [("--flank-left", &self.flank_left), ("--flank-right", &self.flank_right)] {
+            if let Some(name) = name.as_ref().filter(|n| !n.contains("{k}")) {
+                return Err(CommandError::input(
+                    format_args!("`{flag}` is {name}, which has no place for the tooth number"),
+                    Some(format!("write {{k}} where the number stands, as in {flag} 'Left_{{k}}'")),
+                ));
+            }
+        }
+        Ok(GroupNames {
+            bore: self.bore.unwrap_or(ours.bore),
+            flank_left: self.flank_left.unwrap_or(ours.flank_left),
+            flank_right: self.flank_right.unwrap_or(ours.flank_right),
+            cut_0: self.cut_0.unwrap_or(ours.cut_0),
+            cut_1: self.cut_1.unwrap_or(ours.cut_1),
+        })
+    }
+}
+
 /// A gear of the pair.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum WhichGear {
@@ -54,23 +110,32 @@ pub(super) enum WhichGear {
 
 impl MeshCommand {
     /// Does what was asked; the text is for stdout.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         match self {
-            Self::Info { file } => Ok(info(&file, &MeshInfo::new(&read(&file)?))),
-            Self::Check { file, teeth } => check(&file, teeth),
-            Self::Generate { scene, gear, output, format, ascii } => generate(&scene, gear, &output, &format, ascii),
+            Self::Info { file, json } => {
+                let found = MeshInfo::new(&read(&file)?);
+                Ok(if json { format!("{:#}\n", serde_json::json!(found)) } else { info(&file, &found) })
+            }
+            Self::Check { file, teeth, groups, json } => check(&file, teeth, &groups.names()?, json),
+            Self::Generate { scene, gear, output, format, ascii } => {
+                let text = generate(&scene, gear, &output, &format, ascii)?;
+                Ok(if quiet { String::new() } else { text })
+            }
         }
     }
 }
 
 fn read(file: &Path) -> Result<Mesh, CommandError> {
-    Mesh::read(file).map_err(|e| {
-        let hint = match e {
-            MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
-            _ => e.hint(),
-        };
-        CommandError::input(&e, hint)
-    })
+    Mesh::read(file).map_err(complaint)
+}
+
+/// A complaint about a file on the command line.
+pub(super) fn complaint(e: MeshError) -> CommandError {
+    let hint = match e {
+        MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
+        _ => e.hint(),
+    };
+    CommandError::input(&e, hint)
 }
 
 /// A short table of what is in a mesh.
@@ -102,17 +167,29 @@ fn info(file: &Path, mesh: &MeshInfo) -> String {
     t
 }
 
-fn check(file: &Path, teeth: Option<u32>) -> Result<String, CommandError> {
-    let report = MeshReport::of_gear(&read(file)?, &GroupNames::default(), teeth);
+fn severity(finding: &Finding) -> &'static str {
+    match finding.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    }
+}
+
+fn as_json(report: &MeshReport) -> String {
+    let one = |f: &Finding| {
+        serde_json::json!({
+            "severity": severity(f), "text": f.text, "count": f.count, "elements": f.elements, "nodes": f.nodes
+        })
+    };
+    format!("{:#}\n", serde_json::Value::from(report.findings.iter().map(one).collect::<Vec<_>>()))
+}
+
+fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Result<String, CommandError> {
+    let report = MeshReport::of_gear(&read(file)?, names, teeth);
     let mut t = String::new();
     for finding in &report.findings {
-        let severity = match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        };
         // Writing to a String cannot fail.
-        let _ = writeln!(t, "{severity}: {}", finding.text);
+        let _ = writeln!(t, "{}: {}", severity(finding), finding.text);
         for (what, tags) in [("elements", &finding.elements), ("nodes", &finding.nodes)] {
             if !tags.is_empty() {
                 let shown: Vec<String> = tags.iter().map(u64::to_string).collect();
@@ -127,6 +204,9 @@ fn check(file: &Path, teeth: Option<u32>) -> Result<String, CommandError> {
             format_args!("{}: cannot be used\n  {list}", file.display()),
             Some("element and node numbers are the tags that Gmsh shows".into()),
         ));
+    }
+    if json {
+        return Ok(as_json(&report));
     }
     let verdict = if report.findings.is_empty() { "nothing wrong found" } else { "can be used" };
     Ok(format!("{}: {verdict}\n{t}", file.display()))

@@ -2,16 +2,24 @@
 
 mod cache_args;
 mod chart;
+mod compare;
 mod default_scene;
+mod init;
 mod mesh;
 mod overrides;
+mod reduce;
+mod report;
 mod run;
+mod schema;
+mod shell;
 mod study;
 mod sweep;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgAction, Args, Parser, Subcommand};
+use clap_complete::Shell;
 
 use crate::error::CommandError;
+use crate::talk::{Loudness, set_loudness};
 
 /// Reduced finite-element contact of helical gears
 ///
@@ -22,16 +30,50 @@ use crate::error::CommandError;
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    #[command(flatten)]
+    everywhere: Everywhere,
+}
+
+/// Words that every subcommand knows.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Everywhere")]
+struct Everywhere {
+    /// Say nothing but errors, and what was asked for on stdout
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say on stderr what is being done; twice: what is found on the way as well
+    #[arg(long, short, global = true, action = ArgAction::Count)]
+    verbose: u8,
+    /// Threads [default: all cores]
+    #[arg(long, short = 'j', global = true, value_name = "N")]
+    threads: Option<usize>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Run a scene and write its result folder
     Run(run::RunArgs),
+    /// Write a commented scene to begin with, from flags or from a few questions
+    Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
+    /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
+    Reduce(reduce::ReduceArgs),
+    /// Result folders side by side: headline numbers with differences, curves over each other
+    Compare(compare::CompareArgs),
+    /// Make report.html of a result folder again, with the pages of this version
+    Report(report::ReportArgs),
+    /// JSON Schema of the scene file on stdout, for completion and checks in editors
+    Schema,
+    /// Script on stdout that completes words in a shell
+    Completions {
+        /// Which shell
+        shell: Shell,
+    },
+    /// Manual page on stdout (roff), as in `ale-gear man | man -l -`
+    Man,
     /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
     Sweep(sweep::SweepArgs),
     /// Look at, check or make meshes
@@ -45,13 +87,33 @@ impl Cli {
     /// # Errors
     /// The one message for stderr, with the exit status.
     pub fn execute(self) -> Result<String, CommandError> {
+        let Everywhere { quiet, verbose, threads } = self.everywhere;
+        set_loudness(match (quiet, verbose) {
+            (true, _) => Loudness::Quiet,
+            (_, 0) => Loudness::Bars,
+            (_, 1) => Loudness::Steps,
+            _ => Loudness::Details,
+        });
+        if threads == Some(0) {
+            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
+        }
+        use_threads(threads);
+        // A table at the end of work is talk; what a command is made for is data.
+        let told = |text: String| if quiet { String::new() } else { text };
         match self.command {
-            None => run::RunArgs::for_default_scene()?.execute(),
-            Some(Command::Run(args)) => args.execute(),
-            Some(Command::Chart(args)) => args.execute(),
-            Some(Command::Study(args)) => args.execute(),
-            Some(Command::Sweep(args)) => args.execute(),
-            Some(Command::Mesh(command)) => command.execute(),
+            None => run::RunArgs::for_default_scene()?.execute(quiet),
+            Some(Command::Run(args)) => args.execute(quiet),
+            Some(Command::Chart(args)) => args.execute().map(told),
+            Some(Command::Study(args)) => args.execute().map(told),
+            Some(Command::Sweep(args)) => args.execute().map(told),
+            Some(Command::Init(args)) => args.execute(quiet),
+            Some(Command::Reduce(args)) => args.execute(),
+            Some(Command::Compare(args)) => args.execute(),
+            Some(Command::Report(args)) => args.execute(quiet),
+            Some(Command::Schema) => Ok(schema::execute()),
+            Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
+            Some(Command::Man) => shell::man(),
+            Some(Command::Mesh(command)) => command.execute(quiet),
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
 use crate::motion::{self, Progression};
 use crate::output::{
-    ResultDirectory, closing_table, headline, write_contact, write_history, write_report, write_summary,
+    ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report, write_summary,
 };
 use crate::phases::Phases;
 use crate::run;
@@ -24,11 +24,11 @@ pub(super) struct RunArgs {
     out: PathBuf,
     #[command(flatten)]
     cache: CacheArgs,
-    /// Threads [default: all cores]
-    #[arg(long, short = 'j', value_name = "N")]
-    threads: Option<usize>,
     #[command(flatten)]
     overrides: Overrides,
+    /// The summary as JSON on stdout, instead of the closing table
+    #[arg(long)]
+    json: bool,
     /// Write ParaView files, whatever the scene says
     #[arg(long, help_heading = "Overrides")]
     vtu: bool,
@@ -49,8 +49,8 @@ impl RunArgs {
             scene,
             out,
             cache: CacheArgs::default(),
-            threads: None,
             overrides: Overrides::default(),
+            json: false,
             vtu: false,
             resume: false,
             stop_after_cycles: None,
@@ -69,9 +69,6 @@ impl RunArgs {
                 ),
                 Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
             ));
-        }
-        if self.threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
         }
         self.plan_motion(&scene)?;
         Ok(scene)
@@ -107,9 +104,11 @@ impl RunArgs {
         words: &crate::scene::MotionScene,
         mut phases: Phases,
         results: ResultDirectory,
+        quiet: bool,
     ) -> Result<String, CommandError> {
         let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
         match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
+            motion::Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n")),
             motion::Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.scene.display(),
@@ -118,24 +117,33 @@ impl RunArgs {
             motion::Outcome::Finished(written) => {
                 results.finish()?;
                 progression.done()?;
-                Ok(format!("{written}\nresults: {}\n", self.out.display()))
+                self.answer(&written, quiet)
             }
         }
     }
 
+    /// What stands on stdout at the end: the summary, nothing, or the closing table.
+    fn answer(&self, table: &str, quiet: bool) -> Result<String, CommandError> {
+        let summary = self.out.join("summary.json");
+        match (self.json, quiet) {
+            (true, _) => std::fs::read_to_string(&summary)
+                .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None)),
+            (_, true) => Ok(String::new()),
+            _ => Ok(format!("{table}\nresults: {}\n", self.out.display())),
+        }
+    }
+
     /// Runs the scene; the text is the closing table.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
-        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         if let (Some(words), false) = (&scene.motion, crate::ladder::has(&scene)) {
-            return self.move_pair(&scene, words, phases, results);
+            return self.move_pair(&scene, words, phases, results, quiet);
         }
-        let mut text = write_result(&scene, &mut phases, &results, &self.cache.open())?;
+        let table = write_result(&scene, &mut phases, &results, &self.cache.open())?;
         results.finish()?;
-        text.push_str(&format!("\nresults: {}\n", self.out.display()));
-        Ok(text)
+        self.answer(&table, quiet)
     }
 }
 
@@ -178,8 +186,9 @@ fn write_static(
     })?;
     let cost = Cost::of(phases);
     let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     // Last of all, so that a summary means that everything is there.
+    write_columnar(scene, results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
     results.write("summary.json", summary.as_bytes())?;

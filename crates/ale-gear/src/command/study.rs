@@ -23,9 +23,6 @@ pub(super) struct StudyArgs {
     out: PathBuf,
     #[command(flatten)]
     cache: CacheArgs,
-    /// Threads [default: all cores]
-    #[arg(long, short = 'j', value_name = "N")]
-    threads: Option<usize>,
 }
 
 impl StudyArgs {
@@ -38,9 +35,6 @@ impl StudyArgs {
             ),
             _ => e.into(),
         })?;
-        if self.threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
-        }
         Ok(study)
     }
 
@@ -48,7 +42,6 @@ impl StudyArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let study = self.plan()?;
-        super::use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
@@ -75,7 +68,7 @@ impl StudyArgs {
             warnings: &warnings,
         };
         let table = study_table(of);
-        results.write("report.html", write_study_report(of, &table)?.as_bytes())?;
+        write_study_report(of, &table)?.write(&results)?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
         results.write("summary.json", write_study_summary(of, &files).as_bytes())?;

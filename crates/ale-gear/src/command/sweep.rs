@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{cache_args::CacheArgs, overrides::Overrides, use_threads};
+use super::{cache_args::CacheArgs, overrides::Overrides};
 use crate::{
     error::CommandError,
     ladder::{self, Once, SweepRequest},
@@ -56,9 +56,6 @@ pub(super) struct SweepArgs {
     overrides: Overrides,
     #[command(flatten)]
     cache: CacheArgs,
-    /// Threads [default: all cores]; the results are the same for any number
-    #[arg(long, short = 'j', value_name = "N")]
-    threads: Option<usize>,
 }
 
 /// Which way values are gone through.
@@ -124,9 +121,6 @@ impl SweepArgs {
     /// Every complaint about words and scenes is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepRequest), CommandError> {
         let (values, settings) = (self.values()?, self.overrides.settings()?);
-        if self.threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
-        }
         // As it stands first: what is wrong with the scene is not wrong with the key.
         self.fits(&Scene::read_with(&self.scene, &settings)?)?;
         let mut scenes = Vec::with_capacity(values.len());
@@ -200,7 +194,6 @@ impl SweepArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let (scenes, request) = self.plan()?;
-        use_threads(self.threads);
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let table = ladder::sweep_key(&scenes, &request, &mut phases, &results, &cache)?;

@@ -34,7 +34,10 @@ use crate::{
     facts::{Cost, Facts},
     gears,
     motion::{self, Columns, ENERGY_FILE, HISTORY},
-    output::{LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_ladder_report, write_summary},
+    output::{
+        LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
+        write_summary,
+    },
     phases::Phases,
     scene::{Driver, Model as Name, MotionScene, Run, Scene},
 };
@@ -112,6 +115,7 @@ impl Case<'_> {
         let scene = &recipe.scene;
         let coordinates = made.coordinates();
         let Made { mut model, resonance_hz, mut warnings, shafts } = made;
+        warnings.extend(gears::doubts(&recipe.pair));
         let mut facts = facts(recipe, coordinates);
         let mesh_frequency_hz = recipe.mesh_frequency_hz(words);
         let campbell = phases.run("modes", || campbell::campbell(recipe, (&model, resonance_hz), shafts.as_ref()))?;
@@ -161,7 +165,8 @@ impl Case<'_> {
         };
         let drawn = LadderPictures { motion: pictures, section: &course.section, campbell: campbell.as_ref() };
         let report = write_ladder_report(scene, &facts, &cost, &headline, &drawn, &warnings)?;
-        results.write("report.html", report.as_bytes())?;
+        report.write(results)?;
+        write_columnar(scene, results)?;
         let files = results.files()?;
         let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
         results.write("summary.json", summary.as_bytes())?;

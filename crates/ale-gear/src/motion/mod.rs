@@ -49,7 +49,7 @@ use crate::{
     error::CommandError,
     facts::Cost,
     output::{
-        ResultDirectory, motion_table, sweep_table, write_motion_report, write_patterns, write_summary,
+        ResultDirectory, motion_table, sweep_table, write_columnar, write_motion_report, write_patterns, write_summary,
         write_sweep_report,
     },
     phases::Phases,
@@ -281,7 +281,8 @@ fn write_motion(
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
     let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
+    write_columnar(scene, results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
@@ -366,7 +367,7 @@ fn write_sweep(
     let cost = Cost::of(phases);
     let report =
         write_sweep_report(scene, &prepared.facts, &cost, &headline, (&rows, prepared.view.as_ref()), &warnings)?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;

@@ -43,11 +43,7 @@ impl<'a> Inputs<'a> {
         cache: &'a Cache,
     ) -> Result<Self, CommandError> {
         let pair = phases.run("geometry", || gears::pair(scene))?;
-        let meshes = phases.run("mesh", || {
-            let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-            let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-            Ok::<_, CommandError>([pinion, wheel])
-        })?;
+        let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
         Ok(Self { scene, words, pair, meshes, cache })
     }
 }
@@ -119,6 +115,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         })
     })?;
     let quasi_static = QuasiStatic::of(&history);
+    warnings.extend(gears::doubts(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(run::sector_warnings(&model));
     let view = phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings)).map(View::quasi_static);

@@ -54,6 +54,11 @@ pub(super) fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Op
     picture(title, [x, y], &with_points(curves), false, Marks::Dots)
 }
 
+/// [`line_chart`] as SVG alone, likewise.
+pub(super) fn line_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], &with_points(curves), false, Marks::Lines)
+}
+
 /// Frequencies over speed: each order of excitation in a colour of its own, the modes all alike.
 pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
     let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();

@@ -60,6 +60,10 @@ impl ResultDirectory {
     /// # Errors
     /// Exit status 1 when the system refuses.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), CommandError> {
+        debug_assert!(
+            is_ours(name),
+            "{name} is not in the list of result files: a second run would refuse its own folder"
+        );
         fs::write(self.path(name), content).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
     }
 
@@ -119,26 +123,51 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
     Ok(names)
 }
 
+/// Every file that a result may hold, beside those whose names depend on what is in them.
+const OURS: [&str; 26] = [
+    "summary.json",
+    "history.csv",
+    "history.parquet",
+    "report.html",
+    "report.json.gz",
+    "contact_lines.csv",
+    "contact_pattern_pinion.csv",
+    "contact_pattern_wheel.csv",
+    "contact_pattern.svg",
+    "energy.csv",
+    "spectrum.csv",
+    "section.csv",
+    "waterfall.csv",
+    "resonance.csv",
+    "campbell.csv",
+    "sweep.csv",
+    "bifurcation.csv",
+    "bifurcation.svg",
+    "study.csv",
+    "chart.csv",
+    "chart.md",
+    "work_precision.svg",
+    "work_precision.png",
+    "compare.html",
+    "compare.csv",
+    "compare_curves.csv",
+];
+
+fn is_ours(name: &str) -> bool {
+    OURS.contains(&name)
+        || name.ends_with(".vtu")
+        || name.ends_with(".pvd")
+        || (name.starts_with("compare_") && name.ends_with(".svg"))
+}
+
 /// The first entry of the folder that no run of this program writes.
 fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
-    let ours = |name: &String| {
-        matches!(name.as_str(), "summary.json" | "history.csv" | "report.html" | "contact_lines.csv")
-            || matches!(
-                name.as_str(),
-                "contact_pattern_pinion.csv" | "contact_pattern_wheel.csv" | "contact_pattern.svg"
-            )
-            || matches!(name.as_str(), "chart.csv" | "chart.md" | "work_precision.svg" | "work_precision.png")
-            || matches!(name.as_str(), "energy.csv" | "spectrum.csv" | "section.csv")
-            || matches!(name.as_str(), "waterfall.csv" | "resonance.csv" | "study.csv")
-            || name.ends_with(".vtu")
-            || name.ends_with(".pvd")
-    };
     for name in names(folder)? {
         if name == CASES && folder.join(CASES).is_dir() {
             if let Some(stranger) = strange_case(&folder.join(CASES))? {
                 return Ok(Some(stranger));
             }
-        } else if !ours(&name) {
+        } else if !is_ours(&name) {
             return Ok(Some(name));
         }
     }

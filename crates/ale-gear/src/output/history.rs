@@ -124,7 +124,7 @@ pub(crate) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
 }
 
 /// The shortest text that reads back to the same number.
-fn push_number(text: &mut String, value: f64) {
+pub(super) fn push_number(text: &mut String, value: f64) {
     let plain = value == 0.0 || !value.is_finite() || (1e-4..1e12).contains(&value.abs());
     // Writing to a String cannot fail.
     let _ = if plain { write!(text, "{value}") } else { write!(text, "{value:e}") };

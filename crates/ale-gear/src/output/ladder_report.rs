@@ -1,6 +1,7 @@
 //! `report.html` of a cheaper model in motion.
 
 use super::{
+    Rendered,
     charts::{Curve, dot_chart, frequency_chart, line_chart},
     motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
     motion_report::render,
@@ -43,14 +44,14 @@ pub(crate) fn write_ladder_report(
     headline: &LadderHeadline,
     pictures: &LadderPictures<'_>,
     warnings: &[String],
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let mut charts = motion_charts(&pictures.motion);
     for (name, whose) in PORTRAITS {
         charts.extend(displacement(&pictures.motion, name, whose));
         charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
     }
     charts.extend(pictures.campbell.and_then(campbell_chart));
-    render(scene, facts, cost, headline, ("ladder.html", include_str!("ladder.html")), charts, warnings)
+    render(scene, facts, cost, headline, "ladder.html", charts, warnings)
 }
 
 /// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.

@@ -1,6 +1,7 @@
 //! What a sweep of a cheaper model shows: diagrams, page, closing table.
 
 use super::{
+    Rendered,
     charts::{Curve, dot_chart, dot_picture, line_chart},
     motion_report::render,
     table::Lines,
@@ -58,10 +59,9 @@ pub(crate) fn write_ladder_sweep_report(
     summary: &SweepSummary,
     points: &[SweepPoint],
     warnings: &[String],
-) -> Result<String, CommandError> {
-    let template = ("ladder_sweep.html", include_str!("ladder_sweep.html"));
+) -> Result<Rendered, CommandError> {
     let charts = bifurcation_charts(&summary.key, &summary.section_of, points);
-    render(scene, facts, cost, summary, template, charts, warnings)
+    render(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)
 }
 
 /// A few values as text, the rest as dots.

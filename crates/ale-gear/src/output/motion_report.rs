@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{
+    Rendered,
     motion_charts::{MotionPictures, motion_charts, sweep_charts},
     page::Page,
 };
@@ -24,11 +25,11 @@ pub(crate) fn write_motion_report(
     pictures: &MotionPictures<'_>,
     pattern: Option<String>,
     warnings: &[String],
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let charts = motion_charts(pictures);
     let page =
         Page { scene, facts, cost, headline, charts, pattern: pattern.as_deref(), view: pictures.view, warnings };
-    page.render(("motion.html", include_str!("motion.html")))
+    page.render("motion.html")
 }
 
 /// The report of a sweep.
@@ -42,9 +43,9 @@ pub(crate) fn write_sweep_report(
     headline: &SweepHeadline,
     (rows, view): (&[SweepRow], Option<&View>),
     warnings: &[String],
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let page = Page { scene, facts, cost, headline, charts: sweep_charts(rows), pattern: None, view, warnings };
-    page.render(("sweep.html", include_str!("sweep.html")))
+    page.render("sweep.html")
 }
 
 /// A page with charts and the bare gears, from a template that knows its headline.
@@ -53,10 +54,10 @@ pub(super) fn render<H: Serialize>(
     facts: &Facts,
     cost: &Cost,
     headline: &H,
-    (name, template): (&str, &str),
+    name: &str,
     charts: Vec<String>,
     warnings: &[String],
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let page = Page { scene, facts, cost, headline, charts, pattern: None, view: None, warnings };
-    page.render((name, template))
+    page.render(name)
 }

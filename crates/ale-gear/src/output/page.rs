@@ -3,7 +3,7 @@
 use minijinja::{Environment, Value, context, value::Serde};
 use serde::Serialize;
 
-use super::{plot_data::embedded, table::model_name};
+use super::{plot_data::embedded, rendered::Rendered, table::model_name};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::gears;
@@ -32,7 +32,7 @@ impl<H: Serialize> Page<'_, H> {
     ///
     /// # Errors
     /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
-    pub(super) fn render(self, (name, template): (&str, &str)) -> Result<String, CommandError> {
+    pub(super) fn render(self, name: &str) -> Result<Rendered, CommandError> {
         let Self { scene, facts, cost, headline, charts, pattern, view, warnings } = self;
         let view = match view {
             Some(view) => embedded("view", view),
@@ -55,7 +55,7 @@ impl<H: Serialize> Page<'_, H> {
             view => view,
             warnings => warnings.to_vec(),
         };
-        render(name, template, context)
+        Rendered::new(name, context)
     }
 }
 
@@ -83,17 +83,24 @@ fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
     rows.into()
 }
 
-/// A template, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
+/// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
 ///
 /// # Errors
 /// Exit status 1 if it cannot be filled; that would be a fault of this program.
-pub(super) fn render(name: &str, template: &str, context: Value) -> Result<String, CommandError> {
+pub(super) fn render(name: &str, context: Value) -> Result<String, CommandError> {
     let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
     let mut environment = Environment::new();
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
+        ("report.html", include_str!("report.html")),
+        ("motion.html", include_str!("motion.html")),
+        ("sweep.html", include_str!("sweep.html")),
+        ("ladder.html", include_str!("ladder.html")),
+        ("ladder_sweep.html", include_str!("ladder_sweep.html")),
+        ("study.html", include_str!("study.html")),
+        ("compare.html", include_str!("compare.html")),
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
         ("warnings.html", include_str!("warnings.html")),
@@ -104,7 +111,6 @@ pub(super) fn render(name: &str, template: &str, context: Value) -> Result<Strin
     for (part, text) in parts {
         environment.add_template(part, text).map_err(failed)?;
     }
-    environment.add_template(name, template).map_err(failed)?;
     environment.get_template(name).and_then(|page| page.render(context)).map(with_scripts).map_err(failed)
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use dynamics::result::{StaticHistory, StaticPosition};
 
 use super::charts::{Curve, line_chart};
-use super::{Headline, page::Page, pairs, root_stress::MAX_PRINCIPAL};
+use super::{Headline, Rendered, page::Page, pairs, root_stress::MAX_PRINCIPAL};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
@@ -24,7 +24,7 @@ pub fn write_report(
     headline: &Headline,
     pattern: Option<&str>,
     view: Option<&View>,
-) -> Result<String, CommandError> {
+) -> Result<Rendered, CommandError> {
     let page = Page {
         scene,
         facts,
@@ -35,7 +35,7 @@ pub fn write_report(
         view,
         warnings: &history.warnings,
     };
-    page.render(("report.html", include_str!("report.html")))
+    page.render("report.html")
 }
 
 fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {

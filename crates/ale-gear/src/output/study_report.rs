@@ -3,7 +3,7 @@
 use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
-use super::{directory::CASES, page, study_charts::figures, study_tables::speed_up_text};
+use super::{Rendered, directory::CASES, study_charts::figures, study_tables::speed_up_text};
 use crate::chart::SpeedUp;
 use crate::error::CommandError;
 use crate::facts::Cost;
@@ -30,7 +30,7 @@ pub(crate) struct StudyResult<'a> {
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
-pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<String, CommandError> {
+pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, CommandError> {
     let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
     let figures: Vec<Value> = figures(study, runs, findings)
         .into_iter()
@@ -44,9 +44,8 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Str
         .collect();
     let full = study.full.zip(speed_up);
     let speed = full.map(|(f, s)| speed_up_text(s, &study.cases[f.case].label, runs[f.case].step_s()));
-    page::render(
+    Rendered::new(
         "study.html",
-        include_str!("study.html"),
         context! {
             name => &study.name,
             version => env!("CARGO_PKG_VERSION"),

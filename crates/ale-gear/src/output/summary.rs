@@ -5,10 +5,14 @@ use serde::Serialize;
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
 
+/// Grows with every change after which an older reader would misread a summary.
+pub const SUMMARY_SCHEMA: u32 = 1;
+
 #[derive(Serialize)]
 struct Summary<'a, H> {
     program: &'static str,
     version: &'static str,
+    schema: u32,
     name: &'a str,
     inputs: &'a Scene,
     #[serde(flatten)]
@@ -33,6 +37,7 @@ pub fn write_summary<H: Serialize>(
     let summary = Summary {
         program: "ale-gear",
         version: env!("CARGO_PKG_VERSION"),
+        schema: SUMMARY_SCHEMA,
         name: &scene.name,
         inputs: scene,
         facts,

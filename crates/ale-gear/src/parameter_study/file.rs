@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
 use super::columns;
-use crate::scene::{Number, Run, Scene, SceneError, Setting, Source, Tables, Whole, Word};
+use crate::scene::{Number, Run, Scene, SceneError, Setting, Source, Whole, Word};
 
 /// Every table with its keys.
-const TABLES: Tables = &[
+const TABLES: &[(&str, &[&str])] = &[
     ("", &["name", "parameter", "case", "quantity", "over_time", "follow", "full"]),
     ("[case]", &["scene", "set", "label", "value"]),
     ("[quantity]", &["column", "take"]),
@@ -17,6 +17,10 @@ const TABLES: Tables = &[
     ("[follow]", &["case", "column", "beside", "cycles"]),
     ("full", &["case", "positions"]),
 ];
+
+fn tables() -> Vec<(String, Vec<&'static str>)> {
+    TABLES.iter().map(|(name, keys)| ((*name).to_owned(), keys.to_vec())).collect()
+}
 
 /// Mesh cycles of a figure at the most.
 const CYCLES: u32 = 100_000_000;
@@ -181,7 +185,7 @@ impl Study {
     /// # Errors
     /// As [`Study::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, TABLES);
+        let source = Source::of(file, text, tables);
         let raw: RawStudy = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
         check(&source, raw)
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mesh::{GroupNames, StructuredOptions};
+use mesh::GroupNames;
 
 use super::raw::{
     RawAnalysis, RawContact, RawGear, RawGroups, RawMaterial, RawMesher, RawOperation, RawOutput, RawPair, RawScene,
@@ -13,18 +13,17 @@ use super::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, GearScene, Kind, Material, MesherScene, Method, Model,
     ModesScene, Operation, OutputScene, PairScene, Reduction, Rotation, Scene, SceneError,
 };
-use super::{ladder, micro, motion};
+use super::{ladder, micro, motion, schema};
 
 type Checked<T> = Result<T, SceneError>;
 
-const STEEL: Material = Material { young_mpa: 2.06e5, poisson: 0.3, density_kg_m3: 7850.0 };
 /// Default bore over reference diameter.
 const BORE_RATIO: f64 = 0.55;
 
 /// Every complaint is made here, before any work starts or any file is written.
 pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     all_given(source, &raw)?;
-    let shared = material(source, &raw.material, STEEL)?;
+    let shared = material(source, &raw.material, steel())?;
     let pair = pair(source, &raw.pair)?;
     let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
     let mut wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
@@ -73,6 +72,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let scene = Scene {
         name: raw.name.clone().unwrap_or_else(|| default_name(source)),
         file: source.file.to_owned(),
+        written: super::Written::new(source),
         set: Vec::new(),
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,
@@ -161,34 +161,38 @@ fn all_given(source: &Source<'_>, raw: &RawScene) -> Checked<()> {
     if keys.is_empty() { Ok(()) } else { Err(SceneError::Missing { file: source.file.to_owned(), keys }) }
 }
 
+/// What a gear is of where nothing is said.
+fn steel() -> Material {
+    let of = |key| schema::MATERIAL.number(key).2.unwrap_or(0.0);
+    Material { young_mpa: of("young_mpa"), poisson: of("poisson"), density_kg_m3: of("density_kg_m3") }
+}
+
 fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
+    let or = |key, value, default| {
+        let (low, high, _) = schema::MATERIAL.number(key);
+        s.number(key, value, default, low, high)
+    };
     Ok(Material {
-        young_mpa: s.number("young_mpa", &raw.young_mpa, default.young_mpa, 1.0, 1e7)?,
-        poisson: s.number("poisson", &raw.poisson, default.poisson, -0.9, 0.499)?,
-        density_kg_m3: s.number("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3, 1.0, 1e5)?,
+        young_mpa: or("young_mpa", &raw.young_mpa, default.young_mpa)?,
+        poisson: or("poisson", &raw.poisson, default.poisson)?,
+        density_kg_m3: or("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3)?,
     })
 }
 
 fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
-    let face_width_mm = s.number("face_width_mm", &raw.face_width_mm, 0.0, 0.01, 1e4)?;
-    let number = |key, value, default, low, high| s.number(key, value, default, low, high);
+    let face_width_mm = s.number_of(&schema::PAIR, "face_width_mm", &raw.face_width_mm)?;
     Ok(PairScene {
-        normal_module_mm: number("normal_module_mm", &raw.normal_module_mm, 0.0, 0.01, 200.0)?,
-        normal_pressure_angle_deg: number(
+        normal_module_mm: s.number_of(&schema::PAIR, "normal_module_mm", &raw.normal_module_mm)?,
+        normal_pressure_angle_deg: s.number_of(
+            &schema::PAIR,
             "normal_pressure_angle_deg",
             &raw.normal_pressure_angle_deg,
-            20.0,
-            5.0,
-            40.0,
         )?,
         face_width_mm,
-        centre_distance_mm: match raw.centre_distance_mm {
-            None => None,
-            Some(_) => Some(number("centre_distance_mm", &raw.centre_distance_mm, 0.0, 0.01, 1e5)?),
-        },
-        addendum_coefficient: number("addendum_coefficient", &raw.addendum_coefficient, 1.0, 0.1, 2.0)?,
-        dedendum_coefficient: number("dedendum_coefficient", &raw.dedendum_coefficient, 1.25, 0.1, 2.5)?,
-        root_radius_coefficient: number("root_radius_coefficient", &raw.root_radius_coefficient, 0.38, 0.0, 1.0)?,
+        centre_distance_mm: s.optional_of(&schema::PAIR, "centre_distance_mm", &raw.centre_distance_mm)?,
+        addendum_coefficient: s.number_of(&schema::PAIR, "addendum_coefficient", &raw.addendum_coefficient)?,
+        dedendum_coefficient: s.number_of(&schema::PAIR, "dedendum_coefficient", &raw.dedendum_coefficient)?,
+        root_radius_coefficient: s.number_of(&schema::PAIR, "root_radius_coefficient", &raw.root_radius_coefficient)?,
         misalignment: match &raw.misalignment {
             None => Default::default(),
             Some(table) => micro::misalignment(s, table.get_ref(), face_width_mm)?,
@@ -203,9 +207,9 @@ enum Hand {
 }
 
 fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Material) -> Checked<GearScene> {
-    let teeth = s.whole("teeth", &raw.teeth, 0, 5, 2000)?;
+    let teeth = s.whole_of(&schema::GEAR, "teeth", &raw.teeth)?;
     let helix_angle_deg = match hand {
-        Hand::Own => s.number("helix_angle_deg", &raw.helix_angle_deg, 0.0, -60.0, 60.0)?,
+        Hand::Own => s.number_of(&schema::GEAR, "helix_angle_deg", &raw.helix_angle_deg)?,
         Hand::Against(other) => against(s, raw, other)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
@@ -223,7 +227,7 @@ fn gear(s: &Source<'_>, raw: &RawGear, hand: Hand, pair: &PairScene, shared: Mat
             1e-3,
             bore_limit,
         )?,
-        profile_shift: s.number("profile_shift", &raw.profile_shift, 0.0, -1.5, 2.0)?,
+        profile_shift: s.number_of(&schema::GEAR, "profile_shift", &raw.profile_shift)?,
         tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,
@@ -298,14 +302,13 @@ fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<Pat
 }
 
 fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32) -> Checked<MesherScene> {
-    let d = StructuredOptions::default();
     Ok(MesherScene {
-        order: s.whole("order", &raw.order, d.order, 1, 2)?,
-        elements_profile: s.whole("elements_profile", &raw.elements_profile, d.elements_profile, 1, 500)?,
-        elements_fillet: s.whole("elements_fillet", &raw.elements_fillet, d.elements_fillet, 2, 500)?,
-        elements_thickness: s.whole("elements_thickness", &raw.elements_thickness, d.elements_thickness, 1, 500)?,
-        elements_face: s.whole("elements_face", &raw.elements_face, d.elements_face, 1, 2000)?,
-        elements_rim: s.whole("elements_rim", &raw.elements_rim, d.elements_rim, 1, 500)?,
+        order: s.whole_of(&schema::MESHER, "order", &raw.order)?,
+        elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
+        elements_fillet: s.whole_of(&schema::MESHER, "elements_fillet", &raw.elements_fillet)?,
+        elements_thickness: s.whole_of(&schema::MESHER, "elements_thickness", &raw.elements_thickness)?,
+        elements_face: s.whole_of(&schema::MESHER, "elements_face", &raw.elements_face)?,
+        elements_rim: s.whole_of(&schema::MESHER, "elements_rim", &raw.elements_rim)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })
 }
@@ -336,26 +339,23 @@ fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
     Ok(Operation {
         driver: s.choice("driver", &raw.driver, &[("pinion", Driver::Pinion), ("wheel", Driver::Wheel)])?,
         rotation: s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?,
-        torque_nm: s.number("torque_nm", &raw.torque_nm, 0.0, 0.0, 1e9)?,
-        speed_rpm: s.number("speed_rpm", &raw.speed_rpm, 1000.0, 1e-6, 1e7)?,
+        torque_nm: s.number_of(&schema::OPERATION, "torque_nm", &raw.torque_nm)?,
+        speed_rpm: s.number_of(&schema::OPERATION, "speed_rpm", &raw.speed_rpm)?,
     })
 }
 
 fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<ContactScene> {
     let method = s.choice("method", &raw.method, &[("slice", Method::Slice), ("nodal", Method::Nodal)])?;
     let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
-    let slices = s.whole("slices", &raw.slices, 32, 4, 1000)?;
+    let slices = s.whole_of(&schema::CONTACT, "slices", &raw.slices)?;
     let gap = s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?;
-    let points = s.whole("points_per_face_edge", &raw.points_per_face_edge, 6, 1, 20)?;
+    let points = s.whole_of(&schema::CONTACT, "points_per_face_edge", &raw.points_per_face_edge)?;
     Ok(ContactScene {
         method,
         slices: sliced.then_some(slices),
         corner_contact: sliced.then_some(raw.corner_contact.as_ref().is_none_or(|c| *c.get_ref())),
-        friction: s.number("friction", &raw.friction, 0.0, 0.0, 1.0)?,
-        penalty_mpa_per_mm: match raw.penalty_mpa_per_mm {
-            None => None,
-            Some(_) => Some(s.number("penalty_mpa_per_mm", &raw.penalty_mpa_per_mm, 0.0, 1.0, 1e15)?),
-        },
+        friction: s.number_of(&schema::CONTACT, "friction", &raw.friction)?,
+        penalty_mpa_per_mm: s.optional_of(&schema::CONTACT, "penalty_mpa_per_mm", &raw.penalty_mpa_per_mm)?,
         gap: nodal.then_some(gap),
         points_per_face_edge: nodal.then_some(points),
         // What moves may part and come back on the other side.
@@ -421,11 +421,14 @@ fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
         kind,
         model,
         reduction: model.is_reduced().then_some(reduction),
-        positions_per_cycle: s.whole("positions_per_cycle", &raw.positions_per_cycle, 32, 1, 100_000)?,
-        cycles: s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, 1, 100_000_000)?,
+        positions_per_cycle: s.whole_of(&schema::ANALYSIS, "positions_per_cycle", &raw.positions_per_cycle)?,
+        cycles: {
+            let (low, high, _) = schema::ANALYSIS.whole("cycles");
+            s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, low, high)?
+        },
         window_teeth: match raw.window_teeth {
             None => None,
-            Some(_) => Some(s.whole("window_teeth", &raw.window_teeth, 0, 1, 25)?),
+            Some(_) => Some(s.whole_of(&schema::ANALYSIS, "window_teeth", &raw.window_teeth)?),
         },
     })
 }
@@ -448,9 +451,10 @@ fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
     Ok(OutputScene {
         root_stress: raw.root_stress.as_ref().is_some_and(|on| *on.get_ref()),
         contact_lines: raw.contact_lines.as_ref().is_some_and(|w| *w.get_ref()),
+        parquet: raw.parquet.as_ref().is_some_and(|on| *on.get_ref()),
         vtu: raw.vtu.as_ref().is_some_and(|on| *on.get_ref()),
         fields,
-        vtu_every: s.whole("vtu_every", &raw.vtu_every, 1, 1, 1_000_000)?,
+        vtu_every: s.whole_of(&schema::OUTPUT, "vtu_every", &raw.vtu_every)?,
     })
 }
 
@@ -568,6 +572,15 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             place: s.place(&torque.span()),
             what: "`torque_nm` is 0: a motion begins under load, and its scales are taken from it".into(),
             advice: "give the torque that the motion begins with; `table_s_nm` in [load] may take it away later".into(),
+        });
+    }
+    if let (Some(asked), true, Some(super::Run::Sweep)) =
+        (&raw.output.parquet, scene.output.parquet, scene.motion.as_ref().map(|m| m.run))
+    {
+        return Err(SceneError::Conflict {
+            place: s.place(&asked.span()),
+            what: "`parquet` writes the history, and a sweep has none".into(),
+            advice: "leave it out: resonance.csv has a row a speed".into(),
         });
     }
     let sweeps = scene.motion.as_ref().filter(|m| m.run != super::Run::Steady && m.run != super::Run::Span);

@@ -12,6 +12,8 @@ pub enum Place {
         file: Box<Path>,
         /// Counted from 1.
         line: usize,
+        /// The line itself with a mark below what is meant: two lines of text.
+        excerpt: Box<str>,
     },
     /// Beside the file.
     Setting {
@@ -23,8 +25,18 @@ pub enum Place {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Line { file, line } => write!(f, "{}:{line}", file.display()),
+            Self::Line { file, line, .. } => write!(f, "{}:{line}", file.display()),
             Self::Setting { label } => f.write_str(label),
+        }
+    }
+}
+
+impl Place {
+    /// The line with a mark below what is meant; none beside a file.
+    pub fn excerpt(&self) -> Option<&str> {
+        match self {
+            Self::Line { excerpt, .. } => Some(excerpt),
+            Self::Setting { .. } => None,
         }
     }
 }
@@ -126,6 +138,19 @@ pub enum SceneError {
 }
 
 impl SceneError {
+    /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
+    pub fn excerpt(&self) -> Option<&str> {
+        match self {
+            Self::Read { .. } | Self::Missing { .. } | Self::Setting { .. } => None,
+            Self::Syntax { place, .. }
+            | Self::UnknownKey { place, .. }
+            | Self::WrongType { place, .. }
+            | Self::OutOfRange { place, .. }
+            | Self::NotYet { place, .. }
+            | Self::Conflict { place, .. } => place.excerpt(),
+        }
+    }
+
     /// What the user can do next; the command prints it as `hint: ...`.
     pub fn hint(&self) -> Option<String> {
         match self {

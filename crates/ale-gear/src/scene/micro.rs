@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use super::error::SceneError;
 use super::raw::{Number, RawFlank, RawGear, RawMisalignment, RawModification, Word};
+use super::schema;
 use super::source::Source;
 
 type Checked<T> = Result<T, SceneError>;
@@ -132,7 +133,7 @@ impl MisalignmentScene {
 }
 
 const SHAPES: [(&str, Shape); 2] = [("linear", Shape::Linear), ("parabolic", Shape::Parabolic)];
-/// Largest amount of any modification, um: a millimetre is no micro-geometry.
+/// Largest pitch error, um: a millimetre is another gear.
 const LARGEST: f64 = 1000.0;
 
 /// Both flanks of a gear.
@@ -144,10 +145,11 @@ pub(super) fn modification(s: &Source<'_>, raw: &RawModification, face_width: f6
 }
 
 fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene> {
-    let um = |key, value: &Number| optional(s, key, value, -LARGEST, LARGEST);
-    let diameter = |key, value: &Number| optional(s, key, value, 0.01, 1e5);
-    let roll = |key, value: &Number| optional(s, key, value, 0.0, 360.0);
-    let length = |key, value: &Number| optional(s, key, value, 1e-3, face_width);
+    let number = |key, value: &Number| s.optional_of(&schema::MODIFICATION, key, value);
+    let length = |key, value: &Number| {
+        let (least, _, _) = schema::MODIFICATION.number(key);
+        value.as_ref().map(|_| s.number(key, value, 0.0, least, face_width)).transpose()
+    };
     let shape = |key, word: &Word| word.as_ref().map(|w| s.one_of(key, w, &SHAPES)).transpose();
     let start_of = |what: &str, amount: &Number, starts: [(&str, &Number); 2], word: &Word| {
         let given: Vec<_> = starts.iter().filter_map(|(key, v)| v.as_ref().map(|v| (*key, v.span()))).collect();
@@ -199,34 +201,27 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         });
     }
     Ok(FlankScene {
-        tip_relief_um: um("tip_relief_um", &raw.tip_relief_um)?,
-        tip_relief_start_diameter_mm: diameter("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
-        tip_relief_start_roll_deg: roll("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
+        tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
+        tip_relief_start_diameter_mm: number("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
+        tip_relief_start_roll_deg: number("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
         tip_relief_shape: shape("tip_relief_shape", &raw.tip_relief_shape)?,
-        root_relief_um: um("root_relief_um", &raw.root_relief_um)?,
-        root_relief_start_diameter_mm: diameter("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
-        root_relief_start_roll_deg: roll("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
+        root_relief_um: number("root_relief_um", &raw.root_relief_um)?,
+        root_relief_start_diameter_mm: number("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
+        root_relief_start_roll_deg: number("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
         root_relief_shape: shape("root_relief_shape", &raw.root_relief_shape)?,
-        profile_crowning_um: um("profile_crowning_um", &raw.profile_crowning_um)?,
-        profile_slope_um: um("profile_slope_um", &raw.profile_slope_um)?,
-        lead_crowning_um: um("lead_crowning_um", &raw.lead_crowning_um)?,
-        lead_slope_um: um("lead_slope_um", &raw.lead_slope_um)?,
-        end_relief_lower_um: um("end_relief_lower_um", &raw.end_relief_lower_um)?,
+        profile_crowning_um: number("profile_crowning_um", &raw.profile_crowning_um)?,
+        profile_slope_um: number("profile_slope_um", &raw.profile_slope_um)?,
+        lead_crowning_um: number("lead_crowning_um", &raw.lead_crowning_um)?,
+        lead_slope_um: number("lead_slope_um", &raw.lead_slope_um)?,
+        end_relief_lower_um: number("end_relief_lower_um", &raw.end_relief_lower_um)?,
         end_relief_lower_length_mm: length("end_relief_lower_length_mm", &raw.end_relief_lower_length_mm)?,
-        end_relief_upper_um: um("end_relief_upper_um", &raw.end_relief_upper_um)?,
+        end_relief_upper_um: number("end_relief_upper_um", &raw.end_relief_upper_um)?,
         end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
         end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
-        bias_um: um("bias_um", &raw.bias_um)?,
+        bias_um: number("bias_um", &raw.bias_um)?,
         topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
-        evaluation_start_diameter_mm: diameter("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
+        evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
     })
-}
-
-fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
-    match value {
-        None => Ok(None),
-        Some(_) => s.number(key, value, 0.0, low, high).map(Some),
-    }
 }
 
 /// Two keys that mean nothing without each other.

@@ -6,13 +6,16 @@
 
 mod check;
 mod error;
+mod excerpt;
 mod keys;
 mod ladder;
 mod micro;
 mod motion;
 mod raw;
+mod schema;
 mod setting;
 mod source;
+mod written;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -22,7 +25,7 @@ use mesh::GroupNames;
 use serde::Serialize;
 
 pub use error::{Place, SceneError};
-pub(crate) use keys::{Tables, nearest};
+pub(crate) use keys::nearest;
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
     StiffnessFrom, SupportScene,
@@ -33,8 +36,10 @@ pub use motion::{
     SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
 pub(crate) use raw::{Number, Whole, Word};
+pub use schema::{all_keys, json_schema};
 pub use setting::Setting;
 pub(crate) use source::Source;
+pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,6 +49,9 @@ pub struct Scene {
     /// Where the scene stands; paths in it are relative to its folder.
     #[serde(skip)]
     pub file: PathBuf,
+    /// What was written.
+    #[serde(skip)]
+    pub written: Written,
     /// Words of a command line that set keys beside the file.
     #[serde(skip)]
     pub set: Vec<String>,
@@ -88,6 +96,10 @@ pub struct Scene {
     pub shaft18: Option<Shaft18Scene>,
     /// Which files are written beside the three that always are.
     pub output: OutputScene,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 fn is_zero(value: &u32) -> bool {
@@ -365,6 +377,9 @@ pub struct OutputScene {
     pub root_stress: bool,
     /// The contact lines slice by slice.
     pub contact_lines: bool,
+    /// The history column by column as well, in `history.parquet`.
+    #[serde(skip_serializing_if = "is_false")]
+    pub parquet: bool,
     /// ParaView files.
     pub vtu: bool,
     /// Fields in them.

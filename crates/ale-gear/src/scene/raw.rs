@@ -224,6 +224,7 @@ pub(super) struct RawAnalysis {
 pub(super) struct RawOutput {
     pub root_stress: Option<Spanned<bool>>,
     pub contact_lines: Option<Spanned<bool>>,
+    pub parquet: Option<Spanned<bool>>,
     pub vtu: Option<Spanned<bool>>,
     pub fields: Option<Vec<Spanned<String>>>,
     pub vtu_every: Whole,
@@ -235,6 +236,18 @@ pub(super) struct RawOutput {
 /// Syntax, unknown keys and wrong types, each with its line.
 pub(super) fn read(source: &Source<'_>) -> Result<RawScene, SceneError> {
     let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
+    with_tables(source, |root| RawScene::deserialize(toml::Deserializer::from(root)).map_err(explain))
+}
+
+/// Hands on the file's tables with what was set beside it put in; places are those of the source's text.
+///
+/// # Errors
+/// Syntax, with its line, and what `work` complains of.
+pub(super) fn with_tables<T>(
+    source: &Source<'_>,
+    work: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, SceneError>,
+) -> Result<T, SceneError> {
+    let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
     let file_end = source.ranges.first().map_or(source.text.len(), |r| r.start - 1);
     // Each setting is read on its own, as far from the beginning as its line is: so its spans are those of the text.
     let padded: Vec<String> = source.ranges.iter().map(|r| " ".repeat(r.start) + &source.text[r.clone()]).collect();
@@ -242,5 +255,5 @@ pub(super) fn read(source: &Source<'_>) -> Result<RawScene, SceneError> {
     for (setting, padded) in source.settings.iter().zip(&padded) {
         setting::put(root.get_mut(), padded, setting.key()).map_err(explain)?;
     }
-    RawScene::deserialize(toml::Deserializer::from(root)).map_err(explain)
+    work(root)
 }

@@ -7,8 +7,10 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::error::{Place, SceneError};
+use super::excerpt::excerpt;
 use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
+use super::schema::{self, Table};
 use super::setting::Setting;
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
@@ -26,7 +28,7 @@ pub(crate) struct Source<'a> {
 impl<'a> Source<'a> {
     /// The text of a scene with what was set beside it.
     pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        Self { file, text, settings, ranges, tables: keys::TABLES }
+        Self { file, text, settings, ranges, tables: schema::tables }
     }
 
     /// The text of a file with other tables.
@@ -45,7 +47,7 @@ impl Source<'_> {
         }
         let end = span.start.min(self.text.len());
         let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place::Line { file: self.file.into(), line }
+        Place::Line { file: self.file.into(), line, excerpt: excerpt(self.text, span, line).into() }
     }
 
     /// A message of the TOML reader in this program's words.
@@ -116,6 +118,23 @@ impl Source<'_> {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
             _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"))),
         }
+    }
+
+    /// The number of a key, within the range of its table, or the table's default; 0 where it has none.
+    pub fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
+        let (low, high, default) = table.number(key);
+        self.number(key, value, default.unwrap_or(0.0), low, high)
+    }
+
+    /// The same where it is written, else nothing.
+    pub fn optional_of(&self, table: &Table, key: &str, value: &Number) -> Result<Option<f64>, SceneError> {
+        value.as_ref().map(|_| self.number_of(table, key, value)).transpose()
+    }
+
+    /// The whole number of a key, within the range of its table, or the table's default.
+    pub fn whole_of(&self, table: &Table, key: &str, value: &Whole) -> Result<u32, SceneError> {
+        let (low, high, default) = table.whole(key);
+        self.whole(key, value, default.unwrap_or(low), low, high)
     }
 
     /// The meaning of the word of `key`; the first of `choices` is the default.

@@ -126,7 +126,7 @@ pub(crate) fn sweep_key(
     let scene = &first.recipe.scene;
     let cost = Cost::of(phases);
     let report = write_ladder_sweep_report(scene, &facts, &cost, &summary, &points, &warnings)?;
-    results.write("report.html", report.as_bytes())?;
+    report.write(results)?;
     let files = results.files()?;
     results.write("summary.json", write_summary(scene, &facts, &cost, &summary, &warnings, &files).as_bytes())?;
     Ok(ladder_sweep_table(scene, &facts, &cost, &summary, &warnings))

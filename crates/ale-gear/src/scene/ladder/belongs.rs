@@ -192,6 +192,10 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
     if let (Some(at), true) = (span(&raw.checkpoint_every_cycles), words.checkpoint_every_cycles != Some(0)) {
         return refuse(at, "checkpoint_every_cycles", "leave it out: a cheap model is run again in a moment");
     }
+    let lines = raw.ramp.as_ref().and_then(|r| span(&r.get_ref().waterfall_cycles));
+    if let (Some(at), true) = (lines, words.ramp.is_some_and(|r| r.waterfall_cycles != 16)) {
+        return refuse(at, "waterfall_cycles", "leave it out: of a ramp of this model the last speed has a spectrum");
+    }
     if let (Some(at), true) =
         (span(&raw.steps_per_resonance), scene.impact.is_some() && words.steps_per_resonance != 16)
     {

@@ -4,9 +4,8 @@ use toml::Spanned;
 
 use super::raw::{List, RawLumped8, RawLumped12, RawMesh};
 use super::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
-use crate::scene::raw::Number;
 use crate::scene::source::Source;
-use crate::scene::{Axis, Model, SceneError};
+use crate::scene::{Axis, Model, SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -155,19 +154,14 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
         s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
     Ok(MeshScene {
         stiffness_from: from,
-        stiffness_n_per_um: optional(s, "stiffness_n_per_um", &raw.stiffness_n_per_um, 1e-6, 1e9)?,
+        stiffness_n_per_um: s.optional_of(&schema::MESH, "stiffness_n_per_um", &raw.stiffness_n_per_um)?,
         stiffness_cos_n_per_um: list(s, "stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um)?,
         stiffness_sin_n_per_um: list(s, "stiffness_sin_n_per_um", &raw.stiffness_sin_n_per_um)?,
         error_cos_um: list(s, "error_cos_um", &raw.error_cos_um)?,
         error_sin_um: list(s, "error_sin_um", &raw.error_sin_um)?,
-        half_backlash_um: optional(s, "half_backlash_um", &raw.half_backlash_um, 0.0, 1e5)?,
+        half_backlash_um: s.optional_of(&schema::MESH, "half_backlash_um", &raw.half_backlash_um)?,
         line_sharing: rung.lines.then_some(sharing),
     })
-}
-
-/// A number if there is one.
-pub(super) fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
-    value.as_ref().map(|_| s.number(key, value, low, low, high)).transpose()
 }
 
 pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene> {
@@ -175,7 +169,7 @@ pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lum
         ("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, "speed_fluctuation_hz"),
         ("speed_fluctuation_hz", &raw.speed_fluctuation_hz, "speed_fluctuation_rpm"),
     ];
-    let fluctuation = s.number("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, 0.0, 0.0, 1e7)?;
+    let fluctuation = s.number_of(&schema::LUMPED8, "speed_fluctuation_rpm", &raw.speed_fluctuation_rpm)?;
     let swings = fluctuation > 0.0;
     if let Some((key, Some(value), other)) = both.into_iter().find(|(_, v, other)| {
         let gone = both.iter().any(|(k, v, _)| k == other && v.is_none());
@@ -187,16 +181,16 @@ pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lum
     Ok(Lumped8Scene {
         law: s.choice("law", &raw.law, &[("normal", Law::Normal), ("projected", Law::Projected)])?,
         speed_fluctuation_rpm: fluctuation,
-        speed_fluctuation_hz: optional(s, "speed_fluctuation_hz", &raw.speed_fluctuation_hz, 1e-6, 1e7)?,
+        speed_fluctuation_hz: s.optional_of(&schema::LUMPED8, "speed_fluctuation_hz", &raw.speed_fluctuation_hz)?,
     })
 }
 
 pub(in crate::scene) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {
     let made = Lumped12Scene {
-        orientation_deg: optional(s, "orientation_deg", &raw.orientation_deg, -360.0, 360.0)?,
-        damping_ratio: s.number("damping_ratio", &raw.damping_ratio, 0.03, 0.0, 10.0)?,
-        damping_from_hz: s.number("damping_from_hz", &raw.damping_from_hz, 100.0, 1e-6, 1e7)?,
-        damping_to_hz: s.number("damping_to_hz", &raw.damping_to_hz, 10_000.0, 1e-6, 1e7)?,
+        orientation_deg: s.optional_of(&schema::LUMPED12, "orientation_deg", &raw.orientation_deg)?,
+        damping_ratio: s.number_of(&schema::LUMPED12, "damping_ratio", &raw.damping_ratio)?,
+        damping_from_hz: s.number_of(&schema::LUMPED12, "damping_from_hz", &raw.damping_from_hz)?,
+        damping_to_hz: s.number_of(&schema::LUMPED12, "damping_to_hz", &raw.damping_to_hz)?,
     };
     match (&raw.damping_to_hz, &raw.damping_from_hz) {
         (Some(at), _) | (None, Some(at)) if made.damping_to_hz <= made.damping_from_hz => {

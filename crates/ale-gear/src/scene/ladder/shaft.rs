@@ -5,10 +5,10 @@ use toml::Spanned;
 use super::check::{conflict, list};
 use super::raw::{RawDisc, RawShaft, RawShaft18, RawSupport};
 use super::{DiscScene, Kept, Shaft18Scene, ShaftScene, SupportScene};
-use crate::scene::SceneError;
 use crate::scene::motion::Matrix;
 use crate::scene::raw::Number;
 use crate::scene::source::Source;
+use crate::scene::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -28,8 +28,8 @@ pub(in crate::scene) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Sha
         }
     };
     Ok(Shaft18Scene {
-        mass_damping_per_s: s.number("mass_damping_per_s", &raw.mass_damping_per_s, 20.0, 0.0, 1e9)?,
-        stiffness_damping_s: s.number("stiffness_damping_s", &raw.stiffness_damping_s, 2e-7, 0.0, 1.0)?,
+        mass_damping_per_s: s.number_of(&schema::SHAFT18, "mass_damping_per_s", &raw.mass_damping_per_s)?,
+        stiffness_damping_s: s.number_of(&schema::SHAFT18, "stiffness_damping_s", &raw.stiffness_damping_s)?,
         gravity_m_per_s2,
     })
 }
@@ -55,8 +55,8 @@ pub(in crate::scene) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Chec
         gear_at_mm,
         torque_at_mm: s.number("torque_at_mm", &raw.torque_at_mm, gear_at_mm, 0.0, length)?,
         nodes_mm,
-        run_out_um: s.number("run_out_um", &raw.run_out_um, 0.0, 0.0, 1e4)?,
-        run_out_phase_deg: s.number("run_out_phase_deg", &raw.run_out_phase_deg, 0.0, -360.0, 360.0)?,
+        run_out_um: s.number_of(&schema::SHAFT, "run_out_um", &raw.run_out_um)?,
+        run_out_phase_deg: s.number_of(&schema::SHAFT, "run_out_phase_deg", &raw.run_out_phase_deg)?,
         discs: raw.discs.iter().map(|d| disc(s, d, length)).collect::<Checked<_>>()?,
         supports: raw.supports.iter().map(|b| support(s, b, length)).collect::<Checked<_>>()?,
     })
@@ -95,14 +95,12 @@ fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscSc
     }
     Ok(DiscScene {
         at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
-        mass_kg: s.number("mass_kg", &raw.mass_kg, 0.0, 0.0, 1e9)?,
-        polar_inertia_kg_m2: s.number("polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 0.0, 0.0, 1e12)?,
-        transverse_inertia_kg_m2: s.number(
+        mass_kg: s.number_of(&schema::DISC, "mass_kg", &raw.mass_kg)?,
+        polar_inertia_kg_m2: s.number_of(&schema::DISC, "polar_inertia_kg_m2", &raw.polar_inertia_kg_m2)?,
+        transverse_inertia_kg_m2: s.number_of(
+            &schema::DISC,
             "transverse_inertia_kg_m2",
             &raw.transverse_inertia_kg_m2,
-            0.0,
-            0.0,
-            1e12,
         )?,
         keeps: if raw.keeps.is_some() { keeps } else { ENDS.to_vec() },
     })
@@ -113,7 +111,7 @@ fn support(s: &Source<'_>, table: &Spanned<RawSupport>, length: f64) -> Checked<
     if raw.at_mm.is_none() {
         return Err(conflict(s, table, "a support without `at_mm`".into(), "say where on the shaft it is"));
     }
-    let of = |key: &str, value: &Number| s.number(key, value, 0.0, 0.0, 1e15);
+    let of = |key: &str, value: &Number| s.number_of(&schema::SUPPORT, key, value);
     Ok(SupportScene {
         at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
         stiffness_x_n_per_mm: of("stiffness_x_n_per_mm", &raw.stiffness_x_n_per_mm)?,

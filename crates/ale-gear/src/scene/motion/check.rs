@@ -7,9 +7,9 @@ use super::{
     Axis, BearingScene, BodyScene, DriveBy, DriveScene, Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene,
     SweepWay, TorqueScene,
 };
-use crate::scene::SceneError;
 use crate::scene::raw::{Number, Whole};
 use crate::scene::source::Source;
+use crate::scene::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
@@ -18,10 +18,6 @@ const AXES: [(&str, Axis); 5] = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z),
 
 fn conflict(s: &Source<'_>, span: &Span, what: String, advice: &str) -> SceneError {
     SceneError::Conflict { place: s.place(span), what, advice: advice.into() }
-}
-
-fn optional(s: &Source<'_>, key: &str, value: &Number, low: f64, high: f64) -> Checked<Option<f64>> {
-    value.as_ref().map(|_| s.number(key, value, 0.0, low, high)).transpose()
 }
 
 pub(in crate::scene) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
@@ -39,10 +35,14 @@ pub(in crate::scene) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene
     }
     free.sort_by_key(|a| a.number());
     Ok(BodyScene {
-        mass_kg: optional(s, "mass_kg", &raw.mass_kg, 1e-9, 1e9)?,
-        transverse_inertia_kg_m2: optional(s, "transverse_inertia_kg_m2", &raw.transverse_inertia_kg_m2, 1e-15, 1e12)?,
-        polar_inertia_kg_m2: optional(s, "polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 1e-15, 1e12)?,
-        added_inertia_kg_m2: s.number("added_inertia_kg_m2", &raw.added_inertia_kg_m2, 0.0, 0.0, 1e12)?,
+        mass_kg: s.optional_of(&schema::BODY, "mass_kg", &raw.mass_kg)?,
+        transverse_inertia_kg_m2: s.optional_of(
+            &schema::BODY,
+            "transverse_inertia_kg_m2",
+            &raw.transverse_inertia_kg_m2,
+        )?,
+        polar_inertia_kg_m2: s.optional_of(&schema::BODY, "polar_inertia_kg_m2", &raw.polar_inertia_kg_m2)?,
+        added_inertia_kg_m2: s.number_of(&schema::BODY, "added_inertia_kg_m2", &raw.added_inertia_kg_m2)?,
         free,
     })
 }
@@ -98,14 +98,18 @@ pub(in crate::scene) fn bearing(
             return Err(conflict(s, span, what, &format!("give `{}` in [{whose}.bearing]", stiffness[i].0)));
         }
     }
-    let of = |list: &[(&str, &Number); 5], i: usize| optional(s, list[i].0, list[i].1, 0.0, 1e15);
+    let of = |list: &[(&str, &Number); 5], i: usize| s.optional_of(&schema::BEARING, list[i].0, list[i].1);
     Ok(BearingScene {
-        stiffness_x_n_per_mm: held(s, stiffness[0])?,
-        stiffness_y_n_per_mm: held(s, stiffness[1])?,
-        stiffness_z_n_per_mm: held(s, stiffness[2])?,
-        stiffness_rx_nmm_per_rad: held(s, stiffness[3])?,
-        stiffness_ry_nmm_per_rad: held(s, stiffness[4])?,
-        stiffness_rz_nmm_per_rad: held(s, ("stiffness_rz_nmm_per_rad", &raw.stiffness_rz_nmm_per_rad))?,
+        stiffness_x_n_per_mm: of(&stiffness, 0)?,
+        stiffness_y_n_per_mm: of(&stiffness, 1)?,
+        stiffness_z_n_per_mm: of(&stiffness, 2)?,
+        stiffness_rx_nmm_per_rad: of(&stiffness, 3)?,
+        stiffness_ry_nmm_per_rad: of(&stiffness, 4)?,
+        stiffness_rz_nmm_per_rad: s.optional_of(
+            &schema::BEARING,
+            "stiffness_rz_nmm_per_rad",
+            &raw.stiffness_rz_nmm_per_rad,
+        )?,
         damping_ratio: match (free.is_empty(), &raw.damping_ratio) {
             (true, Some(value)) => {
                 let what = format!("`damping_ratio` has nothing to damp: no coordinate of the {whose} is free");
@@ -113,21 +117,21 @@ pub(in crate::scene) fn bearing(
                 return Err(conflict(s, &value.span(), what, &advice));
             }
             (true, None) => None,
-            (false, ratio) => Some(s.number("damping_ratio", ratio, 0.02, 0.0, 10.0)?),
+            (false, ratio) => Some(s.number_of(&schema::BEARING, "damping_ratio", ratio)?),
         },
         damping_x_ns_per_mm: of(&damping, 0)?,
         damping_y_ns_per_mm: of(&damping, 1)?,
         damping_z_ns_per_mm: of(&damping, 2)?,
         damping_rx_nmms_per_rad: of(&damping, 3)?,
         damping_ry_nmms_per_rad: of(&damping, 4)?,
-        damping_rz_nmms_per_rad: optional(s, "damping_rz_nmms_per_rad", &raw.damping_rz_nmms_per_rad, 0.0, 1e15)?,
+        damping_rz_nmms_per_rad: s.optional_of(
+            &schema::BEARING,
+            "damping_rz_nmms_per_rad",
+            &raw.damping_rz_nmms_per_rad,
+        )?,
         stiffness_matrix_n_mm_rad: matrix(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad)?,
         damping_matrix_ns_mm_rad: matrix(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad)?,
     })
-}
-
-fn held(s: &Source<'_>, (key, value): (&str, &Number)) -> Checked<Option<f64>> {
-    optional(s, key, value, 1e-6, 1e15)
 }
 
 /// A matrix says it all, or single values do.
@@ -204,10 +208,10 @@ fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], tab
         return Err(conflict(s, &span, what, "give `amplitude_nm` and `frequency_hz` (and `phase_deg`)"));
     }
     Ok(TorqueScene {
-        torque_nm: optional(s, "torque_nm", mean, -1e9, 1e9)?,
-        amplitude_nm: optional(s, "amplitude_nm", amplitude, 0.0, 1e9)?,
-        frequency_hz: optional(s, "frequency_hz", frequency, 1e-9, 1e9)?,
-        phase_deg: amplitude.as_ref().map(|_| s.number("phase_deg", phase, 0.0, -360.0, 360.0)).transpose()?,
+        torque_nm: s.optional_of(&schema::DRIVE, "torque_nm", mean)?,
+        amplitude_nm: s.optional_of(&schema::DRIVE, "amplitude_nm", amplitude)?,
+        frequency_hz: s.optional_of(&schema::DRIVE, "frequency_hz", frequency)?,
+        phase_deg: amplitude.as_ref().map(|_| s.number_of(&schema::DRIVE, "phase_deg", phase)).transpose()?,
         table_s_nm: time_table(s, table)?,
     })
 }
@@ -294,25 +298,31 @@ pub(in crate::scene) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) 
     Ok(MotionScene {
         run,
         method,
-        spectral_radius: alpha.then(|| s.number("spectral_radius", &raw.spectral_radius, 0.9, 0.0, 1.0)).transpose()?,
-        steps_per_mesh_cycle: s.whole("steps_per_mesh_cycle", &raw.steps_per_mesh_cycle, 64, 8, 100_000)?,
-        steps_per_resonance: s.whole("steps_per_resonance", &raw.steps_per_resonance, 16, 0, 100_000)?,
-        error_tolerance: optional(s, "error_tolerance", &raw.error_tolerance, 1e-12, 0.1)?,
+        spectral_radius: alpha
+            .then(|| s.number_of(&schema::MOTION, "spectral_radius", &raw.spectral_radius))
+            .transpose()?,
+        steps_per_mesh_cycle: s.whole_of(&schema::MOTION, "steps_per_mesh_cycle", &raw.steps_per_mesh_cycle)?,
+        steps_per_resonance: s.whole_of(&schema::MOTION, "steps_per_resonance", &raw.steps_per_resonance)?,
+        error_tolerance: s.optional_of(&schema::MOTION, "error_tolerance", &raw.error_tolerance)?,
         stop_at_events: raw.stop_at_events.as_ref().is_some_and(|on| *on.get_ref()),
         mesh_damping_ratio: match raw.mesh_damping_ns_per_mm2 {
             Some(_) => None,
-            None => Some(s.number("mesh_damping_ratio", &raw.mesh_damping_ratio, 0.05, 0.0, 10.0)?),
+            None => Some(s.number_of(&schema::MOTION, "mesh_damping_ratio", &raw.mesh_damping_ratio)?),
         },
-        mesh_damping_ns_per_mm2: optional(s, "mesh_damping_ns_per_mm2", &raw.mesh_damping_ns_per_mm2, 0.0, 1e9)?,
+        mesh_damping_ns_per_mm2: s.optional_of(
+            &schema::MOTION,
+            "mesh_damping_ns_per_mm2",
+            &raw.mesh_damping_ns_per_mm2,
+        )?,
         periodic_tolerance: settles
-            .then(|| s.number("periodic_tolerance", &raw.periodic_tolerance, 1e-6, 1e-12, 0.5))
+            .then(|| s.number_of(&schema::MOTION, "periodic_tolerance", &raw.periodic_tolerance))
             .transpose()?,
         warm_up_cycles: settles
-            .then(|| s.whole("warm_up_cycles", &raw.warm_up_cycles, 1000, 0, 100_000_000))
+            .then(|| s.whole_of(&schema::MOTION, "warm_up_cycles", &raw.warm_up_cycles))
             .transpose()?,
-        duration_s: optional(s, "duration_s", &raw.duration_s, 1e-9, 1e9)?,
+        duration_s: s.optional_of(&schema::MOTION, "duration_s", &raw.duration_s)?,
         checkpoint_every_cycles: matches!(run, Run::Steady | Run::Span | Run::Ramp)
-            .then(|| s.whole("checkpoint_every_cycles", &raw.checkpoint_every_cycles, 0, 0, 100_000_000))
+            .then(|| s.whole_of(&schema::MOTION, "checkpoint_every_cycles", &raw.checkpoint_every_cycles))
             .transpose()?,
         ramp: (run == Run::Ramp)
             .then(|| ramp(s, raw.ramp.as_ref().map_or(&ramp_words, |r| r.get_ref()), span(&raw.run)))
@@ -337,19 +347,19 @@ fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> 
     let keys = [("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm), ("duration_s", &raw.duration_s)];
     needed(s, "ramp", &keys, run)?;
     Ok(RampScene {
-        from_rpm: s.number("from_rpm", &raw.from_rpm, 0.0, 0.0, 1e7)?,
-        to_rpm: s.number("to_rpm", &raw.to_rpm, 0.0, 1e-3, 1e7)?,
-        duration_s: s.number("duration_s", &raw.duration_s, 0.0, 1e-6, 1e6)?,
-        before_s: s.number("before_s", &raw.before_s, 0.0, 0.0, 1e6)?,
-        after_s: s.number("after_s", &raw.after_s, 0.0, 0.0, 1e6)?,
-        waterfall_cycles: s.whole("waterfall_cycles", &raw.waterfall_cycles, 16, 4, 100_000)?,
+        from_rpm: s.number_of(&schema::RAMP, "from_rpm", &raw.from_rpm)?,
+        to_rpm: s.number_of(&schema::RAMP, "to_rpm", &raw.to_rpm)?,
+        duration_s: s.number_of(&schema::RAMP, "duration_s", &raw.duration_s)?,
+        before_s: s.number_of(&schema::RAMP, "before_s", &raw.before_s)?,
+        after_s: s.number_of(&schema::RAMP, "after_s", &raw.after_s)?,
+        waterfall_cycles: s.whole_of(&schema::RAMP, "waterfall_cycles", &raw.waterfall_cycles)?,
     })
 }
 
 fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScene> {
     needed(s, "sweep", &[("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm)], run)?;
-    let from_rpm = s.number("from_rpm", &raw.from_rpm, 0.0, 1e-3, 1e7)?;
-    let to_rpm = s.number("to_rpm", &raw.to_rpm, 0.0, 1e-3, 1e7)?;
+    let from_rpm = s.number_of(&schema::SWEEP, "from_rpm", &raw.from_rpm)?;
+    let to_rpm = s.number_of(&schema::SWEEP, "to_rpm", &raw.to_rpm)?;
     if let (Some(to), true) = (&raw.to_rpm, to_rpm <= from_rpm) {
         let what = format!("`to_rpm` is {to_rpm}, not above `from_rpm`, {from_rpm}");
         return Err(conflict(s, &to.span(), what, "the way is said by `ways`"));
@@ -369,7 +379,7 @@ fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScen
     Ok(SweepScene {
         from_rpm,
         to_rpm,
-        speeds: s.whole("speeds", &raw.speeds, 41, 2, 100_000)?,
+        speeds: s.whole_of(&schema::SWEEP, "speeds", &raw.speeds)?,
         ways,
         steady_by: s.choice("steady_by", &raw.steady_by, &by)?,
     })

@@ -6,6 +6,7 @@ use toml::Spanned;
 use crate::scene::{
     SceneError,
     raw::{Number, Whole, Word},
+    schema,
     source::Source,
 };
 
@@ -48,11 +49,6 @@ pub enum Boundary {
     Consistent,
 }
 
-/// Modes kept where the scene does not say how many.
-const COUNT: u32 = 12;
-/// Fixed modes behind a consistent boundary where the scene does not say.
-const FIXED: u32 = 2;
-
 /// The table that goes with `model = "reduced+modes"`.
 pub(in crate::scene) fn modes(s: &Source<'_>, raw: &RawModes) -> Result<ModesScene, SceneError> {
     let conflict = |span: std::ops::Range<usize>, what: &str, advice: &str| {
@@ -68,12 +64,12 @@ pub(in crate::scene) fn modes(s: &Source<'_>, raw: &RawModes) -> Result<ModesSce
         let what = "`fixed_modes` belongs to `boundary = \"consistent\"`";
         return conflict(fixed, what, "leave it out: a massless boundary takes the modes of the whole mesh");
     }
-    let below_hz = raw.below_hz.as_ref().map(|_| s.number("below_hz", &raw.below_hz, 0.0, 1.0, 1e9)).transpose()?;
+    let below_hz = s.optional_of(&schema::MODES, "below_hz", &raw.below_hz)?;
     Ok(ModesScene {
-        count: below_hz.is_none().then(|| s.whole("count", &raw.count, COUNT, 1, 1000)).transpose()?,
+        count: below_hz.is_none().then(|| s.whole_of(&schema::MODES, "count", &raw.count)).transpose()?,
         below_hz,
         boundary,
-        fixed_modes: consistent.then(|| s.whole("fixed_modes", &raw.fixed_modes, FIXED, 0, 100)).transpose()?,
-        damping_ratio: s.number("damping_ratio", &raw.damping_ratio, 0.01, 0.0, 1.0)?,
+        fixed_modes: consistent.then(|| s.whole_of(&schema::MODES, "fixed_modes", &raw.fixed_modes)).transpose()?,
+        damping_ratio: s.number_of(&schema::MODES, "damping_ratio", &raw.damping_ratio)?,
     })
 }

@@ -1,0 +1,81 @@
+//! `ale-gear compare`: result folders in, one table out, and charts if wanted.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde_json::json;
+
+use crate::compare::{Axis, ResultFolder, headline_rows, input_rows, overlays};
+use crate::error::CommandError;
+use crate::output::{
+    ResultDirectory, compare_charts, compare_table, write_compare_csv, write_compare_report, write_curves_csv,
+};
+
+/// Words of `ale-gear compare`.
+#[derive(Debug, clap::Args)]
+pub(super) struct CompareArgs {
+    /// Result folders; the first is what the others are compared with
+    #[arg(required = true, num_args = 2.., value_name = "DIR")]
+    folders: Vec<PathBuf>,
+    /// Folder for compare.html, compare.csv, compare_curves.csv and one SVG for each quantity
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// What curves are drawn over [default: time if all runs are motions, else phase]
+    #[arg(long, requires = "out")]
+    over: Option<Over>,
+    /// Numbers and differences as JSON on stdout, instead of the table
+    #[arg(long)]
+    json: bool,
+}
+
+/// What curves are drawn over, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Over {
+    /// The last whole mesh cycle of each run
+    Phase,
+    /// Time since the first row
+    Time,
+}
+
+impl CompareArgs {
+    /// Reads all, then writes; the text is the table.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let runs = self.folders.iter().map(|f| ResultFolder::read(f)).collect::<Result<Vec<_>, _>>()?;
+        let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
+        let mut text = if self.json {
+            let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
+            format!("{:#}\n", json!({ "runs": labels, "numbers": numbers, "inputs": inputs }))
+        } else {
+            compare_table(&runs, &numbers, &inputs)
+        };
+        let Some(out) = &self.out else { return Ok(text) };
+        let same =
+            |a: &Path, b: &Path| a == b || a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
+        if let Some(clash) = self.folders.iter().find(|f| same(f, out)) {
+            return Err(CommandError::input(
+                format_args!("--out {}: is one of the folders to compare", clash.display()),
+                Some("give the name of a new folder".into()),
+            ));
+        }
+        let axis = match self.over {
+            Some(Over::Phase) => Axis::Phase,
+            Some(Over::Time) => Axis::Time,
+            None if runs.iter().all(ResultFolder::is_motion) => Axis::Time,
+            None => Axis::Phase,
+        };
+        let curves = overlays(&runs, axis);
+        let charts = compare_charts(&curves);
+        let results = ResultDirectory::create(out)?;
+        results.write("compare.csv", write_compare_csv(&runs, &numbers).as_bytes())?;
+        results.write("compare_curves.csv", write_curves_csv(&curves).as_bytes())?;
+        for chart in &charts {
+            results.write(&format!("compare_{}.svg", chart.name), chart.svg.as_bytes())?;
+        }
+        results.write("compare.html", write_compare_report(&runs, &numbers, &inputs, &charts)?.as_bytes())?;
+        results.finish()?;
+        if !self.json {
+            text.push_str(&format!("\ncharts: {}\n", out.join("compare.html").display()));
+        }
+        Ok(text)
+    }
+}

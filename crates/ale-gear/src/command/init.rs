@@ -1,0 +1,223 @@
+//! `ale-gear init`: a commented scene to begin with.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use dialoguer::{Confirm, Input, Select};
+
+use crate::error::CommandError;
+use crate::gears;
+use crate::rexs::read_pair;
+use crate::scene::{Kind, Scene};
+use crate::starter::Starter;
+
+/// Words of `ale-gear init`.
+///
+/// Without any of them, and with somebody at a terminal, it asks.
+#[derive(Debug, Default, clap::Args)]
+pub(super) struct InitArgs {
+    /// Scene file to write; `-` is stdout
+    #[arg(default_value = "scene.toml")]
+    file: PathBuf,
+    #[command(flatten)]
+    pair: PairArgs,
+    /// Take the pair from a REXS file (XML); the words on the pair go before it
+    #[arg(long, value_name = "FILE")]
+    rexs: Option<PathBuf>,
+    /// Which cylindrical stage of the REXS file
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "rexs")]
+    stage: usize,
+    /// Replace a file that is there
+    #[arg(long)]
+    force: bool,
+}
+
+/// What the scene says; what is not given stands as in the default pair.
+#[derive(Debug, Default, Clone, PartialEq, clap::Args)]
+#[command(next_help_heading = "The pair")]
+struct PairArgs {
+    /// Title of the case [default: from the teeth]
+    #[arg(long)]
+    name: Option<String>,
+    /// Numbers of teeth of pinion and wheel [default: 30,30]
+    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1)]
+    teeth: Vec<u32>,
+    /// Normal module [default: 3]
+    #[arg(long, value_name = "MM")]
+    module_mm: Option<f64>,
+    /// The pinion's helix angle, right hand positive [default: 20]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    helix_deg: Option<f64>,
+    /// Face width of both gears [default: 20]
+    #[arg(long, value_name = "MM")]
+    face_width_mm: Option<f64>,
+    /// Torque on the driven gear [default: 150]
+    #[arg(long, value_name = "NM")]
+    torque_nm: Option<f64>,
+    /// Speed of the driver [default: 1000]
+    #[arg(long, value_name = "RPM")]
+    speed_rpm: Option<f64>,
+    /// Profile shift coefficients of pinion and wheel [default: 0,0]
+    #[arg(long, value_name = "X1,X2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    profile_shift: Vec<f64>,
+    /// Working centre distance [default: the one that follows from the profile shifts]
+    #[arg(long, value_name = "MM")]
+    centre_distance_mm: Option<f64>,
+    /// Equilibrium at every position, or motion in time [default: static]
+    #[arg(long)]
+    kind: Option<KindWord>,
+}
+
+/// What is computed, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum KindWord {
+    Static,
+    Dynamic,
+}
+
+impl InitArgs {
+    /// Writes the scene; the text says what to do next.
+    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
+        let to_stdout = self.file.as_os_str() == "-";
+        let nothing_said = self.pair == PairArgs::default() && self.rexs.is_none();
+        let asked = nothing_said && !to_stdout && std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
+        if !to_stdout && !asked && !self.force {
+            absent(&self.file)?;
+        }
+        let starter = if asked { ask()? } else { self.pair.over(self.of_file()?)? };
+        let shown = if to_stdout { "scene.toml".into() } else { self.file.display().to_string() };
+        let text = starter.text(&shown);
+        // What would not run is not written.
+        let scene = Scene::parse(&text, &self.file)?;
+        gears::pair(&scene)?;
+        if to_stdout {
+            return Ok(text);
+        }
+        if asked && !self.force && self.file.exists() && !replace(&self.file)? {
+            return Ok(format!("{shown}: left as it was\n"));
+        }
+        write_new(&self.file, &text, self.force || asked)?;
+        Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
+    }
+}
+
+impl InitArgs {
+    /// The pair of the REXS file, or the default one.
+    fn of_file(&self) -> Result<Starter, CommandError> {
+        let default = Starter::default();
+        let Some(file) = &self.rexs else { return Ok(default) };
+        let text = std::fs::read_to_string(file).map_err(|e| {
+            let hint = Some("is the path right, as seen from here?".into());
+            CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
+        })?;
+        read_pair(&text, self.stage, &default)
+            .map_err(|e| CommandError::input(format_args!("{}: {e}", file.display()), e.hint()))
+    }
+}
+
+fn there(file: &Path) -> CommandError {
+    CommandError::input(
+        format_args!("{}: is there already", file.display()),
+        Some("give another name, or `--force` to replace it".into()),
+    )
+}
+
+fn absent(file: &Path) -> Result<(), CommandError> {
+    if file.exists() { Err(there(file)) } else { Ok(()) }
+}
+
+fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError> {
+    let mut options = std::fs::File::options();
+    options.write(true);
+    if replace {
+        options.create(true).truncate(true)
+    } else {
+        options.create_new(true)
+    };
+    let written = options.open(file).and_then(|mut f| f.write_all(text.as_bytes()));
+    written.map_err(|e| match e.kind() {
+        std::io::ErrorKind::AlreadyExists => there(file),
+        std::io::ErrorKind::NotFound => CommandError::input(
+            format_args!("{}: cannot be written: {e}", file.display()),
+            Some("is the folder there?".into()),
+        ),
+        _ => CommandError::write(file, &e),
+    })
+}
+
+impl PairArgs {
+    /// What is said here, and the rest as it was.
+    fn over(&self, d: Starter) -> Result<Starter, CommandError> {
+        Ok(Starter {
+            name: self.name.clone().unwrap_or(d.name),
+            teeth: two("--teeth", &self.teeth, d.teeth)?,
+            module_mm: self.module_mm.unwrap_or(d.module_mm),
+            helix_deg: self.helix_deg.unwrap_or(d.helix_deg),
+            face_width_mm: self.face_width_mm.unwrap_or(d.face_width_mm),
+            torque_nm: self.torque_nm.unwrap_or(d.torque_nm),
+            speed_rpm: self.speed_rpm.unwrap_or(d.speed_rpm),
+            profile_shift: two("--profile-shift", &self.profile_shift, d.profile_shift)?,
+            centre_distance_mm: self.centre_distance_mm.or(d.centre_distance_mm),
+            pressure_angle_deg: d.pressure_angle_deg,
+            tip_diameter_mm: d.tip_diameter_mm,
+            kind: match self.kind {
+                None => d.kind,
+                Some(KindWord::Static) => Kind::Static,
+                Some(KindWord::Dynamic) => Kind::Dynamic,
+            },
+        })
+    }
+}
+
+/// One value a gear, one for both, or none.
+fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], CommandError> {
+    match *given {
+        [] => Ok(default),
+        [both] => Ok([both, both]),
+        [pinion, wheel] => Ok([pinion, wheel]),
+        _ => Err(CommandError::input(
+            format_args!("`{flag}` has {} values", given.len()),
+            Some("give one for the pinion and one for the wheel, with a comma between them".into()),
+        )),
+    }
+}
+
+/// The questions; an empty answer takes what is shown in brackets.
+fn ask() -> Result<Starter, CommandError> {
+    let d = Starter::default();
+    let kinds = [("equilibrium at every position (static)", Kind::Static), ("motion in time (dynamic)", Kind::Dynamic)];
+    let questions = || -> dialoguer::Result<Starter> {
+        Ok(Starter {
+            teeth: [answer("Teeth of the pinion", d.teeth[0])?, answer("Teeth of the wheel", d.teeth[1])?],
+            module_mm: answer("Normal module, mm", d.module_mm)?,
+            helix_deg: answer("Helix angle of the pinion, degrees, right hand positive", d.helix_deg)?,
+            face_width_mm: answer("Face width, mm", d.face_width_mm)?,
+            torque_nm: answer("Torque on the driven gear, N m", d.torque_nm)?,
+            speed_rpm: answer("Speed of the driver, 1/min", d.speed_rpm)?,
+            kind: kinds[Select::new().with_prompt("What").items(kinds.map(|k| k.0)).default(0).interact()?].1,
+            ..d.clone()
+        })
+    };
+    questions().map_err(|e| no_answer(&e))
+}
+
+fn answer<T>(question: &str, default: T) -> dialoguer::Result<T>
+where
+    T: Clone + std::fmt::Display + std::str::FromStr,
+    T::Err: std::fmt::Display,
+{
+    Input::new().with_prompt(question).default(default).interact_text()
+}
+
+fn replace(file: &Path) -> Result<bool, CommandError> {
+    let question = format!("{} is there already. Replace it?", file.display());
+    Confirm::new().with_prompt(question).default(false).interact().map_err(|e| no_answer(&e))
+}
+
+fn no_answer(error: &dialoguer::Error) -> CommandError {
+    CommandError::input(
+        format_args!("the questions were not answered: {error}"),
+        Some("say it with flags: `ale-gear init --help` lists them".into()),
+    )
+}

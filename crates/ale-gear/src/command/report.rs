@@ -1,0 +1,40 @@
+//! `ale-gear report`: the page of a result folder made again.
+
+use std::path::{Path, PathBuf};
+
+use crate::compare::ResultFolder;
+use crate::error::CommandError;
+use crate::output::report_again;
+
+/// Words of `ale-gear report`.
+#[derive(Debug, clap::Args)]
+pub(super) struct ReportArgs {
+    /// Result folder
+    folder: PathBuf,
+    /// File to write, `-` for stdout [default: report.html in the folder]
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl ReportArgs {
+    /// Writes the page; the text says where.
+    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
+        // Says what is wrong with a folder that is none.
+        ResultFolder::read(&self.folder)?;
+        let page = report_again(&self.folder)?;
+        let file = self.output.unwrap_or_else(|| self.folder.join("report.html"));
+        if file.as_os_str() == "-" {
+            return Ok(page);
+        }
+        replace(&file, &page).map_err(|e| CommandError::write(&file, &e))?;
+        Ok(if quiet { String::new() } else { format!("{}: written\n", file.display()) })
+    }
+}
+
+/// Beside it first: a page that is half written would be lost.
+fn replace(file: &Path, page: &str) -> std::io::Result<()> {
+    let mut new = file.as_os_str().to_owned();
+    new.push(".new");
+    std::fs::write(&new, page)?;
+    std::fs::rename(&new, file)
+}

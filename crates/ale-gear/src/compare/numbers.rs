@@ -1,0 +1,119 @@
+//! Headline numbers and inputs of several runs, row by row.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::ResultFolder;
+
+/// A number of every run that has it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NumberRow {
+    /// Its name with unit; `a.b` and `a[1]` where it lies deeper in the summary.
+    pub key: String,
+    /// Run by run; `None` where a run has no such number.
+    pub values: Vec<Option<f64>>,
+    /// Against the first run; the first entry belongs to the second run.
+    pub differences: Vec<Option<Difference>>,
+}
+
+/// How far a number is from the first run's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Difference {
+    /// This run's less the first one's, in the unit of the key.
+    pub absolute: f64,
+    /// The same over the size of the first one's, per cent; `None` where that is 0.
+    pub per_cent: Option<f64>,
+}
+
+/// An input that the runs do not have in common.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WordRow {
+    /// Key of the scene, with dots.
+    pub key: String,
+    /// Run by run, as JSON; `None` where a scene has no such key.
+    pub values: Vec<Option<String>>,
+}
+
+/// Parts of the summary beside the headline that are worth a row.
+const BESIDE: [&str; 5] = ["/geometry/eps_gamma", "/dof_before", "/dof_after", "/cost/wall_s", "/cost/peak_memory_mb"];
+
+/// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that has them.
+pub fn headline_rows(runs: &[ResultFolder]) -> Vec<NumberRow> {
+    let found: Vec<Vec<(String, f64)>> = runs.iter().map(numbers).collect();
+    let mut keys: Vec<&str> = Vec::new();
+    for (key, _) in found.iter().flatten() {
+        if !keys.contains(&key.as_str()) {
+            keys.push(key);
+        }
+    }
+    let row = |key: &str| {
+        let values: Vec<Option<f64>> =
+            found.iter().map(|run| run.iter().find(|(k, _)| k == key).map(|(_, v)| *v)).collect();
+        let first = values.first().copied().flatten();
+        let differences = values.iter().skip(1).map(|v| Some(difference(first?, (*v)?))).collect();
+        NumberRow { key: key.to_owned(), values, differences }
+    };
+    keys.into_iter().map(row).collect()
+}
+
+fn difference(first: f64, other: f64) -> Difference {
+    let absolute = other - first;
+    Difference { absolute, per_cent: (first != 0.0).then(|| 100.0 * absolute / first.abs()) }
+}
+
+fn numbers(run: &ResultFolder) -> Vec<(String, f64)> {
+    let mut all = Vec::new();
+    let leaf = |key: &str, value: &Value, all: &mut Vec<(String, f64)>| {
+        if let Some(number) = value.as_f64() {
+            all.push((key.to_owned(), number));
+        }
+    };
+    walk("", &run.summary()["headline"], &mut |key, value| leaf(key, value, &mut all));
+    for pointer in BESIDE {
+        if let Some(value) = run.summary().pointer(pointer) {
+            let key = pointer.trim_start_matches('/').replace('/', ".");
+            walk(&key, value, &mut |key, value| leaf(key, value, &mut all));
+        }
+    }
+    all
+}
+
+/// Visits every leaf of a JSON value with its path.
+fn walk(path: &str, value: &Value, visit: &mut impl FnMut(&str, &Value)) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map {
+                let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                walk(&inner, value, visit);
+            }
+        }
+        Value::Array(list) => {
+            for (i, value) in list.iter().enumerate() {
+                walk(&format!("{path}[{i}]"), value, visit);
+            }
+        }
+        leaf => visit(path, leaf),
+    }
+}
+
+/// Keys of the scenes that differ in value or that not all scenes have, in the order of the first run.
+pub fn input_rows(runs: &[ResultFolder]) -> Vec<WordRow> {
+    let found: Vec<Vec<(String, String)>> = runs.iter().map(inputs).collect();
+    let mut keys: Vec<&str> = Vec::new();
+    for (key, _) in found.iter().flatten() {
+        if !keys.contains(&key.as_str()) {
+            keys.push(key);
+        }
+    }
+    let row = |key: &str| WordRow {
+        key: key.to_owned(),
+        values: found.iter().map(|run| run.iter().find(|(k, _)| k == key).map(|(_, v)| v.clone())).collect(),
+    };
+    keys.into_iter().map(row).filter(|row| row.values.iter().any(|v| *v != row.values[0])).collect()
+}
+
+fn inputs(run: &ResultFolder) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    walk("", &run.summary()["inputs"], &mut |key, value| all.push((key.to_owned(), value.to_string())));
+    all
+}

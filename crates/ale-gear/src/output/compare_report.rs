@@ -1,0 +1,82 @@
+//! `compare.html`: runs side by side on one page that needs nothing beside itself.
+
+use minijinja::context;
+
+use super::charts::{Curve, line_chart, line_picture};
+use super::compare_table::{letter, number, per_cent};
+use super::page;
+use crate::compare::{NumberRow, Overlay, ResultFolder, WordRow};
+use crate::error::CommandError;
+
+/// A chart of one quantity.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CompareChart {
+    /// The quantity, with unit.
+    pub name: String,
+    /// For a page: with zoom and values under the pointer.
+    pub figure: String,
+    /// As a picture.
+    pub svg: String,
+}
+
+/// A chart of each quantity. A quantity without a finite value has none.
+pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
+    let chart = |overlay: &Overlay| {
+        let curve = |t: &crate::compare::Trace| Curve { label: t.label.clone(), points: t.points.clone() };
+        let curves: Vec<Curve> = overlay.traces.iter().map(curve).collect();
+        let name = overlay.name.clone();
+        let figure = line_chart(&name, overlay.over, &name, &curves, false)?;
+        let svg = line_picture(&name, overlay.over, &name, &curves)?;
+        Some(CompareChart { name, figure, svg })
+    };
+    overlays.iter().filter_map(chart).collect()
+}
+
+/// The page.
+///
+/// # Errors
+/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+pub fn write_compare_report(
+    runs: &[ResultFolder],
+    numbers: &[NumberRow],
+    inputs: &[WordRow],
+    charts: &[CompareChart],
+) -> Result<String, CommandError> {
+    let name = |run: &ResultFolder| run.summary()["name"].as_str().unwrap_or_default().to_owned();
+    let model =
+        |run: &ResultFolder| run.summary()["inputs"]["analysis"]["model"].as_str().unwrap_or_default().to_owned();
+    let heads: Vec<_> = runs
+        .iter()
+        .enumerate()
+        .map(|(i, run)| context! { letter => letter(i), label => run.label(), name => name(run), model => model(run) })
+        .collect();
+    let rows: Vec<_> = numbers
+        .iter()
+        .map(|row| {
+            let mut cells = vec![number(row.values[0])];
+            for (value, difference) in row.values.iter().skip(1).zip(&row.differences) {
+                cells.extend([number(*value), number(difference.map(|d| d.absolute)), per_cent(*difference)]);
+            }
+            context! { key => &row.key, cells => cells }
+        })
+        .collect();
+    let words: Vec<_> = inputs
+        .iter()
+        .map(|row| {
+            let cells: Vec<String> = row.values.iter().map(|v| v.clone().unwrap_or_else(|| "-".into())).collect();
+            context! { key => &row.key, cells => cells }
+        })
+        .collect();
+    let pictures: Vec<String> = charts.iter().map(|c| c.figure.clone()).collect();
+    page::render(
+        "compare.html",
+        context! {
+            name => format!("{} runs side by side", runs.len()),
+            version => env!("CARGO_PKG_VERSION"),
+            runs => heads,
+            rows => rows,
+            words => words,
+            charts => pictures,
+        },
+    )
+}

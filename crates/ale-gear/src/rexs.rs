@@ -1,0 +1,308 @@
+//! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and on; XML).
+//!
+//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks. What is missing there keeps its default, and
+//! what the file has beside it (shafts, bearings, load spectra, lubricants) is left alone.
+
+use roxmltree::{Document, Node};
+
+use crate::starter::Starter;
+
+/// Why no pair comes out of a REXS file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RexsError {
+    /// It is no XML.
+    #[error("is no XML: {0}")]
+    Xml(#[from] roxmltree::Error),
+    /// It is XML of another kind.
+    #[error("is no REXS file: its root is <{root}>, not <model>")]
+    Root {
+        /// Name of the root.
+        root: String,
+    },
+    /// It has no such stage.
+    #[error("has {found} cylindrical stages, stage {asked} is wanted")]
+    Stage {
+        /// Stages that it has.
+        found: usize,
+        /// Counted from 1.
+        asked: usize,
+    },
+    /// A stage without its two gears.
+    #[error("stage {stage} has no {role}")]
+    Gear {
+        /// Counted from 1.
+        stage: usize,
+        /// `gear_1` or `gear_2`.
+        role: &'static str,
+    },
+    /// A number that every gear has.
+    #[error("gear {gear} has no `{attribute}`")]
+    Missing {
+        /// Number of its component.
+        gear: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+    },
+    /// A value that cannot be used.
+    #[error("gear {gear}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
+    Value {
+        /// Number of its component.
+        gear: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// As written.
+        value: String,
+        /// As written.
+        unit: String,
+        /// Unit of the standard's data base.
+        wanted: &'static str,
+    },
+    /// Two gears that are no external pair.
+    #[error("the gears differ in {what}: {pinion} and {wheel}")]
+    Pair {
+        /// In what.
+        what: &'static str,
+        /// Gear 1.
+        pinion: f64,
+        /// Gear 2.
+        wheel: f64,
+    },
+}
+
+impl RexsError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Xml(_) | Self::Root { .. } => {
+                "export the model as REXS in XML (`.rexs`), not packed (`.rexsz`) and not as JSON".into()
+            }
+            Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
+            Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
+            Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
+            Self::Value { .. } => "export with the units of the standard's data base".into(),
+            Self::Pair { .. } => "only external pairs of one module can be run".into(),
+        })
+    }
+}
+
+/// The pair of stage `stage` (counted from 1) of a REXS file; torque and speed are those of `from`.
+///
+/// # Errors
+/// [`RexsError`].
+pub fn read_pair(text: &str, stage: usize, from: &Starter) -> Result<Starter, RexsError> {
+    let document = Document::parse(text.trim_start_matches('\u{feff}'))?;
+    let root = document.root_element();
+    if root.tag_name().name() != "model" {
+        return Err(RexsError::Root { root: root.tag_name().name().to_owned() });
+    }
+    let model = Model(root);
+    let stages: Vec<Node<'_, '_>> =
+        model.relations("stage").filter(|r| refers(*r, "stage", "cylindrical_stage")).collect();
+    let wrong = RexsError::Stage { found: stages.len(), asked: stage };
+    let relation = *stage.checked_sub(1).and_then(|i| stages.get(i)).ok_or(wrong)?;
+    let of = |role: &'static str| {
+        let id = reference(relation, role).ok_or(RexsError::Gear { stage, role })?;
+        model.component(id).map(|node| Part { id, node }).ok_or(RexsError::Gear { stage, role })
+    };
+    let (pinion, wheel) = (of("gear_1")?, of("gear_2")?);
+    pair(&model, [pinion, wheel], stage, from)
+}
+
+fn pair(model: &Model<'_, '_>, gears: [Part<'_, '_>; 2], stage: usize, from: &Starter) -> Result<Starter, RexsError> {
+    let both = |attribute, unit| -> Result<[f64; 2], RexsError> {
+        Ok([gears[0].needed(attribute, unit)?, gears[1].needed(attribute, unit)?])
+    };
+    let modules = both("normal_module", "mm")?;
+    alike("normal module", modules[0], modules[1])?;
+    // Spur gears may leave it out.
+    let helix_of = |i: usize| gears[i].number("helix_angle_reference_diameter", "deg").map(|b| b.unwrap_or(0.0));
+    let helix = [helix_of(0)?, helix_of(1)?];
+    alike("helix angle of opposite hand", helix[0], 0.0 - helix[1])?;
+    let teeth = both("number_of_teeth", "")?;
+    let widths = both("face_width", "mm")?;
+    let flanks = [0, 1].map(|i| model.flank(gears[i].id));
+    let of_flank = |i: usize, attribute, unit| match &flanks[i] {
+        Some(flank) => flank.number(attribute, unit),
+        None => Ok(None),
+    };
+    let shift = [0, 1].map(|i| of_flank(i, "addendum_modification_coefficient", ""));
+    let [x1, x2] = shift;
+    Ok(Starter {
+        name: model.name(stage).unwrap_or_default(),
+        teeth: teeth.map(|z| z as u32),
+        module_mm: modules[0],
+        helix_deg: helix[0],
+        face_width_mm: widths[0].min(widths[1]),
+        profile_shift: [x1?.unwrap_or(0.0), x2?.unwrap_or(0.0)],
+        pressure_angle_deg: of_flank(0, "normal_pressure_angle", "deg")?,
+        tip_diameter_mm: [gears[0].number("tip_diameter", "mm")?, gears[1].number("tip_diameter", "mm")?],
+        centre_distance_mm: distance(&gears),
+        ..from.clone()
+    })
+}
+
+fn alike(what: &'static str, pinion: f64, wheel: f64) -> Result<(), RexsError> {
+    if (pinion - wheel).abs() <= 1e-6 * pinion.abs().max(1.0) {
+        Ok(())
+    } else {
+        Err(RexsError::Pair { what, pinion, wheel })
+    }
+}
+
+/// Distance of the axes from where the gears stand, mm, where both say so in the same frame.
+fn distance(gears: &[Part<'_, '_>; 2]) -> Option<f64> {
+    let frames = [0, 1].map(|i| gears[i].text("reference_component_for_position"));
+    let [a, b] = [gears[0].vector("support_vector")?, gears[1].vector("support_vector")?];
+    let axis = gears[0].vector("u_axis_vector")?;
+    let apart = [0, 1, 2].map(|k| b[k] - a[k]);
+    let along: f64 = (0..3).map(|k| apart[k] * axis[k]).sum::<f64>() / axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let square = apart.iter().map(|x| x * x).sum::<f64>() - along * along;
+    (frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| square.sqrt())
+}
+
+/// The file.
+struct Model<'a, 'i>(Node<'a, 'i>);
+
+impl<'a, 'i> Model<'a, 'i> {
+    fn relations(&self, kind: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+        let all = self.0.children().find(|n| n.has_tag_name("relations"));
+        all.into_iter().flat_map(|n| n.children()).filter(move |n| n.attribute("type") == Some(kind))
+    }
+
+    fn component(&self, id: &str) -> Option<Node<'a, 'i>> {
+        let all = self.0.children().find(|n| n.has_tag_name("components"))?;
+        all.children().find(|n| n.has_tag_name("component") && n.attribute("id") == Some(id))
+    }
+
+    /// Either flank of a gear: what is read of it is the same on both sides.
+    fn flank(&self, gear: &str) -> Option<Part<'a, 'i>> {
+        let relation = self.relations("flank").find(|r| reference(*r, "gear") == Some(gear))?;
+        let id = reference(relation, "left").or_else(|| reference(relation, "right"))?;
+        Some(Part { id, node: self.component(id)? })
+    }
+
+    fn name(&self, stage: usize) -> Option<String> {
+        let program = self.0.attribute("applicationId")?;
+        Some(format!("{program}, stage {stage}"))
+    }
+}
+
+/// Number of the component that has a role in a relation.
+fn reference<'a>(relation: Node<'a, '_>, role: &str) -> Option<&'a str> {
+    relation.children().find(|n| n.attribute("role") == Some(role))?.attribute("id")
+}
+
+fn refers(relation: Node<'_, '_>, role: &str, hint: &str) -> bool {
+    relation.children().any(|n| n.attribute("role") == Some(role) && n.attribute("hint") == Some(hint))
+}
+
+/// A component.
+struct Part<'a, 'i> {
+    id: &'a str,
+    node: Node<'a, 'i>,
+}
+
+impl Part<'_, '_> {
+    fn attribute(&self, name: &str) -> Option<Node<'_, '_>> {
+        self.node.children().find(|n| n.has_tag_name("attribute") && n.attribute("id") == Some(name))
+    }
+
+    fn text(&self, name: &str) -> Option<&str> {
+        self.attribute(name)?.text().map(str::trim)
+    }
+
+    fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {
+        let Some(node) = self.attribute(attribute) else { return Ok(None) };
+        let unit = node.attribute("unit").unwrap_or_default();
+        let value = node.text().unwrap_or_default().trim();
+        let same = match wanted {
+            "deg" => matches!(unit, "deg" | "\u{b0}"),
+            "" => matches!(unit, "" | "none" | "-"),
+            _ => unit == wanted,
+        };
+        match value.parse::<f64>().ok().filter(|v| v.is_finite() && same) {
+            Some(number) => Ok(Some(number)),
+            None => Err(RexsError::Value {
+                gear: self.id.to_owned(),
+                attribute,
+                value: value.to_owned(),
+                unit: unit.to_owned(),
+                wanted: if wanted.is_empty() { "no unit" } else { wanted },
+            }),
+        }
+    }
+
+    fn needed(&self, attribute: &'static str, unit: &'static str) -> Result<f64, RexsError> {
+        self.number(attribute, unit)?.ok_or_else(|| RexsError::Missing { gear: self.id.to_owned(), attribute })
+    }
+
+    fn vector(&self, name: &str) -> Option<[f64; 3]> {
+        let array = self.attribute(name)?.children().find(|n| n.has_tag_name("array"))?;
+        let values: Vec<f64> = array.children().filter_map(|n| n.text()?.trim().parse().ok()).collect();
+        values.try_into().ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stage as the standard's pages describe it, gears 27 : 51 at a distance of 190 mm.
+    const MODEL: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<model version="1.4" applicationId="Test" applicationVersion="1">
+ <relations>
+  <relation id="1" type="stage"><ref id="9" role="stage" hint="cylindrical_stage"/><ref id="5" role="gear_1"/><ref id="7" role="gear_2"/></relation>
+  <relation id="2" type="flank"><ref id="5" role="gear"/><ref id="48" role="left"/></relation>
+ </relations>
+ <components>
+  <component id="5" type="cylindrical_gear">
+   <attribute id="number_of_teeth" unit="">27</attribute><attribute id="normal_module" unit="mm">4.5</attribute>
+   <attribute id="face_width" unit="mm">50</attribute><attribute id="helix_angle_reference_diameter" unit="deg">21</attribute>
+   <attribute id="u_axis_vector" unit="mm"><array><c>1</c><c>0</c><c>0</c></array></attribute>
+   <attribute id="support_vector" unit="mm"><array><c>40</c><c>0</c><c>0</c></array></attribute>
+  </component>
+  <component id="7" type="cylindrical_gear">
+   <attribute id="number_of_teeth" unit="">51</attribute><attribute id="normal_module" unit="mm">4.5</attribute>
+   <attribute id="face_width" unit="mm">48</attribute><attribute id="helix_angle_reference_diameter" unit="deg">-21</attribute>
+   <attribute id="support_vector" unit="mm"><array><c>47</c><c>0</c><c>-190</c></array></attribute>
+  </component>
+  <component id="48" type="cylindrical_gear_flank">
+   <attribute id="normal_pressure_angle" unit="deg">20</attribute><attribute id="addendum_modification_coefficient" unit="">0.23</attribute>
+  </component>
+ </components>
+</model>"#;
+
+    #[test]
+    fn a_stage_becomes_a_pair() {
+        let found = read_pair(MODEL, 1, &Starter::default()).unwrap();
+        assert_eq!((found.teeth, found.module_mm, found.helix_deg), ([27, 51], 4.5, 21.0));
+        assert_eq!((found.face_width_mm, found.profile_shift), (48.0, [0.23, 0.0]));
+        assert_eq!((found.pressure_angle_deg, found.centre_distance_mm), (Some(20.0), Some(190.0)));
+        assert_eq!((found.torque_nm, found.name.as_str()), (150.0, "Test, stage 1"));
+    }
+
+    /// Each fault is told with its place and a way out; a file cut off anywhere ends in a message.
+    #[test]
+    fn what_is_wrong_is_told() {
+        let said = |text: &str, stage| {
+            let error = read_pair(text, stage, &Starter::default()).expect_err("it is taken");
+            assert!(error.hint().is_some(), "{error}");
+            error.to_string()
+        };
+        assert_eq!(said(MODEL, 2), "has 1 cylindrical stages, stage 2 is wanted");
+        assert_eq!(said(MODEL, 0), "has 1 cylindrical stages, stage 0 is wanted");
+        assert_eq!(said("<other/>", 1), "is no REXS file: its root is <other>, not <model>");
+        let inch = MODEL.replace("unit=\"mm\">4.5", "unit=\"inch\">4.5");
+        assert_eq!(said(&inch, 1), "gear 5: `normal_module` is 4.5 inch, wanted is a number in mm");
+        let none = MODEL.replacen("number_of_teeth", "teeth", 1);
+        assert_eq!(said(&none, 1), "gear 5 has no `number_of_teeth`");
+        assert_eq!(
+            said(&MODEL.replace(">-21<", ">21<"), 1),
+            "the gears differ in helix angle of opposite hand: 21 and -21"
+        );
+        for at in (0..MODEL.len() - 8).step_by(7) {
+            assert!(read_pair(&MODEL[..at], 1, &Starter::default()).is_err(), "cut at {at}");
+        }
+    }
+}

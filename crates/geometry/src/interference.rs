@@ -1,0 +1,56 @@
+//! Whether a tip runs into the fillet of the other gear.
+
+use std::f64::consts::PI;
+
+use crate::{Gear, GearPair};
+
+/// Positions at which the tip edge is looked at on its way through the tooth space.
+const SAMPLES: u32 = 240;
+
+impl GearPair {
+    /// Largest depth (mm, arc in the transverse section) to which the mate's tip edge enters a tooth of the pinion (0) or the wheel (1),
+    /// driving flanks touching along the line of action; 0: it passes free.
+    ///
+    /// ```text
+    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]      s from the tip's contact onwards
+    /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
+    /// ```
+    /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out again.
+    pub fn interference(&self, gear: usize) -> f64 {
+        let (own, mate) = if gear == 0 { (&self.pinion, &self.wheel) } else { (&self.wheel, &self.pinion) };
+        let (rb, rb_mate, a) = (own.base_radius(), mate.base_radius(), self.centre_distance());
+        let a_wt = self.working_pressure_angle();
+        // Roll angle of this gear where the mate's tip touches; negative beyond the tangent point.
+        let touch = (self.tangent_length() - rb_mate * mate.profile().roll_tip()) / rb;
+        let (sin, cos) = a_wt.sin_cos();
+        let contact = [rb * (cos + touch * sin), rb * (sin - touch * cos)];
+        let start = contact[1].atan2(contact[0] - a);
+        let centre_line = a_wt - touch + own.profile().base_half_angle();
+        // From a little before the tip touches until the corner is well past the line of centres.
+        let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
+        let depth = |k: u32| {
+            let turn = to_centres * (2.5 * f64::from(k) / f64::from(SAMPLES) - 0.25);
+            let (s, c) = (start + turn).sin_cos();
+            let (x, y) = (a + mate.tip_radius() * c, mate.tip_radius() * s);
+            let radius = x.hypot(y);
+            let angle = y.atan2(x) + turn * rb_mate / rb;
+            let off = (angle - centre_line + PI).rem_euclid(2.0 * PI) - PI;
+            radius * (half_angle(own, radius) - off.abs())
+        };
+        (0..=SAMPLES).map(depth).fold(0.0, f64::max)
+    }
+}
+
+/// Half tooth angle at a radius (mm), on the involute or on the fillet; negative beyond the tip and below the root.
+fn half_angle(gear: &Gear, radius: f64) -> f64 {
+    let profile = gear.profile();
+    if radius > gear.tip_radius() || radius < profile.fillet(0.0).0 {
+        return -PI;
+    }
+    if radius >= gear.form_radius() {
+        let u = ((radius / gear.base_radius()).powi(2) - 1.0).max(0.0).sqrt();
+        return profile.half_angle(u);
+    }
+    let t = crate::profile::bisect(0.0, 1.0, |t| radius - profile.fillet(t).0);
+    profile.fillet(t).1
+}
