@@ -13,6 +13,7 @@
 //! KEY of a `.json` file: names joined by dots, numbers for places in a list. Of a `.csv` file: `max:COLUMN`, `min:COLUMN`, or
 //! `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER` behind it: among the rows that have this.
 #![cfg(unix)] // the commands are a shell's
+#![allow(clippy::print_stdout, reason = "says which steps were left out")]
 
 mod markdown;
 mod quantities;
