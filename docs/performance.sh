@@ -15,6 +15,11 @@ if [ "${1:-}" != --benches ]; then
         done
         cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
     done
+    out=out/chart-motion
+    "$program" chart --methods scenes/motion.toml --out "$out" --into docs/performance.md
+    for kind in svg png csv; do
+        cp "$out/motion_precision.$kind" "docs/performance/helical-30x30-beta20-motion.$kind"
+    done
 fi
 
 # Puts what a bench prints between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/performance.md.

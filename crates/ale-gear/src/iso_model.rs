@@ -1,4 +1,4 @@
-//! The model `iso`: ISO 6336-1 stiffness, load spread evenly over the analytic contact lines. No mesh.
+//! The model `iso`: ISO 6336-1 stiffness, load spread evenly over the analytic contact lines. No mesh. Theory (24).
 
 use std::f64::consts::PI;
 

@@ -85,3 +85,22 @@ fn words_of_the_chart_are_checked_before_any_work() {
     }
     assert_eq!(scratch.names(), ["a.toml", "page.md"]);
 }
+
+/// Every method with every step has its row; those of second order come nearer to the reference with smaller steps, and a scene at rest has no methods.
+#[test]
+fn methods_of_integration_have_their_chart() {
+    let scratch = Scratch::new().file("a.toml", util::motion_scene(1, "")).file("rest.toml", ISO_SCENE);
+    let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", "--methods", "--quick"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let csv = scratch.read("o/motion_precision.csv");
+    let rows: Vec<Vec<String>> = csv.lines().skip(1).map(fields).collect();
+    assert_eq!(rows.len(), 4 * 4, "{csv}");
+    for method in ["energy", "generalised-alpha", "newmark"] {
+        let errors: Vec<f64> = rows.iter().filter(|r| r[0] == method).map(|r| r[2].parse().unwrap()).collect();
+        assert!(errors[3] < 0.5 * errors[1] && errors[3] < 0.5, "{method}: {errors:?} um");
+    }
+    assert!(scratch.read("o/motion_precision.svg").contains("Error against step"));
+    let refused = scratch.ale_gear(["chart", "rest.toml", "--out", "p", "--methods"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("`--methods` is for an analysis in time"), "{}", refused.stderr);
+}

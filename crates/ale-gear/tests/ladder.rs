@@ -289,7 +289,7 @@ fn what_means_nothing_is_refused() {
         ),
         (
             "003",
-            ("method = \"newmark\"", "method = \"newmark\"\nmesh_damping_ratio = 0.1"),
+            ("method = \"energy\"", "method = \"energy\"\nmesh_damping_ratio = 0.1"),
             "`mesh_damping_ratio` means nothing",
         ),
         ("001", ("slices = 33", "friction = 0.1"), "`friction` means nothing to the model \"impact\""),

@@ -1,4 +1,4 @@
-//! Generalised coordinates at a tooth change.
+//! Generalised coordinates at a tooth change. Theory (15).
 
 use reduction::{GearReducer, Window};
 

@@ -1,4 +1,4 @@
-//! The window of tooth pairs.
+//! The window of tooth pairs. Theory (14).
 
 use crate::AleError;
 

@@ -1,4 +1,5 @@
 //! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are taken away.
+//! Theory (36).
 
 use faer::MatRef;
 

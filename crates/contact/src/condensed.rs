@@ -1,4 +1,4 @@
-//! Two elastic bodies known by the compliance of their boundary nodes.
+//! Two elastic bodies known by the compliance of their boundary nodes. Theory (18).
 
 use faer::{Mat, MatRef, Side, linalg::solvers::Solve};
 

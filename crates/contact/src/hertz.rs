@@ -1,4 +1,4 @@
-//! Hertzian line contact in closed form.
+//! Hertzian line contact in closed form. Theory (22).
 
 use std::f64::consts::PI;
 

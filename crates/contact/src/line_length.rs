@@ -1,4 +1,4 @@
-//! Length of a contact line from the contact state.
+//! Length of a contact line from the contact state. Theory (21).
 
 /// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at height z, is
 /// at most `tolerance`.

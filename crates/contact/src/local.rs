@@ -1,4 +1,4 @@
-//! Local compliance of a line contact: what the mesh of a gear is too coarse to know.
+//! Local compliance of a line contact: what the mesh of a gear is too coarse to know. Theory (19c).
 
 mod edge;
 mod end_face;
@@ -94,6 +94,7 @@ impl LocalContact {
                 tip_gradient: body.tip_gradient,
                 tip_distance: body.tip_distance,
                 ends: body.ends.map(|face| end_face::Softening::new(&face, body.poisson, body.depth)),
+                face_distance: body.ends[0].distance.min(body.ends[1].distance),
             }
         });
         LocalLaw { modulus, radius: self.radius, bodies }
@@ -128,14 +129,15 @@ pub struct LocalLaw {
     bodies: [BodyLaw; 2],
 }
 
-/// Slope of R over K_1 + K_2 below which R goes with the square of the half-width.
-const STRAIGHT: f64 = 3e-4;
+/// Distances from edges and end faces, in radii of curvature (the half-width is 2 p / E* of it, a fortieth), from which on what they add goes with the square of the half-width.
+const FAR_EDGE: f64 = 0.5;
+const FAR_FACE: f64 = 0.2;
 /// Points and weights on 0 .. 1 that integrate x times any cubic, and four orders more, exactly (Gauss and Jacobi; Abramowitz and Stegun, table 25.8).
 const JACOBI: [(f64, f64); 4] = [
-    (0.139_759_864_343_780_55, 0.031_180_970_950_008_082),
+    (0.139_759_864_343_780_55, 0.031_180_970_950_008_08),
     (0.416_409_567_631_083_2, 0.129_847_547_608_232_44),
     (0.723_156_986_361_876_2, 0.203_464_568_010_271_36),
-    (0.942_895_803_885_482_3, 0.135_506_913_431_488_11),
+    (0.942_895_803_885_482_3, 0.135_506_913_431_488_1),
 ];
 
 /// One body's part of it.
@@ -151,6 +153,8 @@ struct BodyLaw {
     tip_gradient: f64,
     tip_distance: f64,
     ends: [end_face::Softening; 2],
+    /// Of the nearer end face, mm.
+    face_distance: f64,
 }
 
 impl LocalLaw {
@@ -183,14 +187,22 @@ impl LocalLaw {
         let a = hertz::half_width(load, self.radius, self.modulus);
         let both = self.bodies[0].softness + self.bodies[1].softness;
         let (value, growth) = self.bracket(a);
-        let rest = growth + both;
-        let of_rest = if rest.abs() < STRAIGHT * both {
-            -rest / 12.0
+        let of_rest = if self.is_far() {
+            -(growth + both) / 12.0
         } else {
             let added = |x: f64| self.bracket(a * x.sqrt()).0 - value + 0.5 * both * x.ln();
             JACOBI.iter().map(|(x, w)| w * added(*x)).sum()
         };
         -load * load * (both / 8.0 + of_rest)
+    }
+
+    /// Whether edges and faces are many half-widths away under any load that steel stands.
+    fn is_far(&self) -> bool {
+        let far = |body: &BodyLaw| {
+            let off_edge = body.eta == 0.0 || body.edge.flank_left() > FAR_EDGE * self.radius;
+            off_edge && body.face_distance > FAR_FACE * self.radius
+        };
+        self.bodies.iter().all(far)
     }
 
     /// A load so small that it does not matter, N/mm: the compliance of a vanishing one is infinite, if only as a logarithm.

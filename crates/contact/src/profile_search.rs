@@ -1,4 +1,4 @@
-//! Where along the profile two flanks are nearest at a height of body 1.
+//! Where along the profile two flanks are nearest at a height of body 1. Theory (35).
 
 use nalgebra::{Matrix3, Vector3};
 

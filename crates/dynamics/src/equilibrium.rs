@@ -1,4 +1,4 @@
-//! Torque equilibrium at one station.
+//! Torque equilibrium at one station. Theory (20).
 
 use ale::ToothWindow;
 use contact::{ContactError, ContactRow, Pose, Slice, Solution};

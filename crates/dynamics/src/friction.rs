@@ -1,4 +1,4 @@
-//! Coulomb friction on the quasi-static contact.
+//! Coulomb friction on the quasi-static contact. Theory (19e).
 
 use contact::{ContactRow, Pose, Vec3};
 use geometry::GearPair;

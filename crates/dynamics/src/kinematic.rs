@@ -1,4 +1,4 @@
-//! The unloaded pair: where modified, misaligned flanks just touch.
+//! The unloaded pair: where modified, misaligned flanks just touch. Theory (32), (33).
 
 use contact::{Pose, SurfacePair, Vec3, contact_intervals, covered};
 use geometry::{Gear, GearPair, ModifiedFlank};

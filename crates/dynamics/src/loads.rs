@@ -1,4 +1,4 @@
-//! From a solved contact to the quantities of a station.
+//! From a solved contact to the quantities of a station. Theory (34).
 
 use contact::{ContactRow, Pose, Slice, Vec3, covered, hertz};
 use geometry::Side;

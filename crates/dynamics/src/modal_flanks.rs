@@ -1,4 +1,4 @@
-//! Normal modes of both gears as the slices of a window see them.
+//! Normal modes of both gears as the slices of a window see them. Theory (61).
 
 use contact::{ContactRow, DenseSolver, TablePlace, opening};
 use faer::Mat;

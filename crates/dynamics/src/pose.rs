@@ -1,4 +1,4 @@
-//! Where the gears stand: rigid offsets of their axes, and the wheel angle that transmission error counts from.
+//! Where the gears stand: rigid offsets of their axes, and the wheel angle that transmission error counts from. Theory (30), (31).
 
 use contact::{Pose, Vec3};
 use geometry::{GearPair, Side};

@@ -1,4 +1,4 @@
-//! One sparse Cholesky factor that holds the condensed stiffness, the compliance and the constraint modes.
+//! One sparse Cholesky factor that holds the condensed stiffness, the compliance and the constraint modes. Theory (13).
 //!
 //! With the interior I eliminated first and the boundary B last, `K = L L'` reads
 //!

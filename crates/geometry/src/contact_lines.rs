@@ -1,4 +1,4 @@
-//! Contact lines in the plane of action.
+//! Contact lines in the plane of action. Theory (10).
 
 use crate::{GearPair, Side};
 

@@ -1,4 +1,4 @@
-//! Involute helicoid: the exact flank surface.
+//! Involute helicoid: the exact flank surface. Theory (7), (8), (9).
 
 use std::f64::consts::PI;
 

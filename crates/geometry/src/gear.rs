@@ -1,4 +1,4 @@
-//! One gear: derived quantities, flanks and section.
+//! One gear: derived quantities, flanks and section. Theory (1), (2), (3), (27).
 
 use std::{f64::consts::PI, sync::Arc};
 

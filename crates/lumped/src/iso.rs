@@ -1,4 +1,4 @@
-//! Tooth and mesh stiffness after ISO 6336-1, method B: the cheapest model of a pair.
+//! Tooth and mesh stiffness after ISO 6336-1, method B: the cheapest model of a pair. Theory (23).
 //!
 //! Stiffness is stated per mm of face width, in N/(mm um), as the standard does.
 

@@ -15,14 +15,14 @@ pub use error::RecordError;
 pub use key::{RecordKey, record_key};
 
 /// Version of the file format and of what the numbers in it mean; another one is never read.
-pub const RECORD_VERSION: u32 = 1;
+pub const RECORD_VERSION: u32 = 2;
 
 /// First bytes of a file.
 const MAGIC: [u8; 16] = *b"ale-gear reduced";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its windows, half teeth. Not the factor, which [`crate::GearReducer::from_record`] makes again when
+/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the factor, which [`crate::GearReducer::from_record`] makes again when
 /// displacement fields or stress modes are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
@@ -34,11 +34,13 @@ const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 /// | 32 | [`RecordKey`]: BLAKE3 of everything that the numbers depend on |
 /// | 8 | length of the payload |
 /// | 32 | BLAKE3 of all bytes above and the payload |
-/// | .. | payload: how it was condensed; windows; half teeth |
+/// | .. | payload: how it was condensed; lowest frequency; windows; half teeth |
 #[derive(Debug, Clone)]
 pub struct ReductionRecord {
     /// How it was condensed.
     pub(crate) summary: Summary,
+    /// Lowest frequency with the bore held and the flanks free, Hz, if it was asked for.
+    pub(crate) lowest_hz: Option<f64>,
     /// Windows; of a cyclic gear one alone.
     pub(crate) windows: Vec<Arc<ReducedGear>>,
     /// Half teeth by tooth and side.

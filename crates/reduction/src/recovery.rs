@@ -1,6 +1,6 @@
 //! From a window's coordinates to fields, mass and stress of the gear.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method};
@@ -13,41 +13,67 @@ impl GearReducer {
     /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from coordinates: a grid with
     /// more nodes than the mesh can tell apart.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
-        self.field(window, u, None)
+        Ok(self.field(window, &[u], None)?.pop().unwrap_or_default())
     }
 
-    /// The same at some nodes of the mesh, in their order: of a cyclic gear only the sectors that hold them are gone through.
+    /// The same at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear only the sectors that hold the nodes
+    /// are gone through, and the factor once for all.
     ///
     /// # Errors
     /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.
-    pub fn expand_at(&self, window: &Window, u: &[f64], nodes: &[u32]) -> Result<Vec<[f64; 3]>, ReductionError> {
+    pub fn expand_at(
+        &self,
+        window: &Window,
+        u: &[&[f64]],
+        nodes: &[u32],
+    ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
         self.field(window, u, Some(nodes))
     }
 
-    fn field(&self, window: &Window, u: &[f64], nodes: Option<&[u32]>) -> Result<Vec<[f64; 3]>, ReductionError> {
+    fn field(
+        &self,
+        window: &Window,
+        u: &[&[f64]],
+        nodes: Option<&[u32]>,
+    ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
+        let n = window.reduced.coordinates();
+        u.iter().try_for_each(|u| check_length(window, u))?;
+        let columns = |of: &[&[f64]]| Mat::from_fn(n, of.len(), |i, j| of[j][i]);
+        let forces = || -> Result<Mat<f64>, ReductionError> {
+            let all = u.iter().map(|u| self.forces(window, u)).collect::<Result<Vec<_>, _>>()?;
+            Ok(Mat::from_fn(n, all.len(), |i, j| all[j][i]))
+        };
         match self.method()? {
-            Method::Cyclic(cyclic) => cyclic.expand(&self.forces(window, u)?, window.shift, nodes),
+            Method::Cyclic(cyclic) => cyclic.expand(forces()?.as_ref(), window.shift, nodes),
             Method::General(general, turn) => {
-                let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
-                let field = if self.is_last(window) {
-                    check_length(window, u)?;
-                    general.fields(Seen::Last, &column(u), &column(&[]))?
+                let fields = if self.is_last(window) {
+                    general.fields(Seen::Last, &columns(u), &Mat::zeros(0, u.len()))?
                 } else {
-                    let f = self.forces(window, u)?;
-                    general.fields(Seen::Loads(&self.loads(window)?), &column(u), &column(&f))?
+                    general.fields(Seen::Loads(&self.loads(window)?), &columns(u), &forces()?)?
                 };
-                let field = self.dofs.to_nodes(field.col_as_slice(0))?;
-                let field = match turn {
-                    Some(turn) if window.shift > 0 => self.turned(window, &field, turn),
-                    _ => field,
-                };
-                let Some(nodes) = nodes else { return Ok(field) };
-                let count = field.len();
-                let wrong = |n: u32| fem::FemError::Shape { what: "nodes", expected: count, found: n as usize };
-                let at = |&n: &u32| field.get(n as usize).copied().ok_or_else(|| wrong(n));
-                Ok(nodes.iter().map(at).collect::<Result<_, _>>()?)
+                (0..u.len()).map(|j| self.some_of(window, fields.col_as_slice(j), turn.as_ref(), nodes)).collect()
             }
         }
+    }
+
+    /// Nodes (`None`: all) of a field of the whole gear on its free degrees of freedom.
+    fn some_of(
+        &self,
+        window: &Window,
+        field: &[f64],
+        turn: Option<&PitchTurn>,
+        nodes: Option<&[u32]>,
+    ) -> Result<Vec<[f64; 3]>, ReductionError> {
+        let field = self.dofs.to_nodes(field)?;
+        let field = match turn {
+            Some(turn) if window.shift > 0 => self.turned(window, &field, turn),
+            _ => field,
+        };
+        let Some(nodes) = nodes else { return Ok(field) };
+        let count = field.len();
+        let wrong = |n: u32| fem::FemError::Shape { what: "nodes", expected: count, found: n as usize };
+        let at = |&n: &u32| field.get(n as usize).copied().ok_or_else(|| wrong(n));
+        Ok(nodes.iter().map(at).collect::<Result<_, _>>()?)
     }
 
     /// A field of the whole gear, moved on by the window's shift.

@@ -1,4 +1,4 @@
-//! One condensation a gear, any window of it.
+//! One condensation a gear, any window of it. Theory (11), (12).
 
 use std::{
     collections::BTreeMap,
@@ -12,7 +12,7 @@ use geometry::{Gear, Side};
 use mesh::{Face, GearMesh};
 
 use crate::{
-    FlankGrid, FlankGrids, HalfTooth, ReducedGear, ReductionError, ReductionRecord, Window,
+    FlankGrid, FlankGrids, HalfTooth, ModeChoice, ReducedGear, ReductionError, ReductionRecord, Window,
     cyclic::{CyclicGear, PitchTurn, SectorMesh},
     general::{GeneralGear, Seen},
     load::{Coordinates, Load, missing},
@@ -73,8 +73,10 @@ pub struct GearReducer {
     coordinates: Coordinates,
     summary: Summary,
     method: OnceLock<Result<Method, ReductionError>>,
-    /// Further windows and half teeth that came from a record, so many.
-    recorded: Option<[usize; 2]>,
+    /// Lowest frequency with the bore held and the flanks free, Hz, once it was asked for.
+    lowest: OnceLock<f64>,
+    /// Further windows, half teeth and frequencies that came from a record, so many.
+    recorded: Option<[usize; 3]>,
     pub(crate) base: Arc<ReducedGear>,
     others: Mutex<BTreeMap<u32, Arc<ReducedGear>>>,
     halves: Mutex<BTreeMap<(u32, Side), Arc<HalfTooth>>>,
@@ -201,8 +203,22 @@ impl GearReducer {
             }
         };
         let method = OnceLock::from(Ok(method));
-        let (given, recorded) = (None, None);
-        Self { gear, given, material, options, dofs, coordinates, summary, method, recorded, base, others, halves }
+        let (given, recorded, lowest) = (None, None, OnceLock::new());
+        Self {
+            gear,
+            given,
+            material,
+            options,
+            dofs,
+            coordinates,
+            summary,
+            method,
+            lowest,
+            recorded,
+            base,
+            others,
+            halves,
+        }
     }
 
     /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of ([`crate::record_key`]
@@ -216,7 +232,7 @@ impl GearReducer {
         options: ReductionOptions,
         record: ReductionRecord,
     ) -> Result<Self, ReductionError> {
-        let ReductionRecord { summary, windows, halves } = record;
+        let ReductionRecord { summary, lowest_hz, windows, halves } = record;
         let first = options.first % gear.tooth_count().max(1);
         let by_first = windows.into_iter().filter_map(|w| Some((w.teeth.first().copied()?, w)));
         let mut others: BTreeMap<u32, Arc<ReducedGear>> = by_first.collect();
@@ -234,23 +250,52 @@ impl GearReducer {
             None => (gear, None),
         };
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
-        let recorded = Some([others.len(), halves.len()]);
+        let recorded = Some([others.len(), halves.len(), usize::from(lowest_hz.is_some())]);
+        let lowest = lowest_hz.map_or_else(OnceLock::new, OnceLock::from);
         let (others, halves) = (Mutex::new(others), Mutex::new(halves.into_iter().collect()));
         let (coordinates, method) = (Coordinates::FlankNodes, OnceLock::new());
-        Ok(Self { gear, given, material, options, dofs, coordinates, summary, method, recorded, base, others, halves })
+        Ok(Self {
+            gear,
+            given,
+            material,
+            options,
+            dofs,
+            coordinates,
+            summary,
+            method,
+            lowest,
+            recorded,
+            base,
+            others,
+            halves,
+        })
     }
 
-    /// What a later run needs of this gear: the windows and half teeth that were asked for so far. `None` when a record has
+    /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far. `None` when a record has
     /// it all already, and for a gear reduced to grids.
     pub fn record(&self) -> Option<ReductionRecord> {
         let others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
         let halves = self.halves.lock().unwrap_or_else(PoisonError::into_inner);
-        let new = self.recorded != Some([others.len(), halves.len()]);
+        let lowest_hz = self.lowest.get().copied();
+        let new = self.recorded != Some([others.len(), halves.len(), usize::from(lowest_hz.is_some())]);
         (new && self.coordinates.are_nodes()).then(|| ReductionRecord {
             summary: self.summary,
+            lowest_hz,
             windows: std::iter::once(&self.base).chain(others.values()).cloned().collect(),
             halves: halves.iter().map(|(&flank, half)| (flank, half.clone())).collect(),
         })
+    }
+
+    /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for one that has no freedom. Found once; a record keeps it.
+    ///
+    /// # Errors
+    /// As [`GearReducer::modes`].
+    pub fn lowest_elastic_hz(&self) -> Result<f64, ReductionError> {
+        if let Some(hz) = self.lowest.get() {
+            return Ok(*hz);
+        }
+        let hz = self.modes(ModeChoice::Count(1))?.frequencies_hz().first().copied().unwrap_or(f64::INFINITY);
+        Ok(*self.lowest.get_or_init(|| hz))
     }
 
     /// Whether the gear came from a record.

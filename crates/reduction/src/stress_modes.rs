@@ -1,4 +1,4 @@
-//! Stress modes: stress at chosen nodes straight from a window's boundary coordinates.
+//! Stress modes: stress at chosen nodes straight from a window's boundary coordinates. Theory (22a), (22b).
 
 use faer::Mat;
 

@@ -94,14 +94,20 @@ fn compare(name: &str, mesh: GearMesh, exact: &Gear, options: &ReductionOptions)
         assert_eq!(v.shift, w.shift, "{name}, tooth {first}");
         let fields = [cyclic.expand(&v, &u).unwrap(), general.expand(&w, &u).unwrap()];
         field = field.max(field_off(&fields[0], &fields[1]));
-        // Some nodes alone, in any order, are those of the whole field.
+        // Some nodes alone, in any order, for several displacements at once, are those of the whole field.
         let some: Vec<u32> = (0..fields[0].len() as u32).rev().step_by(17).collect();
-        for (all, found) in fields.iter().zip([cyclic.expand_at(&v, &u, &some), general.expand_at(&w, &u, &some)]) {
-            let wanted: Vec<[f64; 3]> = some.iter().map(|&n| all[n as usize]).collect();
-            let off = field_off(&found.unwrap(), &wanted);
-            assert!(off < 1e-12, "{name}, tooth {first}: some nodes differ from all by {off:e}");
+        let twice: Vec<f64> = u.iter().map(|x| 2.0 * x).collect();
+        let several = [&u[..], &twice];
+        for (all, found) in
+            fields.iter().zip([cyclic.expand_at(&v, &several, &some), general.expand_at(&w, &several, &some)])
+        {
+            for (factor, found) in [1.0, 2.0].into_iter().zip(found.unwrap()) {
+                let wanted: Vec<[f64; 3]> = some.iter().map(|&n| all[n as usize].map(|x| factor * x)).collect();
+                let off = field_off(&found, &wanted);
+                assert!(off < 1e-11, "{name}, tooth {first}: some nodes differ from all by {off:e}");
+            }
         }
-        assert!(cyclic.expand_at(&v, &u, &[u32::MAX]).is_err(), "{name}: a node that the mesh does not have");
+        assert!(cyclic.expand_at(&v, &several, &[u32::MAX]).is_err(), "{name}: a node that the mesh does not have");
         let from = [&cyclic, &general].map(|r| r.window(options.first + 2).unwrap());
         let x = cyclic.carry(&from[0], &v, &u).unwrap();
         let y = general.carry(&from[1], &w, &u).unwrap();

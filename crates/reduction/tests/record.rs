@@ -83,6 +83,23 @@ fn a_record_comes_back_to_the_bit() {
     assert!(stored.record().is_some());
 }
 
+/// The lowest frequency that a run has asked for is in the record: a later run knows it, and has nothing new to write.
+#[test]
+fn the_lowest_frequency_is_kept() {
+    let sample = Sample::new();
+    let reducer = sample.reducer();
+    let hz = reducer.lowest_elastic_hz().unwrap();
+    assert!((1e3..1e5).contains(&hz), "{hz} Hz");
+    let bytes = reducer.record().unwrap().to_bytes(&sample.key());
+    let stored = sample.stored(ReductionRecord::from_bytes(&bytes, &sample.key()).unwrap());
+    assert_eq!(stored.lowest_elastic_hz().unwrap().to_bits(), hz.to_bits());
+    assert!(stored.record().is_none(), "nothing new to write");
+    // Of a gear that was never asked it is something new.
+    let plain = sample.stored(sample.reducer().record().unwrap());
+    plain.lowest_elastic_hz().unwrap();
+    assert!(plain.record().is_some());
+}
+
 /// Every byte of the header and a thousand others, each with one bit turned; every length; other files.
 #[test]
 fn no_damage_goes_unnoticed() {

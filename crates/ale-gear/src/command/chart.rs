@@ -6,7 +6,11 @@ use super::overrides::Overrides;
 use crate::{
     chart::{ChartOptions, chart, point_count},
     error::CommandError,
-    output::{ResultDirectory, chart_tables, svg_to_png, work_precision_svg, write_chart_csv},
+    motion::precision,
+    output::{
+        ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
+        work_precision_svg, write_chart_csv,
+    },
     phases::Phases,
     scene::Scene,
 };
@@ -21,7 +25,10 @@ pub(super) struct ChartArgs {
     out: PathBuf,
     #[command(flatten)]
     overrides: Overrides,
-    /// Coarse meshes and few positions: less than a minute
+    /// Methods of integration of a scene in time instead: error against step and wall time
+    #[arg(long, conflicts_with = "motion")]
+    methods: bool,
+    /// Coarse meshes and few positions, or steps that are not small: less than a minute
     #[arg(long)]
     quick: bool,
     /// Run the models in motion at the scene's torque and speed as well
@@ -48,6 +55,9 @@ impl ChartArgs {
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
         }
+        if self.methods && scene.motion.is_none() {
+            return Err(self.not_in_time());
+        }
         let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
             ChartOptions::quick(self.limit_s)
@@ -63,16 +73,20 @@ impl ChartArgs {
         let (scene, options) = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
         let mut phases = Phases::with_bars();
+        let quick = if self.quick { " --quick" } else { "" };
+        let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
+        if self.methods {
+            let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
+            return self.of_methods(&scene, &mut phases, results, &command);
+        }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
             chart(&scene, &options, &results, |what| {
                 progress.say(what);
                 progress.tick();
             })
         })?;
-        let quick = if self.quick { " --quick" } else { "" };
-        let quick = if self.motion { format!("{quick} --motion") } else { quick.to_owned() };
-        let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
-        let command = format!("ale-gear chart {} --out DIR{quick}{set}", self.scene.display());
+        let motion = if self.motion { " --motion" } else { "" };
+        let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
@@ -85,6 +99,37 @@ impl ChartArgs {
             put_into(file, &scene.name, &tables)?;
         }
         Ok(format!("{tables}\nresults: {}\n", self.out.display()))
+    }
+}
+
+impl ChartArgs {
+    fn not_in_time(&self) -> CommandError {
+        let what = format_args!("{}: `--methods` is for an analysis in time", self.scene.display());
+        CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into()))
+    }
+
+    /// The methods of integration of a scene in time.
+    fn of_methods(
+        &self,
+        scene: &Scene,
+        phases: &mut Phases,
+        results: ResultDirectory,
+        command: &str,
+    ) -> Result<String, CommandError> {
+        let words = scene.motion.as_ref().ok_or_else(|| self.not_in_time())?;
+        let found = precision(scene, words, phases, self.quick)?;
+        let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
+        let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
+        let table = motion_precision_table(&found, command);
+        results.write("motion_precision.csv", motion_precision_csv(&found).as_bytes())?;
+        results.write("motion_precision.svg", svg.as_bytes())?;
+        results.write("motion_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
+        results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
+        results.finish()?;
+        if let Some(file) = &self.into {
+            put_into(file, &scene.name, &table)?;
+        }
+        Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }
 

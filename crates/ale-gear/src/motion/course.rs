@@ -218,7 +218,7 @@ fn record(
 
 fn judge(course: &mut CourseState, motion: &Motion, swing: &Swing, tolerance: f64) -> Periodicity {
     let free = motion.system().coordinates().driver_turn();
-    let found = course.returns.judge(motion.state(), swing, &motion.settings().scale, free, tolerance);
+    let found = course.returns.judge(motion.state(), swing, &motion.returning(), free, tolerance);
     course.periodicity = Some(found);
     found
 }

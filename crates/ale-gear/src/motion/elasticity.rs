@@ -127,7 +127,7 @@ fn vibration(
     words: Option<&ModesScene>,
 ) -> Result<(f64, Option<GearVibration>), ReductionError> {
     let first = |modes: &GearModes| modes.frequencies_hz().first().copied();
-    let lowest = || Ok::<_, ReductionError>(first(&reducer.modes(ModeChoice::Count(1))?).unwrap_or(f64::INFINITY));
+    let lowest = || reducer.lowest_elastic_hz();
     let Some(words) = words else { return Ok((lowest()?, None)) };
     let choice = match (words.below_hz, words.count) {
         (Some(hz), _) => ModeChoice::Below { hz },

@@ -10,6 +10,7 @@
 //! | `rows`, `table` | files of rows, written on the way and read back at the end |
 //! | `store` | checkpoints on disk |
 //! | `sweep` | steady states over speed |
+//! | `precision` | step sizes against errors of every method |
 //! | `headline`, `spectra` | what is read off the rows |
 
 mod course;
@@ -17,6 +18,7 @@ mod elasticity;
 mod headline;
 mod options;
 mod pattern;
+mod precision;
 mod prepare;
 mod rows;
 mod spectra;
@@ -36,6 +38,7 @@ use store::{CheckpointFolder, Stored};
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
+pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use sweep::{SweepHeadline, SweepRow};

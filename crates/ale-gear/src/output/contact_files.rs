@@ -54,5 +54,5 @@ pub(crate) fn write_patterns(
     if let Some(svg) = &picture {
         results.write("contact_pattern.svg", svg.as_bytes())?;
     }
-    Ok(picture.map(|svg| contact_pattern_figure(&svg, &patterns)))
+    Ok(picture.map(|svg| contact_pattern_figure(&svg, patterns)))
 }

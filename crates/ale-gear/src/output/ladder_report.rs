@@ -66,7 +66,7 @@ fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<Stri
     let first = x.len().saturating_sub(SHOWN_CYCLES * of.per_cycle);
     let begin = time.get(first).copied().unwrap_or(0.0);
     let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
-    let curve = Curve { label: name.replace('_', " "), points: points };
+    let curve = Curve { label: name.replace('_', " "), points };
     line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
 }
 

@@ -1,11 +1,11 @@
 //! Displacement and root stress on the pieces of both gears, position by position.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use dynamics::{ElasticGear, StaticModel};
-use fem::ElementOptions;
 use rayon::prelude::*;
-use reduction::{GearReducer, ReductionWay, Window};
+use reduction::{ReductionWay, Window};
 
 use super::{
     Frame, GearView, Shape, View, WindowView, angles,
@@ -21,6 +21,8 @@ const BYTES: usize = 2_400_000;
 /// Positions shown at least, and at most where each takes a solve with the factor of a whole gear.
 const LEAST: usize = 4;
 const FEW: usize = 8;
+/// Positions that go through a factor at a time.
+const AT_A_TIME: usize = 8;
 /// Free degrees of freedom of a gear from the cache up to which its sector is condensed once more for the sake of fields.
 const CHEAP_AGAIN: usize = 300_000;
 
@@ -107,7 +109,8 @@ fn piece(positions: &[Recorded], model: &StaticModel, i: usize) -> Option<Piece>
 }
 
 fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, CommandError> {
-    let solved = all_fields(piece, positions.iter().map(|p| &p.gears[i]).collect(), gear)?;
+    let gears: Vec<&RecordedGear> = positions.iter().map(|p| &p.gears[i]).collect();
+    let solved = all_fields(piece, &gears, gear)?;
     let pressures: Vec<Vec<f64>> = positions.iter().filter_map(|p| pressure(piece, &p.gears[i])).collect();
     let nodes: Vec<f64> = piece.points.iter().flat_map(|&n| piece.mesh.nodes[n as usize]).collect();
     Ok(WindowView {
@@ -119,60 +122,62 @@ fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -
     })
 }
 
-/// The fields of all positions.
-///
-/// What the first one makes for all (factor, stiffness) is made before others run beside it: a thread that waits for it in one of them
-/// could otherwise take up another one that asks for the same.
+/// The fields of all positions: displacement (um, three a point) and first principal stress (MPa, NaN above the fillets) at the points.
 fn all_fields(
     piece: &Piece,
-    positions: Vec<&RecordedGear>,
+    positions: &[&RecordedGear],
     gear: &ElasticGear,
 ) -> Result<Vec<[Vec<f64>; 2]>, CommandError> {
-    let Some((first, rest)) = positions.split_first() else { return Ok(Vec::new()) };
-    let mut all = vec![field(piece, first, gear)?];
-    if is_general(gear) {
-        // Windows have a stiffness of their own.
-        for at in rest {
-            all.push(field(piece, at, gear)?);
-        }
-        return Ok(all);
+    let mut moved = Vec::with_capacity(positions.len());
+    // Neighbours in one window go through its factor together.
+    for group in positions.chunk_by(|a, b| shared_window(a, b)).flat_map(|g| g.chunks(AT_A_TIME)) {
+        moved.extend(displacements(piece, group, gear)?);
     }
-    let others: Result<Vec<_>, _> = rest.par_iter().map(|at| field(piece, at, gear)).collect();
-    all.extend(others?);
-    Ok(all)
+    moved.par_iter().map(|moved| field(piece, moved, gear)).collect()
 }
 
-/// Displacement (um, three a point) and first principal stress (MPa, NaN above the fillets) at the points of a piece.
-fn field(piece: &Piece, at: &RecordedGear, gear: &ElasticGear) -> Result<[Vec<f64>; 2], CommandError> {
-    let failed = |e: &reduction::ReductionError| CommandError::failed(e, e.hint());
-    let (moved, elements) = match (gear, &at.window) {
-        _ if at.displacements.is_empty() => (vec![[0.0; 3]; piece.nodes.len()], ElementOptions::default()),
+/// Whether two positions have loaded windows with the same matrices.
+fn shared_window(a: &RecordedGear, b: &RecordedGear) -> bool {
+    let same = a.window.as_ref().zip(b.window.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(&a.reduced, &b.reduced));
+    same && !a.displacements.is_empty() && !b.displacements.is_empty()
+}
+
+/// Displacement of the piece's nodes in the frame of the matrices (mm) at positions that share a window, or at one.
+fn displacements(
+    piece: &Piece,
+    group: &[&RecordedGear],
+    gear: &ElasticGear,
+) -> Result<Vec<Vec<[f64; 3]>>, CommandError> {
+    let Some(first) = group.first() else { return Ok(Vec::new()) };
+    match (gear, &first.window) {
+        _ if first.displacements.is_empty() => Ok(vec![vec![[0.0; 3]; piece.nodes.len()]; group.len()]),
         (ElasticGear::Reduced(r), Some(window)) => {
-            (moved(r, window, at, piece).map_err(|e| failed(&e))?, *r.elements())
+            let own = Window { reduced: window.reduced.clone(), shift: 0 };
+            let u: Vec<&[f64]> = group.iter().map(|at| &at.displacements[..]).collect();
+            r.expand_at(&own, &u, &piece.nodes).map_err(|e| CommandError::failed(&e, e.hint()))
         }
-        (ElasticGear::Reduced(_), None) => return Err(CommandError::failed("the window is lost", None)),
+        (ElasticGear::Reduced(_), None) => Err(CommandError::failed("the window is lost", None)),
         (ElasticGear::Full(f), _) => {
-            let all = f.dofs.to_nodes(&at.displacements).map_err(|e| CommandError::failed(&e, e.hint()))?;
-            (piece.nodes.iter().map(|&n| all[n as usize]).collect(), f.elements)
+            let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, CommandError> {
+                let all = f.dofs.to_nodes(&at.displacements).map_err(|e| CommandError::failed(&e, e.hint()))?;
+                Ok(piece.nodes.iter().map(|&n| all[n as usize]).collect())
+            };
+            group.iter().map(of).collect()
         }
+    }
+}
+
+fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], CommandError> {
+    let elements = match gear {
+        ElasticGear::Reduced(r) => r.elements(),
+        ElasticGear::Full(f) => &f.elements,
     };
-    let stress = fem::nodal_stress(&piece.mesh, gear.material(), &elements, &moved)
+    let stress = fem::nodal_stress(&piece.mesh, gear.material(), elements, moved)
         .map_err(|e| CommandError::failed(&e, e.hint()))?;
     let displacement = piece.points.iter().flat_map(|&n| moved[n as usize].map(|u| 1e3 * u)).collect();
     let root = piece.points.iter().zip(&piece.at_root);
     let stress = root.map(|(&n, at_root)| if *at_root { fem::max_principal(&stress[n as usize]) } else { f64::NAN });
     Ok([displacement, stress.collect()])
-}
-
-/// Displacement of the piece's nodes in the frame of the matrices, mm.
-fn moved(
-    gear: &GearReducer,
-    window: &Window,
-    at: &RecordedGear,
-    piece: &Piece,
-) -> Result<Vec<[f64; 3]>, reduction::ReductionError> {
-    let own = Window { reduced: window.reduced.clone(), shift: 0 };
-    gear.expand_at(&own, &at.displacements, &piece.nodes)
 }
 
 /// Pressure at the points, MPa, where nodes have one.

@@ -46,13 +46,20 @@ impl Scratch {
     }
 
     pub fn command(&self, words: &[&str]) -> Run {
+        self.run(Command::new(env!("CARGO_BIN_EXE_ale-gear")).args(words))
+    }
+
+    /// Commands as a user types them, `ale-gear` on the path; ends at the first that fails.
+    pub fn shell(&self, script: &str) -> Run {
+        let built = Path::new(env!("CARGO_BIN_EXE_ale-gear")).parent().unwrap().to_owned();
+        let others = std::env::var_os("PATH").unwrap_or_default();
+        let path = std::env::join_paths(std::iter::once(built).chain(std::env::split_paths(&others))).unwrap();
+        self.run(Command::new("sh").args(["-e", "-c", script]).env("PATH", path))
+    }
+
+    fn run(&self, command: &mut Command) -> Run {
         // No test reads or fills the user's own cache.
-        let output = Command::new(env!("CARGO_BIN_EXE_ale-gear"))
-            .current_dir(self.path())
-            .env("XDG_CACHE_HOME", self.1.path())
-            .args(words)
-            .output()
-            .unwrap();
+        let output = command.current_dir(self.path()).env("XDG_CACHE_HOME", self.1.path()).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }

@@ -22,7 +22,7 @@ impl DenseSolver {
         };
         let active = self.active.clone();
         let mut bodies = Bodies { problem: *problem, solver: Self::new(problem.gaps.len()) };
-        let solution = newton(&mut bodies, &rows, local, self.forces.clone(), active)?;
+        let solution = newton(&mut bodies, &rows, &local, self.forces.clone(), active)?;
         self.forces.copy_from_slice(&solution.forces);
         self.openings.copy_from_slice(&solution.openings);
         self.active = solution.active;
@@ -32,6 +32,7 @@ impl DenseSolver {
         let inner = bodies.solver;
         for &i in &self.active {
             self.slopes[i] = inner.slopes[i];
+            self.approach[i] = local(i, self.forces[i]).0;
         }
         self.factor(problem)
     }

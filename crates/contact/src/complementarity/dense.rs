@@ -1,10 +1,9 @@
-//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again.
+//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again. Theory (37).
 
-use dyn_stack::{MemBuffer, MemStack};
+use dyn_stack::MemBuffer;
 use faer::{
-    MatMut, MatRef, Par,
-    linalg::{cholesky::llt, lu::partial_pivoting as lu, triangular_solve},
-    perm::PermRef,
+    MatRef, Par,
+    linalg::{cholesky::llt, lu::partial_pivoting as lu},
 };
 
 use super::{TOLERANCE, pivots::PIVOT_TOLERANCE, tangent::RIGID};
@@ -276,54 +275,6 @@ impl DenseSolver {
                     let column = problem.compliance.col(i);
                     self.openings.iter_mut().zip(column.iter()).for_each(|(o, c)| *o += c * force);
                 }
-            }
-        }
-    }
-
-    /// Factor of S + diag(slopes) on the active rows.
-    pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
-        let m = self.active.len();
-        self.held = false;
-        self.factor.clear();
-        for &j in &self.active {
-            let column = problem.compliance.col(j);
-            self.factor.extend(self.active.iter().map(|&i| column[i]));
-        }
-        for (a, &i) in self.active.iter().enumerate() {
-            self.factor[a * (m + 1)] += self.slopes[i];
-        }
-        let matrix = MatMut::from_column_major_slice_mut(&mut self.factor, m, m);
-        let stack = MemStack::new(&mut self.scratch);
-        if self.symmetric {
-            llt::factor::cholesky_in_place(matrix, Default::default(), Par::Seq, stack, Default::default())
-                .map_err(|_| ContactError::NotPositiveDefinite { points: m })?;
-        } else {
-            let [forward, backward] = &mut self.permutation;
-            for list in [&mut *forward, &mut *backward] {
-                list.clear();
-                list.resize(m, 0);
-            }
-            lu::factor::lu_in_place(matrix, forward, backward, Par::Seq, stack, Default::default());
-        }
-        Ok(())
-    }
-
-    /// Solves with the factor for the first `columns` columns of `x`, m rows each.
-    pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
-        let factor = MatRef::from_column_major_slice(&self.factor, m, m);
-        if self.symmetric {
-            let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
-            triangular_solve::solve_lower_triangular_in_place(factor, x.as_mut(), Par::Seq);
-            triangular_solve::solve_upper_triangular_in_place(factor.transpose(), x, Par::Seq);
-        } else {
-            let [forward, backward] = &self.permutation;
-            // As many columns as the scratch memory is for.
-            for x in self.x[..m * columns].chunks_mut(m * RIGID) {
-                let columns = x.len() / m;
-                let x = MatMut::from_column_major_slice_mut(x, m, columns);
-                let permutation = PermRef::new_checked(forward, backward, m);
-                let stack = MemStack::new(&mut self.scratch);
-                lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
             }
         }
     }

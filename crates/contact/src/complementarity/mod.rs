@@ -1,4 +1,4 @@
-//! g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment.
+//! g >= 0, p >= 0, p g = 0 at every point, and a rotation that balances the moment. Theory (16), (17).
 //!
 //! ```text
 //! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
@@ -11,6 +11,7 @@
 
 mod careful;
 mod dense;
+mod factor;
 mod near;
 mod pivots;
 mod proximal;

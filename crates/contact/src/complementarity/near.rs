@@ -87,8 +87,11 @@ impl DenseSolver {
         self.iterations = 0;
         let accuracy = accuracy.max(TOLERANCE);
         let mut before = f64::INFINITY;
-        for _ in 0..STEPS {
-            self.linearise(&local);
+        for step in 0..STEPS {
+            // Local approach and slopes are still those of the last solution.
+            if step > 0 {
+                self.linearise(&local);
+            }
             self.open(problem);
             if self.takes_sides(problem) {
                 break;

@@ -1,4 +1,4 @@
-//! Points that press on a mesh: forces that need not be unique, by proximal continuation.
+//! Points that press on a mesh: forces that need not be unique, by proximal continuation. Theory (19).
 
 use super::{
     Law, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,

@@ -118,6 +118,11 @@ impl Edge {
         if self.arc > 0.0 && self.angle < PI { self.arc * (0.5 * (PI - self.angle)).tan() } else { 0.0 }
     }
 
+    /// Distance of the contact from where the flank ends, mm.
+    pub fn flank_left(&self) -> f64 {
+        self.distance - self.tangent_point()
+    }
+
     /// P and its derivative by ln a, for a half-width `a`.
     pub fn cut_off(&self, a: f64) -> Dual {
         if self.angle >= PI {

@@ -39,6 +39,8 @@ const UNIT_DECAY: f64 = 0.4;
 const SERIES: f64 = 0.01;
 /// Distance over depth past which no face is felt.
 const FAR: f64 = 20.0;
+/// Distance over depth past which E goes with the square of the half-width: the fourth power is a hundred millionth of it.
+const STRAIGHT: f64 = 1.0;
 /// Part of the half-width within which the band is too wide to feel the face any more.
 const BLUNT: f64 = 0.28;
 
@@ -56,19 +58,36 @@ pub(super) struct Softening {
     /// 0.28 over depth, 1/mm.
     blunt: f64,
     weights: [f64; 2],
+    /// What a far face adds, and how that grows with the square of the half-width (1/mm^2).
+    far: Option<[f64; 2]>,
 }
 
 impl Softening {
     pub fn new(face: &EndFace, poisson: f64, t: f64) -> Self {
         let distance = face.distance.max(0.0) / t;
         let weights = if distance > FAR { [0.0; 2] } else { weights(poisson, face.lean) };
-        Self { distance, blunt: BLUNT / t, weights }
+        let mut face = Self { distance, blunt: BLUNT / t, weights, far: None };
+        if distance > STRAIGHT {
+            let (value, by_distance) = face.beside(distance);
+            face.far = Some([value, 0.5 * by_distance * face.blunt * face.blunt / distance]);
+        }
+        face
     }
 
     /// What the face adds to the bracket of the body for a half-width `a` (mm), and its derivative by ln a.
     pub fn at(&self, a: f64) -> (f64, f64) {
+        if let Some([value, growth]) = self.far {
+            let grown = growth * a * a;
+            return (value + grown, 2.0 * grown);
+        }
         let blunt = self.blunt * a;
         let s = (self.distance * self.distance + blunt * blunt).sqrt();
+        let (value, slope) = self.beside(s);
+        if s > 0.0 { (value, slope * blunt * blunt / s) } else { (value, slope) }
+    }
+
+    /// E at `s` depths, and its derivative by that.
+    fn beside(&self, s: f64) -> (f64, f64) {
         if s > FAR || s <= 0.0 {
             return (0.0, 0.0);
         }
@@ -82,7 +101,7 @@ impl Softening {
             value += weight * if e < SERIES { 2.0 * odd_series(e) } else { ((1.0 + e) / rest).ln() };
             slope -= weight * 4.0 * k * e / ((1.0 + e) * rest);
         }
-        (value, slope * blunt * blunt / s)
+        (value, slope)
     }
 }
 

@@ -1,4 +1,4 @@
-//! A layer bonded to a rigid base: what a half tooth would be if it had no ends.
+//! A layer bonded to a rigid base: what a half tooth would be if it had no ends. Theory (19d).
 
 /// Constant c_L of an elastic layer bonded to a rigid base, plane strain.
 ///

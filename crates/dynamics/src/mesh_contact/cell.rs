@@ -8,8 +8,8 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use super::found::{Found, NEAR};
 use crate::modal_flanks::ModalFlanks;
 
-/// Side of a cell as the flanks move over it, mm. Compliance differs by some 1e-7 of itself over it, gaps by less.
-const SIDE: f64 = 1e-6;
+/// Side of a cell as the flanks move over it, mm. Compliance differs by some 1e-9 of itself over it, gaps by less: what a tooth change does to the sum of forces, whose frames have cells of their own, is below 1e-9 of it.
+const SIDE: f64 = 1e-8;
 /// What is kept at most, bytes, and how many cells: steps of a mesh cycle, their middles among them.
 const MOST_BYTES: usize = 48 << 20;
 const MOST: usize = 512;
@@ -105,7 +105,9 @@ impl Kept {
         let most = (MOST_BYTES / bytes.max(1)).clamp(2, MOST);
         if self.cells.len() < most {
             self.last = self.cells.len();
-            self.cells.push(std::mem::take(now));
+            // As much room as the last one took: the next one is of the same size.
+            let next = Found::with_capacity(now.rows.len() + 8);
+            self.cells.push(std::mem::replace(now, next));
         } else {
             // The one that served before may be asked for again within a step.
             self.next = (self.next + 1) % most;

@@ -1,4 +1,4 @@
-//! Contact of two gears that stand where they are told: forces and their tangent.
+//! Contact of two gears that stand where they are told: forces and their tangent. Theory (38).
 
 mod cell;
 mod compliance;

@@ -1,4 +1,4 @@
-//! Contact at poses that come in steps and small changes of these.
+//! Contact at poses that come in steps and small changes of these. Theory (46a).
 //!
 //! Rows are found, and their contact is solved, in the middle of the [`Cell`] that the first pose of a step is in; gaps follow the motion from there to first order, forces by the tangent of
 //! the middle until they are exact. A motion that repeats itself comes through the same cells again, where all of that is known.

@@ -1,4 +1,4 @@
-//! Implicit midpoint with a discrete gradient: energy is what the ledger says, to round-off, at any step.
+//! Implicit midpoint with a discrete gradient: energy is what the ledger says, to round-off, at any step. Theory (48).
 //!
 //! O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 //!

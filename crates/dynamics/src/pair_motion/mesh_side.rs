@@ -1,4 +1,4 @@
-//! Contact of the flanks on one side of the teeth, in motion.
+//! Contact of the flanks on one side of the teeth, in motion. Theory (46), (47).
 
 use std::sync::Arc;
 

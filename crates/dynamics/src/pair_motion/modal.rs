@@ -1,4 +1,4 @@
-//! Normal modes that move beside the rigid bodies.
+//! Normal modes that move beside the rigid bodies. Theory (62).
 //!
 //! ```text
 //! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2        x rigid coordinates of one gear, D their turn into the gear's own frame

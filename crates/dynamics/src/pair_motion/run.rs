@@ -146,6 +146,11 @@ impl Motion {
         &self.settings
     }
 
+    /// Sizes of the coordinates that come back with every period: all but the modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
+    pub fn returning(&self) -> DVector<f64> {
+        self.settings.scale.rows(0, self.system.coordinates().count()).into_owned()
+    }
+
     /// State at the end of the last cycle.
     pub fn state(&self) -> &State {
         &self.state

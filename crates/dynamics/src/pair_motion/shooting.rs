@@ -1,4 +1,4 @@
-//! The periodic answer found directly: Newton on the map over one period.
+//! The periodic answer found directly: Newton on the map over one period. Theory (49).
 //!
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle

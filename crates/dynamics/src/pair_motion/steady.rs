@@ -38,7 +38,7 @@ impl Returns {
 
     /// Takes the state at the end of a cycle. The shortest period wins that is within `tolerance`, else the best one; a longer one only where it does clearly better.
     ///
-    /// A driver that a torque turns has no place to return to: of the coordinate `free`, only the velocity is looked at.
+    /// `scale`: sizes of the coordinates that are looked at, from the first on ([`Motion::returning`]). A driver that a torque turns has no place to return to: of the coordinate `free`, only the velocity is looked at.
     pub fn judge(
         &mut self,
         state: &State,
@@ -107,7 +107,7 @@ pub fn run_to_steady(
     for _ in 0..most {
         let swing = motion.run_cycle(None)?;
         let free = motion.system().coordinates().driver_turn();
-        last = returns.judge(motion.state(), &swing, &motion.settings().scale, free, tolerance);
+        last = returns.judge(motion.state(), &swing, &motion.returning(), free, tolerance);
         seen(motion, last);
         if last.residual <= tolerance {
             break;

@@ -1,4 +1,4 @@
-//! Depth of a modified flank with its derivatives.
+//! Depth of a modified flank with its derivatives. Theory (25).
 
 use super::interpolation::Bicubic;
 use super::relief::Ramp;

@@ -1,4 +1,4 @@
-//! The flank as it is made: helicoid minus depth.
+//! The flank as it is made: helicoid minus depth. Theory (28), (29).
 
 use std::sync::Arc;
 

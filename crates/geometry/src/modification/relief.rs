@@ -1,4 +1,4 @@
-//! Reliefs: from a start to the edge of the flank.
+//! Reliefs: from a start to the edge of the flank. Theory (26).
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Friction by sliding speed: sticking and slipping without a jump.
+//! Friction by sliding speed: sticking and slipping without a jump. Theory (56).
 
 use serde::{Deserialize, Serialize};
 

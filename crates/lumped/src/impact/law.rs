@@ -1,4 +1,4 @@
-//! Force of an impact by overlap and its rate.
+//! Force of an impact by overlap and its rate. Theory (55), (57).
 
 use serde::{Deserialize, Serialize};
 

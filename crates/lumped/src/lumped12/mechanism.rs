@@ -1,4 +1,4 @@
-//! The model as a mechanism: any integrator of the workspace runs it.
+//! The model as a mechanism: any integrator of the workspace runs it. Theory (49a).
 
 use std::convert::Infallible;
 

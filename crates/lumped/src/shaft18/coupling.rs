@@ -1,4 +1,4 @@
-//! What displacements of two gears do to the flanks between them.
+//! What displacements of two gears do to the flanks between them. Theory (53).
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! How a stepped shaft yields: flexibility influence coefficients in bending, series rule in torsion and along the axis.
+//! How a stepped shaft yields: flexibility influence coefficients in bending, series rule in torsion and along the axis. Theory (51).
 
 use fem::beam::{BeamPiece, BeamTheory};
 use nalgebra::DMatrix;

@@ -1,4 +1,4 @@
-//! One shaft after Prohl and Myklestad: masses at its stations, elasticity between them.
+//! One shaft after Prohl and Myklestad: masses at its stations, elasticity between them. Theory (50), (52).
 
 use fem::beam::{BeamPiece, BeamTheory};
 use nalgebra::{Cholesky, DMatrix};

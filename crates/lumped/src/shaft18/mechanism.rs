@@ -1,4 +1,4 @@
-//! Equations of motion of a system of shafts.
+//! Equations of motion of a system of shafts. Theory (54).
 
 use std::convert::Infallible;
 

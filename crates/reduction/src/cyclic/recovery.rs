@@ -36,26 +36,27 @@ impl CyclicGear {
         ends.collect()
     }
 
-    /// Displacement of all free freedoms of the sector in some copies, each in its own frame, one column a copy, for forces on
-    /// the coordinates (N).
-    fn fields(&self, copies: &[u32], forces: &[f64]) -> Result<Mat<f64>, ReductionError> {
-        let forces = MatRef::from_column_major_slice(forces, forces.len(), 1);
+    /// Displacement of all free freedoms of the sector in some copies, each in its own frame, for forces on the coordinates (N, n x k): column
+    /// k j + i is that of copy j under the i-th forces.
+    fn fields(&self, copies: &[u32], forces: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
+        let k = forces.ncols();
         let ends = self.ends_of(copies, self.ring_cuts(Some(forces)).as_ref());
-        let loads: Vec<Mat<f64>> = copies.iter().map(|&k| self.forces_in(k, forces)).collect();
-        let f = Mat::from_fn(self.sector.loads(), copies.len(), |i, j| loads[j][(i, 0)]);
-        let ends = Mat::from_fn(2 * self.sector.cut, copies.len(), |i, j| ends[j][(i, 0)]);
+        let loads: Vec<Mat<f64>> = copies.iter().map(|&copy| self.forces_in(copy, forces)).collect();
+        let side_by_side =
+            |rows: usize, of: &[Mat<f64>]| Mat::from_fn(rows, copies.len() * k, |i, j| of[j / k][(i, j % k)]);
+        let (f, ends) = (side_by_side(self.sector.loads(), &loads), side_by_side(2 * self.sector.cut, &ends));
         self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
     }
 
-    /// Displacement (mm) of nodes of the larger mesh (`None`: of every one) under forces on the coordinates of the window that stands `shift`
-    /// pitches on, in the mesh's frame. Only sectors with such nodes are gone through.
+    /// Displacement (mm) of nodes of the larger mesh (`None`: of every one) under forces on the coordinates (N, n x k) of the window that stands
+    /// `shift` pitches on, in the mesh's frame; one list a column. Only sectors with such nodes are gone through.
     pub(crate) fn expand(
         &self,
-        forces: &[f64],
+        forces: MatRef<'_, f64>,
         shift: u32,
         nodes: Option<&[u32]>,
-    ) -> Result<Vec<[f64; 3]>, ReductionError> {
-        let z = self.part.teeth;
+    ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
+        let (z, k) = (self.part.teeth, forces.ncols());
         let every: Vec<u32>;
         let nodes = match nodes {
             Some(nodes) => nodes,
@@ -75,11 +76,11 @@ impl CyclicGear {
         copies.sort_unstable();
         copies.dedup();
         let fields = self.fields(&copies, forces)?;
-        let at = |p: &mesh::Origin| {
-            let column = copies.binary_search(&loaded(p.copy)).unwrap_or_default();
+        let at = |p: &mesh::Origin, i: usize| {
+            let column = k * copies.binary_search(&loaded(p.copy)).unwrap_or_default() + i;
             self.at(p.node, p.copy, fields.as_ref(), column)
         };
-        Ok(places.iter().map(at).collect())
+        Ok((0..k).map(|i| places.iter().map(|p| at(p, i)).collect()).collect())
     }
 
     /// Displacement of a sector's node in one column of its fields, turned by so many pitches.
@@ -94,7 +95,7 @@ impl CyclicGear {
         let mut copies: Vec<u32> = self.coordinates.iter().map(|c| (c.0 + pitches) % z).collect();
         copies.sort_unstable();
         copies.dedup();
-        let fields = self.fields(&copies, forces)?;
+        let fields = self.fields(&copies, MatRef::from_column_major_slice(forces, forces.len(), 1))?;
         let mut carried = Vec::with_capacity(3 * self.coordinates.len());
         for (&(copy, _), load) in self.coordinates.iter().zip(loads) {
             let column = copies.binary_search(&((copy + pitches) % z)).unwrap_or_default();

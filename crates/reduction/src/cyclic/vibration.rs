@@ -1,4 +1,4 @@
-//! A cyclic gear that vibrates: the sector's inertia, and the stiffness of the whole ring by harmonics.
+//! A cyclic gear that vibrates: the sector's inertia, and the stiffness of the whole ring by harmonics. Theory (59).
 //!
 //! ```text
 //! u_k = e^{i psi k} u_0,  psi = 2 pi n / z          n waves about the axis; u_k in the frame of sector k

@@ -1,4 +1,4 @@
-//! Constraint modes and fixed-boundary modes: the flanks' own inertia kept.
+//! Constraint modes and fixed-boundary modes: the flanks' own inertia kept. Theory (60).
 
 use faer::Mat;
 use fem::dense;

@@ -1,4 +1,4 @@
-//! Normal modes of a gear that is held at its bore.
+//! Normal modes of a gear that is held at its bore. Theory (58).
 //!
 //! ```text
 //! K phi = omega^2 M phi,   Phi' M Phi = 1,   u = Phi q + (C - Phi Omega^-2 Phi') f

@@ -106,6 +106,7 @@ impl<'a> Cursor<'a> {
         let cyclic = self.byte(1)? == 1;
         let free_count = u64::from_le_bytes(part(self.take(8)?, 0)) as usize;
         let summary = Summary { way, cyclic, free_count };
+        let lowest_hz = Some(self.values(1)?[0]).filter(|hz| !hz.is_nan());
         // Counts of long things are not trusted with an allocation: each thing must be there first.
         let mut windows = Vec::new();
         for _ in 0..self.count()? {
@@ -117,7 +118,7 @@ impl<'a> Cursor<'a> {
             let side = self.side()?;
             halves.push(((tooth, side), Arc::new(self.half()?)));
         }
-        Ok(ReductionRecord { summary, windows, halves })
+        Ok(ReductionRecord { summary, lowest_hz, windows, halves })
     }
 
     fn window(&mut self) -> Result<ReducedGear, RecordError> {

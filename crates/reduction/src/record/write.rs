@@ -34,6 +34,7 @@ impl ReductionRecord {
         bytes.push(u8::from(way == ReductionWay::CyclicSector));
         bytes.push(u8::from(cyclic));
         bytes.extend((free_count as u64).to_le_bytes());
+        bytes.extend(self.lowest_hz.unwrap_or(f64::NAN).to_le_bytes());
         put(bytes, self.windows.len());
         for window in &self.windows {
             list(bytes, &window.teeth);

@@ -1,4 +1,4 @@
-//! Equations of motion of a pair.
+//! Equations of motion of a pair. Theory (45).
 
 mod balance;
 mod build;

@@ -1,0 +1,166 @@
+//! Step sizes against errors: the same motion by every method, against a fine reference.
+
+use std::time::Instant;
+
+use dynamics::{
+    motion::{Integrator, MotionError, Scheme, State, StepControl},
+    pair_motion::{PairMechanism, PairMotionError, quasi_static_start},
+};
+
+use super::{
+    course::failure,
+    prepare::{Inputs, Prepared, prepare},
+};
+use crate::{
+    cache::Cache,
+    error::CommandError,
+    phases::Phases,
+    run::{Failure, complaint},
+    scene::{MotionScene, Scene},
+};
+
+/// Methods that a scene can ask for, with their usual parameters.
+const METHODS: [(&str, Scheme); 4] = [
+    ("energy", Scheme::Energy),
+    ("generalised-alpha", Scheme::GeneralisedAlpha { rho: 0.9 }),
+    ("newmark", Scheme::Newmark),
+    ("dormand-prince", Scheme::DormandPrince),
+];
+/// Steps a mesh cycle: T_m/8 to T_m/512.
+const STEPS: [u32; 7] = [8, 16, 32, 64, 128, 256, 512];
+/// Places of a mesh cycle at which courses are compared.
+const PLACES: u32 = 8;
+/// Mesh cycles from the quasi-static start on.
+const CYCLES: u32 = 1;
+
+/// One method with one step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PrecisionPoint {
+    pub method: &'static str,
+    /// A mesh cycle.
+    pub steps: u32,
+    /// Largest difference of the DTE to the reference; `None` where the method does not come through.
+    pub error_um: Option<f64>,
+    /// Wall time of a mesh cycle.
+    pub cycle_s: f64,
+    pub note: String,
+}
+
+/// All of them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Precision {
+    pub points: Vec<PrecisionPoint>,
+    pub reference: String,
+    pub mesh_over_resonance: f64,
+    pub cycles: u32,
+}
+
+impl Precision {
+    /// Methods in order.
+    pub fn methods(&self) -> Vec<&'static str> {
+        let mut names: Vec<_> = self.points.iter().map(|p| p.method).collect();
+        names.dedup();
+        names
+    }
+
+    /// Steps a mesh cycle in order.
+    pub fn counts(&self) -> Vec<u32> {
+        let mut counts: Vec<_> = self.points.iter().map(|p| p.steps).collect();
+        counts.sort_unstable();
+        counts.dedup();
+        counts
+    }
+}
+
+/// Runs every method with every step; `quick`: steps down to T_m/64 only.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out.
+pub(crate) fn precision(
+    scene: &Scene,
+    words: &MotionScene,
+    phases: &mut Phases,
+    quick: bool,
+) -> Result<Precision, CommandError> {
+    let command = |failure| match failure {
+        Failure::Static(e) => complaint(scene, &e),
+        Failure::Command(e) => e,
+    };
+    let cache = Cache::off();
+    let inputs = Inputs::new(scene, words, phases, &cache)?;
+    let prepared = prepare(&inputs, phases, None).map_err(command)?;
+    let counts = &STEPS[..if quick { 4 } else { STEPS.len() }];
+    let finest = 4 * counts[counts.len() - 1];
+    let fail = |e| command(failure(scene, e));
+    let total = (counts.len() * METHODS.len() + 1) as u64;
+    phases.run_steps("precision", total, |progress| {
+        let bench = Bench::new(scene, &prepared).map_err(fail)?;
+        let (reference, _) = bench.course(Scheme::RungeKutta4, finest).map_err(fail)?;
+        progress.tick();
+        let mut points = Vec::new();
+        for (method, scheme) in METHODS {
+            for &steps in counts {
+                points.push(bench.point((method, scheme), steps, &reference));
+                progress.tick();
+            }
+        }
+        Ok(Precision {
+            points,
+            reference: format!("Runge-Kutta 4 with {finest} steps"),
+            mesh_over_resonance: 1.0 / (bench.period * prepared.system.mesh_resonance_hz()),
+            cycles: CYCLES,
+        })
+    })
+}
+
+/// The motion that all methods are given.
+struct Bench<'a> {
+    prepared: &'a Prepared,
+    start: State,
+    /// Of a mesh cycle, s.
+    period: f64,
+}
+
+impl<'a> Bench<'a> {
+    fn new(scene: &Scene, prepared: &'a Prepared) -> Result<Self, PairMotionError> {
+        let mut system = again(prepared)?;
+        let guess = prepared.quasi_static.transmission_error.first().copied().unwrap_or(0.0);
+        let start = quasi_static_start(&mut system, 0.0, guess, &prepared.settings.scale)?;
+        let speed = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+        Ok(Self { prepared, start, period: 1.0 / speed })
+    }
+
+    /// DTE (mm) at the places of all mesh cycles, and the wall time of one, s.
+    fn course(&self, scheme: Scheme, steps: u32) -> Result<(Vec<f64>, f64), PairMotionError> {
+        let mut system = again(self.prepared)?;
+        let (lag, mut state) = (system.coordinates().lag(), self.start.clone());
+        let step = StepControl::Fixed(self.period / f64::from(steps));
+        let mut integrator = Integrator::new(scheme, step, self.prepared.settings.scale.clone());
+        let (mut all, mut done) = (Vec::new(), 0u32);
+        let clock = Instant::now();
+        integrator.advance(&mut system, &mut state, f64::from(CYCLES) * self.period, |_, seen| {
+            done += 1;
+            if done.is_multiple_of(steps / PLACES) {
+                all.push(seen.state.q[lag]);
+            }
+        })?;
+        Ok((all, clock.elapsed().as_secs_f64() / f64::from(CYCLES)))
+    }
+
+    fn point(&self, (method, scheme): (&'static str, Scheme), steps: u32, reference: &[f64]) -> PrecisionPoint {
+        let (error_um, cycle_s, note) = match self.course(scheme, steps) {
+            Ok((found, time)) => {
+                let off = found.iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                (Some(1e3 * off).filter(|e| e.is_finite()), time, String::new())
+            }
+            Err(e) => (None, f64::NAN, e.to_string()),
+        };
+        PrecisionPoint { method, steps, error_um, cycle_s, note }
+    }
+}
+
+/// The pair at its beginning.
+fn again(prepared: &Prepared) -> Result<PairMechanism, PairMotionError> {
+    let drive = prepared.system.options().drive.clone();
+    prepared.system.with_drive(drive).map_err(|source| MotionError::Mechanism { time: 0.0, source })
+}

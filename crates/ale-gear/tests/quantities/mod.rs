@@ -1,0 +1,76 @@
+//! Which quantities of a result folder the documents leave out.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::markdown::Page;
+
+/// Names in code font in a page, beside those that stand for many: `<gear>_..`, `..pair_<k>..`, `_suffix`.
+pub struct Documented(BTreeSet<String>);
+
+impl Documented {
+    pub fn by(page: &Page) -> Self {
+        Self(page.code().into_iter().map(|(name, _)| name).collect())
+    }
+
+    fn has(&self, name: &str) -> bool {
+        let general = generalised(name);
+        // `pinion_force_x_n` .. `wheel_moment_z_nmm` is documented as a range.
+        let wrench = ["<gear>_force_", "<gear>_moment_", "<gear>_bearing_force_", "<gear>_bearing_moment_"];
+        self.0.contains(name)
+            || self.0.contains(&general)
+            || wrench.iter().any(|w| general.starts_with(w))
+            || self.0.iter().any(|word| word.starts_with('_') && general.ends_with(word.as_str()))
+    }
+
+    /// Columns of the tables and keys of the summary in `folder` that are not there, each with its file.
+    pub fn missing(&self, folder: &Path) -> Vec<String> {
+        let mut missing = Vec::new();
+        let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+        names.sort();
+        for path in names {
+            let text = || std::fs::read_to_string(&path).unwrap();
+            let quantities: BTreeSet<String> = match path.extension().and_then(|e| e.to_str()) {
+                Some("csv") => text().lines().next().unwrap_or("").split(',').map(str::to_owned).collect(),
+                Some("json") => keys(&serde_json::from_str(&text()).unwrap()),
+                _ => continue,
+            };
+            missing
+                .extend(quantities.into_iter().filter(|q| !self.has(q)).map(|q| format!("{q} of {}", path.display())));
+        }
+        missing
+    }
+}
+
+/// `pinion_x_um` as `<gear>_x_um`, numbers of pairs and harmonics as `<k>` and `<h>`.
+fn generalised(name: &str) -> String {
+    let name = ["pinion_", "wheel_"]
+        .iter()
+        .find_map(|g| name.strip_prefix(g))
+        .map_or(name.to_owned(), |n| format!("<gear>_{n}"));
+    let mut words: Vec<&str> = name.split('_').collect();
+    for i in 1..words.len() {
+        let is_number = words[i].parse::<i64>().is_ok();
+        match words[i - 1] {
+            "pair" if is_number => words[i] = "<k>",
+            "harmonic" if is_number => words[i] = "<h>",
+            _ => {}
+        }
+    }
+    words.join("_")
+}
+
+/// Keys of an object and of all objects in it; the scene that is echoed has a document of its own.
+fn keys(value: &serde_json::Value) -> BTreeSet<String> {
+    match value {
+        serde_json::Value::Object(map) => map
+            .iter()
+            .flat_map(|(key, inside)| {
+                let below = if key == "inputs" { BTreeSet::new() } else { keys(inside) };
+                below.into_iter().chain([key.clone()])
+            })
+            .collect(),
+        serde_json::Value::Array(list) => list.iter().flat_map(keys).collect(),
+        _ => BTreeSet::new(),
+    }
+}

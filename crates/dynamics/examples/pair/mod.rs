@@ -1,0 +1,41 @@
+//! The default pair on its coarse meshes, read and reduced.
+
+use std::{error::Error, path::Path};
+
+use dynamics::{ElasticGear, StaticModel, StaticOptions};
+use fem::{ElementOptions, Material};
+use geometry::{Gear, GearData, GearPair};
+use mesh::{GearMesh, GroupNames, Mesh};
+use reduction::{GearReducer, ReductionOptions};
+
+/// 30/30 teeth, module 3 mm, helix angle 20 degrees, and the meshes of both gears.
+pub fn coarse() -> Result<(GearPair, [GearMesh; 2]), Box<dyn Error>> {
+    let pinion = GearData::default();
+    let wheel = GearData { helix_angle: -pinion.helix_angle, ..pinion.clone() };
+    let pair = GearPair::new(Gear::new(pinion)?, Gear::new(wheel)?, None)?;
+    let read = |gear: &str, teeth: u32| -> Result<GearMesh, Box<dyn Error>> {
+        let file = format!("{}/../../meshes/coarse_hex8_{gear}.msh", env!("CARGO_MANIFEST_DIR"));
+        Ok(GearMesh::from_groups(Mesh::read(Path::new(&file))?, &GroupNames::default(), teeth)?)
+    };
+    let meshes = [read("pinion", pair.pinion.teeth())?, read("wheel", pair.wheel.teeth())?];
+    Ok((pair, meshes))
+}
+
+/// Both gears condensed to the flanks that these options press, in the window that a run begins with.
+pub fn reduced(
+    pair: &GearPair,
+    meshes: &[GearMesh; 2],
+    options: &StaticOptions,
+) -> Result<[ElasticGear; 2], Box<dyn Error>> {
+    let first = StaticModel::first_teeth(pair, options)?;
+    let reduce = |i: usize| -> Result<ElasticGear, Box<dyn Error>> {
+        let of = ReductionOptions {
+            sides: options.sides(),
+            window: StaticModel::window_teeth(pair, options),
+            first: first[i],
+            elements: ElementOptions::default(),
+        };
+        Ok(ElasticGear::Reduced(GearReducer::new(meshes[i].clone(), Material::STEEL, of)?))
+    };
+    Ok([reduce(0)?, reduce(1)?])
+}
