@@ -60,7 +60,8 @@ fn runs_of_all_kinds_stand_side_by_side() {
         let end = written.len() - over;
         let mut last = written[end - rows..end].to_vec();
         let mut drawn = own.clone();
-        (last.sort_by(f64::total_cmp), drawn.sort_by(f64::total_cmp));
+        last.sort_by(f64::total_cmp);
+        drawn.sort_by(f64::total_cmp);
         assert_eq!(drawn, last, "{folder}: not the last cycle of {file_column}");
     }
     let page = scratch.read("c/compare.html");
