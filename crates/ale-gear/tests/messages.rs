@@ -7,15 +7,9 @@ use util::{ISO_SCENE, Scratch};
 fn says(scene: &str, text: &str) {
     let scratch = Scratch::new().file("a.toml", scene);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-    assert_eq!(without_excerpt(&run.stderr), text, "for\n{scene}");
+    assert_eq!(run.complaint(), text, "for\n{scene}");
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
     assert_eq!(scratch.names(), ["a.toml"], "something was left behind");
-}
-
-/// The message without the lines of the file that it shows: `  7 | ...` and the mark below.
-fn without_excerpt(stderr: &str) -> String {
-    let shown = |line: &&str| !(line.starts_with("  ") && line.contains(" | "));
-    stderr.lines().filter(shown).map(|line| format!("{line}\n")).collect()
 }
 
 /// The complete scene with one line replaced.
