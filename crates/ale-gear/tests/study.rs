@@ -182,7 +182,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
     let nothing = iso_cases().file("s.toml", &ISO_STUDY[..ISO_STUDY.find("[[quantity]]").unwrap()]);
     let run = nothing.ale_gear(["study", "s.toml", "--out", "o"]);
     assert_eq!(
-        run.stderr,
+        run.complaint(),
         "ale-gear: s.toml:1: a study that asks for nothing\nhint: say what to draw: [[quantity]], [[over_time]], [[follow]]\n"
     );
 }
