@@ -29,8 +29,9 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
             vec![
                 own("tip_diameter_mm"),
                 own("profile_shift"),
-                own("thickness_allowance_mm"),
                 pair("addendum_coefficient"),
+                pair("normal_pressure_angle_deg"),
+                own("thickness_allowance_mm"),
                 own("teeth"),
             ]
         }

@@ -190,7 +190,7 @@ fn wrong_motions_are_told_with_line_and_hint() {
     let says = |scene: String, text: &str| {
         let scratch = Scratch::new().file("a.toml", &scene);
         let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-        assert_eq!(run.stderr, format!("ale-gear: a.toml:{text}\n"), "for\n{scene}");
+        assert_eq!(run.complaint(), format!("ale-gear: a.toml:{text}\n"), "for\n{scene}");
         assert_eq!((run.code, scratch.names().len()), (Some(2), 1));
     };
     let of = |motion: &str| scene(2, motion);

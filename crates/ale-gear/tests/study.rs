@@ -124,7 +124,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
         assert!(ISO_STUDY.contains(old), "{old}");
         let scratch = iso_cases().file("s.toml", ISO_STUDY.replacen(old, new, 1));
         let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
-        assert_eq!(run.stderr, format!("ale-gear: {text}\n"), "for {new}");
+        assert_eq!(run.complaint(), format!("ale-gear: {text}\n"), "for {new}");
         assert_eq!((run.code, scratch.names().len()), (Some(2), 4));
     };
     says("parameter =", "paramter =", "s.toml:2: unknown key `paramter`\nhint: did you mean `parameter`?");
@@ -182,7 +182,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
     let nothing = iso_cases().file("s.toml", &ISO_STUDY[..ISO_STUDY.find("[[quantity]]").unwrap()]);
     let run = nothing.ale_gear(["study", "s.toml", "--out", "o"]);
     assert_eq!(
-        run.stderr,
+        run.complaint(),
         "ale-gear: s.toml:1: a study that asks for nothing\nhint: say what to draw: [[quantity]], [[over_time]], [[follow]]\n"
     );
 }
@@ -193,7 +193,10 @@ fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
     let wrong =
         iso_cases().file("b.toml", ISO_SCENE.replace("face_width_mm", "face_widht_mm")).file("s.toml", ISO_STUDY);
     let run = wrong.ale_gear(["study", "s.toml", "--out", "o"]);
-    assert_eq!(run.stderr, "ale-gear: b.toml:12: unknown key `face_widht_mm`\nhint: did you mean `face_width_mm`?\n");
+    assert_eq!(
+        run.complaint(),
+        "ale-gear: b.toml:12: unknown key `face_widht_mm`\nhint: did you mean `face_width_mm`?\n"
+    );
     let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 2 }\n";
     let sweep = iso_cases().file("b.toml", motion_scene(1, sweep)).file("s.toml", ISO_STUDY);
     let run = sweep.ale_gear(["study", "s.toml", "--out", "o"]);

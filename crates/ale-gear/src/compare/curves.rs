@@ -101,6 +101,8 @@ fn plain(values: &[f64]) -> Vec<(f64, usize)> {
 /// Rows of the last whole cycle, ascending in phase. A cycle ends where the phase jumps by more than half; one that was cut short has fewer
 /// rows than the longest.
 fn last_cycle(phase: &[f64]) -> Vec<(f64, usize)> {
+    // What falls short of a whole cycle by round-off begins the next one.
+    let phase: Vec<f64> = phase.iter().map(|&p| if p > 1.0 - 1e-6 { 0.0 } else { p }).collect();
     let mut starts = vec![0];
     starts.extend((1..phase.len()).filter(|&i| (phase[i] - phase[i - 1]).abs() > 0.5));
     starts.push(phase.len());
@@ -124,6 +126,7 @@ mod tests {
         assert_eq!(rows(&up), [6, 7, 8, 9]);
         let down: Vec<f64> = up.iter().rev().copied().collect();
         assert_eq!(rows(&down), [9, 8, 7, 6]);
+        assert_eq!(rows(&[0.0, 0.5, 1.0 - 1e-12, 0.5]), [2, 3]);
         assert_eq!(rows(&[0.0, 0.5]), [0, 1]);
         assert!(rows(&[]).is_empty());
     }

@@ -124,7 +124,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 26] = [
+const OURS: [&str; 30] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -146,6 +146,10 @@ const OURS: [&str; 26] = [
     "study.csv",
     "chart.csv",
     "chart.md",
+    "motion_precision.csv",
+    "motion_precision.md",
+    "motion_precision.png",
+    "motion_precision.svg",
     "work_precision.svg",
     "work_precision.png",
     "compare.html",

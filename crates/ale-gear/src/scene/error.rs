@@ -1,20 +1,13 @@
 //! What can be wrong with a scene, and where.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where a value was said.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
-    /// A line of a file.
-    Line {
-        /// The file as the user named it; boxed, as every check hands a place about.
-        file: Box<Path>,
-        /// Counted from 1.
-        line: usize,
-        /// The line itself with a mark below what is meant: two lines of text.
-        excerpt: Box<str>,
-    },
+    /// A line of a file; boxed, as every check hands a place about.
+    Line(Box<Line>),
     /// Beside the file.
     Setting {
         /// As `--set operation.torque_nm`.
@@ -22,10 +15,21 @@ pub enum Place {
     },
 }
 
+/// A line of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// The file as the user named it.
+    pub file: PathBuf,
+    /// Counted from 1.
+    pub number: usize,
+    /// The line itself with a mark below what is meant: two lines of text.
+    pub excerpt: String,
+}
+
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Line { file, line, .. } => write!(f, "{}:{line}", file.display()),
+            Self::Line(line) => write!(f, "{}:{}", line.file.display(), line.number),
             Self::Setting { label } => f.write_str(label),
         }
     }
@@ -35,7 +39,7 @@ impl Place {
     /// The line with a mark below what is meant; none beside a file.
     pub fn excerpt(&self) -> Option<&str> {
         match self {
-            Self::Line { excerpt, .. } => Some(excerpt),
+            Self::Line(line) => Some(&line.excerpt),
             Self::Setting { .. } => None,
         }
     }

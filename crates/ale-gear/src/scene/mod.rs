@@ -24,7 +24,7 @@ use geometry::Side;
 use mesh::GroupNames;
 use serde::Serialize;
 
-pub use error::{Place, SceneError};
+pub use error::{Line, Place, SceneError};
 pub(crate) use keys::nearest;
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::error::{Place, SceneError};
+use super::error::{Line, Place, SceneError};
 use super::excerpt::excerpt;
 use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
@@ -46,8 +46,9 @@ impl Source<'_> {
             return Place::Setting { label: setting.label().into() };
         }
         let end = span.start.min(self.text.len());
-        let line = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
-        Place::Line { file: self.file.into(), line, excerpt: excerpt(self.text, span, line).into() }
+        let number = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
+        let excerpt = excerpt(self.text, span, number);
+        Place::Line(Box::new(Line { file: self.file.to_owned(), number, excerpt }))
     }
 
     /// A message of the TOML reader in this program's words.

@@ -65,6 +65,14 @@ impl Scratch {
     }
 }
 
+impl Run {
+    /// What stderr says without the lines of a file that it shows: `  7 | ...` and the mark below.
+    pub fn complaint(&self) -> String {
+        let shown = |line: &&str| !(line.starts_with("  ") && line.contains(" | "));
+        self.stderr.lines().filter(shown).map(|line| format!("{line}\n")).collect()
+    }
+}
+
 /// Top of the repository.
 pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()

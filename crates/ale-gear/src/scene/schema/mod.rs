@@ -228,7 +228,8 @@ mod tests {
             let rest = said.strip_prefix("unknown field `zzz_unknown`").unwrap_or_else(|| panic!("[{path}]: {said}"));
             let mut known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
             let mut listed: Vec<&str> = table.keys.iter().map(|k| k.name).collect();
-            (known.sort_unstable(), listed.sort_unstable());
+            known.sort_unstable();
+            listed.sort_unstable();
             assert_eq!(known, listed, "[{path}]: read and listed");
         }
     }
@@ -310,7 +311,8 @@ mod tests {
                 if !list && matches!(key.kind, Kind::Word { first_is_default: true, .. }) {
                     assert_eq!(taken[0], wanted[0], "[{path}] {}: the default", key.name);
                 }
-                (wanted.sort_unstable(), taken.sort_unstable());
+                wanted.sort_unstable();
+                taken.sort_unstable();
                 assert_eq!(taken, wanted, "[{path}] {}", key.name);
             }
         }
