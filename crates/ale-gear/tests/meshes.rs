@@ -81,7 +81,7 @@ fn meshes_in_metres_and_inches_are_noticed() {
         scaled.nodes.iter_mut().flatten().for_each(|x| *x /= factor);
         let scene = ISO_SCENE.replace("[wheel]", "mesh = \"p.msh\"\n[wheel]").replace("model = \"iso\"\n", "");
         let scratch = Scratch::new().file("a.toml", scene);
-        scaled.write(&scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+        scaled.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
         let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
         assert_eq!(run.code, Some(2), "{unit}: {}", run.stderr);
         assert!(
@@ -100,7 +100,7 @@ fn own_names_of_groups_are_checked_by_flags() {
     let own = |name: &str| name.replace("bore", "Hub").replace("flank_left_", "L").replace("flank_right_", "R");
     named.surfaces.iter_mut().for_each(|s| s.name = own(&s.name));
     let scratch = Scratch::new();
-    named.write(&scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+    named.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
     let without = scratch.ale_gear(["mesh", "check", "p.msh"]);
     assert!(without.stderr.contains("bore") || without.stdout.contains("bore"), "{}{}", without.stdout, without.stderr);
     let with = ["mesh", "check", "p.msh", "--bore", "Hub", "--flank-left", "L{k}", "--flank-right", "R{k}"];
