@@ -315,3 +315,59 @@ fn what_cannot_be_integrated_is_an_error() {
     system.mass[(0, 0)] = -1.0;
     assert!(run(&mut system, Scheme::Energy, StepControl::Fixed(0.1), 1.0).unwrap_err().contains("mass matrix"));
 }
+
+/// x'' = -100 sign(x) |x|^0.2 - x' + 3: Newton leaps over the origin to and fro where inertia does not hold it back.
+struct Root(DMatrix<f64>);
+
+impl Mechanism for Root {
+    type Error = std::convert::Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.0
+    }
+
+    fn forces(&mut self, _: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error> {
+        let x = q[0].abs().max(1e-12);
+        out.conservative[0] = -100.0 * q[0].signum() * x.powf(0.2);
+        out.other[0] = 3.0 - v[0];
+        out.stiffness[(0, 0)] = 20.0 * x.powf(-0.8);
+        out.damping[(0, 0)] = 1.0;
+        (out.supplied, out.dissipated) = (3.0 * v[0], v[0] * v[0]);
+        Ok(())
+    }
+
+    fn potential(&mut self, _: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+        Ok(100.0 / 1.2 * q[0].abs().powf(1.2))
+    }
+}
+
+/// A step of given length without a solution is taken as its halves: the same bits as if they had been asked for, and one step to the caller.
+#[test]
+fn a_step_without_a_solution_is_taken_in_halves() {
+    let scheme = Scheme::Newmark;
+    let run = |state: &mut State, steps: u32, h: f64| {
+        let mut integrator = Integrator::new(scheme, StepControl::Fixed(h), dvector![1.0]);
+        let (mut seen, until) = (0, state.time + f64::from(steps) * h);
+        integrator.advance(&mut Root(DMatrix::identity(1, 1)), state, until, |_, _| seen += 1).map(|()| {
+            let [_, refused] = integrator.steps();
+            (seen, refused, integrator.ledger().copied())
+        })
+    };
+    let h = 1.0 / 16.0;
+    let (mut halved, mut begin) = (0, 0.0);
+    while begin < 2.0 {
+        let from = State::new(0.0, dvector![1.0 - begin], dvector![-3.0]);
+        let (mut whole, mut parts) = (from.clone(), from.clone());
+        let (seen, refused, book) = run(&mut whole, 1, h).unwrap_or_else(|e| panic!("from {}: {e}", from.q[0]));
+        assert_eq!(seen, 1, "from {}: the caller sees one step", from.q[0]);
+        if refused == 1 {
+            halved += 1;
+            let (_, again, own) = run(&mut parts, 2, 0.5 * h).unwrap_or_else(|e| panic!("halves: {e}"));
+            assert_eq!(again, 0);
+            assert_eq!((whole.q[0], whole.v[0], book), (parts.q[0], parts.v[0], own), "from {}", from.q[0]);
+        }
+        begin += 0.01;
+    }
+    println!("{halved} of 200 starts needed halves");
+    assert!(halved > 0, "no start that needs halves: the test shows nothing");
+}

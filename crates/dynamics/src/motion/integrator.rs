@@ -9,6 +9,9 @@ use super::{
     runge_kutta::{CLASSICAL, DORMAND_PRINCE},
 };
 
+/// How often a step of given length may be halved that has no solution.
+const HALVINGS: u32 = 6;
+
 /// Method of integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scheme {
@@ -143,8 +146,6 @@ impl Integrator {
             }
             // A step that was short because the time was up says nothing against the length wanted.
             to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
-            let opened = self.ledger.unwrap_or_default();
-            book.close_step(&opened, system.mass(), &to.v);
             self.ledger = Some(book);
             self.steps += 1;
             *state = to;
@@ -214,7 +215,7 @@ impl Integrator {
         mut h: f64,
     ) -> Result<(State, Ledger, f64), MotionError<M::Error>> {
         let StepControl::Adaptive { tolerance, least, largest, .. } = self.control else {
-            let (to, _, book) = self.one_step(system, mass, from, h)?;
+            let (to, book) = self.whole_step(system, mass, from, h, HALVINGS)?;
             return Ok((to, book, h));
         };
         let order = match self.scheme {
@@ -249,6 +250,31 @@ impl Integrator {
         }
     }
 
+    /// A step of given length. One without a solution, where contact opens and closes within it, is taken as its two halves, so often as
+    /// `halvings` says; to the caller it stays one step.
+    fn whole_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+        halvings: u32,
+    ) -> Result<(State, Ledger), MotionError<M::Error>> {
+        match self.one_step(system, mass, from, h) {
+            Err(MotionError::NotConverged { .. }) if halvings > 0 => {
+                self.refused += 1;
+                let (middle, book) = self.whole_step(system, mass, from, 0.5 * h, halvings - 1)?;
+                let opened = self.ledger.replace(book);
+                let rest = from.time + h - middle.time;
+                let second = self.whole_step(system, mass, &middle, rest, halvings - 1);
+                self.ledger = opened;
+                second
+            }
+            other => other.map(|(to, _, book)| (to, book)),
+        }
+    }
+
+    /// One step by the scheme: where it ends, its local error, and the books closed behind it.
     fn one_step<M: Mechanism>(
         &mut self,
         system: &mut M,
@@ -256,7 +282,20 @@ impl Integrator {
         from: &State,
         h: f64,
     ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
-        let mut book = self.ledger.unwrap_or_default();
+        let before = self.ledger.unwrap_or_default();
+        let (to, error, mut book) = self.open_step(system, mass, from, h, before)?;
+        book.close_step(&before, system.mass(), &to.v);
+        Ok((to, error, book))
+    }
+
+    fn open_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+        mut book: Ledger,
+    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
         let forces = &mut self.forces;
         let (to, error) = match self.scheme {
             Scheme::Energy => energy::step(system, from, h, &self.scale, forces, &mut book)?,
