@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(rows(&up), [6, 7, 8, 9]);
         let down: Vec<f64> = up.iter().rev().copied().collect();
         assert_eq!(rows(&down), [9, 8, 7, 6]);
-        assert_eq!(rows(&[0.0, 0.5, 1.0 - 1e-12, 0.5]), [2, 3]);
+        assert_eq!(rows(&[0.0, 0.25, 0.5, 0.75, 1.0 - 1e-12, 0.25, 0.5, 0.75]), [4, 5, 6, 7]);
         assert_eq!(rows(&[0.0, 0.5]), [0, 1]);
         assert!(rows(&[]).is_empty());
     }
