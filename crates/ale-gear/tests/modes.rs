@@ -79,11 +79,8 @@ fn wrong_modes_are_told_with_line_and_hint() {
         let scene = scene.replacen(from.0, from.1, 1);
         let scratch = Scratch::new().file("a.toml", &scene);
         let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-        assert!(
-            run.stderr.ends_with(text) && run.stderr.starts_with("ale-gear: a.toml:"),
-            "{}for\n{scene}",
-            run.stderr
-        );
+        let said = run.complaint();
+        assert!(said.ends_with(text) && said.starts_with("ale-gear: a.toml:"), "{}for\n{scene}", run.stderr);
         assert_eq!((run.code, scratch.names().len()), (Some(2), 1));
     };
     let table = |keys: &str| format!("model = \"reduced+modes\"\n[modes]\n{keys}\n{MOTION_LINES}");

@@ -78,7 +78,7 @@ fn the_iso_model_has_no_root_stress() {
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2));
     assert_eq!(
-        run.stderr,
+        run.complaint(),
         "ale-gear: a.toml:18: `root_stress` needs a mesh, and the model \"iso\" has none\n\
          hint: leave it out, or use `model = \"reduced\"`\n"
     );
