@@ -18,6 +18,8 @@ use super::{
 
 /// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+/// A way shorter than this over the motion's scale has no work that V could tell from noise: a search that starts elsewhere finds another last digit.
+const NO_WAY: f64 = 1e-9;
 
 /// One step of length `h`; the ledger's entries of the step come with it. The potential in `book` is that of `from`.
 pub(super) fn step<M: Mechanism>(
@@ -66,11 +68,8 @@ fn iterate<M: Mechanism>(
         let length = moved.dot(&weighted);
         let after = system.potential(middle, &to.q).map_err(fail(middle))?;
         let defect = after - before + forces.conservative.dot(&moved);
-        let c = if length > 0.0 && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) {
-            -defect / length
-        } else {
-            0.0
-        };
+        let goes = moved.iter().zip(scale.iter()).any(|(x, s)| x.abs() > NO_WAY * s);
+        let c = if goes && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) { -defect / length } else { 0.0 };
         to.v = 2.0 * &velocity - &from.v;
         if newton.settled() {
             to.a = (&to.v - &from.v) / h;
