@@ -88,13 +88,14 @@ fn iterate<M: Mechanism>(
         };
         let singular = MotionError::Singular { time: middle, which: "iteration" };
         let settled = newton.settled();
-        to.q -= newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+        let step = newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+        to.q -= step;
         if settled {
-            // What the last step leaves of the balance is work that nobody does: always of one sign, it would add up over many steps.
+            // What an earlier end would leave of the balance is work that nobody does: always of one sign, it would add up over many steps. Load and drive work over the last step as well.
+            book.supplied += h * forces.supplied - forces.other.dot(step);
             let known = book.potential;
             let after = system.potential(middle, &to.q).map_err(fail(middle))?;
             finish(&mut to, from, h);
-            book.supplied += h * forces.supplied;
             book.dissipated += h * forces.dissipated;
             book.potential = system.potential(end, &to.q).map_err(fail(end))?;
             book.parametric += (book.potential - after) + (before - known);
