@@ -154,9 +154,7 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
     let start_of = |what: &str, amount: &Number, starts: [(&str, &Number); 2], word: &Word| {
         let given: Vec<_> = starts.iter().filter_map(|(key, v)| v.as_ref().map(|v| (*key, v.span()))).collect();
         let advice = format!("a relief is `{what}_um` with `{}` or `{}`", starts[0].0, starts[1].0);
-        let wrong = |span: std::ops::Range<usize>, what: String| {
-            Err(SceneError::Conflict { place: s.place(&span), what, advice: advice.clone() })
-        };
+        let wrong = |span: std::ops::Range<usize>, what: String| Err(s.conflict(&span, what, advice.clone()));
         match (amount, given.as_slice()) {
             (Some(amount), []) => wrong(amount.span(), format!("`{what}_um` has no start")),
             (_, [(a, _), (b, span)]) => wrong(span.clone(), format!("`{a}` and `{b}` both say where it starts")),
@@ -194,11 +192,11 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         together(s, (&format!("{what}_um"), amount), (&format!("{what}_length_mm"), length))?;
     }
     if let (Some(word), None, None) = (&raw.end_relief_shape, &raw.end_relief_lower_um, &raw.end_relief_upper_um) {
-        return Err(SceneError::Conflict {
-            place: s.place(&word.span()),
-            what: "`end_relief_shape` has no end relief".into(),
-            advice: "add `end_relief_lower_um` or `end_relief_upper_um`, each with its length".into(),
-        });
+        return Err(s.conflict(
+            &word.span(),
+            "`end_relief_shape` has no end relief",
+            "add `end_relief_lower_um` or `end_relief_upper_um`, each with its length",
+        ));
     }
     Ok(FlankScene {
         tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
@@ -231,11 +229,11 @@ fn together(s: &Source<'_>, a: (&str, &Number), b: (&str, &Number)) -> Checked<(
         (None, Some(value)) => ((b.0, value), a.0),
         _ => return Ok(()),
     };
-    Err(SceneError::Conflict {
-        place: s.place(&alone.1.span()),
-        what: format!("`{}` has no `{other}`", alone.0),
-        advice: format!("give both `{}` and `{}`, or neither", a.0, b.0),
-    })
+    Err(s.conflict(
+        &alone.1.span(),
+        format!("`{}` has no `{other}`", alone.0),
+        format!("give both `{}` and `{}`, or neither", a.0, b.0),
+    ))
 }
 
 /// A file that is there; the path as written.
@@ -245,27 +243,25 @@ fn file(s: &Source<'_>, key: &str, word: &Spanned<String>) -> Checked<PathBuf> {
     if found.is_file() {
         return Ok(path);
     }
-    Err(SceneError::Conflict {
-        place: s.place(&word.span()),
-        what: format!("`{key}` is \"{}\", but there is no file {}", word.get_ref(), found.display()),
-        advice: "paths are relative to the scene file".into(),
-    })
+    Err(s.conflict(
+        &word.span(),
+        format!("`{key}` is \"{}\", but there is no file {}", word.get_ref(), found.display()),
+        "paths are relative to the scene file",
+    ))
 }
 
 /// Pitch errors: a list, or a file.
 pub(super) fn pitch_errors(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Vec<f64>, Option<PathBuf>)> {
     let in_file = raw.pitch_errors_file.as_ref().map(|word| file(s, "pitch_errors_file", word)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };
-    let conflict =
-        |what: String, advice: String| Err(SceneError::Conflict { place: s.place(&list.span()), what, advice });
     if in_file.is_some() {
-        let advice = "keep the one or the other".into();
-        return conflict("a gear has both `pitch_errors_um` and `pitch_errors_file`".into(), advice);
+        let what = "a gear has both `pitch_errors_um` and `pitch_errors_file`";
+        return Err(s.conflict(&list.span(), what, "keep the one or the other"));
     }
     let given = list.get_ref().len();
     if given != teeth as usize {
-        let advice = "give one value a tooth, tooth 0 first".into();
-        return conflict(format!("`pitch_errors_um` has {given} values, but the gear has {teeth} teeth"), advice);
+        let what = format!("`pitch_errors_um` has {given} values, but the gear has {teeth} teeth");
+        return Err(s.conflict(&list.span(), what, "give one value a tooth, tooth 0 first"));
     }
     let values = list.get_ref().iter().map(|v| s.number("pitch_errors_um", &Some(v.clone()), 0.0, -LARGEST, LARGEST));
     Ok((values.collect::<Checked<_>>()?, None))
