@@ -6,7 +6,7 @@ mod support;
 use dynamics::{
     StaticOptions, Station,
     motion::{Integrator, Scheme, State, StepControl},
-    pair_motion::{MotionOptions, PairMechanism, RigidBody, Speed, equivalent_mass},
+    pair_motion::{MotionOptions, PairMechanism, RigidBody, equivalent_mass},
 };
 use fem::ElementOptions;
 use nalgebra::DVector;

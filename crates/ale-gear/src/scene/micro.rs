@@ -151,6 +151,33 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         value.as_ref().map(|_| s.number(key, value, 0.0, least, face_width)).transpose()
     };
     let shape = |key, word: &Word| word.as_ref().map(|w| s.one_of(key, w, &SHAPES)).transpose();
+    reliefs(s, raw)?;
+    Ok(FlankScene {
+        tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
+        tip_relief_start_diameter_mm: number("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
+        tip_relief_start_roll_deg: number("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
+        tip_relief_shape: shape("tip_relief_shape", &raw.tip_relief_shape)?,
+        root_relief_um: number("root_relief_um", &raw.root_relief_um)?,
+        root_relief_start_diameter_mm: number("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
+        root_relief_start_roll_deg: number("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
+        root_relief_shape: shape("root_relief_shape", &raw.root_relief_shape)?,
+        profile_crowning_um: number("profile_crowning_um", &raw.profile_crowning_um)?,
+        profile_slope_um: number("profile_slope_um", &raw.profile_slope_um)?,
+        lead_crowning_um: number("lead_crowning_um", &raw.lead_crowning_um)?,
+        lead_slope_um: number("lead_slope_um", &raw.lead_slope_um)?,
+        end_relief_lower_um: number("end_relief_lower_um", &raw.end_relief_lower_um)?,
+        end_relief_lower_length_mm: length("end_relief_lower_length_mm", &raw.end_relief_lower_length_mm)?,
+        end_relief_upper_um: number("end_relief_upper_um", &raw.end_relief_upper_um)?,
+        end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
+        end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
+        bias_um: number("bias_um", &raw.bias_um)?,
+        topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
+        evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
+    })
+}
+
+/// Every relief says how deep it is and where it begins, once.
+fn reliefs(s: &Source<'_>, raw: &RawFlank) -> Checked<()> {
     let start_of = |what: &str, amount: &Number, starts: [(&str, &Number); 2], word: &Word| {
         let given: Vec<_> = starts.iter().filter_map(|(key, v)| v.as_ref().map(|v| (*key, v.span()))).collect();
         let advice = format!("a relief is `{what}_um` with `{}` or `{}`", starts[0].0, starts[1].0);
@@ -198,28 +225,7 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
             "add `end_relief_lower_um` or `end_relief_upper_um`, each with its length",
         ));
     }
-    Ok(FlankScene {
-        tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
-        tip_relief_start_diameter_mm: number("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
-        tip_relief_start_roll_deg: number("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
-        tip_relief_shape: shape("tip_relief_shape", &raw.tip_relief_shape)?,
-        root_relief_um: number("root_relief_um", &raw.root_relief_um)?,
-        root_relief_start_diameter_mm: number("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
-        root_relief_start_roll_deg: number("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
-        root_relief_shape: shape("root_relief_shape", &raw.root_relief_shape)?,
-        profile_crowning_um: number("profile_crowning_um", &raw.profile_crowning_um)?,
-        profile_slope_um: number("profile_slope_um", &raw.profile_slope_um)?,
-        lead_crowning_um: number("lead_crowning_um", &raw.lead_crowning_um)?,
-        lead_slope_um: number("lead_slope_um", &raw.lead_slope_um)?,
-        end_relief_lower_um: number("end_relief_lower_um", &raw.end_relief_lower_um)?,
-        end_relief_lower_length_mm: length("end_relief_lower_length_mm", &raw.end_relief_lower_length_mm)?,
-        end_relief_upper_um: number("end_relief_upper_um", &raw.end_relief_upper_um)?,
-        end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
-        end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
-        bias_um: number("bias_um", &raw.bias_um)?,
-        topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
-        evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
-    })
+    Ok(())
 }
 
 /// Two keys that mean nothing without each other.
