@@ -145,5 +145,5 @@ fn column<T>(s: &Source<'_>, table: &Spanned<T>, word: &Word, cases: &[Case]) ->
 }
 
 fn missing<T>(s: &Source<'_>, table: &Spanned<T>, name: &str, key: &str, what: &str) -> SceneError {
-    s.conflict(&table.span(), format!("{name} has no `{key}`"), &format!("give {what}"))
+    s.conflict(&table.span(), format!("{name} has no `{key}`"), format!("give {what}"))
 }
