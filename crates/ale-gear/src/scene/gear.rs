@@ -31,7 +31,7 @@ pub struct GearScene {
     /// File of them, as written in the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch_errors_file: Option<PathBuf>,
-    /// Mesh file as written in the scene; [`Scene::resolve`] makes it a path.
+    /// Mesh file as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it a path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<PathBuf>,
     /// The built-in mesher; set exactly when `mesh` is not.
