@@ -7,9 +7,7 @@ use ale::Sense;
 use dynamics::{
     Driver, Station,
     motion::{Integrator, Scheme, State, StepControl},
-    pair_motion::{
-        Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, equivalent_mass,
-    },
+    pair_motion::{PairMechanism, RigidBody, equivalent_mass},
 };
 use fem::ElementOptions;
 use lumped::{
@@ -19,7 +17,7 @@ use lumped::{
     run,
 };
 use nalgebra::DVector;
-use support::Case;
+use support::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 /// Positions a mesh cycle that the lumped models are fed with, and steps of every model.
@@ -32,16 +30,7 @@ const ZETA: f64 = 0.1;
 fn reduced(case: &Case, bodies: [RigidBody; 2], speed: f64, start: f64, means: [f64; 2]) -> Vec<f64> {
     let contact = case.slice_options();
     let gears = case.reduced_gears(&contact);
-    let options = MotionOptions {
-        contact,
-        bodies,
-        bearings: [Bearing::default(); 2],
-        free: [[false; 6]; 2],
-        drive: Drive::Speed(Speed::Constant(speed)),
-        load: Torque::Constant(TORQUE),
-        damping: MeshDamping::Ratio(ZETA),
-        start_cycles: 0.0,
-    };
+    let options = at_speed(contact, bodies, speed, TORQUE, ZETA);
     let mut system = PairMechanism::new(case.pair.clone(), gears, None, options, means).unwrap();
     let mut state = State::new(0.0, DVector::from_element(1, start), DVector::zeros(1));
     let period = case.pair.pinion.pitch_angle() / speed;

@@ -9,8 +9,8 @@ use dynamics::{
     Bulk, ElasticGear, StaticOptions, Station,
     motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl},
     pair_motion::{
-        Bearing, Drive, ElasticRatio, GearVibration, LOW_FREQUENCY_LIMIT, MeshDamping, Motion, MotionOptions,
-        MotionSettings, PairMechanism, RigidBody, Speed, Torque, quasi_static_start, run_to_steady, shoot,
+        Bearing, ElasticRatio, GearVibration, LOW_FREQUENCY_LIMIT, Motion, MotionOptions, MotionSettings,
+        PairMechanism, RigidBody, quasi_static_start, run_to_steady, shoot,
     },
 };
 use fem::ElementOptions;
@@ -18,7 +18,7 @@ use geometry::{Gear, GearData, GearPair};
 use mesh::{GearMesh, GroupNames};
 use nalgebra::{DMatrix, DVector};
 use reduction::{GearModes, GearReducer, ModeChoice};
-use support::Case;
+use support::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 
@@ -79,16 +79,7 @@ impl Pair {
 
     /// Constant speed of the pinion, rad/s; everything held but the wheel's turn.
     fn options(&self, speed: f64, zeta: f64) -> MotionOptions {
-        MotionOptions {
-            contact: self.contact.clone(),
-            bodies: self.bodies,
-            bearings: [Bearing::default(); 2],
-            free: [[false; 6]; 2],
-            drive: Drive::Speed(Speed::Constant(speed)),
-            load: Torque::Constant(TORQUE),
-            damping: MeshDamping::Ratio(zeta),
-            start_cycles: 0.0,
-        }
+        at_speed(self.contact.clone(), self.bodies, speed, TORQUE, zeta)
     }
 
     fn reducers(&self) -> [&GearReducer; 2] {

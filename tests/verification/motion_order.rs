@@ -95,23 +95,26 @@ fn show(counts: &[usize], rows: &[Row]) {
     }
 }
 
-/// Where no slice comes or goes forces are smooth, and every method has the order of its theory: a swing of a twentieth of the transmission error with gears that stand still.
+/// Contact is known to the cell of a lattice of poses: what is below this, mm, is not the method's.
+const FLOOR: f64 = 1e-11;
+
+/// Where no slice comes or goes forces are smooth, and every method has the order of its theory: a swing of a third of the transmission error with gears that stand still,
+/// large enough for the most accurate method at the finest steps to stay above the floor.
 #[test]
 fn orders_are_those_of_theory_where_forces_are_smooth() {
     let pair = pair();
     let start = || {
         let system = pair.system(1e-9, |_| ());
-        let at = DVector::from_element(1, pair.ste[0] + 5e-4);
+        let at = DVector::from_element(1, pair.ste[0] + 3e-3);
         (system, State::new(0.0, at, DVector::zeros(1)))
     };
     let counts = [16, 32, 64, 128];
     let rows = table(&start, 2.0 / pair.resonance_hz(), &counts, 1024);
     show(&counts, &rows);
     for (name, expected, errors, _) in rows {
-        // Contact is known to the cell of a lattice: what is below 1e-11 mm is not the method's.
-        let last = (1..errors.len()).rev().find(|&i| errors[i] > 1e-10).unwrap_or(1);
-        let order = (errors[last - 1] / errors[last]).log2();
-        assert!((order - expected).abs() < 0.25, "{name}: order {order:.2}, not {expected}");
+        assert!(errors[3] > FLOOR, "{name}: {:.1e} mm at the finest steps says nothing of its order", errors[3]);
+        let order = (errors[2] / errors[3]).log2();
+        assert!((order - expected).abs() < 0.2, "{name}: order {order:.2}, not {expected}");
     }
 }
 

@@ -6,13 +6,11 @@ mod support;
 use dynamics::{
     StaticOptions, Station,
     motion::{Integrator, Scheme, State, StepControl},
-    pair_motion::{
-        Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, equivalent_mass,
-    },
+    pair_motion::{MotionOptions, PairMechanism, RigidBody, equivalent_mass},
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
-use support::Case;
+use support::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 
@@ -24,16 +22,7 @@ fn bodies(case: &Case) -> [RigidBody; 2] {
 }
 
 fn options(case: &Case, contact: StaticOptions, speed: f64, zeta: f64) -> MotionOptions {
-    MotionOptions {
-        contact,
-        bodies: bodies(case),
-        bearings: [Bearing::default(); 2],
-        free: [[false; 6]; 2],
-        drive: Drive::Speed(Speed::Constant(speed)),
-        load: Torque::Constant(TORQUE),
-        damping: MeshDamping::Ratio(zeta),
-        start_cycles: 0.0,
-    }
+    at_speed(contact, bodies(case), speed, TORQUE, zeta)
 }
 
 /// STE (mm) at phases i / n, mean tangent stiffness (N/mm) and line length (mm).

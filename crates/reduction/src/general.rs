@@ -40,6 +40,11 @@ impl GeneralGear {
         Ok(Self { dofs, factor })
     }
 
+    /// Number of free degrees of freedom.
+    pub(crate) fn free_count(&self) -> usize {
+        self.dofs.free_count()
+    }
+
     /// K^-1 b in place for forces b (N) on all free freedoms, n x k.
     pub(crate) fn solve(&self, rhs: faer::MatMut<'_, f64>) -> Result<(), ReductionError> {
         Ok(self.factor.solve(rhs)?)

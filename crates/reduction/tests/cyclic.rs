@@ -1,43 +1,21 @@
 //! One sector condensed and joined with itself against one factor of the whole gear.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use common::{gear, options};
 use faer::Mat;
-use fem::{ElementOptions, Material};
+use fem::Material;
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, Mesh, RootFillets, StructuredOptions};
+use mesh::{Extent, GearMesh, GroupNames, Mesh, RootFillets};
 use reduction::{FlankGrid, FlankGrids, GearReducer, ReductionError, ReductionOptions, ReductionWay};
 
-fn gear(teeth: u32, beta_deg: f64) -> Gear {
-    Gear::new(GearData {
-        teeth,
-        helix_angle: beta_deg.to_radians(),
-        face_width: 8.0,
-        bore_diameter: 0.45 * 3.0 * f64::from(teeth),
-        profile_shift: if teeth < 17 { 0.4 } else { 0.0 },
-        ..GearData::default()
-    })
-    .unwrap()
-}
-
+/// Two elements along every edge of the tooth.
 fn meshed(gear: &Gear, order: u32, extent: Extent) -> GearMesh {
-    let options = StructuredOptions {
-        order,
-        elements_profile: 2,
-        elements_fillet: 2,
-        elements_thickness: 2,
-        elements_face: 2,
-        elements_rim: 1,
-        extent,
-    };
-    let mesh = mesh::generate(gear, &options).unwrap();
-    GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
-}
-
-fn options(sides: &[Side], window: usize, first: u32) -> ReductionOptions {
-    ReductionOptions { sides: sides.to_vec(), window, first, elements: ElementOptions::default() }
+    common::meshed(gear, order, 2, extent)
 }
 
 /// Largest difference over the largest entry.

@@ -1,46 +1,21 @@
 //! Normal modes against dense matrices, a closed form, and one way against the other.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
+mod common;
+
 use std::f64::consts::{PI, TAU};
 
+use common::{gear, options};
 use faer::{Mat, MatRef};
 use fem::{DofMap, ElementOptions, Material};
-use geometry::{Gear, GearData, Side};
-use mesh::{
-    ElementBlock, ElementKind, Extent, Face, FaceKind, GearMesh, GroupNames, Mesh, StructuredOptions, SurfaceGroup,
-};
+use geometry::{Gear, Side};
+use mesh::{ElementBlock, ElementKind, Extent, Face, FaceKind, GearMesh, GroupNames, Mesh, SurfaceGroup};
 use nalgebra::{DMatrix, SymmetricEigen};
-use reduction::{GearModes, GearReducer, ModeChoice, ReductionOptions, ReductionWay, Window};
-
-fn gear(teeth: u32, beta_deg: f64) -> Gear {
-    Gear::new(GearData {
-        teeth,
-        helix_angle: beta_deg.to_radians(),
-        face_width: 8.0,
-        bore_diameter: 0.45 * 3.0 * f64::from(teeth),
-        profile_shift: if teeth < 17 { 0.4 } else { 0.0 },
-        ..GearData::default()
-    })
-    .unwrap()
-}
+use reduction::{GearModes, GearReducer, ModeChoice, ReductionWay, Window};
 
 /// As few elements as a gear can have, times `fine` in the tooth.
 fn meshed(gear: &Gear, fine: u32, extent: Extent) -> GearMesh {
-    let options = StructuredOptions {
-        order: 1,
-        elements_profile: fine,
-        elements_fillet: 2,
-        elements_thickness: fine,
-        elements_face: fine,
-        elements_rim: 1,
-        extent,
-    };
-    let mesh = mesh::generate(gear, &options).unwrap();
-    GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
-}
-
-fn options(sides: &[Side], window: usize, first: u32) -> ReductionOptions {
-    ReductionOptions { sides: sides.to_vec(), window, first, elements: ElementOptions::default() }
+    common::meshed(gear, 1, fine, extent)
 }
 
 /// All frequencies of a mesh, Hz, by dense matrices: nodes `held`, by Cholesky of M and nalgebra's symmetric QR.

@@ -1,8 +1,10 @@
 //! The file of a reduced gear: what goes in comes out to the bit, and nothing else is ever taken for it.
 
-use fem::{ElementOptions, Material};
+mod common;
+
+use fem::Material;
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use mesh::{Extent, GearMesh, GroupNames};
 use reduction::{GearReducer, RecordError, RecordKey, ReductionOptions, ReductionRecord, record_key};
 
 struct Sample {
@@ -19,18 +21,8 @@ impl Sample {
 
     fn meshed(extent: Extent) -> Self {
         let geometry = Gear::new(GearData { teeth: 12, bore_diameter: 16.0, ..GearData::default() }).unwrap();
-        let options = StructuredOptions {
-            order: 1,
-            elements_profile: 2,
-            elements_fillet: 2,
-            elements_thickness: 2,
-            elements_face: 2,
-            elements_rim: 1,
-            extent,
-        };
-        let mesh = GearMesh::from_groups(generate(&geometry, &options).unwrap(), &GroupNames::default(), 12).unwrap();
-        let elements = ElementOptions::default();
-        let options = ReductionOptions { sides: vec![Side::Left], window: 3, first: 11, elements };
+        let mesh = common::meshed(&geometry, 1, 2, extent);
+        let options = common::options(&[Side::Left], 3, 11);
         Self { geometry, mesh, options, material: Material::STEEL }
     }
 

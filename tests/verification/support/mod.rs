@@ -96,26 +96,31 @@ pub fn summary(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (sum / n, high - low)
 }
 
+/// Meshes of the built-in mesher; `counts`: elements along the profile, the fillet, across the tooth, along the face, in the rim.
+fn meshes(pair: &GearPair, order: u32, counts: [u32; 5], extent: mesh::Extent) -> [GearMesh; 2] {
+    let [profile, fillet, thickness, face, rim] = counts;
+    let options = mesh::StructuredOptions {
+        order,
+        elements_profile: profile,
+        elements_fillet: fillet,
+        elements_thickness: thickness,
+        elements_face: face,
+        elements_rim: rim,
+        extent,
+    };
+    [&pair.pinion, &pair.wheel].map(|gear| {
+        let mesh = mesh::generate(gear, &options).unwrap_or_else(|e| panic!("{e}"));
+        GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
+    })
+}
+
 /// The default pair at another helix angle [deg] on meshes of the built-in mesher, hex8;
 /// `counts`: elements along the profile, the fillet, across the tooth, along the face, in the rim.
 pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
     let data = GearData { helix_angle: beta_deg.to_radians(), ..GearData::default() };
     let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
     let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
-    let [profile, fillet, thickness, face, rim] = counts;
-    let options = mesh::StructuredOptions {
-        order: 1,
-        elements_profile: profile,
-        elements_fillet: fillet,
-        elements_thickness: thickness,
-        elements_face: face,
-        elements_rim: rim,
-        extent: mesh::Extent::Whole,
-    };
-    let meshes = [&pair.pinion, &pair.wheel].map(|gear| {
-        let mesh = mesh::generate(gear, &options).unwrap();
-        GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
-    });
+    let meshes = meshes(&pair, 1, counts, mesh::Extent::Whole);
     Case { pair, meshes, elements: ElementOptions::default(), torque: 150e3 }
 }
 
@@ -128,20 +133,7 @@ pub fn quadratic(
     extent: mesh::Extent,
 ) -> Case {
     let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), centre_distance).unwrap();
-    let [profile, fillet, thickness, face, rim] = counts;
-    let options = mesh::StructuredOptions {
-        order: 2,
-        elements_profile: profile,
-        elements_fillet: fillet,
-        elements_thickness: thickness,
-        elements_face: face,
-        elements_rim: rim,
-        extent,
-    };
-    let meshes = [&pair.pinion, &pair.wheel].map(|gear| {
-        let mesh = mesh::generate(gear, &options).unwrap_or_else(|e| panic!("{e}"));
-        GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
-    });
+    let meshes = meshes(&pair, 2, counts, extent);
     Case { pair, meshes, elements: ElementOptions::default(), torque }
 }
 

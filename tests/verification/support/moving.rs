@@ -14,6 +14,20 @@ use dynamics::{
 
 use super::Case;
 
+/// Everything is held but the driven gear's turn: the driver keeps its `speed` (rad/s), `torque` (N mm) is steady, `ratio` damps the mesh.
+pub fn at_speed(contact: StaticOptions, bodies: [RigidBody; 2], speed: f64, torque: f64, ratio: f64) -> MotionOptions {
+    MotionOptions {
+        contact,
+        bodies,
+        bearings: [Bearing::default(); 2],
+        free: [[false; 6]; 2],
+        drive: Drive::Speed(Speed::Constant(speed)),
+        load: Torque::Constant(torque),
+        damping: MeshDamping::Ratio(ratio),
+        start_cycles: 0.0,
+    }
+}
+
 /// A pair at one load, driven by speed unless a test says otherwise.
 pub struct MovingPair {
     pub case: Case,
@@ -64,16 +78,8 @@ impl MovingPair {
 
     /// The wheel's turn is free, the driver keeps its speed, damping ratio 0.1.
     pub fn system(&self, cycles_per_second: f64, change: impl FnOnce(&mut MotionOptions)) -> PairMechanism {
-        let mut options = MotionOptions {
-            contact: self.contact.clone(),
-            bodies: self.bodies,
-            bearings: [Bearing::default(); 2],
-            free: [[false; 6]; 2],
-            drive: Drive::Speed(Speed::Constant(self.speed(cycles_per_second))),
-            load: Torque::Constant(self.contact.torque),
-            damping: MeshDamping::Ratio(0.1),
-            start_cycles: 0.0,
-        };
+        let speed = self.speed(cycles_per_second);
+        let mut options = at_speed(self.contact.clone(), self.bodies, speed, self.contact.torque, 0.1);
         change(&mut options);
         PairMechanism::new(self.case.pair.clone(), Arc::clone(&self.gears), None, options, self.means)
             .unwrap_or_else(|e| panic!("{e}"))

@@ -14,21 +14,15 @@ use std::f64::consts::TAU;
 
 use super::{
     bodies::{bearings, bodies},
-    model::{LadderModel, StaticPoint},
+    model::{LadderModel, StaticPoint, at_rest},
 };
 use crate::{
-    motion::{GEARS, WRENCH, drive, torque},
+    motion::{GEARS, TURNING, WRENCH, drive, torque},
     run,
     scene::{ImpactScene, Scene, TorqueScene},
 };
 
-const LEADING: [&str; 14] = [
-    "time_s",
-    "pinion_angle_deg",
-    "mesh_phase",
-    "pinion_speed_rpm",
-    "wheel_speed_rpm",
-    "dte_um",
+const LEADING: [&str; 8] = [
     "contact_line_length_mm",
     "pairs_in_contact",
     "normal_force_n",
@@ -108,9 +102,7 @@ fn formula(scene: &Scene, words: &ImpactScene, gears: &GearPair) -> Result<(f64,
 
 impl LadderModel for ImpactMechanism {
     fn start(&mut self) -> Result<State, LumpedError> {
-        let q = self.static_state()?;
-        let n = q.len();
-        Ok(State::new(0.0, q, DVector::zeros(n)))
+        Ok(at_rest(self.static_state()?))
     }
 
     fn scale(&self) -> DVector<f64> {
@@ -118,7 +110,7 @@ impl LadderModel for ImpactMechanism {
     }
 
     fn columns(&self) -> Vec<String> {
-        let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+        let mut names: Vec<String> = TURNING.iter().chain(&LEADING).map(|&n| n.to_owned()).collect();
         for part in ["", "friction_"] {
             names.extend(GEARS.iter().flat_map(|g| WRENCH.iter().map(move |n| format!("{g}_{part}{n}"))));
         }

@@ -39,6 +39,12 @@ pub(crate) trait LadderModel: Mechanism<Error = Infallible> + Send {
     fn natural_frequencies_hz(&self, share: f64) -> Vec<f64>;
 }
 
+/// Standing still at t = 0.
+pub(super) fn at_rest(q: DVector<f64>) -> State {
+    let n = q.len();
+    State::new(0.0, q, DVector::zeros(n))
+}
+
 /// Any of them.
 pub(crate) struct Model(Box<dyn LadderModel>);
 

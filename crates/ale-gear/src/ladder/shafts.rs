@@ -14,7 +14,7 @@ use nalgebra::DVector;
 use super::{
     bodies::bodies,
     mesh_cycle::Fed,
-    model::{LadderModel, StaticPoint},
+    model::{LadderModel, StaticPoint, at_rest},
 };
 use crate::{
     motion::{GEARS, WRENCH},
@@ -181,9 +181,7 @@ fn of_row(row: &ShaftRow, cycles: f64) -> Vec<f64> {
 
 impl LadderModel for ShaftMechanism {
     fn start(&mut self) -> Result<State, LumpedError> {
-        let q = self.static_state(0.0)?;
-        let n = q.len();
-        Ok(State::new(0.0, q, DVector::zeros(n)))
+        Ok(at_rest(self.static_state(0.0)?))
     }
 
     fn scale(&self) -> DVector<f64> {

@@ -22,17 +22,10 @@ use crate::{
 
 use super::{no_statistics, pattern::PatternRecord};
 
-const LEADING: [&str; 9] = [
-    "time_s",
-    "pinion_angle_deg",
-    "mesh_phase",
-    "pinion_speed_rpm",
-    "wheel_speed_rpm",
-    "dte_um",
-    "dte_rate_um_per_s",
-    "contact_line_length_mm",
-    "pairs_in_contact",
-];
+/// What a row of turning gears with flanks begins with.
+pub(crate) const TURNING: [&str; 6] =
+    ["time_s", "pinion_angle_deg", "mesh_phase", "pinion_speed_rpm", "wheel_speed_rpm", "dte_um"];
+const LEADING: [&str; 3] = ["dte_rate_um_per_s", "contact_line_length_mm", "pairs_in_contact"];
 /// Names of a wrench's components.
 pub(crate) const WRENCH: [&str; COORDINATES] =
     ["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
@@ -132,7 +125,7 @@ impl Layout {
 
 /// Names of the columns, the given ones of the pairs among them.
 fn names(free: &[[bool; 5]; 2], pairs: impl Iterator<Item = String>, root_stress: bool) -> Vec<String> {
-    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
+    let mut names: Vec<String> = TURNING.iter().chain(&LEADING).map(|&n| n.to_owned()).collect();
     for gear in GEARS {
         names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
     }

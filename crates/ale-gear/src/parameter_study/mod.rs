@@ -2,15 +2,18 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `file` | reads and checks the study file and its scenes |
+//! | `file` | the study file |
+//! | `raw`, `check` | its words, and what they mean: every complaint is made here |
 //! | `columns` | which columns a scene's rows will have, told before anything is run |
 //! | `cases` | runs the scenes, in parallel, each into a folder of its own |
 //! | `findings` | what is read off the rows: quantities, correlations |
 
 mod cases;
+mod check;
 mod columns;
 mod file;
 mod findings;
+mod raw;
 
 pub(crate) use cases::{CaseRun, run_cases};
 pub use file::{Case, Follow, FullRun, OverTime, Quantity, Study, Take};

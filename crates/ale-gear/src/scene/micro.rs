@@ -151,12 +151,37 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         value.as_ref().map(|_| s.number(key, value, 0.0, least, face_width)).transpose()
     };
     let shape = |key, word: &Word| word.as_ref().map(|w| s.one_of(key, w, &SHAPES)).transpose();
+    reliefs(s, raw)?;
+    Ok(FlankScene {
+        tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
+        tip_relief_start_diameter_mm: number("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
+        tip_relief_start_roll_deg: number("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
+        tip_relief_shape: shape("tip_relief_shape", &raw.tip_relief_shape)?,
+        root_relief_um: number("root_relief_um", &raw.root_relief_um)?,
+        root_relief_start_diameter_mm: number("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
+        root_relief_start_roll_deg: number("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
+        root_relief_shape: shape("root_relief_shape", &raw.root_relief_shape)?,
+        profile_crowning_um: number("profile_crowning_um", &raw.profile_crowning_um)?,
+        profile_slope_um: number("profile_slope_um", &raw.profile_slope_um)?,
+        lead_crowning_um: number("lead_crowning_um", &raw.lead_crowning_um)?,
+        lead_slope_um: number("lead_slope_um", &raw.lead_slope_um)?,
+        end_relief_lower_um: number("end_relief_lower_um", &raw.end_relief_lower_um)?,
+        end_relief_lower_length_mm: length("end_relief_lower_length_mm", &raw.end_relief_lower_length_mm)?,
+        end_relief_upper_um: number("end_relief_upper_um", &raw.end_relief_upper_um)?,
+        end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
+        end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
+        bias_um: number("bias_um", &raw.bias_um)?,
+        topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
+        evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
+    })
+}
+
+/// Every relief says how deep it is and where it begins, once.
+fn reliefs(s: &Source<'_>, raw: &RawFlank) -> Checked<()> {
     let start_of = |what: &str, amount: &Number, starts: [(&str, &Number); 2], word: &Word| {
         let given: Vec<_> = starts.iter().filter_map(|(key, v)| v.as_ref().map(|v| (*key, v.span()))).collect();
         let advice = format!("a relief is `{what}_um` with `{}` or `{}`", starts[0].0, starts[1].0);
-        let wrong = |span: std::ops::Range<usize>, what: String| {
-            Err(SceneError::Conflict { place: s.place(&span), what, advice: advice.clone() })
-        };
+        let wrong = |span: std::ops::Range<usize>, what: String| Err(s.conflict(&span, what, advice.clone()));
         match (amount, given.as_slice()) {
             (Some(amount), []) => wrong(amount.span(), format!("`{what}_um` has no start")),
             (_, [(a, _), (b, span)]) => wrong(span.clone(), format!("`{a}` and `{b}` both say where it starts")),
@@ -194,34 +219,13 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         together(s, (&format!("{what}_um"), amount), (&format!("{what}_length_mm"), length))?;
     }
     if let (Some(word), None, None) = (&raw.end_relief_shape, &raw.end_relief_lower_um, &raw.end_relief_upper_um) {
-        return Err(SceneError::Conflict {
-            place: s.place(&word.span()),
-            what: "`end_relief_shape` has no end relief".into(),
-            advice: "add `end_relief_lower_um` or `end_relief_upper_um`, each with its length".into(),
-        });
+        return Err(s.conflict(
+            &word.span(),
+            "`end_relief_shape` has no end relief",
+            "add `end_relief_lower_um` or `end_relief_upper_um`, each with its length",
+        ));
     }
-    Ok(FlankScene {
-        tip_relief_um: number("tip_relief_um", &raw.tip_relief_um)?,
-        tip_relief_start_diameter_mm: number("tip_relief_start_diameter_mm", &raw.tip_relief_start_diameter_mm)?,
-        tip_relief_start_roll_deg: number("tip_relief_start_roll_deg", &raw.tip_relief_start_roll_deg)?,
-        tip_relief_shape: shape("tip_relief_shape", &raw.tip_relief_shape)?,
-        root_relief_um: number("root_relief_um", &raw.root_relief_um)?,
-        root_relief_start_diameter_mm: number("root_relief_start_diameter_mm", &raw.root_relief_start_diameter_mm)?,
-        root_relief_start_roll_deg: number("root_relief_start_roll_deg", &raw.root_relief_start_roll_deg)?,
-        root_relief_shape: shape("root_relief_shape", &raw.root_relief_shape)?,
-        profile_crowning_um: number("profile_crowning_um", &raw.profile_crowning_um)?,
-        profile_slope_um: number("profile_slope_um", &raw.profile_slope_um)?,
-        lead_crowning_um: number("lead_crowning_um", &raw.lead_crowning_um)?,
-        lead_slope_um: number("lead_slope_um", &raw.lead_slope_um)?,
-        end_relief_lower_um: number("end_relief_lower_um", &raw.end_relief_lower_um)?,
-        end_relief_lower_length_mm: length("end_relief_lower_length_mm", &raw.end_relief_lower_length_mm)?,
-        end_relief_upper_um: number("end_relief_upper_um", &raw.end_relief_upper_um)?,
-        end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
-        end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
-        bias_um: number("bias_um", &raw.bias_um)?,
-        topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
-        evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
-    })
+    Ok(())
 }
 
 /// Two keys that mean nothing without each other.
@@ -231,11 +235,11 @@ fn together(s: &Source<'_>, a: (&str, &Number), b: (&str, &Number)) -> Checked<(
         (None, Some(value)) => ((b.0, value), a.0),
         _ => return Ok(()),
     };
-    Err(SceneError::Conflict {
-        place: s.place(&alone.1.span()),
-        what: format!("`{}` has no `{other}`", alone.0),
-        advice: format!("give both `{}` and `{}`, or neither", a.0, b.0),
-    })
+    Err(s.conflict(
+        &alone.1.span(),
+        format!("`{}` has no `{other}`", alone.0),
+        format!("give both `{}` and `{}`, or neither", a.0, b.0),
+    ))
 }
 
 /// A file that is there; the path as written.
@@ -245,27 +249,25 @@ fn file(s: &Source<'_>, key: &str, word: &Spanned<String>) -> Checked<PathBuf> {
     if found.is_file() {
         return Ok(path);
     }
-    Err(SceneError::Conflict {
-        place: s.place(&word.span()),
-        what: format!("`{key}` is \"{}\", but there is no file {}", word.get_ref(), found.display()),
-        advice: "paths are relative to the scene file".into(),
-    })
+    Err(s.conflict(
+        &word.span(),
+        format!("`{key}` is \"{}\", but there is no file {}", word.get_ref(), found.display()),
+        "paths are relative to the scene file",
+    ))
 }
 
 /// Pitch errors: a list, or a file.
 pub(super) fn pitch_errors(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Vec<f64>, Option<PathBuf>)> {
     let in_file = raw.pitch_errors_file.as_ref().map(|word| file(s, "pitch_errors_file", word)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };
-    let conflict =
-        |what: String, advice: String| Err(SceneError::Conflict { place: s.place(&list.span()), what, advice });
     if in_file.is_some() {
-        let advice = "keep the one or the other".into();
-        return conflict("a gear has both `pitch_errors_um` and `pitch_errors_file`".into(), advice);
+        let what = "a gear has both `pitch_errors_um` and `pitch_errors_file`";
+        return Err(s.conflict(&list.span(), what, "keep the one or the other"));
     }
     let given = list.get_ref().len();
     if given != teeth as usize {
-        let advice = "give one value a tooth, tooth 0 first".into();
-        return conflict(format!("`pitch_errors_um` has {given} values, but the gear has {teeth} teeth"), advice);
+        let what = format!("`pitch_errors_um` has {given} values, but the gear has {teeth} teeth");
+        return Err(s.conflict(&list.span(), what, "give one value a tooth, tooth 0 first"));
     }
     let values = list.get_ref().iter().map(|v| s.number("pitch_errors_um", &Some(v.clone()), 0.0, -LARGEST, LARGEST));
     Ok((values.collect::<Checked<_>>()?, None))

@@ -51,6 +51,11 @@ impl Source<'_> {
         Place::Line(Box::new(Line { file: self.file.to_owned(), number, excerpt }))
     }
 
+    /// A complaint about words that each are right and do not go together.
+    pub fn conflict(&self, span: &Range<usize>, what: impl Into<String>, advice: impl Into<String>) -> SceneError {
+        SceneError::Conflict { place: self.place(span), what: what.into(), advice: advice.into() }
+    }
+
     /// A message of the TOML reader in this program's words.
     pub fn explain(&self, message: &str, span: Option<Range<usize>>) -> SceneError {
         let span = span.unwrap_or(0..0);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ale_gear::scene::all_keys;
 use serde_json::Value;
 
-use crate::rows::{Base, FLANK, GEAR, REST};
+use crate::rows::{Base, tables};
 use crate::util::{ISO_SCENE, Run, Scratch, motion_scene, repository};
 
 /// Words of a run with the key at the case's value, and with it at the other one.
@@ -15,29 +15,15 @@ struct Case {
     other: String,
 }
 
-/// The case of a key, with what its row says put in for this gear and this flank.
+/// The case of a key, with what its row says put in for its table.
 fn case(key: &str) -> Option<Case> {
-    let (gear, own) = match key.split_once('.') {
-        Some((gear @ ("pinion" | "wheel"), own)) => (gear, own),
-        _ => ("", key),
-    };
-    let words = |base, list: &str, value: &str| {
-        let fill = |word: &str| word.trim().replace('@', &format!("{gear}."));
-        let before = list.split("; ").filter(|w| !w.is_empty()).map(fill).collect();
-        Some(Case { base, before, other: format!("{key}={value}") })
-    };
-    if gear.is_empty() {
-        let (_, base, list, value) = REST.iter().find(|row| row.0 == own)?;
-        return words(*base, list, value);
-    }
-    if let Some(flank) = own.strip_prefix("modification.") {
-        let name = flank.rsplit('.').next()?;
-        let (_, list, value) = FLANK.iter().find(|row| row.0 == name)?;
-        let table = key.strip_suffix(name)?;
-        return words(Base::Flanks, &list.replace('~', table), value);
-    }
-    let (_, base, list, value) = GEAR.iter().find(|row| row.0 == own)?;
-    words(*base, list, value)
+    tables().into_iter().find_map(|(table, words, rows)| {
+        let own = key.strip_prefix(table.as_str())?;
+        let (_, base, list, value) = rows.iter().find(|row| row.0 == own)?;
+        let all = words.split("; ").chain(list.split("; ")).filter(|w| !w.is_empty());
+        let before = all.map(|w| w.replace('~', &table)).collect();
+        Some(Case { base: *base, before, other: format!("{key}={value}") })
+    })
 }
 
 /// The scene of a case.
@@ -48,6 +34,7 @@ fn scene(base: Base) -> String {
         "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";
     let tiny = ISO_SCENE.replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}"));
     let reduced = tiny.replace("model = \"iso\"\n", "positions_per_cycle = 3\n");
+    let few_slices = "[contact]\nslices = 4\n";
     match base {
         Base::Iso => format!("{tiny}positions_per_cycle = 4\n"),
         Base::Reduced => reduced,
@@ -56,16 +43,20 @@ fn scene(base: Base) -> String {
             "[wheel]\nmesh = \"sector_wheel.msh\"",
             1,
         ),
-        Base::Motion => motion_scene(0, "run = \"span\"\n"),
-        Base::Modes => motion_scene(1, "warm_up_cycles = 1\n")
-            .replace("kind = \"dynamic\"\n", "kind = \"dynamic\"\nmodel = \"reduced+modes\"\n"),
+        Base::Motion => motion_scene(0, "run = \"span\"\n") + few_slices,
+        Base::Modes => {
+            motion_scene(1, "warm_up_cycles = 1\n")
+                .replace("kind = \"dynamic\"\n", "kind = \"dynamic\"\nmodel = \"reduced+modes\"\n")
+                + few_slices
+        }
         Base::Lumped8 => seed("004"),
         Base::Lumped12 => seed("003"),
         Base::Shaft18 => seed("002"),
         Base::Impact => seed("001"),
         Base::Flanks => {
-            ISO_SCENE.replace("model = \"iso\"\n", "model = \"impact\"\ncycles = 2\n[contact]\nslices = 8\n")
-                + "[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 16\n[load]\ntable_s_nm = [[0.0, 150.0], [0.0015, 150.0], [0.0016, -150.0]]\n"
+            ISO_SCENE.replace("model = \"iso\"\n", "model = \"impact\"\ncycles = 1\npositions_per_cycle = 2\n")
+                + few_slices
+                + "[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 8\n[load]\ntable_s_nm = [[0.0, 150.0], [0.0008, 150.0], [0.0009, -150.0]]\n"
         }
     }
 }
@@ -75,8 +66,14 @@ fn short(base: Base) -> &'static [&'static str] {
     match base {
         Base::Lumped8 => &["analysis.cycles=2", "motion.warm_up_cycles=12"],
         Base::Lumped12 | Base::Shaft18 => &["analysis.cycles=2", "motion.warm_up_cycles=4"],
-        Base::Motion | Base::Modes => &["analysis.cycles=2"],
-        Base::Impact => &["motion.ramp.from_rpm=500", "motion.ramp.duration_s=0.02", "motion.ramp.after_s=0.005"],
+        Base::Motion | Base::Modes => &["analysis.cycles=1"],
+        Base::Impact => &[
+            "contact.slices=5",
+            "analysis.positions_per_cycle=2",
+            "motion.steps_per_mesh_cycle=16",
+            "motion.ramp.duration_s=0.003",
+            "motion.ramp.after_s=0.001",
+        ],
         _ => &[],
     }
 }

@@ -22,37 +22,49 @@ pub enum Base {
     Flanks,
 }
 
-/// Key, case, further keys that the case wants (`;` between them), the other value. `@` is the gear that the key belongs to.
+/// Key, case, further keys that the case wants (`;` between them), the other value. `~` is the table that the key stands in, with its dot.
 pub type Row = (&'static str, Base, &'static str, &'static str);
 
-use Base::{Files, Impact, Iso, Lumped8, Lumped12, Modes, Motion, Reduced, Shaft18};
+use Base::{Files, Flanks, Impact, Iso, Lumped8, Lumped12, Modes, Motion, Reduced, Shaft18};
 
-/// Keys of a flank, for both sides and for each.
-pub const FLANK: &[(&str, &str, &str)] = &[
-    ("tip_relief_um", "~tip_relief_start_roll_deg=26; ~tip_relief_um=-2", "-9"),
-    ("tip_relief_start_diameter_mm", "~tip_relief_um=-9; ~tip_relief_start_diameter_mm=99", "97"),
-    ("tip_relief_start_roll_deg", "~tip_relief_um=-9; ~tip_relief_start_roll_deg=26", "24"),
-    ("tip_relief_shape", "~tip_relief_um=-9; ~tip_relief_start_roll_deg=24", "parabolic"),
-    ("root_relief_um", "~root_relief_start_roll_deg=18; ~root_relief_um=-2", "-9"),
-    ("root_relief_start_diameter_mm", "~root_relief_um=-9; ~root_relief_start_diameter_mm=94", "95"),
-    ("root_relief_start_roll_deg", "~root_relief_um=-9; ~root_relief_start_roll_deg=18", "20"),
-    ("root_relief_shape", "~root_relief_um=-9; ~root_relief_start_roll_deg=20", "parabolic"),
-    ("profile_crowning_um", "", "-8"),
-    ("profile_slope_um", "", "-8"),
-    ("lead_crowning_um", "", "-8"),
-    ("lead_slope_um", "", "-8"),
-    ("end_relief_lower_um", "~end_relief_lower_length_mm=8; ~end_relief_lower_um=-2", "-9"),
-    ("end_relief_lower_length_mm", "~end_relief_lower_um=-9; ~end_relief_lower_length_mm=8", "12"),
-    ("end_relief_upper_um", "~end_relief_upper_length_mm=8; ~end_relief_upper_um=-2", "-9"),
-    ("end_relief_upper_length_mm", "~end_relief_upper_um=-9; ~end_relief_upper_length_mm=8", "12"),
-    ("end_relief_shape", "~end_relief_upper_um=-9; ~end_relief_upper_length_mm=12", "parabolic"),
-    ("bias_um", "", "-12"),
-    ("topography", "", "grid.csv"),
-    ("evaluation_start_diameter_mm", "~profile_slope_um=-9", "93"),
+/// Keys of a flank.
+const FLANK: &[Row] = &[
+    ("tip_relief_um", Flanks, "~tip_relief_start_roll_deg=26; ~tip_relief_um=-2", "-9"),
+    ("tip_relief_start_diameter_mm", Flanks, "~tip_relief_um=-9; ~tip_relief_start_diameter_mm=99", "97"),
+    ("tip_relief_start_roll_deg", Flanks, "~tip_relief_um=-9; ~tip_relief_start_roll_deg=26", "24"),
+    ("tip_relief_shape", Flanks, "~tip_relief_um=-9; ~tip_relief_start_roll_deg=24", "parabolic"),
+    ("root_relief_um", Flanks, "~root_relief_start_roll_deg=18; ~root_relief_um=-2", "-9"),
+    ("root_relief_start_diameter_mm", Flanks, "~root_relief_um=-9; ~root_relief_start_diameter_mm=94", "95"),
+    ("root_relief_start_roll_deg", Flanks, "~root_relief_um=-9; ~root_relief_start_roll_deg=18", "20"),
+    ("root_relief_shape", Flanks, "~root_relief_um=-9; ~root_relief_start_roll_deg=20", "parabolic"),
+    ("profile_crowning_um", Flanks, "", "-8"),
+    ("profile_slope_um", Flanks, "", "-8"),
+    ("lead_crowning_um", Flanks, "", "-8"),
+    ("lead_slope_um", Flanks, "", "-8"),
+    ("end_relief_lower_um", Flanks, "~end_relief_lower_length_mm=8; ~end_relief_lower_um=-2", "-9"),
+    ("end_relief_lower_length_mm", Flanks, "~end_relief_lower_um=-9; ~end_relief_lower_length_mm=8", "12"),
+    ("end_relief_upper_um", Flanks, "~end_relief_upper_length_mm=8; ~end_relief_upper_um=-2", "-9"),
+    ("end_relief_upper_length_mm", Flanks, "~end_relief_upper_um=-9; ~end_relief_upper_length_mm=8", "12"),
+    ("end_relief_shape", Flanks, "~end_relief_upper_um=-9; ~end_relief_upper_length_mm=12", "parabolic"),
+    ("bias_um", Flanks, "", "-12"),
+    ("topography", Flanks, "", "grid.csv"),
+    ("evaluation_start_diameter_mm", Flanks, "~profile_slope_um=-9", "93"),
+];
+
+/// Keys of a material.
+const MATERIAL: &[Row] =
+    &[("young_mpa", Iso, "", "1.0e5"), ("poisson", Reduced, "", "0.25"), ("density_kg_m3", Motion, "", "2700")];
+
+/// Keys of a torque beside its mean.
+const TORQUE: &[Row] = &[
+    ("amplitude_nm", Motion, "~frequency_hz=900; ~amplitude_nm=5", "20"),
+    ("frequency_hz", Motion, "~amplitude_nm=20; ~frequency_hz=900", "700"),
+    ("phase_deg", Motion, "~amplitude_nm=20; ~frequency_hz=900", "90"),
+    ("table_s_nm", Motion, "", "[[0.0, 150.0], [0.01, 250.0]]"),
 ];
 
 /// Keys of a gear.
-pub const GEAR: &[Row] = &[
+const GEAR: &[Row] = &[
     ("teeth", Iso, "", "31"),
     ("helix_angle_deg", Iso, "", "15"),
     ("bore_diameter_mm", Reduced, "", "50"),
@@ -75,9 +87,6 @@ pub const GEAR: &[Row] = &[
     ("groups.flank_right", Files, "", "Right_{k}"),
     ("groups.cut_0", Files, "", "First"),
     ("groups.cut_1", Files, "", "Last"),
-    ("material.young_mpa", Iso, "", "1.0e5"),
-    ("material.poisson", Reduced, "", "0.25"),
-    ("material.density_kg_m3", Motion, "", "2700"),
     ("body.mass_kg", Lumped8, "", "9"),
     ("body.transverse_inertia_kg_m2", Lumped12, "", "0.02"),
     ("body.polar_inertia_kg_m2", Lumped8, "", "0.02"),
@@ -93,19 +102,19 @@ pub const GEAR: &[Row] = &[
     ("bearing.damping_x_ns_per_mm", Lumped8, "", "20"),
     ("bearing.damping_y_ns_per_mm", Lumped8, "", "20"),
     ("bearing.damping_z_ns_per_mm", Lumped8, "", "20"),
-    ("bearing.damping_rx_nmms_per_rad", Motion, "@body.free=[\"rx\"]; @bearing.stiffness_rx_nmm_per_rad=1e8", "2e4"),
-    ("bearing.damping_ry_nmms_per_rad", Motion, "@body.free=[\"ry\"]; @bearing.stiffness_ry_nmm_per_rad=1e8", "2e4"),
+    ("bearing.damping_rx_nmms_per_rad", Motion, "~body.free=[\"rx\"]; ~bearing.stiffness_rx_nmm_per_rad=1e8", "2e4"),
+    ("bearing.damping_ry_nmms_per_rad", Motion, "~body.free=[\"ry\"]; ~bearing.stiffness_ry_nmm_per_rad=1e8", "2e4"),
     ("bearing.damping_rz_nmms_per_rad", Lumped8, "", "5e3"),
     (
         "bearing.stiffness_matrix_n_mm_rad",
         Motion,
-        "@body.free=[\"y\"]; @bearing.stiffness_matrix_n_mm_rad=[[1e5,0,0,0,0],[0,1e5,0,0,0],[0,0,1e5,0,0],[0,0,0,1e8,0],[0,0,0,0,1e8]]",
+        "~body.free=[\"y\"]; ~bearing.stiffness_matrix_n_mm_rad=[[1e5,0,0,0,0],[0,1e5,0,0,0],[0,0,1e5,0,0],[0,0,0,1e8,0],[0,0,0,0,1e8]]",
         "[[1e5,0,0,0,0],[0,2e5,0,0,0],[0,0,1e5,0,0],[0,0,0,1e8,0],[0,0,0,0,1e8]]",
     ),
     (
         "bearing.damping_matrix_ns_mm_rad",
         Motion,
-        "@body.free=[\"y\"]; @bearing.stiffness_y_n_per_mm=1e5",
+        "~body.free=[\"y\"]; ~bearing.stiffness_y_n_per_mm=1e5",
         "[[9,0,0,0,0],[0,9,0,0,0],[0,0,9,0,0],[0,0,0,9,0],[0,0,0,0,9]]",
     ),
     ("shaft.segments_mm", Shaft18, "", "[[113.8, 30.0, 0.0], [118.0, 32.0, 5.0]]"),
@@ -113,7 +122,7 @@ pub const GEAR: &[Row] = &[
     ("shaft.torque_at_mm", Shaft18, "", "20"),
     ("shaft.nodes_mm", Shaft18, "", "[40.0]"),
     ("shaft.run_out_um", Shaft18, "", "20"),
-    ("shaft.run_out_phase_deg", Shaft18, "@shaft.run_out_um=20", "90"),
+    ("shaft.run_out_phase_deg", Shaft18, "~shaft.run_out_um=20", "90"),
     ("shaft.discs.0.at_mm", Shaft18, "", "50"),
     ("shaft.discs.0.mass_kg", Shaft18, "", "3"),
     ("shaft.discs.0.polar_inertia_kg_m2", Shaft18, "", "0.01"),
@@ -137,8 +146,8 @@ pub const GEAR: &[Row] = &[
 const RAMP: &str = "motion.run=ramp; motion.ramp.from_rpm=3000; motion.ramp.to_rpm=4000; motion.ramp.duration_s=0.004; motion.ramp.waterfall_cycles=4";
 const SWEEP: &str = "motion.run=sweep; motion.sweep.from_rpm=2000; motion.sweep.to_rpm=3000; motion.sweep.speeds=2; motion.sweep.ways=[\"up\"]; motion.warm_up_cycles=3";
 
-/// All other keys.
-pub const REST: &[Row] = &[
+/// Keys that stand once in a scene.
+const SCENE: &[Row] = &[
     ("name", Iso, "", "another"),
     ("pair.normal_module_mm", Iso, "", "3.5"),
     ("pair.normal_pressure_angle_deg", Iso, "", "21"),
@@ -151,9 +160,6 @@ pub const REST: &[Row] = &[
     ("pair.misalignment.inclination_um", Reduced, "", "20"),
     ("pair.misalignment.in_plane_of_action_um", Reduced, "", "20"),
     ("pair.misalignment.across_plane_of_action_um", Reduced, "", "20"),
-    ("material.young_mpa", Iso, "", "1.0e5"),
-    ("material.poisson", Reduced, "", "0.25"),
-    ("material.density_kg_m3", Motion, "", "2700"),
     ("operation.driver", Iso, "", "wheel"),
     ("operation.rotation", Reduced, "", "cw"),
     ("operation.torque_nm", Iso, "", "200"),
@@ -168,15 +174,7 @@ pub const REST: &[Row] = &[
     ("contact.corner_contact", Reduced, "operation.torque_nm=2000", "false"),
     ("drive.by", Motion, "", "torque"),
     ("drive.torque_nm", Motion, "drive.by=torque", "160"),
-    ("drive.amplitude_nm", Motion, "drive.by=torque; drive.frequency_hz=900; drive.amplitude_nm=5", "20"),
-    ("drive.frequency_hz", Motion, "drive.by=torque; drive.amplitude_nm=20; drive.frequency_hz=900", "700"),
-    ("drive.phase_deg", Motion, "drive.by=torque; drive.amplitude_nm=20; drive.frequency_hz=900", "90"),
-    ("drive.table_s_nm", Motion, "drive.by=torque", "[[0.0, 150.0], [0.01, 250.0]]"),
-    ("load.amplitude_nm", Motion, "load.frequency_hz=900; load.amplitude_nm=5", "20"),
-    ("load.frequency_hz", Motion, "load.amplitude_nm=20; load.frequency_hz=900", "700"),
-    ("load.phase_deg", Motion, "load.amplitude_nm=20; load.frequency_hz=900", "90"),
-    ("load.table_s_nm", Motion, "", "[[0.0, 150.0], [0.01, 250.0]]"),
-    ("analysis.kind", Reduced, "", "dynamic"),
+    ("analysis.kind", Reduced, "analysis.cycles=1; contact.slices=4", "dynamic"),
     ("analysis.model", Iso, "", "reduced"),
     ("analysis.reduction", Reduced, "", "general"),
     ("analysis.positions_per_cycle", Iso, "", "8"),
@@ -185,7 +183,7 @@ pub const REST: &[Row] = &[
     ("modes.count", Modes, "", "6"),
     ("modes.below_hz", Modes, "", "20000"),
     ("modes.boundary", Modes, "", "consistent"),
-    ("modes.fixed_modes", Modes, "modes.boundary=consistent; modes.count=60", "3"),
+    ("modes.fixed_modes", Modes, "modes.boundary=consistent; modes.count=20", "3"),
     ("modes.damping_ratio", Modes, "", "0.05"),
     ("motion.run", Lumped8, "", "span"),
     ("motion.method", Lumped8, "", "newmark"),
@@ -254,3 +252,16 @@ pub const REST: &[Row] = &[
     ("output.fields", Reduced, "output.vtu=true", "[\"pressure\"]"),
     ("output.vtu_every", Reduced, "output.vtu=true", "2"),
 ];
+
+/// Every table with its rows, and words that all of them want.
+pub fn tables() -> Vec<(String, &'static str, &'static [Row])> {
+    let once =
+        [("", "", SCENE), ("material.", "", MATERIAL), ("drive.", "drive.by=torque", TORQUE), ("load.", "", TORQUE)];
+    let mut all: Vec<_> = once.map(|(table, words, rows)| (table.to_owned(), words, rows)).into();
+    for gear in ["pinion.", "wheel."] {
+        all.push((gear.to_owned(), "", GEAR));
+        all.push((format!("{gear}material."), "", MATERIAL));
+        all.extend(["", "drive.", "coast."].map(|side| (format!("{gear}modification.{side}"), "", FLANK)));
+    }
+    all
+}

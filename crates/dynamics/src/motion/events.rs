@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::State;
+use super::{Mechanism, MotionError, State};
 
 /// Which way an event function went through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,4 +58,41 @@ pub(super) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, 
         }
     }
     Ok(high)
+}
+
+/// Values of all events of a system at a state.
+pub(super) fn event_values<M: Mechanism>(
+    system: &mut M,
+    time: f64,
+    q: &DVector<f64>,
+    v: &DVector<f64>,
+) -> Result<Vec<f64>, MotionError<M::Error>> {
+    let mut values = vec![0.0; system.events()];
+    if !values.is_empty() {
+        let fail = |source| MotionError::Mechanism { time, source };
+        system.event_values(time, q, v, &mut values).map_err(fail)?;
+    }
+    Ok(values)
+}
+
+/// Events within a step between values `before` and `after`, in the order of time.
+pub(super) fn crossings<M: Mechanism>(
+    system: &mut M,
+    from: &State,
+    to: &State,
+    before: &[f64],
+    after: &[f64],
+) -> Result<Vec<Crossing>, MotionError<M::Error>> {
+    let mut found = Vec::new();
+    for event in (0..before.len()).filter(|&i| (before[i] >= 0.0) != (after[i] >= 0.0)) {
+        let h = to.time - from.time;
+        let share = root([before[event], after[event]], |share| {
+            let (q, v) = between(from, to, share);
+            event_values(system, from.time + share * h, &q, &v).map(|values| values[event])
+        })?;
+        let direction = if before[event] < 0.0 { Direction::Up } else { Direction::Down };
+        found.push(Crossing { event, time: from.time + share * h, direction });
+    }
+    found.sort_by(|a, b| a.time.total_cmp(&b.time));
+    Ok(found)
 }

@@ -14,11 +14,13 @@ mod ledger;
 mod mechanism;
 mod newton;
 mod runge_kutta;
+mod scheme;
 mod state;
 
 pub use error::MotionError;
 pub use events::{Crossing, Direction};
-pub use integrator::{Integrator, Progress, Scheme, StepControl};
+pub use integrator::{Integrator, Progress};
 pub use ledger::Ledger;
 pub use mechanism::{Forces, Mechanism};
+pub use scheme::{Scheme, StepControl};
 pub use state::State;

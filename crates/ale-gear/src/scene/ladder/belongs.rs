@@ -16,10 +16,6 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
     value.as_ref().map(Spanned::span)
 }
 
-fn conflict(s: &Source<'_>, at: &Range<usize>, what: String, advice: &str) -> SceneError {
-    SceneError::Conflict { place: s.place(at), what, advice: advice.into() }
-}
-
 /// Tables of models that are not the scene's.
 pub(in crate::scene) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
     let meshed = Rung::of(model).is_some_and(|r| r.mesh);
@@ -35,7 +31,7 @@ pub(in crate::scene) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> 
     for (name, at, fits, whose) in all {
         if let (Some(at), false) = (at, fits) {
             let what = format!("[{name}] belongs to {whose}");
-            return Err(conflict(s, &at, what, "leave it out, or say so in [analysis]"));
+            return Err(s.conflict(&at, what, "leave it out, or say so in [analysis]"));
         }
     }
     turning(s, raw, model)
@@ -47,7 +43,7 @@ pub(in crate::scene) fn moves(s: &Source<'_>, raw: &RawGear, rung: Rung, body: &
     match (listed, rung.moves) {
         (Some(word), Some(moves)) if body.free != moves => {
             let what = format!("`free` means nothing to the model \"{}\", whose coordinates are fixed", rung.name);
-            Err(conflict(s, &word.span(), what, "leave it out"))
+            Err(s.conflict(&word.span(), what, "leave it out"))
         }
         _ => Ok(()),
     }
@@ -73,7 +69,7 @@ fn turning(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
         ];
         for (key, at, fits, whose) in keys {
             if let (Some(at), false) = (at, fits) {
-                return Err(conflict(s, &at, format!("`{key}` belongs to {whose}"), "leave it out"));
+                return Err(s.conflict(&at, format!("`{key}` belongs to {whose}"), "leave it out"));
             }
         }
     }
@@ -116,7 +112,7 @@ pub(in crate::scene) fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, r
             } else {
                 "its supports act direction by direction: give `stiffness_x_n_per_mm` and so on"
             };
-            return Err(conflict(s, &at, what, advice));
+            return Err(s.conflict(&at, what, advice));
         }
     }
     Ok(())
@@ -145,8 +141,7 @@ fn unfed(s: &Source<'_>, raw: &RawScene, scene: &Scene, name: &str) -> Checked<(
     let all = ground.chain(meshes).chain(rest);
     match all.filter_map(|(key, at)| Some((key, at?))).next() {
         None => Ok(()),
-        Some((key, at)) => Err(conflict(
-            s,
+        Some((key, at)) => Err(s.conflict(
             &at,
             format!("`{key}` means nothing to the model \"{name}\" as the scene has it"),
             if scene.mesh.is_some() {
@@ -162,7 +157,7 @@ fn unfed(s: &Source<'_>, raw: &RawScene, scene: &Scene, name: &str) -> Checked<(
 fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
     let (Some(words), Some(raw)) = (&scene.motion, raw.motion.as_ref().map(Spanned::get_ref)) else { return Ok(()) };
     let refuse = |at: Range<usize>, key: &str, advice: &str| {
-        Err(conflict(s, &at, format!("`{key}` means nothing to the model \"{}\"", rung.name), advice))
+        Err(s.conflict(&at, format!("`{key}` means nothing to the model \"{}\"", rung.name), advice))
     };
     let ramps = words.run == Run::Ramp && scene.impact.is_some();
     let known = ramps || matches!(words.run, Run::Steady | Run::Span | Run::Sweep);
@@ -228,7 +223,7 @@ fn torques(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked
                 Torques::Steady => "its torques are steady and balance each other: leave it out",
                 _ => "give `amplitude_nm` and `frequency_hz`, or use the model \"reduced\"",
             };
-            Err(conflict(s, &at, what, advice))
+            Err(s.conflict(&at, what, advice))
         }
     }
 }
@@ -242,7 +237,7 @@ fn friction(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checke
                 Model::Impact => "give `static_friction` and `dynamic_friction` in [impact]",
                 _ => "leave it out: this model has none",
             };
-            Err(conflict(s, &friction.span(), what, advice))
+            Err(s.conflict(&friction.span(), what, advice))
         }
         _ => Ok(()),
     }

@@ -1,7 +1,5 @@
 //! From the words of the tables on the cheaper models to what they mean.
 
-use toml::Spanned;
-
 use super::raw::{List, RawLumped8, RawLumped12, RawMesh};
 use super::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
 use crate::scene::source::Source;
@@ -89,14 +87,10 @@ impl Rung {
     }
 }
 
-pub(super) fn conflict<T>(s: &Source<'_>, at: &Spanned<T>, what: String, advice: &str) -> SceneError {
-    SceneError::Conflict { place: s.place(&at.span()), what, advice: advice.into() }
-}
-
 /// Finite numbers, `ORDERS` at most.
 pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
     let Some(values) = raw else { return Ok(Vec::new()) };
-    let wrong = |what: String| conflict(s, values, what, "a short list of numbers, as in [0.2, 0.05]");
+    let wrong = |what: String| s.conflict(&values.span(), what, "a short list of numbers, as in [0.2, 0.05]");
     if values.get_ref().len() > ORDERS {
         return Err(wrong(format!("`{key}` has {} numbers, more than {ORDERS}", values.get_ref().len())));
     }
@@ -119,12 +113,12 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     };
     let series = from == StiffnessFrom::Series;
     if let (true, false, Some(word)) = (series, given, &raw.stiffness_from) {
-        let what = "`stiffness_from = \"series\"` without a series".into();
-        return Err(conflict(s, word, what, "give `stiffness_n_per_um` (and the amplitudes about it)"));
+        let what = "`stiffness_from = \"series\"` without a series";
+        return Err(s.conflict(&word.span(), what, "give `stiffness_n_per_um` (and the amplitudes about it)"));
     }
     if let (false, Some(mean)) = (series, &raw.stiffness_n_per_um) {
-        let what = "`stiffness_n_per_um` and `stiffness_from` both say what the stiffness is".into();
-        return Err(conflict(s, mean, what, "keep one of them"));
+        let what = "`stiffness_n_per_um` and `stiffness_from` both say what the stiffness is";
+        return Err(s.conflict(&mean.span(), what, "keep one of them"));
     }
     let amplitudes = [
         ("stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um, series, "a mean, `stiffness_n_per_um`"),
@@ -134,9 +128,8 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     ];
     for (key, raw, fits, wanted) in amplitudes {
         if let (Some(raw), false) = (raw, fits) {
-            return Err(conflict(
-                s,
-                raw,
+            return Err(s.conflict(
+                &raw.span(),
                 format!("`{key}` wants {wanted}"),
                 "leave it out, or give the mean stiffness",
             ));
@@ -144,11 +137,11 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     }
     if let (Some(half), false) = (&raw.half_backlash_um, rung.backlash) {
         let what = format!("`half_backlash_um` means nothing to the model \"{}\", whose mesh is linear", rung.name);
-        return Err(conflict(s, half, what, "leave it out, or use `model = \"lumped8\"`"));
+        return Err(s.conflict(&half.span(), what, "leave it out, or use `model = \"lumped8\"`"));
     }
     if let (Some(word), false) = (&raw.line_sharing, rung.lines) {
         let what = format!("`line_sharing` means nothing to the model \"{}\", which has no friction", rung.name);
-        return Err(conflict(s, word, what, "leave it out"));
+        return Err(s.conflict(&word.span(), what, "leave it out"));
     }
     let sharing =
         s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
@@ -176,7 +169,7 @@ pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lum
         // An amplitude of zero needs no frequency.
         v.is_some() && gone && (swings || *other == "speed_fluctuation_rpm")
     }) {
-        return Err(conflict(s, value, format!("`{key}` without `{other}`"), "give both, or leave both out"));
+        return Err(s.conflict(&value.span(), format!("`{key}` without `{other}`"), "give both, or leave both out"));
     }
     Ok(Lumped8Scene {
         law: s.choice("law", &raw.law, &[("normal", Law::Normal), ("projected", Law::Projected)])?,
@@ -198,7 +191,7 @@ pub(in crate::scene) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<L
                 "`damping_to_hz` is {}, not above `damping_from_hz`, {}",
                 made.damping_to_hz, made.damping_from_hz
             );
-            Err(conflict(s, at, what, "the ratio holds at both and is less between them"))
+            Err(s.conflict(&at.span(), what, "the ratio holds at both and is less between them"))
         }
         _ => Ok(made),
     }

@@ -1,7 +1,6 @@
 //! Words on the impact of rigid gears.
 
 use super::ImpactScene;
-use super::check::conflict;
 use super::raw::RawImpact;
 use crate::scene::source::Source;
 use crate::scene::{SceneError, schema};
@@ -29,7 +28,7 @@ pub(in crate::scene) fn impact(s: &Source<'_>, raw: &RawImpact) -> Result<Impact
                 "`dynamic_speed_mm_per_s` is {}, not above `static_speed_mm_per_s`, {}",
                 made.dynamic_speed_mm_per_s, made.static_speed_mm_per_s
             );
-            Err(conflict(s, at, what, "flanks stick below the one and slip above the other"))
+            Err(s.conflict(&at.span(), what, "flanks stick below the one and slip above the other"))
         }
         _ => Ok(made),
     }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::motion::Matrix;
+use crate::scene::motion::{Matrix, RawSupport};
 use crate::scene::raw::{Number, Word};
 
 /// A list of numbers as written.
@@ -83,22 +83,4 @@ pub(in crate::scene) struct RawDisc {
     pub polar_inertia_kg_m2: Number,
     pub transverse_inertia_kg_m2: Number,
     pub keeps: Option<Vec<Spanned<String>>>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawSupport {
-    pub at_mm: Number,
-    pub stiffness_x_n_per_mm: Number,
-    pub stiffness_y_n_per_mm: Number,
-    pub stiffness_z_n_per_mm: Number,
-    pub stiffness_rx_nmm_per_rad: Number,
-    pub stiffness_ry_nmm_per_rad: Number,
-    pub stiffness_rz_nmm_per_rad: Number,
-    pub damping_x_ns_per_mm: Number,
-    pub damping_y_ns_per_mm: Number,
-    pub damping_z_ns_per_mm: Number,
-    pub damping_rx_nmms_per_rad: Number,
-    pub damping_ry_nmms_per_rad: Number,
-    pub damping_rz_nmms_per_rad: Number,
 }

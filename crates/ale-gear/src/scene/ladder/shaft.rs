@@ -2,10 +2,10 @@
 
 use toml::Spanned;
 
-use super::check::{conflict, list};
-use super::raw::{RawDisc, RawShaft, RawShaft18, RawSupport};
+use super::check::list;
+use super::raw::{RawDisc, RawShaft, RawShaft18};
 use super::{DiscScene, Kept, Shaft18Scene, ShaftScene, SupportScene};
-use crate::scene::motion::Matrix;
+use crate::scene::motion::{Matrix, RawSupport};
 use crate::scene::raw::Number;
 use crate::scene::source::Source;
 use crate::scene::{SceneError, schema};
@@ -24,7 +24,7 @@ pub(in crate::scene) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Sha
         (Err(_), None) => [0.0; 3],
         (Err(_), Some(at)) => {
             let what = format!("`gravity_m_per_s2` has {} numbers, not 3", gravity.len());
-            return Err(conflict(s, at, what, "along x, y and z, as in [0.0, -9.81, 0.0]"));
+            return Err(s.conflict(&at.span(), what, "along x, y and z, as in [0.0, -9.81, 0.0]"));
         }
     };
     Ok(Shaft18Scene {
@@ -42,13 +42,13 @@ pub(in crate::scene) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Chec
     let length = (segments_mm.iter().map(|s| s[0]).sum::<f64>() * 1e9).round() / 1e9;
     let place = |key: &str, value: &Number| s.number(key, value, 0.0, 0.0, length);
     if raw.gear_at_mm.is_none() {
-        return Err(conflict(s, table, "a shaft without `gear_at_mm`".into(), "say where on the shaft its gear sits"));
+        return Err(s.conflict(&table.span(), "a shaft without `gear_at_mm`", "say where on the shaft its gear sits"));
     }
     let gear_at_mm = place("gear_at_mm", &raw.gear_at_mm)?;
     let nodes_mm = list(s, "nodes_mm", &raw.nodes_mm)?;
     if let (Some(at), Some(x)) = (&raw.nodes_mm, nodes_mm.iter().find(|x| !(0.0..=length).contains(*x))) {
         let what = format!("`nodes_mm` holds {x}, which is not on a shaft of {length} mm");
-        return Err(conflict(s, at, what, "places count from the beginning of the first segment"));
+        return Err(s.conflict(&at.span(), what, "places count from the beginning of the first segment"));
     }
     Ok(ShaftScene {
         segments_mm,
@@ -65,7 +65,7 @@ pub(in crate::scene) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Chec
 fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Matrix) -> Checked<Vec<[f64; 3]>> {
     let advice = "rows of length, outer and inner diameter, as in [[113.8, 38.5, 0.0], [96.6, 25.77, 0.0]]";
     let Some(rows) = raw.as_ref().filter(|rows| !rows.get_ref().is_empty()) else {
-        return Err(conflict(s, table, "a shaft without `segments_mm`".into(), advice));
+        return Err(s.conflict(&table.span(), "a shaft without `segments_mm`", advice));
     };
     let mut all = Vec::new();
     for row in rows.get_ref() {
@@ -75,7 +75,7 @@ fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Matrix) -> Checked<
             {
                 all.push([length, outer, inner]);
             }
-            _ => return Err(conflict(s, row, "a row of `segments_mm` is no length of shaft".into(), advice)),
+            _ => return Err(s.conflict(&row.span(), "a row of `segments_mm` is no length of shaft", advice)),
         }
     }
     Ok(all)
@@ -84,7 +84,7 @@ fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Matrix) -> Checked<
 fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscScene> {
     let raw = table.get_ref();
     if raw.at_mm.is_none() {
-        return Err(conflict(s, table, "a disc without `at_mm`".into(), "say where on the shaft it sits"));
+        return Err(s.conflict(&table.span(), "a disc without `at_mm`", "say where on the shaft it sits"));
     }
     let mut keeps = Vec::new();
     for word in raw.keeps.iter().flatten() {
@@ -109,7 +109,7 @@ fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscSc
 fn support(s: &Source<'_>, table: &Spanned<RawSupport>, length: f64) -> Checked<SupportScene> {
     let raw = table.get_ref();
     if raw.at_mm.is_none() {
-        return Err(conflict(s, table, "a support without `at_mm`".into(), "say where on the shaft it is"));
+        return Err(s.conflict(&table.span(), "a support without `at_mm`", "say where on the shaft it is"));
     }
     let of = |key: &str, value: &Number| s.number_of(&schema::SUPPORT, key, value);
     Ok(SupportScene {

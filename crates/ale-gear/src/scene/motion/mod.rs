@@ -1,15 +1,19 @@
 //! What a scene says of motion: bodies, bearings, drive, load, integration and analyses in time.
 
+mod bearing;
 mod check;
 mod modes;
 mod raw;
+mod torque;
 
 use serde::Serialize;
 
-pub(super) use check::{bearing, body, drive, load, motion};
+pub(super) use bearing::{bearing, body};
+pub(super) use check::motion;
 pub use modes::{Boundary, ModesScene};
 pub(super) use modes::{RawModes, modes};
-pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion};
+pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion, RawSupport};
+pub(super) use torque::{drive, load};
 
 /// Rigid body of a gear with what turns with it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]

@@ -51,9 +51,7 @@ pub enum Boundary {
 
 /// The table that goes with `model = "reduced+modes"`.
 pub(in crate::scene) fn modes(s: &Source<'_>, raw: &RawModes) -> Result<ModesScene, SceneError> {
-    let conflict = |span: std::ops::Range<usize>, what: &str, advice: &str| {
-        Err(SceneError::Conflict { place: s.place(&span), what: what.into(), advice: advice.into() })
-    };
+    let conflict = |span: std::ops::Range<usize>, what: &str, advice: &str| Err(s.conflict(&span, what, advice));
     if let (Some(_), Some(bound)) = (&raw.count, &raw.below_hz) {
         return conflict(bound.span(), "`count` and `below_hz` both say which modes are kept", "keep one of them");
     }

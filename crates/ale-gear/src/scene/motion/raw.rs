@@ -17,25 +17,31 @@ pub(in crate::scene) struct RawBody {
     pub free: Option<Vec<Spanned<String>>>,
 }
 
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawBearing {
-    pub stiffness_x_n_per_mm: Number,
-    pub stiffness_y_n_per_mm: Number,
-    pub stiffness_z_n_per_mm: Number,
-    pub stiffness_rx_nmm_per_rad: Number,
-    pub stiffness_ry_nmm_per_rad: Number,
-    pub stiffness_rz_nmm_per_rad: Number,
-    pub damping_ratio: Number,
-    pub damping_x_ns_per_mm: Number,
-    pub damping_y_ns_per_mm: Number,
-    pub damping_z_ns_per_mm: Number,
-    pub damping_rx_nmms_per_rad: Number,
-    pub damping_ry_nmms_per_rad: Number,
-    pub damping_rz_nmms_per_rad: Number,
-    pub stiffness_matrix_n_mm_rad: Matrix,
-    pub damping_matrix_ns_mm_rad: Matrix,
+/// A table with a spring and a damper along and about each axis, and keys of its own. (Unknown keys are refused, which serde cannot do for tables put together of two.)
+macro_rules! held_table {
+    ($name:ident { $($own:ident: $kind:ty),* }) => {
+        #[derive(Debug, Default, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(in crate::scene) struct $name {
+            $(pub $own: $kind,)*
+            pub stiffness_x_n_per_mm: Number,
+            pub stiffness_y_n_per_mm: Number,
+            pub stiffness_z_n_per_mm: Number,
+            pub stiffness_rx_nmm_per_rad: Number,
+            pub stiffness_ry_nmm_per_rad: Number,
+            pub stiffness_rz_nmm_per_rad: Number,
+            pub damping_x_ns_per_mm: Number,
+            pub damping_y_ns_per_mm: Number,
+            pub damping_z_ns_per_mm: Number,
+            pub damping_rx_nmms_per_rad: Number,
+            pub damping_ry_nmms_per_rad: Number,
+            pub damping_rz_nmms_per_rad: Number,
+        }
+    };
 }
+
+held_table!(RawBearing { damping_ratio: Number, stiffness_matrix_n_mm_rad: Matrix, damping_matrix_ns_mm_rad: Matrix });
+held_table!(RawSupport { at_mm: Number });
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,9 +1,10 @@
 //! Where a checked scene becomes a call of the solvers.
 
-use contact::{GapSource, Law};
-use dynamics::{
-    ElasticGear, Misalignment, Offset, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition,
-};
+mod doubts;
+mod foreseen;
+mod options;
+
+use dynamics::{ElasticGear, StaticError, StaticHistory, StaticModel, StaticOptions};
 use geometry::GearPair;
 use reduction::GearReducer;
 
@@ -15,9 +16,14 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
-use crate::scene::{Analysis, Driver, Flanks, Gap, Method, Model, Reduction, Rotation, Scene};
+use crate::scene::{Analysis, Model, Scene};
 use crate::view::ViewRecorder;
 use crate::{gears, iso_model, meshes};
+use doubts::doubts;
+
+pub(crate) use doubts::sector_warnings;
+pub(crate) use foreseen::foreseen_s;
+pub(crate) use options::options;
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go there.
 ///
@@ -204,69 +210,6 @@ fn attempt(inputs: Inputs<'_>, phases: &mut Phases, options: &StaticOptions) -> 
     Ok(Attempt { model, history, first_result_s, recorder })
 }
 
-/// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector of 8 000 degrees of
-/// freedom 0.4 s, a whole gear of 86 000 degrees of freedom 4 s and of 338 000 35 s.
-pub(crate) fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
-    let of = |m: &SceneMesh| {
-        let gear = &m.gear;
-        let dof = 3 * gear.mesh().nodes.len();
-        let teeth = gear.tooth_count() as usize;
-        // Whether all teeth are the same is found out on the way; a mesh made tooth by tooth has as many nodes in each.
-        let whole = gear.is_whole_gear() && gear.mesh().nodes.len().is_multiple_of(teeth);
-        let cyclic = gear.is_periodic_sector() || (whole && scene.analysis.reduction != Some(Reduction::General));
-        match (cyclic, gear.is_periodic_sector()) {
-            (true, true) => sector_s(dof),
-            (true, false) => sector_s(dof / teeth) + 1e-6 * dof as f64,
-            (false, _) => 4.0 * (dof as f64 / 86e3).powf(1.6),
-        }
-    };
-    meshes.iter().map(of).fold(0.0, f64::max)
-}
-
-fn sector_s(dof: usize) -> f64 {
-    0.4 * (dof as f64 / 8e3).powf(1.8)
-}
-
-/// What a scene asks of the analysis.
-pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
-    let defaults = StaticOptions::new(scene.operation.torque(), pair);
-    let m = scene.pair.misalignment;
-    let misalignment = Misalignment {
-        deviation: 1e-3 * m.deviation_um,
-        inclination: 1e-3 * m.inclination_um,
-        in_plane_of_action: 1e-3 * m.in_plane_of_action_um,
-        across_plane_of_action: 1e-3 * m.across_plane_of_action_um,
-    };
-    StaticOptions {
-        offsets: [Offset::default(), misalignment.wheel_offset(pair, scene.side())],
-        driver: match scene.operation.driver {
-            Driver::Pinion => dynamics::Driver::Pinion,
-            Driver::Wheel => dynamics::Driver::Wheel,
-        },
-        sense: match scene.operation.rotation {
-            Rotation::Ccw => ale::Sense::Ccw,
-            Rotation::Cw => ale::Sense::Cw,
-        },
-        method: match scene.contact.method {
-            Method::Slice => dynamics::Method::Slice,
-            Method::Nodal => dynamics::Method::Nodal,
-        },
-        slices: scene.contact.slices.map_or(defaults.slices, |n| n as usize),
-        corner_contact: scene.contact.corner_contact.unwrap_or(defaults.corner_contact),
-        friction: scene.contact.friction,
-        law: scene.contact.penalty_mpa_per_mm.map_or(Law::Exact, Law::Penalty),
-        gap: match scene.contact.gap {
-            Some(Gap::Facet) => GapSource::Facet,
-            Some(Gap::Smooth) | None => GapSource::Smooth,
-        },
-        points_per_face_edge: scene.contact.points_per_face_edge.map_or(defaults.points_per_face_edge, |n| n as usize),
-        both_flanks: scene.contact.flanks == Flanks::Both,
-        window: scene.analysis.window_teeth.map(|w| w as usize),
-        root_stress: scene.output.root_stress,
-        ..defaults
-    }
-}
-
 pub(crate) fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
     match gear {
         ElasticGear::Reduced(r) => Some(r),
@@ -286,47 +229,6 @@ pub(crate) fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
         Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
         None => before,
     }
-}
-
-/// A free-cut sector is softer than the gear it was cut from.
-pub(crate) fn sector_warnings(model: &StaticModel) -> Vec<String> {
-    let name = ["pinion", "wheel"];
-    (0..2)
-        .filter_map(|i| {
-            let gear = model.gears()[i].gear();
-            let meshed = gear.teeth().len();
-            let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
-            (!cyclic && meshed < gear.tooth_count() as usize).then(|| {
-                format!(
-                    "the {}'s mesh has {meshed} of {} teeth and free cuts: it is softer than the whole gear (5 of 30 teeth: by about \
-                     16 % in the mean transmission error); use it for comparison only",
-                    name[i],
-                    gear.tooth_count()
-                )
-            })
-        })
-        .collect()
-}
-
-/// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
-const LARGE_ERROR_MODULES: f64 = 0.05;
-
-/// What the certificates say that a user should hear.
-fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
-    let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
-    let mut said = Vec::new();
-    let torque = worst(|p| p.certificate.torque_residual);
-    if torque > 1e-8 {
-        said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
-    }
-    let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
-    if error > LARGE_ERROR_MODULES * module {
-        said.push(format!(
-            "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \
-             small deflections; is the torque in N m?"
-        ));
-    }
-    said
 }
 
 /// Wrong input is status 2, a solver that finds no answer status 1.

@@ -1,0 +1,84 @@
+//! What a user should hear of a motion.
+
+use dynamics::pair_motion::Drive;
+
+use super::{MotionHeadline, SweepHeadline, prepare, prepare::Prepared};
+use crate::scene::{MotionScene, Run, Scene};
+
+/// Fewer steps than this in a period of the mesh resonance show it wrongly.
+const COARSE: f64 = 8.0;
+
+/// Steps that are too long for the mesh resonance, or for the highest mode that is kept.
+pub(super) fn coarse(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<String> {
+    let fastest = prepare::fastest_hz(&prepared.system);
+    let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+    let steps = f64::from(words.steps_per_resonance).max(f64::from(words.steps_per_mesh_cycle) * mesh / fastest);
+    let given = words.error_tolerance.is_none() && words.ramp.is_none() && words.sweep.is_none();
+    let (what, or) = match fastest > prepared.system.mesh_resonance_hz() {
+        true => ("highest kept mode", ", or keep fewer modes"),
+        false => ("mesh resonance", ""),
+    };
+    (given && steps < COARSE).then(|| {
+        format!(
+            "a step is 1/{steps:.1} of the period of the {what} ({fastest:.0} Hz), which it cannot show: take more \
+             `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
+        )
+    })
+}
+
+/// What the certificate says that a user should hear.
+pub(super) fn of_motion(words: &MotionScene, prepared: &Prepared, headline: &MotionHeadline) -> Vec<String> {
+    let mut said = Vec::new();
+    let c = &headline.certificate;
+    let settles = matches!(words.run, Run::Steady | Run::Shooting);
+    if let (true, Some(found), Some(asked)) = (settles, c.periodicity, words.periodic_tolerance)
+        && found > asked
+    {
+        said.push(format!(
+            "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); \
+             it may be chaotic, or need more `warm_up_cycles`",
+            c.warm_up_cycles
+        ));
+    } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
+        said.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
+    }
+    if c.ledger_residual_over_work.abs() > 1e-6 {
+        said.push(format!(
+            "energy closes to {:.1e} of the work that goes through the pair only (asked: 1e-6): take smaller steps or `method = \"energy\"`",
+            c.ledger_residual_over_work.abs()
+        ));
+    }
+    // Without coast flanks nothing stops teeth that have parted.
+    let pair = prepared.system.pair();
+    let backlash = 1e3 * pair.backlash() * pair.base_helix_angle().cos();
+    if !prepared.system.has_coast_flanks() && c.largest_gap_um > backlash {
+        said.push(format!(
+            "the flanks part by {:.1} um, more than the backlash of {backlash:.1} um: the coast flanks would touch; use `flanks = \"both\"`",
+            c.largest_gap_um
+        ));
+    }
+    if let Drive::Torque { start, .. } = &prepared.system.options().drive {
+        let asked = start * 30.0 / std::f64::consts::PI;
+        if (headline.speed_rpm / asked - 1.0).abs() > 0.01 {
+            said.push(format!(
+                "the driver's mean speed is {:.1}/min, it began with {asked:.1}/min: mesh cycles, and orders of the spectrum, are those of the \
+                 start",
+                headline.speed_rpm
+            ));
+        }
+    }
+    said
+}
+
+/// Speeds that have no answer that repeats itself; `speeds`: how many there are in all.
+pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Option<String> {
+    let missed = &headline.not_periodic_rpm;
+    (!missed.is_empty()).then(|| {
+        let first: Vec<String> = missed.iter().take(8).map(|n| format!("{n:.0}")).collect();
+        format!(
+            "no periodic state was found at {} of {speeds} speeds (1/min: {}): chaotic, of a longer period, or `warm_up_cycles` are too few",
+            missed.len(),
+            first.join(", ")
+        )
+    })
+}

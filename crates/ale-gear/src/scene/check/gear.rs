@@ -1,0 +1,196 @@
+//! The gears, and what they share.
+
+use std::path::PathBuf;
+
+use mesh::GroupNames;
+
+use super::Checked;
+use crate::scene::{
+    GearScene, Material, MesherScene, PairScene, micro,
+    raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
+    schema,
+    source::Source,
+};
+
+/// Default bore over reference diameter.
+const BORE_RATIO: f64 = 0.55;
+
+/// What a gear is of where nothing is said.
+pub(super) fn steel() -> Material {
+    let of = |key| schema::MATERIAL.number(key).2.unwrap_or(0.0);
+    Material { young_mpa: of("young_mpa"), poisson: of("poisson"), density_kg_m3: of("density_kg_m3") }
+}
+
+pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
+    let or = |key, value, default| {
+        let (low, high, _) = schema::MATERIAL.number(key);
+        s.number(key, value, default, low, high)
+    };
+    Ok(Material {
+        young_mpa: or("young_mpa", &raw.young_mpa, default.young_mpa)?,
+        poisson: or("poisson", &raw.poisson, default.poisson)?,
+        density_kg_m3: or("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3)?,
+    })
+}
+
+pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
+    let face_width_mm = s.number_of(&schema::PAIR, "face_width_mm", &raw.face_width_mm)?;
+    Ok(PairScene {
+        normal_module_mm: s.number_of(&schema::PAIR, "normal_module_mm", &raw.normal_module_mm)?,
+        normal_pressure_angle_deg: s.number_of(
+            &schema::PAIR,
+            "normal_pressure_angle_deg",
+            &raw.normal_pressure_angle_deg,
+        )?,
+        face_width_mm,
+        centre_distance_mm: s.optional_of(&schema::PAIR, "centre_distance_mm", &raw.centre_distance_mm)?,
+        addendum_coefficient: s.number_of(&schema::PAIR, "addendum_coefficient", &raw.addendum_coefficient)?,
+        dedendum_coefficient: s.number_of(&schema::PAIR, "dedendum_coefficient", &raw.dedendum_coefficient)?,
+        root_radius_coefficient: s.number_of(&schema::PAIR, "root_radius_coefficient", &raw.root_radius_coefficient)?,
+        misalignment: match &raw.misalignment {
+            None => Default::default(),
+            Some(table) => micro::misalignment(s, table.get_ref(), face_width_mm)?,
+        },
+    })
+}
+
+/// Whether a gear states its helix angle or follows the mating one.
+pub(super) enum Hand {
+    Own,
+    Against(f64),
+}
+
+pub(super) fn gear(
+    s: &Source<'_>,
+    raw: &RawGear,
+    hand: Hand,
+    pair: &PairScene,
+    shared: Material,
+) -> Checked<GearScene> {
+    let teeth = s.whole_of(&schema::GEAR, "teeth", &raw.teeth)?;
+    let helix_angle_deg = match hand {
+        Hand::Own => s.number_of(&schema::GEAR, "helix_angle_deg", &raw.helix_angle_deg)?,
+        Hand::Against(other) => against(s, raw, other)?,
+    };
+    let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let widest_arc = 0.25 * pair.normal_module_mm;
+    let bore_limit = reference.max(1e-3);
+    let (mesh, mesher) = mesh_source(s, raw, teeth)?;
+    let (pitch_errors_um, pitch_errors_file) = micro::pitch_errors(s, raw, teeth)?;
+    Ok(GearScene {
+        teeth,
+        helix_angle_deg,
+        bore_diameter_mm: s.number(
+            "bore_diameter_mm",
+            &raw.bore_diameter_mm,
+            BORE_RATIO * reference,
+            1e-3,
+            bore_limit,
+        )?,
+        profile_shift: s.number_of(&schema::GEAR, "profile_shift", &raw.profile_shift)?,
+        tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
+        tip_diameter_mm: match raw.tip_diameter_mm {
+            None => None,
+            Some(_) => {
+                Some(s.number("tip_diameter_mm", &raw.tip_diameter_mm, 0.0, reference * 0.5, reference * 2.0)?)
+            }
+        },
+        thickness_allowance_mm: s.number(
+            "thickness_allowance_mm",
+            &raw.thickness_allowance_mm,
+            0.0,
+            0.0,
+            0.5 * pair.normal_module_mm,
+        )?,
+        pitch_errors_um,
+        pitch_errors_file,
+        mesh,
+        mesher,
+        groups: groups(s, &raw.groups)?,
+        material: material(s, &raw.material, shared)?,
+        modification: match &raw.modification {
+            None => Default::default(),
+            Some(table) => micro::modification(s, table.get_ref(), pair.face_width_mm)?,
+        },
+        body: None,
+        bearing: Default::default(),
+        shaft: None,
+    })
+}
+
+/// The wheel of an external pair has the other hand; stated, it must agree.
+fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64) -> Checked<f64> {
+    // `0.0 - x` and not `-x`: a spur wheel has helix angle 0, not -0.
+    let follows = 0.0 - pinion_deg;
+    match &raw.helix_angle_deg {
+        Some(own) if (own.get_ref() - follows).abs() > 1e-9 => Err(s.conflict(
+            &own.span(),
+            format!(
+                "the wheel's `helix_angle_deg` is {}, but the pinion's is {pinion_deg}: they do not mesh",
+                own.get_ref()
+            ),
+            "leave it out: the wheel's helix angle follows from the pinion's",
+        )),
+        _ => Ok(follows),
+    }
+}
+
+fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
+    match (&raw.mesh, &raw.mesher) {
+        (Some(_), Some(mesher)) => Err(s.conflict(
+            &mesher.span(),
+            "a gear has both a `mesh` and a `mesher` table",
+            "keep `mesh` to read a file, or the `mesher` table to have one made",
+        )),
+        (Some(mesh), None) => {
+            let path = PathBuf::from(mesh.get_ref());
+            let found = s.file.parent().map_or_else(|| path.clone(), |folder| folder.join(&path));
+            if !found.is_file() {
+                return Err(s.conflict(
+                    &mesh.span(),
+                    format!("`mesh` is \"{}\", but there is no file {}", mesh.get_ref(), found.display()),
+                    "paths are relative to the scene file",
+                ));
+            }
+            Ok((Some(path), None))
+        }
+        (None, mesher) => {
+            let none = RawMesher::default();
+            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth)?)))
+        }
+    }
+}
+
+fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32) -> Checked<MesherScene> {
+    Ok(MesherScene {
+        order: s.whole_of(&schema::MESHER, "order", &raw.order)?,
+        elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
+        elements_fillet: s.whole_of(&schema::MESHER, "elements_fillet", &raw.elements_fillet)?,
+        elements_thickness: s.whole_of(&schema::MESHER, "elements_thickness", &raw.elements_thickness)?,
+        elements_face: s.whole_of(&schema::MESHER, "elements_face", &raw.elements_face)?,
+        elements_rim: s.whole_of(&schema::MESHER, "elements_rim", &raw.elements_rim)?,
+        sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
+    })
+}
+
+/// The mesh's own names; those of flanks need a place for the tooth number.
+fn groups(s: &Source<'_>, raw: &RawGroups) -> Checked<GroupNames> {
+    let ours = GroupNames::default();
+    let name = |word: &Word, default: String| word.as_ref().map_or(default, |w| w.get_ref().clone());
+    for (key, word) in [("flank_left", &raw.flank_left), ("flank_right", &raw.flank_right)] {
+        if let Some(word) = word.as_ref().filter(|w| !w.get_ref().contains("{k}")) {
+            return Err(s.conflict(
+                &word.span(),
+                format!("`{key}` is \"{}\", which has no place for the tooth number", word.get_ref()),
+                format!("write {{k}} where the number stands, as in {key} = \"Left_{{k}}\""),
+            ));
+        }
+    }
+    Ok(GroupNames {
+        bore: name(&raw.bore, ours.bore),
+        flank_left: name(&raw.flank_left, ours.flank_left),
+        flank_right: name(&raw.flank_right, ours.flank_right),
+        cut_0: name(&raw.cut_0, ours.cut_0),
+        cut_1: name(&raw.cut_1, ours.cut_1),
+    })
+}

@@ -1,0 +1,169 @@
+//! Steps one after the other: their length, their events, their energy.
+
+mod step;
+
+use nalgebra::{Cholesky, DVector, Dyn};
+
+use super::{
+    Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
+    events::{crossings, event_values},
+};
+
+/// What a caller sees of a motion after every step.
+#[derive(Debug)]
+pub struct Progress<'a> {
+    /// State at the end of the step.
+    pub state: &'a State,
+    /// Forces of the step's last evaluation: at its end, in its middle with [`Scheme::Energy`].
+    pub forces: &'a Forces,
+    /// Energy so far.
+    pub ledger: &'a Ledger,
+    /// Events within the step.
+    pub crossings: &'a [Crossing],
+}
+
+/// Integrates a mechanism.
+#[derive(Debug, Clone)]
+pub struct Integrator {
+    scheme: Scheme,
+    control: StepControl,
+    scale: DVector<f64>,
+    stop_at_events: bool,
+    forces: Forces,
+    ledger: Option<Ledger>,
+    steps: u64,
+    refused: u64,
+}
+
+impl Integrator {
+    /// `scale`: what counts as a large motion of each coordinate, > 0; tolerances are relative to it.
+    pub fn new(scheme: Scheme, control: StepControl, scale: DVector<f64>) -> Self {
+        let forces = Forces::zeros(scale.len());
+        Self { scheme, control, scale, stop_at_events: false, forces, ledger: None, steps: 0, refused: 0 }
+    }
+
+    /// Ends a step at every event, so that no step runs over a kink of the forces.
+    #[must_use]
+    pub fn stopping_at_events(self, stop_at_events: bool) -> Self {
+        Self { stop_at_events, ..self }
+    }
+
+    /// Energy so far; `None` before the first step.
+    pub fn ledger(&self) -> Option<&Ledger> {
+        self.ledger.as_ref()
+    }
+
+    /// Goes on with a ledger of before (restart).
+    #[must_use]
+    pub fn resumed(self, ledger: Ledger) -> Self {
+        Self { ledger: Some(ledger), ..self }
+    }
+
+    /// Steps taken, and steps taken back because their error was too large.
+    pub fn steps(&self) -> [u64; 2] {
+        [self.steps, self.refused]
+    }
+
+    /// From `state` to the time `until`, calling `seen` after every step. A start finds its accelerations itself.
+    ///
+    /// # Errors
+    /// [`MotionError`].
+    pub fn advance<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        state: &mut State,
+        until: f64,
+        mut seen: impl FnMut(&mut M, Progress<'_>),
+    ) -> Result<(), MotionError<M::Error>> {
+        let mass = self.check(system, state)?;
+        if self.ledger.is_none() {
+            self.open(system, &mass, state)?;
+        }
+        let mut values = event_values(system, state.time, &state.q, &state.v)?;
+        while until - state.time > 1e-12 * (until.abs() + self.first_step()) {
+            let wanted = match self.control {
+                StepControl::Fixed(h) => h,
+                StepControl::Adaptive { first, .. } => {
+                    if state.next_step > 0.0 {
+                        state.next_step
+                    } else {
+                        first
+                    }
+                }
+            };
+            let before = state.clone();
+            let h = wanted.min(until - state.time);
+            let shortened = h < wanted;
+            // A sliver at the end would be a step of its own.
+            let h = if until - state.time - h < 1e-9 * h { until - state.time } else { h };
+            let (mut to, mut book, next) = self.accepted_step(system, &mass, &before, h)?;
+            let mut now = event_values(system, to.time, &to.q, &to.v)?;
+            let mut crossed = crossings(system, &before, &to, &values, &now)?;
+            let first = crossed.iter().map(|c| c.time).fold(f64::INFINITY, f64::min);
+            if self.stop_at_events && first < to.time - 1e-9 * h && first > before.time + 1e-9 * h {
+                (to, book) = self.one_step(system, &mass, &before, first - before.time).map(|(s, _, b)| (s, b))?;
+                now = event_values(system, to.time, &to.q, &to.v)?;
+                crossed.retain(|c| c.time <= first);
+            }
+            // A step that was short because the time was up says nothing against the length wanted.
+            to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
+            self.ledger = Some(book);
+            self.steps += 1;
+            *state = to;
+            values = now;
+            let time = state.time;
+            system.accepted(time, &state.q, &state.v).map_err(|source| MotionError::Mechanism { time, source })?;
+            seen(system, Progress { state, forces: &self.forces, ledger: &book, crossings: &crossed });
+        }
+        Ok(())
+    }
+
+    fn first_step(&self) -> f64 {
+        match self.control {
+            StepControl::Fixed(h) => h,
+            StepControl::Adaptive { first, .. } => first,
+        }
+    }
+
+    fn check<M: Mechanism>(&self, system: &M, state: &State) -> Result<Cholesky<f64, Dyn>, MotionError<M::Error>> {
+        let n = system.mass().nrows();
+        if self.scale.len() != n || state.q.len() != n || state.v.len() != n {
+            return Err(MotionError::Options("mass, scale and state are of different lengths"));
+        }
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let steps = match self.control {
+            StepControl::Fixed(h) => positive(h),
+            StepControl::Adaptive { tolerance, first, least, largest } => {
+                [tolerance, first, least, largest].into_iter().all(positive)
+            }
+        };
+        if !steps || !self.scale.iter().all(|&s| positive(s)) {
+            return Err(MotionError::Options("steps, tolerance and scales must be positive"));
+        }
+        if let Scheme::GeneralisedAlpha { rho } = self.scheme
+            && !(0.0..=1.0).contains(&rho)
+        {
+            return Err(MotionError::Options("the spectral radius of generalised-alpha lies between 0 and 1"));
+        }
+        Cholesky::new(system.mass().clone()).ok_or(MotionError::Singular { time: state.time, which: "mass" })
+    }
+
+    /// Accelerations and energy at the start.
+    fn open<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        state: &mut State,
+    ) -> Result<(), MotionError<M::Error>> {
+        let time = state.time;
+        let fail = |source| MotionError::Mechanism { time, source };
+        self.forces.clear();
+        system.forces(time, &state.q, &state.v, &mut self.forces).map_err(fail)?;
+        state.a = mass.solve(&(&self.forces.conservative + &self.forces.other));
+        state.averaged.copy_from(&state.a);
+        state.powers = self.forces.powers();
+        let potential = system.potential(time, &state.q).map_err(fail)?;
+        self.ledger = Some(Ledger::open(system.mass(), &state.v, potential));
+        Ok(())
+    }
+}

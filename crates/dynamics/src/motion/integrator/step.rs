@@ -1,0 +1,146 @@
+//! One step: by the scheme, as long as its error allows, in halves where it has no solution.
+
+use nalgebra::{Cholesky, DVector, Dyn};
+
+use super::Integrator;
+use crate::motion::{
+    Ledger, Mechanism, MotionError, Scheme, State, StepControl, energy,
+    generalised_alpha::Coefficients,
+    runge_kutta::{CLASSICAL, DORMAND_PRINCE},
+};
+
+/// How often a step of given length may be halved that has no solution.
+const HALVINGS: u32 = 6;
+
+impl Integrator {
+    /// A step whose error is small enough, the energy with it, and the length of the next one.
+    pub(super) fn accepted_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        mut h: f64,
+    ) -> Result<(State, Ledger, f64), MotionError<M::Error>> {
+        let StepControl::Adaptive { tolerance, least, largest, .. } = self.control else {
+            let (to, book) = self.whole_step(system, mass, from, h, HALVINGS)?;
+            return Ok((to, book, h));
+        };
+        let order = match self.scheme {
+            Scheme::DormandPrince => 5.0,
+            Scheme::RungeKutta4 => 4.0,
+            Scheme::Energy | Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => 3.0,
+        };
+        loop {
+            let tried = self.one_step(system, mass, from, h);
+            let factor = match &tried {
+                Ok((_, error, _)) => {
+                    let size = error.iter().zip(self.scale.iter()).map(|(e, s)| (e / s).abs()).fold(0.0, f64::max);
+                    let factor = (0.9 * (tolerance / size.max(1e-30)).powf(1.0 / order)).clamp(0.2, 2.0);
+                    if size <= tolerance { Ok(factor) } else { Err(factor) }
+                }
+                Err(MotionError::NotConverged { .. }) => Err(0.25),
+                Err(_) => Ok(1.0),
+            };
+            match factor {
+                Ok(factor) => {
+                    let (to, _, book) = tried?;
+                    return Ok((to, book, (factor * h).min(largest)));
+                }
+                Err(factor) => {
+                    self.refused += 1;
+                    h *= factor.min(0.9);
+                    if h < least {
+                        return Err(MotionError::StepTooSmall { time: from.time, step: h, least });
+                    }
+                }
+            }
+        }
+    }
+
+    /// A step of given length. One without a solution, where contact opens and closes within it, is taken as its two halves, so often as
+    /// `halvings` says; to the caller it stays one step.
+    fn whole_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+        halvings: u32,
+    ) -> Result<(State, Ledger), MotionError<M::Error>> {
+        match self.one_step(system, mass, from, h) {
+            Err(MotionError::NotConverged { .. }) if halvings > 0 => {
+                self.refused += 1;
+                let (middle, book) = self.whole_step(system, mass, from, 0.5 * h, halvings - 1)?;
+                let opened = self.ledger.replace(book);
+                let rest = from.time + h - middle.time;
+                let second = self.whole_step(system, mass, &middle, rest, halvings - 1);
+                self.ledger = opened;
+                second
+            }
+            other => other.map(|(to, _, book)| (to, book)),
+        }
+    }
+
+    /// One step by the scheme: where it ends, its local error, and the books closed behind it.
+    pub(super) fn one_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
+        let before = self.ledger.unwrap_or_default();
+        let (to, error, mut book) = self.open_step(system, mass, from, h, before)?;
+        book.close_step(&before, system.mass(), &to.v);
+        Ok((to, error, book))
+    }
+
+    fn open_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+        mut book: Ledger,
+    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
+        let forces = &mut self.forces;
+        let (to, error) = match self.scheme {
+            Scheme::Energy => energy::step(system, from, h, &self.scale, forces, &mut book)?,
+            Scheme::DormandPrince => DORMAND_PRINCE.step(system, mass, from, h, forces, &mut book)?,
+            Scheme::RungeKutta4 => CLASSICAL.step(system, mass, from, h, forces, &mut book)?,
+            Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => {
+                let coefficients = match self.scheme {
+                    Scheme::GeneralisedAlpha { rho } => Coefficients::generalised_alpha(rho),
+                    _ => Coefficients::newmark(0.25, 0.5),
+                };
+                return self.booked_by_trapezoid(system, coefficients, from, h, book);
+            }
+        };
+        Ok((to, error, book))
+    }
+
+    /// A step of the generalised-alpha family; work is integrated by the trapezoidal rule.
+    fn booked_by_trapezoid<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        coefficients: Coefficients,
+        from: &State,
+        h: f64,
+        mut book: Ledger,
+    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
+        let (mut to, error) = coefficients.step(system, from, h, &self.scale, &mut self.forces)?;
+        to.powers = self.forces.powers();
+        let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
+        book.supplied += work[0];
+        book.dissipated += work[1];
+        let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
+        let mut aside = |time: f64, q| system.potential_aside(time, q).map_err(fail(time));
+        let known = book.potential;
+        // What V changes by with the coordinates held, at either end of the step. Where the step ends comes last: a system may keep it.
+        let [moved, still] = [aside(from.time, &to.q)?, aside(to.time, &from.q)?];
+        book.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
+        let held = [still - known, book.potential - moved];
+        book.parametric += 0.5 * (held[0] + held[1]);
+        Ok((to, error, book))
+    }
+}

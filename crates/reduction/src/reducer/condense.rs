@@ -1,0 +1,159 @@
+//! Which way a gear is condensed, and its first window.
+
+use std::sync::Arc;
+
+use faer::Mat;
+use fem::Material;
+use mesh::GearMesh;
+
+use super::{ReductionOptions, ReductionWay};
+use crate::{
+    ReducedGear, ReductionError,
+    cyclic::{CyclicGear, PitchTurn, SectorMesh},
+    general::{GeneralGear, Seen},
+    load::{Coordinates, Load},
+};
+
+/// The condensed gear.
+#[derive(Debug)]
+pub(crate) enum Method {
+    /// From one sector.
+    Cyclic(Box<CyclicGear>),
+    /// From one factor; with the turn by one pitch of a whole gear that is cyclic all the same.
+    General(Box<GeneralGear>, Option<PitchTurn>),
+}
+
+impl Method {
+    fn summary(&self) -> Summary {
+        match self {
+            Self::Cyclic(gear) => {
+                Summary { way: ReductionWay::CyclicSector, cyclic: true, free_count: gear.free_count() }
+            }
+            Self::General(gear, turn) => {
+                Summary { way: ReductionWay::General, cyclic: turn.is_some(), free_count: gear.free_count() }
+            }
+        }
+    }
+}
+
+/// What is known of the method without having it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Summary {
+    pub(crate) way: ReductionWay,
+    pub(crate) cyclic: bool,
+    pub(crate) free_count: usize,
+}
+
+/// A condensed gear less its method.
+pub(super) struct Condensed {
+    /// The mesh as the reducer shows it.
+    pub(super) gear: GearMesh,
+    pub(super) coordinates: Coordinates,
+    pub(super) summary: Summary,
+    /// The first window.
+    pub(super) base: Arc<ReducedGear>,
+}
+
+impl Condensed {
+    fn new(
+        gear: GearMesh,
+        coordinates: Coordinates,
+        options: &ReductionOptions,
+        first: Opened,
+        (method, compliance): (Method, Mat<f64>),
+    ) -> (Self, Method) {
+        let base = Arc::new(first.reduced(options, compliance));
+        (Self { gear, coordinates, summary: method.summary(), base }, method)
+    }
+}
+
+/// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is.
+pub(super) fn condense<E: From<ReductionError>>(
+    gear: GearMesh,
+    material: &Material,
+    options: &ReductionOptions,
+    general: bool,
+    coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+) -> Result<(Condensed, Method), E> {
+    let mut turn = PitchTurn::of_gear(&gear);
+    let sectors = if general { None } else { sectors(&gear, turn.as_ref(), options)? };
+    if let Some((part, copies)) = sectors {
+        let seen = copies.as_ref().unwrap_or(&gear);
+        let coordinates = coordinates(seen)?;
+        let first = Opened::new(seen, &coordinates, options)?;
+        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, coordinates.are_nodes())?;
+        if let Some(cyclic) = cyclic {
+            let compliance = cyclic.compliance();
+            let method = Method::Cyclic(Box::new(cyclic));
+            let gear = copies.unwrap_or(gear);
+            return Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)));
+        }
+    }
+    let gear = if gear.is_periodic_sector() {
+        let whole = gear.whole().map_err(ReductionError::from)?;
+        turn = PitchTurn::of_gear(&whole);
+        whole
+    } else {
+        gear
+    };
+    let coordinates = coordinates(&gear)?;
+    let first = Opened::new(&gear, &coordinates, options)?;
+    let (last, seen) =
+        if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
+    let factor = GeneralGear::new(gear.mesh(), gear.bore_nodes(), material, &options.elements, last)?;
+    let compliance = factor.compliance(seen)?;
+    let method = Method::General(Box::new(factor), turn);
+    Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
+}
+
+/// A window before it is reduced.
+pub(super) struct Opened {
+    teeth: Vec<u32>,
+    nodes: Vec<u32>,
+    /// Unit loads of its coordinates.
+    pub(super) loads: Vec<Load>,
+}
+
+impl Opened {
+    pub(super) fn new(
+        gear: &GearMesh,
+        coordinates: &Coordinates,
+        options: &ReductionOptions,
+    ) -> Result<Self, ReductionError> {
+        let z = gear.tooth_count();
+        // Teeth first, first + 1, ... counter-clockwise.
+        let teeth: Vec<u32> = (0..options.window as u32).map(|i| (options.first % z + i) % z).collect();
+        let nodes = coordinates.nodes(gear, &teeth, &options.sides)?;
+        let loads = coordinates.loads(gear, &teeth, &options.sides)?;
+        Ok(Self { teeth, nodes, loads })
+    }
+
+    /// The window with its compliance.
+    pub(super) fn reduced(self, options: &ReductionOptions, compliance: Mat<f64>) -> ReducedGear {
+        ReducedGear::new(self.teeth, options.sides.clone(), self.nodes, compliance)
+    }
+}
+
+/// One sector of a cyclic gear, and the mesh of those about the window if `gear` itself is a sector.
+pub(super) fn sectors(
+    gear: &GearMesh,
+    turn: Option<&PitchTurn>,
+    options: &ReductionOptions,
+) -> Result<Option<(SectorMesh, Option<GearMesh>)>, ReductionError> {
+    if let Some(turn) = turn {
+        return Ok(SectorMesh::of_whole(gear, turn).map(|part| (part, None)));
+    }
+    if !gear.is_periodic_sector() {
+        return Ok(None);
+    }
+    let z = i64::from(gear.tooth_count());
+    // A sector may have the two flanks of a tooth, or of a space; its numbers count down from z where they are below 0.
+    let signed = |t: u32| if 2 * i64::from(t) > z { i64::from(t) - z } else { i64::from(t) };
+    let teeth = gear.teeth().into_iter().map(signed);
+    let [low, high] = teeth.fold([i64::MAX, i64::MIN], |[a, b], t| [a.min(t), b.max(t)]);
+    // One more on either side: half teeth and fillets of the outermost teeth reach into them.
+    let from = (i64::from(options.first) - high - 1).rem_euclid(z) as u32;
+    let count = (options.window as i64 + high - low + 2).min(z) as u32;
+    let copies = gear.copies(from, count)?;
+    Ok(SectorMesh::of_sector(gear, &copies).map(|part| (part, Some(copies.gear))))
+}

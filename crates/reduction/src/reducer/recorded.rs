@@ -1,0 +1,60 @@
+//! Gears from records, and records of gears.
+
+use std::{collections::BTreeMap, sync::OnceLock};
+
+use fem::Material;
+use mesh::GearMesh;
+
+use super::{
+    GearReducer, ReductionOptions, ReductionWay,
+    asked::Asked,
+    condense::{Condensed, sectors},
+};
+use crate::{ReductionError, ReductionRecord, load::Coordinates};
+
+impl GearReducer {
+    /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of ([`crate::record_key`]
+    /// sees to that); with `record` of another first window the gear is reduced anew.
+    ///
+    /// # Errors
+    /// As [`GearReducer::new`].
+    pub fn from_record(
+        gear: GearMesh,
+        material: Material,
+        options: ReductionOptions,
+        record: ReductionRecord,
+    ) -> Result<Self, ReductionError> {
+        let ReductionRecord { summary, lowest_hz, windows, halves } = record;
+        let first = options.first % gear.tooth_count().max(1);
+        let by_first = windows.into_iter().filter_map(|w| Some((w.teeth.first().copied()?, w)));
+        let mut others: BTreeMap<_, _> = by_first.collect();
+        let general = summary.way == ReductionWay::General;
+        let Some(base) = others.remove(&first) else {
+            return Self::build(gear, material, options, general, |_| Ok(Coordinates::FlankNodes));
+        };
+        let seen = match (gear.is_periodic_sector(), general) {
+            (false, _) => None,
+            (true, true) => Some(gear.clone().whole()?),
+            (true, false) => sectors(&gear, None, &options)?.and_then(|(_, copies)| copies),
+        };
+        let (gear, given) = match seen {
+            Some(seen) => (seen, Some(gear)),
+            None => (gear, None),
+        };
+        let condensed = Condensed { gear, coordinates: Coordinates::FlankNodes, summary, base };
+        let asked = Asked::recorded(others, halves, lowest_hz);
+        Ok(Self { given, asked, ..Self::assembled(material, options, condensed, OnceLock::new()) })
+    }
+
+    /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far. `None` when a record has
+    /// it all already, and for a gear reduced to grids.
+    pub fn record(&self) -> Option<ReductionRecord> {
+        let record = || self.asked.record(self.summary, &self.base);
+        self.coordinates.are_nodes().then(record).flatten()
+    }
+
+    /// Whether the gear came from a record.
+    pub fn is_from_record(&self) -> bool {
+        self.asked.is_from_record()
+    }
+}

@@ -1,0 +1,113 @@
+//! Windows of a condensed gear, and what stands about them.
+
+use std::{f64::consts::TAU, sync::Arc};
+
+use geometry::{Gear, Side};
+
+use super::{GearReducer, Method, ReductionOptions, condense::Opened};
+use crate::{
+    HalfTooth, ReductionError, Window,
+    general::Seen,
+    load::{Coordinates, Load, missing},
+};
+
+impl GearReducer {
+    /// The window whose first tooth is `first`.
+    ///
+    /// # Errors
+    /// [`ReductionError::MissingFlank`] when the mesh ends before the window does.
+    pub fn window(&self, first: u32) -> Result<Window, ReductionError> {
+        let z = self.gear.tooth_count();
+        let (first, base) = (first % z, self.options.first % z);
+        if first == base || self.is_cyclic() {
+            return Ok(Window { reduced: self.base.clone(), shift: (first + z - base) % z });
+        }
+        let mut others = self.asked.others();
+        if let Some(reduced) = others.get(&first) {
+            return Ok(Window { reduced: reduced.clone(), shift: 0 });
+        }
+        let Method::General(general, _) = self.method()? else {
+            return Ok(Window { reduced: self.base.clone(), shift: 0 });
+        };
+        let options = ReductionOptions { first, ..self.options.clone() };
+        let other = Opened::new(&self.gear, &self.coordinates, &options)?;
+        let compliance = general.compliance(Seen::Loads(&other.loads))?;
+        let reduced = Arc::new(other.reduced(&options, compliance));
+        others.insert(first, reduced.clone());
+        Ok(Window { reduced, shift: 0 })
+    }
+
+    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was meshed.
+    ///
+    /// # Errors
+    /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
+    pub fn half_tooth(&self, geometry: &Gear, tooth: u32, side: Side) -> Result<Arc<HalfTooth>, ReductionError> {
+        let mut halves = self.asked.halves();
+        if let Some(half) = halves.get(&(tooth, side)) {
+            return Ok(half.clone());
+        }
+        let (elements, flank) = (&self.options.elements, (tooth, side));
+        let half = match &self.coordinates {
+            Coordinates::FlankNodes => HalfTooth::new(&self.gear, geometry, &self.material, elements, tooth, side)?,
+            Coordinates::Grids(grids) => {
+                let grid = grids.get(&flank).ok_or_else(|| missing(&self.gear, flank))?;
+                HalfTooth::on_grid(&self.gear, geometry, &self.material, elements, flank, grid)?
+            }
+        };
+        let half = Arc::new(half);
+        halves.insert(flank, half.clone());
+        Ok(half)
+    }
+
+    /// Place among a window's boundary nodes of a node of [`GearReducer::flank`].
+    pub fn boundary_position(&self, window: &Window, (tooth, side): (u32, Side), node: u32) -> Option<usize> {
+        let Coordinates::Grids(grids) = &self.coordinates else { return window.reduced.position(node) };
+        let mut at = 0;
+        for &t in &window.reduced.teeth {
+            for &s in &window.reduced.sides {
+                let grid = grids.get(&(t, s))?;
+                if (t, s) == (tooth, side) {
+                    return ((node as usize) < grid.positions.len()).then_some(at + node as usize);
+                }
+                at += grid.positions.len();
+            }
+        }
+        None
+    }
+
+    /// Angle of a window's frame in the gear's own frame, rad.
+    pub fn frame_angle(&self, window: &Window) -> f64 {
+        TAU * f64::from(window.shift) / f64::from(self.gear.tooth_count())
+    }
+
+    /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.
+    pub fn material_nodes(&self, window: &Window) -> Vec<u32> {
+        window.reduced.nodes.iter().map(|&n| self.material_node(window, n)).collect()
+    }
+
+    /// The mesh's own node at the place of `node` of the window's frame: turned on by the window's shift.
+    ///
+    /// `node` itself where the mesh does not have that place, being some sectors only.
+    pub fn material_node(&self, window: &Window, node: u32) -> u32 {
+        if window.shift == 0 {
+            return node;
+        }
+        match self.method() {
+            Ok(Method::Cyclic(cyclic)) => cyclic.turned_node(node, window.shift).unwrap_or(node),
+            Ok(Method::General(_, Some(turn))) => {
+                (0..window.shift).fold(node, |n, _| turn.nodes.get(n as usize).copied().unwrap_or(n))
+            }
+            Ok(Method::General(_, None)) | Err(_) => node,
+        }
+    }
+
+    /// Whether the window's nodes are last in the factor.
+    pub(crate) fn is_last(&self, window: &Window) -> bool {
+        self.coordinates.are_nodes() && Arc::ptr_eq(&window.reduced, &self.base)
+    }
+
+    /// Unit loads of a window's coordinates.
+    pub(crate) fn loads(&self, window: &Window) -> Result<Vec<Load>, ReductionError> {
+        self.coordinates.loads(&self.gear, &window.reduced.teeth, &self.options.sides)
+    }
+}
