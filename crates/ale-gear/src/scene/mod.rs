@@ -7,6 +7,7 @@
 mod check;
 mod error;
 mod excerpt;
+mod hints;
 mod keys;
 mod ladder;
 mod micro;
