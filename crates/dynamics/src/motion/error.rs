@@ -56,7 +56,9 @@ impl<E> MotionError<E> {
             Self::Mechanism { .. } => {
                 "see the message; a smaller step often keeps the motion within reach of the contact search"
             }
-            Self::NotConverged { .. } => "take a smaller fixed step, or let the error control choose the step",
+            Self::NotConverged { .. } => {
+                "take a smaller fixed step (`steps_per_mesh_cycle`), or let the error control choose it (`error_tolerance`)"
+            }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
             }

@@ -62,7 +62,13 @@ const MISALIGNED: &[Key] = &[
         0.0,
         "f_Sigma_beta: deviation of the wheel's axis across the plane of axes, um over the face width",
     ),
-    number("inclination_um", -INF, INF, 0.0, "f_Sigma_delta: the same in the plane of axes, um over the face width"),
+    number(
+        "inclination_um",
+        -INF,
+        INF,
+        0.0,
+        "f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width",
+    ),
     number(
         "in_plane_of_action_um",
         -INF,
