@@ -140,8 +140,11 @@ fn a_wrong_type_names_both() {
         "ale-gear: a.toml:2: `teeth` must be a whole number, found string \"30\"\n\
          hint: write numbers without quotes and without a unit: the unit is in the key\n",
     );
-    says("pinion = 3\n", "ale-gear: a.toml:1: `pinion` must be a table, found integer 3\n\
-         hint: write `[pinion]` on a line of its own, and its keys on the lines below\n");
+    says(
+        "pinion = 3\n",
+        "ale-gear: a.toml:1: `pinion` must be a table, found integer 3\n\
+         hint: write `[pinion]` on a line of its own, and its keys on the lines below\n",
+    );
     says(
         &with("teeth = 30", "teeth = 30.0"),
         "ale-gear: a.toml:2: `teeth` must be a whole number, found number 30.0\nhint: write it without a decimal point\n",
@@ -155,7 +158,10 @@ fn a_wrong_type_names_both() {
 
 #[test]
 fn a_value_out_of_range_names_the_range() {
-    says(&with("teeth = 30", "teeth = -3"), "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\nhint: `teeth` means: number of teeth\n");
+    says(
+        &with("teeth = 30", "teeth = -3"),
+        "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\nhint: `teeth` means: number of teeth\n",
+    );
     says(
         &with("face_width_mm = 20.0", "face_width_mm = nan"),
         "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\nhint: `face_width_mm` means: face width of both gears, mm\n",
@@ -336,7 +342,11 @@ fn broken_toml_names_the_line() {
     let hinted = |line: &str, hint: &str| {
         let scratch = Scratch::new().file("a.toml", with("normal_module_mm = 3.0", line));
         let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
-        assert!(run.stderr.starts_with("ale-gear: a.toml:11: ") && run.stderr.ends_with(hint), "{line}: {}", run.stderr);
+        assert!(
+            run.stderr.starts_with("ale-gear: a.toml:11: ") && run.stderr.ends_with(hint),
+            "{line}: {}",
+            run.stderr
+        );
     };
     hinted("normal_module_mm = 3,0", "hint: write numbers with a decimal point: `2.5`, not `2,5`\n");
     hinted("normal_module_mm = 3.", "hint: write a digit behind the decimal point: `2.0`, not `2.`\n");

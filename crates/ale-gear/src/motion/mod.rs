@@ -55,8 +55,11 @@ use crate::{
     phases::Phases,
     run::{Failure, complaint},
     scene::{MotionScene, Run, Scene, SweepScene},
+    talk::{self, Loudness},
 };
 
+/// More steps than this in a mesh cycle take half a minute or more.
+const SLOW: f64 = 20_000.0;
 /// Fewer steps than this in a period of the mesh resonance show it wrongly.
 const COARSE: f64 = 8.0;
 
@@ -190,6 +193,11 @@ fn attempt<'a>(
     let Inputs { scene, words, .. } = *inputs;
     let mut prepared = prepare(inputs, phases, window)?;
     prepared.warnings.extend(coarse(scene, words, &prepared));
+    if let Some(slow) = slow(scene, words, &prepared) {
+        // Who waits should hear it before the end.
+        talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
+        prepared.warnings.push(slow);
+    }
     if let Some(sweep) = &words.sweep {
         let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
         return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));
@@ -231,6 +239,21 @@ fn coarse(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<Str
         format!(
             "a step is 1/{steps:.1} of the period of the {what} ({fastest:.0} Hz), which it cannot show: take more \
              `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
+        )
+    })
+}
+
+/// Steps of a mesh cycle so many that a user should know why nothing seems to go on.
+fn slow(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<String> {
+    let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+    let fastest = prepare::fastest_hz(&prepared.system);
+    let steps = f64::from(words.steps_per_resonance) * fastest / mesh;
+    let given = words.ramp.is_none() && words.sweep.is_none();
+    (given && steps > SLOW).then(|| {
+        format!(
+            "a mesh cycle lasts {:.0} periods of the fastest motion that steps have to show ({fastest:.3e} Hz), so it takes {steps:.0} steps; so slow a pair \
+             has nearly the answer of `kind = \"static\"`",
+            fastest / mesh
         )
     })
 }
@@ -305,11 +328,18 @@ fn doubts(words: &MotionScene, prepared: &Prepared, headline: &MotionHeadline) -
     if let (true, Some(found), Some(asked)) = (settles, c.periodicity, words.periodic_tolerance)
         && found > asked
     {
-        said.push(format!(
+        let early = c.warm_up_cycles < u64::from(words.warm_up_cycles.unwrap_or(1000)) && words.run == Run::Steady;
+        said.push(if early {
+            format!(
+                "the motion repeated itself to {asked:.0e} of its peak to peak after {} mesh cycles, but those that were written do so to {found:.1e} only: \
+                 ask for a smaller `periodic_tolerance`, or give a transient more damping",
+                c.warm_up_cycles
+            )
+        } else { format!(
             "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); \
              it may be chaotic, or need more `warm_up_cycles`",
             c.warm_up_cycles
-        ));
+        )});
     } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
         said.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
     }

@@ -24,7 +24,9 @@ pub(super) fn found(readers: &str) -> String {
 pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
     match expected {
         "a whole number" if found.starts_with("number") => "write it without a decimal point".into(),
-        "a whole number" if found.starts_with("integer") => "a number of so many digits is none of this program's".into(),
+        "a whole number" if found.starts_with("integer") => {
+            "a number of so many digits is none of this program's".into()
+        }
         e if e.contains("number") => "write numbers without quotes and without a unit: the unit is in the key".into(),
         "a text in quotes" => format!("write `{key} = \"...\"`, the text between the quotes"),
         "true or false" => format!("write `{key} = true` or `{key} = false`, without quotes"),
@@ -45,7 +47,9 @@ pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<
         m if m.contains("invalid fraction") => Some("write a digit behind the decimal point: `2.0`, not `2.`"),
         m if m.contains("overflow") => Some("numbers end at 1.8e308"),
         m if m.contains("invalid basic string") => Some("end the text with a quote on the same line"),
-        m if m.contains("carriage return") => Some("end lines with a line feed: save the file with Unix or Windows line ends"),
+        m if m.contains("carriage return") => {
+            Some("end lines with a line feed: save the file with Unix or Windows line ends")
+        }
         _ => None,
     }
 }

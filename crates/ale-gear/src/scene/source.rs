@@ -96,6 +96,7 @@ impl Source<'_> {
             // The value is a table of its own: `[pinion]` where a number was wanted.
             let whole = self.text.get(at..).unwrap_or_default().lines().next().unwrap_or_default();
             let name = format!("{line}{whole}");
+            let name = name.split('=').next().unwrap_or_default();
             return name.trim().trim_matches(['[', ']']).to_owned();
         };
         let is_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');

@@ -26,6 +26,16 @@ pub enum MotionError<E> {
         /// Last change, relative.
         change: f64,
     },
+    /// There is no equilibrium to begin with.
+    #[error(
+        "at {time:.9} s: no equilibrium to begin with; the search for it stopped {change:.3e} of the motion's scale apart"
+    )]
+    NoStart {
+        /// Time, s.
+        time: f64,
+        /// Last change, relative.
+        change: f64,
+    },
     /// The error control asked for a step below the least one.
     #[error("at {time:.9} s: a step of {step:.3e} s is needed for the tolerance, the least allowed is {least:.3e} s")]
     StepTooSmall {
@@ -58,6 +68,9 @@ impl<E> MotionError<E> {
             }
             Self::NotConverged { .. } => {
                 "take a smaller fixed step (`steps_per_mesh_cycle`), or let the error control choose it (`error_tolerance`)"
+            }
+            Self::NoStart { .. } => {
+                "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks"
             }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
