@@ -161,8 +161,8 @@ fn a_motion_may_begin_on_the_coast_flanks() {
 /// What takes long says why before it is over: so slow a pair that a mesh cycle has tens of thousands of steps.
 #[test]
 fn a_slow_motion_says_how_many_steps_it_takes() {
-    let slow = scene(1, "run = \"span\"\nmethod = \"newmark\"\nsteps_per_resonance = 8\n");
-    let scratch = Scratch::new().file("a.toml", slow.replace("[operation]\n", "[operation]\nspeed_rpm = 1.0\n"));
+    let slow = scene(1, "run = \"span\"\n").replace("resonance = 0", "resonance = 16");
+    let scratch = Scratch::new().file("a.toml", slow.replace("[operation]\n", "[operation]\nspeed_rpm = 0.01\n"));
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_ale-gear"))
         .args(["run", "a.toml", "--out", "o", "--no-cache"])
         .current_dir(scratch.path())
