@@ -43,8 +43,8 @@ fn coast_flanks_that_stay_apart_change_nothing() {
 fn a_wedged_tooth_is_pressed_from_both_sides() {
     let mut case = small();
     let backlash = case.pair.backlash();
-    let mut wedged = GearModifications::default();
-    wedged.pitch_errors = vec![0.0; case.pair.wheel.teeth() as usize];
+    let none = vec![0.0; case.pair.wheel.teeth() as usize];
+    let mut wedged = GearModifications { pitch_errors: none, ..Default::default() };
     let normal_sum = |case: &Case, both_flanks: bool| {
         let options = StaticOptions { both_flanks, ..case.slice_options() };
         let history = case.reduced(options).run(4, 4, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));

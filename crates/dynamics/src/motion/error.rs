@@ -28,7 +28,7 @@ pub enum MotionError<E> {
     },
     /// There is no equilibrium to begin with.
     #[error(
-        "at {time:.9} s: no equilibrium to begin with; the search for it stopped {change:.3e} of the motion's scale apart"
+        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
     )]
     NoStart {
         /// Time, s.

@@ -74,7 +74,7 @@ fn balance(
     let mut r = residual(system, &q, &mut forces)?;
     let load = system.load_on_lag(time).abs() * scale[lag];
     let mut added = 1e-3;
-    let mut change = f64::INFINITY;
+    let mut change = 0.0;
     for _ in 0..STEPS {
         let now = size(&r);
         if now <= TOLERANCE * load.max(f64::MIN_POSITIVE) {
