@@ -9,8 +9,8 @@ use dynamics::{
     Bulk, ElasticGear, StaticOptions, Station,
     motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl},
     pair_motion::{
-        Bearing, Drive, ElasticRatio, GearVibration, LOW_FREQUENCY_LIMIT, MeshDamping, MotionOptions, PairMechanism,
-        RigidBody, Speed, Torque, quasi_static_start,
+        Bearing, Drive, ElasticRatio, GearVibration, LOW_FREQUENCY_LIMIT, MeshDamping, Motion, MotionOptions,
+        MotionSettings, PairMechanism, RigidBody, Speed, Torque, quasi_static_start, run_to_steady, shoot,
     },
 };
 use fem::ElementOptions;
@@ -235,6 +235,38 @@ fn tooth_change_leaves_no_trace_in_the_modes() {
     assert!(changes.count >= 2 && changes.dropped == 0.0, "{changes:?}");
     assert!(changes.jump < 1e-9 * largest, "{changes:?}");
     assert!(open < 1e-9 * turnover, "energy open by {open:e} N mm");
+}
+
+/// The periodic answer that waiting finds, with modes of both gears: amplitudes go on turned by a pitch from cycle to cycle, so that shooting finds it too, and finds it stable.
+#[test]
+fn shooting_finds_what_waiting_finds() {
+    let pair = pair();
+    // Near the mesh resonance, weakly damped.
+    let speed = 2.2e3 * pair.case.pair.pinion.pitch_angle();
+    let [waited, shot] = [false, true].map(|shooting| {
+        let [_, mut system] = pair.both(&pair.options(speed, 0.03), own_modes(3));
+        let scale = scale(&system);
+        let state = quasi_static_start(&mut system, 0.0, pair.ste, &scale).unwrap();
+        let (scheme, rows) = (Scheme::Energy, 32);
+        let settings =
+            MotionSettings { scheme, rows, steps_per_resonance: 0, tolerance: None, stop_at_events: false, scale };
+        let mut motion = Motion::new(system, settings, state);
+        let periods = if shooting {
+            let shot = shoot(&mut motion, 1, 1e-7, 12).unwrap_or_else(|e| panic!("{e}"));
+            assert!(shot.residual < 1e-7 && shot.multiplier < 1.0, "{shot:?}");
+            shot.periods as u64
+        } else {
+            let found = run_to_steady(&mut motion, 1e-7, 400, |_, _| ()).unwrap();
+            assert!(found.residual < 1e-7 && found.period == 1, "{found:?}");
+            motion.cycle()
+        };
+        let mut errors = Vec::new();
+        motion.run_cycle(Some(&mut |now, _| errors.push(now.transmission_error))).unwrap();
+        (periods, errors)
+    });
+    let off = waited.1.iter().zip(&shot.1).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / pair.ste;
+    println!("{} periods waited, {} shot; off by {off:.1e} of the static error", waited.0, shot.0);
+    assert!(waited.1.len() == 32 && off < 1e-5, "the answers differ by {off:e} of the static error");
 }
 
 /// Response of all coordinates to the mesh going on with frequency `hz`: (K + i w C - w^2 M) x = df/dt at held coordinates, as amplitude of the lag.

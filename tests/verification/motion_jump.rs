@@ -31,8 +31,8 @@ fn light_pair() -> &'static MovingPair {
     })
 }
 
-/// Up and down through these speeds (over the resonance), in order of speed both.
-fn both_ways(ratios: &[f64]) -> [Vec<SweepPoint>; 2] {
+/// Up and down through these speeds (over the resonance), in order of speed both, each repeating itself to `tolerance`.
+fn both_ways(ratios: &[f64], tolerance: f64) -> [Vec<SweepPoint>; 2] {
     let pair = light_pair();
     let resonance = pair.resonance_hz();
     let system = pair.system(resonance, |o| o.damping = MeshDamping::Ratio(ZETA));
@@ -44,7 +44,7 @@ fn both_ways(ratios: &[f64]) -> [Vec<SweepPoint>; 2] {
         speeds: ratios.iter().map(|r| pair.speed(r * resonance)).collect(),
         ways: vec![Way::Up, Way::Down],
         settings,
-        steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-3, most: 120, cycles: 1 },
+        steady: SteadyOptions { by: SteadyBy::Running, tolerance, most: 240, cycles: 1 },
         guess: pair.ste[0],
     };
     let mut points = sweep(&system, &plan, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
@@ -58,7 +58,7 @@ fn apart(point: &SweepPoint) -> bool {
 }
 
 /// Speeds (over the resonance) next to the jump of either way: the last one before it and the first one after it.
-fn jumps(ratios: &[f64]) -> [[f64; 2]; 2] {
+fn jumps(ratios: &[f64], tolerance: f64) -> [[f64; 2]; 2] {
     let pair = light_pair();
     println!(
         "f_0 {:.1} Hz, STE {:.3} um, peak to peak {:.3} um",
@@ -67,7 +67,7 @@ fn jumps(ratios: &[f64]) -> [[f64; 2]; 2] {
         1e3 * peak_to_peak(&pair.ste)
     );
     println!("| f_m / f_0 | up, um | apart | down, um | apart |\n|---|---|---|---|---|");
-    let [up, down] = both_ways(ratios);
+    let [up, down] = both_ways(ratios, tolerance);
     for ((ratio, up), down) in ratios.iter().zip(&up).zip(&down) {
         let [a, b] = [up, down].map(|p| 1e3 * peak_to_peak(&p.transmission_error));
         println!("| {ratio:.2} | {a:.3} | {} | {b:.3} | {} |", apart(up), apart(down));
@@ -86,7 +86,7 @@ fn jumps(ratios: &[f64]) -> [[f64; 2]; 2] {
 /// Softening by lost contact: two answers below the resonance, which one depends on where one comes from.
 #[test]
 fn the_pair_jumps_at_its_resonance() {
-    let [up, down] = jumps(&[0.74, 0.77, 0.80, 0.83, 0.86, 0.90, 0.94, 0.97, 0.98]);
+    let [up, down] = jumps(&[0.74, 0.77, 0.80, 0.83, 0.86, 0.90, 0.94, 0.97, 0.98], 1e-3);
     println!("jump up between {up:?}, down between {down:?}");
     // In steps of a hundredth: up between 0.97 and 0.98, down between 0.77 and 0.76. Larger steps fall off the upper branch a little earlier.
     assert_eq!(up, [0.97, 0.98]);
@@ -95,10 +95,11 @@ fn the_pair_jumps_at_its_resonance() {
 
 /// The same in small steps, to where contact is kept again.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "a minute"]
 fn the_band_in_small_steps() {
     let ratios: Vec<f64> = (0..=36).map(|i| f64::from(72 + i) / 100.0).collect();
-    let [up, down] = jumps(&ratios);
+    // What a cycle still changes of a ringing that dies away slowly is a thirtieth of what is left of it.
+    let [up, down] = jumps(&ratios, 1e-4);
     println!("jump up between {up:?}, down between {down:?}");
 }
 

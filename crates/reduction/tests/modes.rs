@@ -398,3 +398,29 @@ fn threads_change_nothing() {
     };
     assert!(run(1) == run(2), "modes depend on the number of threads");
 }
+
+/// Turning by a tooth takes the modes of a cyclic gear into each other: on the next window they are those of this one times an orthogonal matrix, which after z teeth is 1.
+/// A gear that is not known by sectors has no such turn.
+#[test]
+fn a_tooth_further_modes_are_their_own_mixture() {
+    let mesh = meshed(&gear(11, 20.0), 1, Extent::Whole);
+    let options = options(&[Side::Left], 3, 0);
+    let reducer = GearReducer::new(mesh.clone(), Material::STEEL, options.clone()).unwrap();
+    for count in [1, 4, 15] {
+        let modes = reducer.modes(ModeChoice::Count(count)).unwrap();
+        let turn = modes.turned_by_a_tooth().expect("modes of one frequency are kept together");
+        let whole = turn.pow(11) - DMatrix::identity(modes.count(), modes.count());
+        assert!(whole.norm() < 1e-6, "{count} modes: after eleven teeth {:e} is left", whole.norm());
+        let on = |tooth: u32| {
+            let shapes = modes.on_window(&reducer, &reducer.window(tooth).unwrap()).unwrap();
+            DMatrix::from_fn(shapes.nrows(), shapes.ncols(), |i, j| shapes[(i, j)])
+        };
+        for tooth in [0, 4, 10] {
+            let (here, next) = (on(tooth), on(tooth + 1));
+            let off = (&here * &turn - &next).norm() / next.norm();
+            assert!(off < 1e-6, "{} modes, tooth {tooth}: off by {off:e}", modes.count());
+        }
+    }
+    let general = GearReducer::general(mesh, Material::STEEL, options).unwrap();
+    assert!(general.modes(ModeChoice::Count(4)).unwrap().turned_by_a_tooth().is_none());
+}

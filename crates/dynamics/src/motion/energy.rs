@@ -70,21 +70,9 @@ fn iterate<M: Mechanism>(
         let defect = after - before + forces.conservative.dot(&moved);
         let goes = moved.iter().zip(scale.iter()).any(|(x, s)| x.abs() > NO_WAY * s);
         let c = if goes && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) { -defect / length } else { 0.0 };
-        to.v = 2.0 * &velocity - &from.v;
-        if newton.settled() {
-            to.a = (&to.v - &from.v) / h;
-            to.averaged.copy_from(&to.a);
-            to.last_step = h;
-            book.supplied += h * forces.supplied;
-            book.dissipated += h * forces.dissipated;
-            let known = book.potential;
-            book.potential = system.potential(end, &to.q).map_err(fail(end))?;
-            book.parametric += (book.potential - after) + (before - known);
-            // Third differences of the motion: what a midpoint step leaves out.
-            let error = h * h / 12.0 * (&to.a - &from.a);
-            return Ok((to, error));
-        }
-        let rest = system.mass() * (&to.v - &from.v) / h - &forces.conservative - &forces.other - c * &weighted;
+        // M (v_1 - v_0) / h
+        let gained = 2.0 * (&velocity - &from.v);
+        let rest = system.mass() * gained / h - &forces.conservative - &forces.other - c * &weighted;
         let mut added = DMatrix::zeros(0, 0);
         if exact && c != 0.0 {
             // dc/dq_1 = [f_c(q_1) - f_c(q_m) + K (q_1 - q_0) / 2 - 2 c W (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0)
@@ -99,8 +87,30 @@ fn iterate<M: Mechanism>(
             if added.is_empty() { plain } else { plain - &added }
         };
         let singular = MotionError::Singular { time: middle, which: "iteration" };
+        let settled = newton.settled();
         to.q -= newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+        if settled {
+            // What the last step leaves of the balance is work that nobody does: always of one sign, it would add up over many steps.
+            let known = book.potential;
+            let after = system.potential(middle, &to.q).map_err(fail(middle))?;
+            finish(&mut to, from, h);
+            book.supplied += h * forces.supplied;
+            book.dissipated += h * forces.dissipated;
+            book.potential = system.potential(end, &to.q).map_err(fail(end))?;
+            book.parametric += (book.potential - after) + (before - known);
+            // Third differences of the motion: what a midpoint step leaves out.
+            let error = h * h / 12.0 * (&to.a - &from.a);
+            return Ok((to, error));
+        }
         newton.measure(&to.q, scale);
     }
     Err(MotionError::NotConverged { time: from.time, step: h, iterations: ITERATIONS, change: newton.change() })
+}
+
+/// Velocity and acceleration at the end of a step whose coordinates are known.
+fn finish(to: &mut State, from: &State, h: f64) {
+    to.v = 2.0 / h * (&to.q - &from.q) - &from.v;
+    to.a = (&to.v - &from.v) / h;
+    to.averaged.copy_from(&to.a);
+    to.last_step = h;
 }

@@ -57,6 +57,9 @@ pub enum MotionError<E> {
     /// Options that make no sense, or lengths that do not fit.
     #[error("{0}")]
     Options(&'static str),
+    /// No period to shoot for.
+    #[error("{0}")]
+    NoPeriod(&'static str),
 }
 
 impl<E> MotionError<E> {
@@ -77,6 +80,7 @@ impl<E> MotionError<E> {
             }
             Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
             Self::Options(_) => "correct the integrator's options",
+            Self::NoPeriod(_) => "wait for the motion to settle instead of shooting for its periodic state",
         }
     }
 }

@@ -3,7 +3,8 @@
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
-//! With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
+//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of modes are in
+//! ([`PairMechanism::over_a_pitch`](super::PairMechanism::over_a_pitch)). With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
 //! period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
 //! than waiting; and it finds unstable answers, which waiting never does.
 
@@ -36,10 +37,11 @@ pub struct Shot {
 /// Gives up after `most` Newton steps: the residual then says how far it is from repeating itself.
 ///
 /// # Errors
-/// [`MotionError::Options`] where a torque drives, since speed and place of the driver are free then; [`PairMotionError`] of the integration.
+/// [`MotionError::NoPeriod`] where a torque drives, since speed and place of the driver are free then, and with modes of a gear that is not known by sectors; [`PairMotionError`]
+/// of the integration.
 pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<Shot, PairMotionError> {
     if motion.system().coordinates().driver_turn().is_some() {
-        return Err(MotionError::Options(
+        return Err(MotionError::NoPeriod(
             "a driver that a torque turns has no period of its own: shooting needs a given speed",
         ));
     }
@@ -48,7 +50,13 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
             "shooting begins at the start of a motion and takes a period of one mesh cycle or more",
         ));
     }
-    let mut search = Search { start: motion.system().place(), period, periods: 0 };
+    let Some(over) = motion.system().over_a_pitch() else {
+        return Err(MotionError::NoPeriod(
+            "shooting with normal modes needs gears that are known by sectors, whose teeth are all alike, and whole pairs of modes of one frequency",
+        ));
+    };
+    let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
+    let mut search = Search { start: motion.system().place(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
     motion.rewind(&search.start, here.clone())?;
@@ -87,6 +95,8 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
 struct Search {
     start: Place,
     period: u64,
+    /// Turn of the coordinates back by a period.
+    back: DMatrix<f64>,
     periods: usize,
 }
 
@@ -99,7 +109,7 @@ struct End {
 impl Search {
     fn map(&mut self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
         self.periods += 1;
-        over_period(motion, &self.start, self.period, from)
+        self.over_period(motion, from)
     }
 
     /// dP/dx, column by column.
@@ -117,28 +127,32 @@ impl Search {
             let system = motion.system().with_drive(motion.system().options().drive.clone());
             let system = system.map_err(|source| MotionError::Mechanism { time: here.time, source })?;
             let mut own = Motion::new(system, motion.settings().clone(), here.clone());
-            let there = over_period(&mut own, &self.start, self.period, &moved(here, &offset))?;
+            let there = self.over_period(&mut own, &moved(here, &offset))?;
             Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)
         };
         let columns: Vec<DVector<f64>> = (0..parts * n).into_par_iter().map(column).collect::<Result<_, _>>()?;
         Ok(DMatrix::from_columns(&columns))
     }
-}
 
-fn over_period(motion: &mut Motion, start: &Place, period: u64, from: &State) -> Result<End, PairMotionError> {
-    motion.rewind(start, from.clone())?;
-    let mut size: Option<[DVector<f64>; 2]> = None;
-    for _ in 0..period {
-        let swing = motion.run_cycle(None)?.peak_to_peak();
-        size = Some(match size {
-            None => swing,
-            Some(before) => [0, 1].map(|i| before[i].sup(&swing[i])),
-        });
+    fn over_period(&self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
+        motion.rewind(&self.start, from.clone())?;
+        let mut size: Option<[DVector<f64>; 2]> = None;
+        for _ in 0..self.period {
+            let swing = motion.run_cycle(None)?.peak_to_peak();
+            size = Some(match size {
+                None => swing,
+                Some(before) => [0, 1].map(|i| before[i].sup(&swing[i])),
+            });
+        }
+        let mut state = motion.state().clone();
+        for part in [&mut state.q, &mut state.v, &mut state.averaged] {
+            *part = &self.back * &*part;
+        }
+        let both = [[state.q.clone(), state.v.clone()], [from.q.clone(), from.v.clone()]];
+        let scale = &motion.settings().scale;
+        let residual = size.map_or(f64::INFINITY, |s| difference([&both[0], &both[1]], &s, scale, None));
+        Ok(End { state, residual })
     }
-    let state = motion.state().clone();
-    let both = [[state.q.clone(), state.v.clone()], [from.q.clone(), from.v.clone()]];
-    let residual = size.map_or(f64::INFINITY, |s| difference([&both[0], &both[1]], &s, &motion.settings().scale, None));
-    Ok(End { state, residual })
 }
 
 /// Parts of x: coordinates, velocities, and the integrator's own acceleration where it has one.

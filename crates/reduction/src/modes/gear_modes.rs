@@ -32,7 +32,7 @@ pub struct GearModes {
 
 /// Where the shapes are known.
 #[derive(Debug, Clone)]
-enum Shapes {
+pub(super) enum Shapes {
     /// On all free freedoms of the mesh, one column a mode.
     Whole(Mat<f64>),
     /// u_k = Re((x + i y) e^(i psi k)) in the frame of sector k, one column a mode of either part.
@@ -174,6 +174,10 @@ fn around(teeth: u32, phase: f64, re: [f64; 6], im: [f64; 6]) -> [f64; 6] {
 }
 
 impl GearModes {
+    pub(super) fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
     /// Number of modes m.
     pub fn count(&self) -> usize {
         self.squares.len()

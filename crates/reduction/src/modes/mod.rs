@@ -13,6 +13,7 @@ mod gear_modes;
 mod held;
 mod krylov;
 mod lowest;
+mod turn;
 mod whole;
 
 pub use choice::ModeChoice;

@@ -141,6 +141,18 @@ impl PairMechanism {
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
 
+    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back, amplitudes of modes, which are in the gears' own frames, are
+    /// those of gears that stand a pitch further. n x n; `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at best.
+    pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
+        let (n, rigid) = (self.count(), self.coordinates.count());
+        let mut all = DMatrix::identity(n, n);
+        if let Some(modal) = &self.modal {
+            let turn = modal.turned_by_a_pitch(self.options.contact.sense.sign() as f64)?;
+            all.view_mut((rigid, rigid), (n - rigid, n - rigid)).copy_from(&turn);
+        }
+        Some(all)
+    }
+
     /// Nominal motion.
     pub fn nominal(&self) -> &Nominal {
         &self.nominal

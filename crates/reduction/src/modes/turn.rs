@@ -1,0 +1,52 @@
+//! What turning a cyclic gear by a tooth does to the amplitudes of its modes.
+
+use nalgebra::DMatrix;
+
+use super::{GearModes, gear_modes::Shapes};
+
+/// What the modes may leave of their turned selves: where a pair of one frequency was parted, all of a mode is left.
+const LEFT: f64 = 1e-5;
+
+impl GearModes {
+    /// R of `Phi_k = Phi_(k-1) R`, m x m: the shapes on tooth k by those on the tooth before, each in the frame of its own tooth.
+    ///
+    /// ```text
+    /// Phi_k q = Phi_(k-1) (R q)
+    /// ```
+    /// A gear that deforms as it did one pitch ago, seen from space, has amplitudes R q where it had q if it turns counter-clockwise, and R' q else: R is orthogonal, and turns
+    /// both modes of n waves into each other by 2 pi n / z.
+    ///
+    /// `None` for a gear that is not known by sectors, whose teeth need not be alike, and where modes of one frequency are not all there.
+    pub fn turned_by_a_tooth(&self) -> Option<DMatrix<f64>> {
+        let (Shapes::Sector { phases, parts, .. }, Some(waves)) = (self.shapes(), self.waves()) else { return None };
+        let rows = parts[0].nrows();
+        let part = |p: usize, row: usize, j: usize| parts[p][(row, j)];
+        // (x + i y) e^(i psi)
+        let turned = |p: usize, row: usize, j: usize| {
+            let (sin, cos) = phases[j].sin_cos();
+            let (x, y) = (part(0, row, j), part(1, row, j));
+            if p == 0 { cos * x - sin * y } else { sin * x + cos * y }
+        };
+        let mut all = DMatrix::zeros(self.count(), self.count());
+        let mut done = vec![false; self.count()];
+        for first in 0..self.count() {
+            if done[first] {
+                continue;
+            }
+            let alike: Vec<usize> = (first..self.count()).filter(|&j| waves[j] == waves[first]).collect();
+            alike.iter().for_each(|&j| done[j] = true);
+            let stacked = |value: &dyn Fn(usize, usize, usize) -> f64| {
+                DMatrix::from_fn(2 * rows, alike.len(), |i, j| value(i / rows, i % rows, alike[j]))
+            };
+            let (here, next) = (stacked(&part), stacked(&turned));
+            let by = here.tr_mul(&here).cholesky()?.solve(&here.tr_mul(&next));
+            if (&here * &by - &next).norm() > LEFT * next.norm() {
+                return None;
+            }
+            for (i, &row) in alike.iter().enumerate() {
+                alike.iter().enumerate().for_each(|(j, &column)| all[(row, column)] = by[(i, j)]);
+            }
+        }
+        Some(all)
+    }
+}
