@@ -1,15 +1,13 @@
 //! The command: a thin shell around the library.
 
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
 
 fn main() -> ExitCode {
     match ale_gear::command::Cli::parse().execute() {
-        Ok(text) => {
-            print(&text);
-            ExitCode::SUCCESS
-        }
+        Ok(text) => print(&text),
         Err(error) => {
             complain(&error.text(ale_gear::talk::colours_on_stderr()));
             ExitCode::from(error.status)
@@ -18,12 +16,17 @@ fn main() -> ExitCode {
 }
 
 /// A reader that has gone (`ale-gear ... | head`) is no failure of the run.
-fn print(text: &str) {
-    use std::io::Write;
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+fn print(text: &str) -> ExitCode {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            complain(&format!("ale-gear: stdout cannot be written: {error}\nhint: is the disk full?\n"));
+            ExitCode::from(1)
+        }
+        _ => ExitCode::SUCCESS,
+    }
 }
 
 fn complain(text: &str) {
-    use std::io::Write;
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }

@@ -65,6 +65,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 ));
             }
             on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
+            whole_flanks(&file.display().to_string(), whose, &found, exact)?;
             let source = path.display().to_string();
             let (gear, facts) = to_compute(scene, found, source).map_err(|e| complain(&e))?;
             Ok(SceneMesh { gear, facts, warnings })
@@ -187,6 +188,35 @@ fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Res
                     ));
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// Share of a flank that its faces must cover: groups may begin at the active root circle or leave out chamfers.
+const COVERED: f64 = 0.75;
+
+/// Named flanks must be there as a whole: contact sees none where the mesh has no face to carry it.
+///
+/// ```text
+/// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
+/// ```
+/// Area of a flank from the root form circle to the tip, mm^2.
+fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+    let profile = exact.profile();
+    let arc = 0.5 * exact.base_radius() * (profile.roll_tip().powi(2) - profile.roll_form().powi(2));
+    let whole = exact.face_width() * arc / exact.base_helix_angle().cos();
+    for (tooth, side) in found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]) {
+        let area: f64 = found.flank(tooth, side).unwrap_or_default().iter().map(|face| found.mesh().area(face)).sum();
+        if area < COVERED * whole {
+            let said = format_args!(
+                "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of {whole:.2} mm^2",
+                side.name(),
+                100.0 * area / whole
+            );
+            let hint =
+                "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
+            return Err(CommandError::input(said, Some(hint.into())));
         }
     }
     Ok(())

@@ -1,6 +1,8 @@
-//! Wall time and peak memory of each phase, and bars for those who wait.
+//! Wall time and peak memory of each phase, and bars for those who wait; into a log, a line now and then.
 
 use std::fmt::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -38,19 +40,44 @@ pub struct Phases {
 
 /// The bar of a running phase; may be shared between threads.
 #[derive(Debug, Clone)]
-pub struct Progress(ProgressBar);
+pub struct Progress {
+    bar: ProgressBar,
+    /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is wanted.
+    due: Option<Arc<AtomicU64>>,
+}
+
+/// Seconds into a phase at which a log gets its first line; the next ones are due after twice the time each.
+const FIRST_LINE: u64 = 20;
 
 impl Progress {
     /// One more unit of work is done.
     pub fn tick(&self) {
-        self.0.inc(1);
+        self.bar.inc(1);
+        if let Some(due) = &self.due {
+            self.log(due);
+        }
+    }
+
+    /// A line for a log, that nobody who waits has to wonder: as due.
+    fn log(&self, due: &AtomicU64) {
+        let elapsed = self.bar.elapsed();
+        let at = due.load(Ordering::Relaxed);
+        let now = elapsed.as_secs();
+        if now < at || due.compare_exchange(at, 2 * now, Ordering::Relaxed, Ordering::Relaxed).is_err() {
+            return;
+        }
+        let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let seconds = elapsed.as_secs_f64();
+        let rest = seconds * all.saturating_sub(done) as f64 / done.max(1) as f64;
+        let (name, beside) = (self.bar.prefix(), self.bar.message());
+        talk::say(Loudness::Bars, || format!("{name}: {done} of {all} after {seconds:.0} s, {} {beside}", left(rest)));
     }
 
     /// A word beside the bar.
     pub fn say(&self, message: impl Into<String>) {
         let message = message.into();
-        talk::say(Loudness::Details, || format!("  {}: {message}", self.0.prefix()));
-        self.0.set_message(message);
+        talk::say(Loudness::Details, || format!("  {}: {message}", self.bar.prefix()));
+        self.bar.set_message(message);
     }
 }
 
@@ -107,7 +134,9 @@ impl Phases {
         talk::say(Loudness::Steps, || format!("{name} ..."));
         let own_peak = memory::reset_peak();
         let start = Instant::now();
-        let result = work(&Progress(bar.clone()));
+        let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
+        let due = logs.then(|| Arc::new(AtomicU64::new(FIRST_LINE)));
+        let result = work(&Progress { bar: bar.clone(), due });
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
         bar.finish_and_clear();

@@ -78,7 +78,7 @@ fn words_of_the_chart_are_checked_before_any_work() {
             "ale-gear: --into page.md: no `<!-- chart small -->`\n\
              hint: put the two lines `<!-- chart small -->` and `<!-- end -->` where the tables shall stand\n",
         ),
-        (["--threads", "0"], "ale-gear: `--threads` is 0, allowed is 1 or more\n"),
+        (["--threads", "0"], "ale-gear: `--threads` is 0, allowed is 1 or more\nhint: leave it out to use all cores\n"),
     ] {
         let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", words[0], words[1]]);
         assert_eq!((run.stderr.as_str(), run.code), (text, Some(2)));

@@ -53,7 +53,10 @@ fn data_goes_to_stdout_and_talk_to_stderr() {
     let summary = json(&scratch.read("o/summary.json"));
     assert_eq!((&summary["headline"], &summary["cost"]["threads"]), (&headline, &Value::from(1)));
     let none = scratch.ale_gear(["run", "a.toml", "--out", "o", "-j", "0"]);
-    assert_eq!((none.code, none.stderr.as_str()), (Some(2), "ale-gear: `--threads` is 0, allowed is 1 or more\n"));
+    assert_eq!(
+        (none.code, none.stderr.as_str()),
+        (Some(2), "ale-gear: `--threads` is 0, allowed is 1 or more\nhint: leave it out to use all cores\n")
+    );
 }
 
 /// Every shell's script knows the subcommands, and the manual page has a part for each.

@@ -117,3 +117,43 @@ fn own_names_of_groups_are_checked_by_flags() {
     let info: serde_json::Value = serde_json::from_str(&info.stdout).unwrap();
     assert_eq!(info["nodes"], named.nodes.len());
 }
+
+/// A flank that its group has in part only would carry load on that part only: it is refused, and so is a mesh narrower than the scene's gears.
+#[test]
+fn a_flank_in_part_is_refused() {
+    let scratch = Scratch::new().file("a.toml", scene(1, 1));
+    let made = scratch
+        .ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh", "--format", "2.2", "--ascii"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let mesh = scratch.read("p.msh");
+    let refused = |mesh: &str, scene: &str| {
+        let scratch = Scratch::new().file("p.msh", mesh).file("b.toml", scene);
+        let run = scratch.ale_gear(["run", "b.toml", "--out", "o"]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(" flank of tooth 0 cover 50 % of the pinion's flank"), "{}", run.stderr);
+        assert!(run.stderr.contains("\nhint: are all faces of the flank in its group"), "{}", run.stderr);
+    };
+    let with_mesh =
+        ISO_SCENE.replacen("teeth = 30\n", "teeth = 30\nmesh = \"p.msh\"\n", 1).replace("model = \"iso\"\n", "");
+    // Half of the faces of one group.
+    let group = mesh.lines().find(|l| l.contains("\"flank_right_0\"")).unwrap().split(' ').nth(1).unwrap().to_owned();
+    let mut of_group = 0;
+    let half: Vec<&str> = mesh
+        .lines()
+        .filter(|line| {
+            let words: Vec<&str> = line.split(' ').collect();
+            // Number, quadrilateral, tags, group.
+            let mine = words.len() > 6 && words[1] == "3" && words[3] == group;
+            of_group += usize::from(mine);
+            !mine || of_group % 2 == 0
+        })
+        .collect();
+    let removed = mesh.lines().count() - half.len();
+    assert!(removed > 0, "no face of group {group}");
+    let at = half.iter().position(|l| *l == "$Elements").unwrap() + 1;
+    let count = (half[at].parse::<usize>().unwrap() - removed).to_string();
+    let text: String =
+        half.iter().enumerate().map(|(i, l)| format!("{}\n", if i == at { &count } else { *l })).collect();
+    refused(&text, &with_mesh);
+    refused(&mesh, &with_mesh.replace("face_width_mm = 20.0", "face_width_mm = 40.0"));
+}

@@ -140,15 +140,31 @@ fn a_wrong_type_names_both() {
         "ale-gear: a.toml:2: `teeth` must be a whole number, found string \"30\"\n\
          hint: write numbers without quotes and without a unit: the unit is in the key\n",
     );
-    says("pinion = 3\n", "ale-gear: a.toml:1: `pinion` must be a table, found integer 3\n");
+    says(
+        "pinion = 3\n",
+        "ale-gear: a.toml:1: `pinion` must be a table, found integer 3\n\
+         hint: write `[pinion]` on a line of its own, and its keys on the lines below\n",
+    );
+    says(
+        &with("teeth = 30", "teeth = 30.0"),
+        "ale-gear: a.toml:2: `teeth` must be a whole number, found number 30.0\nhint: write it without a decimal point\n",
+    );
+    says(
+        &with("model = \"iso\"", "model = 3"),
+        "ale-gear: a.toml:16: `model` must be a text in quotes, found integer 3\n\
+         hint: write `model = \"...\"`, the text between the quotes\n",
+    );
 }
 
 #[test]
 fn a_value_out_of_range_names_the_range() {
-    says(&with("teeth = 30", "teeth = -3"), "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\n");
+    says(
+        &with("teeth = 30", "teeth = -3"),
+        "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\nhint: `teeth` means: number of teeth\n",
+    );
     says(
         &with("face_width_mm = 20.0", "face_width_mm = nan"),
-        "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\n",
+        "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\nhint: `face_width_mm` means: face width of both gears, mm\n",
     );
     says(
         &with("model = \"iso\"", "model = \"reducd\""),
@@ -269,9 +285,14 @@ fn keys_of_micro_geometry_are_checked_one_with_the_other() {
     says(
         "[pinion.modification]\nlead_crowning_um = 2000\n",
         18,
-        "`lead_crowning_um` is 2000, allowed is -1000 .. 1000",
+        "`lead_crowning_um` is 2000, allowed is -1000 .. 1000\nhint: `lead_crowning_um` means: lead crowning C_beta, um at both ends of the face",
     );
-    says("[pair.misalignment]\ninclination_um = 500\n", 18, "`inclination_um` is 500, allowed is -200 .. 200");
+    says(
+        "[pair.misalignment]\ninclination_um = 500\n",
+        18,
+        "`inclination_um` is 500, allowed is -200 .. 200\n\
+         hint: `inclination_um` means: f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width",
+    );
     for table in ["[pair.misalignment]\ninclination_um = 5\n", "[wheel.modification]\nlead_slope_um = 3\n"] {
         let key = if table.contains("pair") { "misalignment" } else { "modification" };
         says(
@@ -316,8 +337,31 @@ fn broken_toml_names_the_line() {
     says(
         "[pair]\nface_width_mm = 1\nface_width_mm = 2\n",
         "ale-gear: a.toml:3: `face_width_mm` is there twice\n\
-         hint: a scene is a TOML file: `[table]` lines and `key = value` lines\n",
+         hint: keep one of them; all keys of a table stand under one heading\n",
     );
+    let hinted = |line: &str, hint: &str| {
+        let scratch = Scratch::new().file("a.toml", with("normal_module_mm = 3.0", line));
+        let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+        assert!(
+            run.stderr.starts_with("ale-gear: a.toml:11: ") && run.stderr.ends_with(hint),
+            "{line}: {}",
+            run.stderr
+        );
+    };
+    hinted("normal_module_mm = 3,0", "hint: write numbers with a decimal point: `2.5`, not `2,5`\n");
+    hinted("normal_module_mm = 3.", "hint: write a digit behind the decimal point: `2.0`, not `2.`\n");
+    hinted("normal_module_mm = 1e400", "hint: numbers end at 1.8e308\n");
+    hinted("normal_module_mm = \"3.0", "hint: end the text with a quote on the same line\n");
+}
+
+/// A file of another encoding is told so, and not taken for one that is missing.
+#[test]
+fn a_scene_that_is_no_plain_text_is_told() {
+    let scene: Vec<u8> = ISO_SCENE.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let scratch = Scratch::new().file("a.toml", [&[0xff, 0xfe], &scene[..]].concat());
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.stderr.ends_with("hint: a scene is plain text: save it as UTF-8\n"), "{}", run.stderr);
+    assert_eq!(run.code, Some(2));
 }
 
 #[test]
@@ -326,7 +370,8 @@ fn words_of_the_command_are_checked_too() {
     for (run, text) in [
         (
             scratch.ale_gear(["run", "a.toml", "--out", "o", "--torque-nm", "-5"]),
-            "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n",
+            "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n\
+             hint: `torque_nm` means: torque on the driven gear, N m, against its motion; `driver` and `rotation` say which flanks it presses\n",
         ),
         (
             scratch.ale_gear(["run", "a.toml", "--out", "a.toml"]),

@@ -95,7 +95,10 @@ fn wrong_modes_are_told_with_line_and_hint() {
         ":23: `fixed_modes` belongs to `boundary = \"consistent\"`\nhint: leave it out: a massless boundary takes the modes of the \
          whole mesh\n",
     );
-    modes("count = 0", ":23: `count` is 0, allowed is 1 .. 1000\n");
+    modes(
+        "count = 0",
+        ":23: `count` is 0, allowed is 1 .. 1000\nhint: `count` means: the lowest so many modes of each gear\n",
+    );
     says(
         (MOTION_LINES, &format!("[modes]\ncount = 3\n{MOTION_LINES}")),
         ":21: [modes] belongs to `model = \"reduced+modes\"`\nhint: leave it out, or say so in [analysis]\n",

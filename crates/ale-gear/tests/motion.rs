@@ -144,6 +144,39 @@ fn a_sweep_does_not_see_the_number_of_threads() {
     assert_eq!(summary["headline"]["largest"].as_array().unwrap().len(), 3);
 }
 
+/// A torque that presses the coast flanks from the beginning: the motion starts on them, beyond the backlash, and the driving flanks carry nothing.
+#[test]
+fn a_motion_may_begin_on_the_coast_flanks() {
+    let load = "[load]\ntable_s_nm = [[0.0, -150.0]]\n";
+    let scratch = Scratch::new().file("a.toml", scene(1, "") + load);
+    let summary = run(&scratch, "o", &[]);
+    let headline = &summary["headline"];
+    let number = |key: &str| headline[key].as_f64().unwrap_or_else(|| panic!("no {key}: {headline}"));
+    assert_eq!(number("max_normal_force_n"), 0.0, "the driving flanks press");
+    assert!(number("max_coast_normal_force_n") > 3000.0, "{headline}");
+    let backlash = 1e3 * summary["geometry"]["backlash_mm"].as_f64().unwrap();
+    assert!(number("max_dte_um") < -backlash, "DTE up to {} um, backlash {backlash} um", number("max_dte_um"));
+}
+
+/// What takes long says why before it is over: so slow a pair that a mesh cycle has tens of thousands of steps.
+#[test]
+fn a_slow_motion_says_how_many_steps_it_takes() {
+    let slow = scene(1, "run = \"span\"\n").replace("resonance = 0", "resonance = 16");
+    let scratch = Scratch::new().file("a.toml", slow.replace("[operation]\n", "[operation]\nspeed_rpm = 0.01\n"));
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_ale-gear"))
+        .args(["run", "a.toml", "--out", "o", "--no-cache"])
+        .current_dir(scratch.path())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut said = String::new();
+    std::io::BufRead::read_line(&mut std::io::BufReader::new(child.stderr.take().unwrap()), &mut said).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(said.starts_with("ale-gear: a mesh cycle lasts ") && said.contains(" steps; "), "{said}");
+}
+
 /// Torque that reverses lets the driven gear cross the backlash: the coast flanks then carry it, and nothing ever pulls.
 #[test]
 fn contact_passes_to_the_coast_flanks_when_the_torque_reverses() {

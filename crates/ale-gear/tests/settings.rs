@@ -63,7 +63,7 @@ fn complaints_name_the_setting() {
     for (word, text) in [
         ("pair.face_widht_mm=3", "--set pair.face_widht_mm: unknown key `face_widht_mm`|did you mean `face_width_mm`?"),
         ("operatoin.torque_nm=3", "--set operatoin.torque_nm: unknown key `operatoin`|did you mean `operation`?"),
-        ("pinion.teeth=-3", "--set pinion.teeth: `teeth` is -3, allowed is 5 .. 2000|"),
+        ("pinion.teeth=-3", "--set pinion.teeth: `teeth` is -3, allowed is 5 .. 2000|`teeth` means: number of teeth"),
         (
             "pinion.teeth=many",
             "--set pinion.teeth: `pinion.teeth` must be a whole number, found string \"many\"|write numbers without quotes and without a unit: the \

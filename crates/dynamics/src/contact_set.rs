@@ -148,10 +148,23 @@ impl ContactSet {
         patch / self.kept_sides()
     }
 
-    /// Whether a patch of the pinion and one of the wheel are the two flanks of one pair. Any others stay whole tooth
+    /// Whether a patch of the pinion and one of the wheel face each other. Any others stay whole tooth
     /// thicknesses apart, yet their smooth surfaces, which go on behind the teeth, may look like deep penetration.
     pub(crate) fn partners(&self, (first, second): (usize, usize)) -> bool {
-        self.patch_of(1, self.pair_of(first), self.shared.sides[0][first]) == Some(second)
+        self.partner_of(first) == Some(second)
+    }
+
+    /// The wheel's patch that one of the pinion faces. Driving flanks: of the pair's own tooth. Behind them a tooth of the pinion is followed by the next tooth of the wheel, which belongs to the neighbouring pair;
+    /// of the last tooth in the window it is not kept.
+    fn partner_of(&self, first: usize) -> Option<usize> {
+        let sides = &self.shared.sides[0];
+        let (side, pair) = (*sides.get(first)?, self.pair_of(first));
+        let pair = match side {
+            side if sides.first() == Some(&side) => Some(pair),
+            Side::Left => Some(pair + 1),
+            Side::Right => pair.checked_sub(1),
+        };
+        self.patch_of(1, pair?, side)
     }
 
     fn kept_sides(&self) -> usize {
@@ -168,19 +181,9 @@ impl ContactSet {
         if options.method == Method::Slice || options.law != Law::Exact || options.gap != GapSource::Smooth {
             return line;
         }
-        let pairs = self.shared.patches[0].len() / self.kept_sides();
-        for pair in 0..pairs {
-            for side in [Side::Left, Side::Right] {
-                if let (Some(a), Some(b)) = (self.patch_of(0, pair, side), self.patch_of(1, pair, side)) {
-                    let points = line_points(
-                        &self.shared.patches[0][a],
-                        &self.shared.patches[1][b],
-                        poses,
-                        self.shared.stations,
-                    );
-                    line.insert((a, b), points);
-                }
-            }
+        let [first, second] = &self.shared.patches;
+        for (a, b) in self.pairs() {
+            line.insert((a, b), line_points(&first[a], &second[b], poses, self.shared.stations));
         }
         line
     }
@@ -202,9 +205,9 @@ impl ContactSet {
         self.shared.slices.as_ref()
     }
 
-    /// Pairs of patches that are the two flanks of one pair.
+    /// Pairs of patches that face each other.
     pub(crate) fn pairs(&self) -> Vec<(usize, usize)> {
-        let partner = |p: usize| Some((p, self.patch_of(1, self.pair_of(p), self.shared.sides[0][p])?));
+        let partner = |p: usize| Some((p, self.partner_of(p)?));
         (0..self.shared.patches[0].len()).filter_map(partner).collect()
     }
 

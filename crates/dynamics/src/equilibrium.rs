@@ -58,6 +58,8 @@ const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
+/// Deflection over the module from which on it is the load that parts the flanks: teeth are some two modules high.
+const TOO_FAR: f64 = 0.25;
 /// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
 const POSE_ROUND_OFF: f64 = 1e-9;
 
@@ -172,7 +174,15 @@ pub(crate) fn equilibrium(
         let (turn, steps) = match solver.step(parts, &poses, reach).map_err(fail)? {
             Step::Turn(turn, steps) => (turn, steps),
             Step::OutOfReach => {
-                if reach > pair.pinion.data().normal_module {
+                let module_mm = pair.pinion.data().normal_module;
+                if reach > module_mm {
+                    let turned = base_radius * (rotation - unloaded.rotation).abs();
+                    let deflection_mm = turned.max(guessed);
+                    if deflection_mm > TOO_FAR * module_mm {
+                        let Station { cycle, phase } = station;
+                        let torque_nm = 1e-3 * options.torque;
+                        return Err(StaticError::Overloaded { cycle, phase, torque_nm, deflection_mm, module_mm });
+                    }
                     return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
                 }
                 reach = 4.0 * reach.max(1e-9);

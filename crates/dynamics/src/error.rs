@@ -44,6 +44,22 @@ pub enum StaticError {
         /// Last step on the base circle, mm.
         step_mm: f64,
     },
+    /// Teeth would bend by as much as they are high.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: {torque_nm} N m would bend the teeth by {deflection_mm:.3} mm, at a module of {module_mm} mm"
+    )]
+    Overloaded {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Torque, N m.
+        torque_nm: f64,
+        /// How far the driven gear had given way when its flanks lost each other, on the base circle; mm.
+        deflection_mm: f64,
+        /// Normal module, mm.
+        module_mm: f64,
+    },
     /// A pair outside the window would touch.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
@@ -99,7 +115,12 @@ impl StaticError {
         match self {
             Self::Reduction { source, .. } => source.hint(),
             Self::Surface { source, .. } | Self::Contact { source, .. } => source.hint(),
-            Self::NoEquilibrium { .. } => Some("lower the torque, or try other points_per_face_edge".into()),
+            Self::NoEquilibrium { .. } => {
+                Some("lower the torque, or try other `slices` (method nodal: `points_per_face_edge`)".into())
+            },
+            Self::Overloaded { .. } => Some(
+                "elasticity here is linear and holds for small deflections: is the torque in N m, the face width in mm, Young's modulus in MPa, a penalty in MPa per mm?".into(),
+            ),
             Self::Starved { window, .. } => Some(format!(
                 "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
                 window + 1

@@ -131,7 +131,9 @@ impl LumpedError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::OutOfRange { .. } => "use `model = \"reduced\"` for this pair: it has no such limits".into(),
+            Self::OutOfRange { .. } => {
+                "bring it into that range, or use `model = \"reduced\"`, which has no such limits".into()
+            }
             Self::NotPositive { quantity, .. } => format!("give a positive {quantity}"),
             Self::Negative { quantity, .. } => format!("give 0 or a positive {quantity}"),
             Self::NotFinite { quantity, .. } => format!("look at where {quantity} comes from: it was not computed"),
@@ -148,7 +150,9 @@ impl LumpedError {
             Self::NotBalanced { .. } => {
                 "torques times speed ratios must add up to zero, or one shaft must be held in turning".into()
             }
-            Self::NoEquilibrium => "is every shaft held in x, y, z and against tilting?".into(),
+            Self::NoEquilibrium => {
+                "is every shaft held in x, y, z and against tilting, and is every stiffness in its unit?".into()
+            }
             Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),
         })

@@ -102,7 +102,7 @@ impl MeshInfo {
                 name: s.name.clone(),
                 faces: s.faces.len(),
                 nodes: s.nodes().len(),
-                area: s.faces.iter().map(|f| area(mesh, f)).sum(),
+                area: s.faces.iter().map(|f| mesh.area(f)).sum(),
             })
             .collect();
         let radius_range = radius_range(mesh.nodes.iter());
@@ -132,23 +132,29 @@ fn radius_range<'a>(nodes: impl Iterator<Item = &'a [f64; 3]>) -> [f64; 2] {
     range.unwrap_or([0.0; 2])
 }
 
-/// Area of a face by quadrature, mm^2.
-fn area(mesh: &Mesh, face: &Face) -> f64 {
-    let mut dn = [[0.0; 2]; 9];
-    face.kind
-        .quadrature()
-        .iter()
-        .map(|q| {
-            face.kind.shape_gradient(q.xi, &mut dn);
-            let mut t = [nalgebra::Vector3::zeros(); 2];
-            for (g, &node) in dn.iter().zip(face.nodes()) {
-                let x = nalgebra::Vector3::from(mesh.nodes[node as usize]);
-                t[0] += g[0] * x;
-                t[1] += g[1] * x;
-            }
-            q.weight * t[0].cross(&t[1]).norm()
-        })
-        .sum()
+impl Mesh {
+    /// Area of a face by quadrature, mm^2.
+    ///
+    /// ```text
+    /// A = sum over the points of w |dx/dxi x dx/deta|
+    /// ```
+    pub fn area(&self, face: &Face) -> f64 {
+        let mut dn = [[0.0; 2]; 9];
+        face.kind
+            .quadrature()
+            .iter()
+            .map(|q| {
+                face.kind.shape_gradient(q.xi, &mut dn);
+                let mut t = [nalgebra::Vector3::zeros(); 2];
+                for (g, &node) in dn.iter().zip(face.nodes()) {
+                    let x = nalgebra::Vector3::from(self.nodes[node as usize]);
+                    t[0] += g[0] * x;
+                    t[1] += g[1] * x;
+                }
+                q.weight * t[0].cross(&t[1]).norm()
+            })
+            .sum()
+    }
 }
 
 /// Radius of the bore group's nodes, when they agree to 1e-4.

@@ -95,7 +95,8 @@ impl Cli {
             _ => Loudness::Details,
         });
         if threads == Some(0) {
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", None));
+            let hint = "leave it out to use all cores".to_owned();
+            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", Some(hint)));
         }
         use_threads(threads);
         // A table at the end of work is talk; what a command is made for is data.

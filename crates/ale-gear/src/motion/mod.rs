@@ -53,6 +53,7 @@ use crate::{
     phases::Phases,
     run::{Failure, complaint},
     scene::{MotionScene, Scene, SweepScene},
+    talk::{self, Loudness},
 };
 
 /// What is known of earlier and later runs of the same motion.
@@ -185,6 +186,11 @@ fn attempt<'a>(
     let Inputs { scene, words, .. } = *inputs;
     let mut prepared = prepare(inputs, phases, window)?;
     prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
+    if let Some(slow) = doubts::slow(scene, words, &prepared) {
+        // Who waits should hear it before the end.
+        talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
+        prepared.warnings.push(slow);
+    }
     if let Some(sweep) = &words.sweep {
         let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
         return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));

@@ -233,9 +233,17 @@ pub(crate) fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
 
 /// Wrong input is status 2, a solver that finds no answer status 1.
 pub(crate) fn complaint(scene: &Scene, error: &StaticError) -> CommandError {
-    let message = format!("{}: {error}", scene.file.display());
-    match error {
+    let keys: &[&str] = match error {
+        StaticError::Overloaded { .. } => &["operation.torque_nm"],
+        StaticError::Starved { .. } => &["analysis.window_teeth"],
+        _ => &[],
+    };
+    let place = scene.place_of(keys);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    let message = format!("{at}: {error}");
+    let told = match error {
         StaticError::Contact { .. } | StaticError::NoEquilibrium { .. } => CommandError::failed(message, error.hint()),
         _ => CommandError::input(message, error.hint()),
-    }
+    };
+    told.about(place.as_ref().and_then(|p| p.excerpt()))
 }

@@ -64,6 +64,8 @@ pub enum SceneError {
         place: Place,
         /// What was expected.
         message: String,
+        /// What may have been meant.
+        advice: Option<&'static str>,
     },
     /// A key that no table of this name has.
     #[error("{place}: unknown key `{key}`")]
@@ -86,6 +88,8 @@ pub enum SceneError {
         expected: String,
         /// What stands there.
         found: String,
+        /// How to write it.
+        advice: String,
     },
     /// A value that makes no sense.
     #[error("{place}: `{key}` is {value}, allowed is {allowed}")]
@@ -158,13 +162,16 @@ impl SceneError {
     /// What the user can do next; the command prints it as `hint: ...`.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
-            Self::Syntax { .. } => Some("a scene is a TOML file: `[table]` lines and `key = value` lines".into()),
-            Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } => Some(advice.clone()),
-            Self::WrongType { expected, .. } if expected.contains("number") => {
-                Some("write numbers without quotes and without a unit: the unit is in the key".into())
+            Self::Read { source, .. } if source.kind() == std::io::ErrorKind::InvalidData => {
+                Some("a scene is plain text: save it as UTF-8".into())
             }
-            Self::WrongType { .. } => None,
+            Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
+            Self::Syntax { advice, .. } => {
+                Some(advice.unwrap_or("a scene is a TOML file: `[table]` lines and `key = value` lines").into())
+            }
+            Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } | Self::WrongType { advice, .. } => {
+                Some(advice.clone())
+            }
             Self::OutOfRange { advice, .. } => advice.clone(),
             Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
             Self::Setting { .. } => Some(

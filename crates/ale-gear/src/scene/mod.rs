@@ -10,6 +10,7 @@ mod contact;
 mod error;
 mod excerpt;
 mod gear;
+mod hints;
 mod keys;
 mod ladder;
 mod micro;

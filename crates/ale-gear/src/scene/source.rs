@@ -8,6 +8,7 @@ use toml::Spanned;
 
 use super::error::{Line, Place, SceneError};
 use super::excerpt::excerpt;
+use super::hints;
 use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
 use super::schema::{self, Table};
@@ -78,19 +79,18 @@ impl Source<'_> {
                 e if e.contains("sequence") => "a list".into(),
                 e => e.to_owned(),
             };
-            return SceneError::WrongType {
-                place,
-                key: self.key_before(span.start),
-                expected,
-                found: found.replace("floating point", "number").replace('`', ""),
-            };
+            let key = self.key_before(span.start);
+            let found = hints::found(found);
+            let advice = hints::of_type(&key, &expected, &found);
+            return SceneError::WrongType { place, key, expected, found, advice };
         }
         // Only the first line: the reader's own excerpts are for its own layout.
         let mut message = message.lines().next().unwrap_or("not readable").to_owned();
+        let advice = hints::of_syntax(self.text, &span, &message);
         if message == "duplicate key" {
             message = format!("`{}` is there twice", self.text.get(span).unwrap_or_default());
         }
-        SceneError::Syntax { place, message }
+        SceneError::Syntax { place, message, advice }
     }
 
     /// The key whose value begins at `at`; for a list or a table the one it belongs to.
@@ -101,6 +101,7 @@ impl Source<'_> {
             // The value is a table of its own: `[pinion]` where a number was wanted.
             let whole = self.text.get(at..).unwrap_or_default().lines().next().unwrap_or_default();
             let name = format!("{line}{whole}");
+            let name = name.split('=').next().unwrap_or_default();
             return name.trim().trim_matches(['[', ']']).to_owned();
         };
         let is_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
@@ -109,12 +110,24 @@ impl Source<'_> {
 
     /// The number of `key`, or `default`, within `low..=high`.
     pub fn number(&self, key: &str, value: &Number, default: f64, low: f64, high: f64) -> Result<f64, SceneError> {
+        self.within(key, value, default, [low, high], schema::meaning(key))
+    }
+
+    /// The same of a key that means `about`.
+    fn within(
+        &self,
+        key: &str,
+        value: &Number,
+        default: f64,
+        [low, high]: [f64; 2],
+        about: Option<&str>,
+    ) -> Result<f64, SceneError> {
         let Some(value) = value else { return Ok(default) };
         let number = *value.get_ref();
         if (low..=high).contains(&number) {
             return Ok(number);
         }
-        Err(self.out_of_range(key, value, format!("{low} .. {high}")))
+        Err(self.out_of_range(key, value, format!("{low} .. {high}"), about))
     }
 
     /// The whole number of `key`, or `default`, within `low..=high`.
@@ -122,14 +135,15 @@ impl Source<'_> {
         let Some(value) = value else { return Ok(default) };
         match u32::try_from(*value.get_ref()) {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
-            _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"))),
+            _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"), schema::meaning(key))),
         }
     }
 
     /// The number of a key, within the range of its table, or the table's default; 0 where it has none.
     pub fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
-        self.number(key, value, default.unwrap_or(0.0), low, high)
+        let about = table.about(key).or(schema::meaning(key));
+        self.within(key, value, default.unwrap_or(0.0), [low, high], about)
     }
 
     /// The same where it is written, else nothing.
@@ -163,17 +177,26 @@ impl Source<'_> {
             key: key.to_owned(),
             value: format!("\"{written}\""),
             allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or "),
-            advice: keys::nearest(written, &names).map(|n| format!("did you mean \"{n}\"?")),
+            advice: match keys::nearest(written, &names) {
+                Some(name) => Some(format!("did you mean \"{name}\"?")),
+                None => schema::meaning(key).map(|about| format!("`{key}` means: {about}")),
+            },
         })
     }
 
-    fn out_of_range<T: Display>(&self, key: &str, value: &Spanned<T>, allowed: String) -> SceneError {
+    fn out_of_range<T: Display>(
+        &self,
+        key: &str,
+        value: &Spanned<T>,
+        allowed: String,
+        about: Option<&str>,
+    ) -> SceneError {
         SceneError::OutOfRange {
             place: self.place(&value.span()),
             key: key.to_owned(),
             value: value.get_ref().to_string(),
+            advice: Some(hints::of_range(key, &allowed, about)),
             allowed,
-            advice: None,
         }
     }
 }

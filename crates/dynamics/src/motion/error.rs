@@ -26,6 +26,16 @@ pub enum MotionError<E> {
         /// Last change, relative.
         change: f64,
     },
+    /// There is no equilibrium to begin with.
+    #[error(
+        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
+    )]
+    NoStart {
+        /// Time, s.
+        time: f64,
+        /// Last change, relative.
+        change: f64,
+    },
     /// The error control asked for a step below the least one.
     #[error("at {time:.9} s: a step of {step:.3e} s is needed for the tolerance, the least allowed is {least:.3e} s")]
     StepTooSmall {
@@ -59,7 +69,12 @@ impl<E> MotionError<E> {
             Self::Mechanism { .. } => {
                 "see the message; a smaller step often keeps the motion within reach of the contact search"
             }
-            Self::NotConverged { .. } => "take a smaller fixed step, or let the error control choose the step",
+            Self::NotConverged { .. } => {
+                "take a smaller fixed step (`steps_per_mesh_cycle`), or let the error control choose it (`error_tolerance`)"
+            }
+            Self::NoStart { .. } => {
+                "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks"
+            }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
             }

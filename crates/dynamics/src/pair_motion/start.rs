@@ -21,10 +21,11 @@ const SPAN: f64 = 1e-3;
 /// f(t, q, 0) = 0,   v = [q(t + dt) - q(t - dt)] / 2 dt
 /// ```
 /// Inertia of the balance's own motion is left out: where the motion is fast, what differs from it is the motion's own transient. A driver that a torque
-/// drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm), `scale` the size of each coordinate.
+/// drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm) under a load on the driving flanks, `scale` the size of each coordinate.
+/// A load the other way presses the coast flanks: there the lag is about as far beyond the backlash.
 ///
 /// # Errors
-/// [`MotionError::NotConverged`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
+/// [`MotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
 pub fn quasi_static_start(
     system: &mut PairMechanism,
     time: f64,
@@ -32,7 +33,8 @@ pub fn quasi_static_start(
     scale: &DVector<f64>,
 ) -> Result<State, MotionError<StaticError>> {
     let mut q = DVector::zeros(system.count());
-    q[system.coordinates().lag()] = guess;
+    let coasts = system.load_on_lag(time) < 0.0;
+    q[system.coordinates().lag()] = if coasts { -(system.pair().backlash() + guess) } else { guess };
     let q = balance(system, time, q, scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().contact, time);
     let mut v = DVector::zeros(q.len());
@@ -72,7 +74,7 @@ fn balance(
     let mut r = residual(system, &q, &mut forces)?;
     let load = system.load_on_lag(time).abs() * scale[lag];
     let mut added = 1e-3;
-    let mut change = f64::INFINITY;
+    let mut change = 0.0;
     for _ in 0..STEPS {
         let now = size(&r);
         if now <= TOLERANCE * load.max(f64::MIN_POSITIVE) {
@@ -107,5 +109,5 @@ fn balance(
             added = (added * 10.0).max(1e-6);
         }
     }
-    Err(MotionError::NotConverged { time, step: 0.0, iterations: STEPS, change })
+    Err(MotionError::NoStart { time, change })
 }

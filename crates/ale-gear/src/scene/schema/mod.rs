@@ -139,7 +139,12 @@ impl Table {
         }
     }
 
-    /// The same of a whole number.
+    /// What a key says; none of one that stands in another table.
+    pub fn about(&self, name: &str) -> Option<&'static str> {
+        self.keys.iter().find(|k| k.name == name).map(|k| k.about)
+    }
+
+    /// Range and default of a whole number.
     pub fn whole(&self, name: &str) -> (u32, u32, Option<u32>) {
         match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
             Some(&Kind::Whole { low, high, default }) => (low, high, default),
@@ -159,6 +164,13 @@ pub fn all_keys() -> Vec<String> {
         all.extend(table.keys.iter().filter(leaf).map(dotted));
     });
     all
+}
+
+/// What a key of the scene says, of several of one name the first.
+pub(in crate::scene) fn meaning(name: &str) -> Option<&'static str> {
+    let mut found = None;
+    walk("", &SCENE, &mut |_, table| found = found.or(table.about(name)));
+    found
 }
 
 /// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.

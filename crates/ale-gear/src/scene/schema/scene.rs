@@ -62,7 +62,13 @@ const MISALIGNED: &[Key] = &[
         0.0,
         "f_Sigma_beta: deviation of the wheel's axis across the plane of axes, um over the face width",
     ),
-    number("inclination_um", -INF, INF, 0.0, "f_Sigma_delta: the same in the plane of axes, um over the face width"),
+    number(
+        "inclination_um",
+        -INF,
+        INF,
+        0.0,
+        "f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width",
+    ),
     number(
         "in_plane_of_action_um",
         -INF,
@@ -82,7 +88,12 @@ pub(in crate::scene) static OPERATION: Table = Table {
     keys: &[
         word("driver", &["pinion", "wheel"], "the gear that drives"),
         word("rotation", &["ccw", "cw"], "sense of rotation of the pinion, seen from +z"),
-        bare("torque_nm", 0.0, 1e9, "torque on the driven gear, N m"),
+        bare(
+            "torque_nm",
+            0.0,
+            1e9,
+            "torque on the driven gear, N m, against its motion; `driver` and `rotation` say which flanks it presses",
+        ),
         number("speed_rpm", 1e-6, 1e7, 1000.0, "speed of the driver, 1/min"),
     ],
     needed: &["torque_nm"],
