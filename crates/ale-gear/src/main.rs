@@ -2,10 +2,8 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    match ale_gear::command::Cli::parse().execute() {
+    match ale_gear::command::Cli::of_process().execute() {
         Ok(text) => {
             print(&text);
             ExitCode::SUCCESS

@@ -159,8 +159,16 @@ impl SceneError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
+            Self::Syntax { place, .. } if place.excerpt().is_some_and(decimal_comma) => {
+                Some("numbers are written with a decimal point: 2.5, not 2,5".into())
+            }
             Self::Syntax { .. } => Some("a scene is a TOML file: `[table]` lines and `key = value` lines".into()),
             Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } => Some(advice.clone()),
+            Self::WrongType { expected, found, .. }
+                if expected.contains("whole number") && found.contains("number") =>
+            {
+                Some("leave out the decimal point and what follows".into())
+            }
             Self::WrongType { expected, .. } if expected.contains("number") => {
                 Some("write numbers without quotes and without a unit: the unit is in the key".into())
             }
@@ -173,4 +181,12 @@ impl SceneError {
             Self::NotYet { instead, .. } => Some(instead.clone()),
         }
     }
+}
+
+/// Whether the value of a line is a number as much of the world writes it.
+fn decimal_comma(excerpt: &str) -> bool {
+    let value = excerpt.lines().next().and_then(|line| line.split_once('=')).map_or("", |(_, value)| value);
+    let number = value.split('#').next().unwrap_or("").trim();
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    number.trim_start_matches('-').split_once(',').is_some_and(|(whole, part)| digits(whole) && digits(part))
 }

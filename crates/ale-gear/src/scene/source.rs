@@ -168,7 +168,14 @@ impl Source<'_> {
             key: key.to_owned(),
             value: value.get_ref().to_string(),
             allowed,
-            advice: None,
+            advice: against_motion(key, &value.get_ref().to_string()).map(str::to_owned),
         }
     }
+}
+
+/// Other programs turn a pair round by the sign of its torque.
+fn against_motion(key: &str, value: &str) -> Option<&'static str> {
+    (key == "torque_nm" && value.starts_with('-')).then_some(
+        "it acts against the driven gear's motion; `driver` and `rotation` say which gear drives, and which way",
+    )
 }

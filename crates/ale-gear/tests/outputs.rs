@@ -1,0 +1,151 @@
+//! docs/outputs.md against what the program writes: every column and key of every kind of run is in it, and every column and key in it is written by one of them.
+
+mod markdown;
+mod quantities;
+mod util;
+
+use std::collections::BTreeSet;
+
+use markdown::Page;
+use quantities::{Documented, generalised, written_in};
+use util::{ISO_SCENE, Scratch, motion_scene, repository};
+
+/// A scene of a seed with lines replaced.
+fn seed(number: &str, changes: &[(&str, &str)]) -> String {
+    let text = std::fs::read_to_string(repository().join(format!("scenes/seeds/{number}.toml"))).unwrap();
+    changes.iter().fold(text, |text, (from, to)| {
+        assert!(text.contains(from), "the scene of seed {number} has changed: no {from:?}");
+        text.replace(from, to)
+    })
+}
+
+/// Every file that a run at rest can write; no stress in a model without meshes.
+fn at_rest() -> String {
+    motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().to_owned()
+        + "positions_per_cycle = 2\n[output]\nroot_stress = true\ncontact_lines = true\n"
+}
+
+/// A span of both gears on bearings, with everything that a motion can write.
+fn on_bearings() -> String {
+    let gear = |name: &str| {
+        format!(
+            "[{name}.body]\nfree = [\"x\", \"y\", \"z\", \"rx\", \"ry\"]\n[{name}.bearing]\nstiffness_x_n_per_mm = 1e6\nstiffness_y_n_per_mm = 1e6\n\
+             stiffness_z_n_per_mm = 1e6\nstiffness_rx_nmm_per_rad = 1e9\nstiffness_ry_nmm_per_rad = 1e9\n"
+        )
+    };
+    motion_scene(1, "run = \"span\"\n[output]\nroot_stress = true\n") + &gear("pinion") + &gear("wheel")
+}
+
+const RAMP: &str =
+    "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 2000.0\nto_rpm = 4000.0\nduration_s = 0.005\nwaterfall_cycles = 2\n";
+const SWEEP: &str = "run = \"sweep\"\nperiodic_tolerance = 0.5\nwarm_up_cycles = 2\n[motion.sweep]\nfrom_rpm = 900.0\nto_rpm = 1000.0\nspeeds = 2\n";
+const STUDY: &str = "[[case]]\nscene = \"iso.toml\"\nlabel = \"a\"\nvalue = 1\n[[case]]\nscene = \"iso.toml\"\nlabel = \"b\"\nvalue = 2\nset = [\"operation.torque_nm=100\"]\n\
+    [[quantity]]\ncolumn = \"ste_um\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
+
+/// One folder of every kind, in a folder of its own each.
+fn every_kind() -> Scratch {
+    let scratch = Scratch::new()
+        .file("iso.toml", ISO_SCENE)
+        .file("rest.toml", at_rest())
+        .file("span.toml", on_bearings())
+        .file("ramp.toml", motion_scene(0, RAMP))
+        .file("resonance.toml", motion_scene(1, SWEEP))
+        .file(
+            "impact.toml",
+            seed(
+                "001",
+                &[
+                    ("model = \"impact\"", "model = \"impact\"\ncycles = 2"),
+                    ("duration_s = 0.3", "duration_s = 0.004"),
+                    ("after_s = 1.7", "after_s = 0.01"),
+                ],
+            ),
+        )
+        .file(
+            "shaft18.toml",
+            seed("002", &[("cycles = 30", "cycles = 2"), ("warm_up_cycles = 3000", "warm_up_cycles = 2")]),
+        )
+        .file(
+            "lumped12.toml",
+            seed("003", &[("cycles = 16", "cycles = 2"), ("warm_up_cycles = 600", "warm_up_cycles = 2")]),
+        )
+        .file("lumped8.toml", seed("004", &[("cycles = 30", "cycles = 2")]))
+        .file("study.toml", STUDY);
+    let run = |words: &[&str]| {
+        let done = scratch.command(words);
+        assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
+    };
+    for scene in ["iso", "rest", "span", "ramp", "resonance", "impact", "shaft18", "lumped12", "lumped8"] {
+        run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
+    }
+    let key = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "900",
+        "--to",
+        "1000",
+        "--points",
+        "2",
+        "--cycles",
+        "6",
+        "--settle",
+        "20",
+        "--lyapunov",
+        "10",
+    ];
+    run(&[&["sweep", "lumped8.toml", "--out", "out-sweep"], &key[..]].concat());
+    run(&["study", "study.toml", "--out", "out-study"]);
+    run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
+    scratch
+}
+
+fn folders(scratch: &Scratch) -> impl Iterator<Item = std::path::PathBuf> + '_ {
+    scratch.names().into_iter().filter(|n| n.starts_with("out-")).map(|n| scratch.path().join(n))
+}
+
+/// Sections whose quantities no run above writes: charts take minutes, and `full` of a study likewise.
+const NOT_TRIED: [&str; 1] = ["Files of ale-gear chart"];
+/// The same for single tables of a section: of `full` in a study, of gears in a certificate that only shooting writes.
+const NOT_TRIED_KEYS: [&str; 12] = [
+    "dof",
+    "dof_kept",
+    "positions_of_cycle",
+    "full_positions_run",
+    "full_offline_s",
+    "full_position_s",
+    "reduced_offline_s",
+    "reduced_position_s",
+    "times_faster_position",
+    "times_faster_first_cycle",
+    "relative_difference_of_ste",
+    "fields",
+];
+
+#[test]
+fn what_is_written_is_documented_and_what_is_documented_is_written() {
+    let scratch = every_kind();
+    let page = Page::read(repository().join("docs/outputs.md"));
+    let documented = Documented::by(&page);
+    let missing: Vec<String> = folders(&scratch).flat_map(|folder| documented.missing(&folder)).collect();
+    assert!(missing.is_empty(), "not in docs/outputs.md:\n{}", missing.join("\n"));
+
+    let written: BTreeSet<String> = folders(&scratch)
+        .flat_map(|folder| written_in(&folder))
+        .flat_map(|(_, names)| names)
+        .map(|name| generalised(&name))
+        .collect();
+    let unknown: Vec<String> = page
+        .table_keys()
+        .into_iter()
+        .filter(|k| !NOT_TRIED.contains(&k.section.as_str()) && !NOT_TRIED_KEYS.contains(&k.name.as_str()))
+        // Files and words of the command line have dots and hyphens.
+        .filter(|k| k.name.chars().all(|c| c.is_ascii_alphanumeric() || "_<>".contains(c)))
+        .filter(|k| {
+            let general = generalised(&k.name);
+            !written.contains(&general) && !(k.name.starts_with('_') && written.iter().any(|w| w.ends_with(&k.name)))
+        })
+        .map(|k| format!("{}: `{}` in \"{}\"", page.place(k.byte), k.name, k.section))
+        .collect();
+    assert!(unknown.is_empty(), "documented, but no run writes it:\n{}", unknown.join("\n"));
+}
