@@ -326,7 +326,8 @@ fn words_of_the_command_are_checked_too() {
     for (run, text) in [
         (
             scratch.ale_gear(["run", "a.toml", "--out", "o", "--torque-nm", "-5"]),
-            "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n",
+            "ale-gear: --torque-nm: `torque_nm` is -5, allowed is 0 .. 1000000000\n\
+             hint: the torque acts against the driven gear's motion; `driver` and `rotation` say which gear drives, and which way\n",
         ),
         (
             scratch.ale_gear(["run", "a.toml", "--out", "a.toml"]),
@@ -385,7 +386,7 @@ fn habits_from_elsewhere_are_put_right() {
     hint(&with("teeth = 30", "teeth = \"30\""), "write numbers without quotes");
     hint(
         &with("torque_nm = 150.0", "torque_nm = -150.0"),
-        "it acts against the driven gear's motion; `driver` and `rotation`",
+        "the torque acts against the driven gear's motion; `driver` and `rotation`",
     );
     let run = Scratch::new().file("a.toml", ISO_SCENE).ale_gear(["a.toml"]);
     assert!(run.stderr.contains("ale-gear run a.toml --out DIR"), "{}", run.stderr);

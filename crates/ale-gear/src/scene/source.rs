@@ -176,6 +176,6 @@ impl Source<'_> {
 /// Other programs turn a pair round by the sign of its torque.
 fn against_motion(key: &str, value: &str) -> Option<&'static str> {
     (key == "torque_nm" && value.starts_with('-')).then_some(
-        "it acts against the driven gear's motion; `driver` and `rotation` say which gear drives, and which way",
+        "the torque acts against the driven gear's motion; `driver` and `rotation` say which gear drives, and which way",
     )
 }
