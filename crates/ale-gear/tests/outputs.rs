@@ -28,7 +28,7 @@ fn on_bearings() -> String {
 }
 
 const RAMP: &str =
-    "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 2000.0\nto_rpm = 4000.0\nduration_s = 0.005\nwaterfall_cycles = 2\n";
+    "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 2000.0\nto_rpm = 4000.0\nduration_s = 0.01\nwaterfall_cycles = 4\n";
 const SWEEP: &str = "run = \"sweep\"\nperiodic_tolerance = 0.5\nwarm_up_cycles = 2\n[motion.sweep]\nfrom_rpm = 900.0\nto_rpm = 1000.0\nspeeds = 2\n";
 const STUDY: &str = "[[case]]\nscene = \"iso.toml\"\nlabel = \"a\"\nvalue = 1\n[[case]]\nscene = \"iso.toml\"\nlabel = \"b\"\nvalue = 2\nset = [\"operation.torque_nm=100\"]\n\
     [[quantity]]\ncolumn = \"ste_um\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
@@ -50,11 +50,10 @@ fn every_kind() -> Scratch {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();
-    let short = ["--set", "analysis.cycles=2"];
-    let soon = ["--set", "motion.warm_up_cycles=2"];
+    let soon = ["--set", "analysis.cycles=2", "--set", "motion.warm_up_cycles=2"];
     let start = ["--set", "motion.ramp.duration_s=0.004", "--set", "motion.ramp.after_s=0.01"];
     for (number, words) in [("001", &start[..]), ("002", &soon), ("003", &soon), ("004", &soon)] {
-        run(&[&["run", &seed(number), "--out", &format!("out-{number}")], &short[..], words].concat());
+        run(&[&["run", &seed(number), "--out", &format!("out-{number}")], words].concat());
     }
     let key = [
         "--key",
@@ -82,23 +81,8 @@ fn folders(scratch: &Scratch) -> impl Iterator<Item = std::path::PathBuf> + '_ {
     scratch.names().into_iter().filter(|n| n.starts_with("out-")).map(|n| scratch.path().join(n))
 }
 
-/// Sections whose quantities no run above writes: charts take minutes, and `full` of a study likewise.
-const NOT_TRIED: [&str; 1] = ["Files of ale-gear chart"];
-/// The same for single tables of a section: of `full` in a study, of gears in a certificate that only shooting writes.
-const NOT_TRIED_KEYS: [&str; 12] = [
-    "dof",
-    "dof_kept",
-    "positions_of_cycle",
-    "full_positions_run",
-    "full_offline_s",
-    "full_position_s",
-    "reduced_offline_s",
-    "reduced_position_s",
-    "times_faster_position",
-    "times_faster_first_cycle",
-    "relative_difference_of_ste",
-    "fields",
-];
+/// Sections and tables whose quantities no run above writes: a chart takes minutes, and so does `full` of a study; fields of ParaView files have a test of their own.
+const NOT_TRIED: [&str; 3] = ["Files of ale-gear chart", "*.vtu, gears.pvd", "key of at_rest"];
 
 #[test]
 fn what_is_written_is_documented_and_what_is_documented_is_written() {
@@ -116,12 +100,15 @@ fn what_is_written_is_documented_and_what_is_documented_is_written() {
     let unknown: Vec<String> = page
         .table_keys()
         .into_iter()
-        .filter(|k| !NOT_TRIED.contains(&k.section.as_str()) && !NOT_TRIED_KEYS.contains(&k.name.as_str()))
+        .filter(|k| ![&k.section, &k.title].iter().any(|t| NOT_TRIED.contains(&t.as_str())))
         // Files and words of the command line have dots and hyphens.
         .filter(|k| k.name.chars().all(|c| c.is_ascii_alphanumeric() || "_<>".contains(c)))
         .filter(|k| {
             let general = generalised(&k.name);
-            !written.contains(&general) && !(k.name.starts_with('_') && written.iter().any(|w| w.ends_with(&k.name)))
+            let start = k.name.strip_suffix("<column>");
+            !written.contains(&general)
+                && !start.is_some_and(|start| written.iter().any(|w| w.starts_with(start)))
+                && !(k.name.starts_with('_') && written.iter().any(|w| w.ends_with(&k.name)))
         })
         .map(|k| format!("{}: `{}` in \"{}\"", page.place(k.byte), k.name, k.section))
         .collect();

@@ -18,11 +18,14 @@ impl Documented {
     fn has(&self, name: &str) -> bool {
         let general = generalised(name);
         // `pinion_force_x_n` .. `wheel_moment_z_nmm` is documented as a range.
-        let wrench = ["<gear>_force_", "<gear>_moment_", "<gear>_bearing_force_", "<gear>_bearing_moment_"];
+        let wrench = ["force_", "moment_", "bearing_force_", "bearing_moment_", "friction_force_", "friction_moment_"];
+        // Any column of `history.csv` may stand behind `mean_` where there is `mean_<column>`.
+        let mut starts = self.0.iter().filter_map(|word| word.split_once("<column>").map(|(start, _)| start));
         self.0.contains(name)
             || self.0.contains(&general)
-            || wrench.iter().any(|w| general.starts_with(w))
+            || general.strip_prefix("<gear>_").is_some_and(|rest| wrench.iter().any(|w| rest.starts_with(w)))
             || self.0.iter().any(|word| word.starts_with('_') && general.ends_with(word.as_str()))
+            || starts.any(|start| !start.is_empty() && !start.contains('<') && name.starts_with(start))
     }
 
     /// Columns of the tables and keys of the summary in `folder` that are not there, each with its file.
@@ -62,6 +65,7 @@ pub fn generalised(name: &str) -> String {
         match words[i - 1] {
             "pair" if is_number => words[i] = "<k>",
             "harmonic" if is_number => words[i] = "<h>",
+            "mode" | "order" if is_number => words[i] = "<n>",
             _ => {}
         }
     }
