@@ -5,12 +5,12 @@
 pub struct Numbered {
     /// The name with `{k}` in place of the number: `ToothL_{k}`.
     pub pattern: String,
-    /// The number, 12 of `ToothL_12`.
-    pub number: u64,
+    /// The number, 12 of `ToothL_12`, -1 of `Zahn (-1)`.
+    pub number: i64,
 }
 
 impl Numbered {
-    /// The last number of a name; `None` where it has none, or one of more than 18 digits.
+    /// The last number of a name; `None` where it has none, or one of some twenty digits.
     ///
     /// ```
     /// # use mesh::Numbered;
@@ -23,7 +23,10 @@ impl Numbered {
         let start = name[..end]
             .rfind(|c: char| !c.is_ascii_digit())
             .map_or(0, |at| at + name[at..].chars().next().map_or(0, char::len_utf8));
-        let number = name[start..end].parse().ok().filter(|_| end - start <= 18)?;
+        // A sign belongs to the number unless it joins it to a word: `Zahn -1`, but `Zahn-1`.
+        let signed = name[..start].strip_suffix('-').filter(|before| !before.ends_with(char::is_alphanumeric));
+        let start = signed.map_or(start, str::len);
+        let number = name[start..end].parse().ok()?;
         Some(Self { pattern: format!("{}{{k}}{}", &name[..start], &name[end..]), number })
     }
 }
@@ -31,8 +34,8 @@ impl Numbered {
 /// Names with those that differ in a number only as one pattern with its range, in the order in which each appears first.
 pub(crate) fn folded(names: &[String]) -> Vec<String> {
     let parsed: Vec<Option<Numbered>> = names.iter().map(|n| Numbered::of(n)).collect();
-    let numbers = |pattern: &str| -> Vec<u64> {
-        let mut all: Vec<u64> = parsed.iter().flatten().filter(|p| p.pattern == pattern).map(|p| p.number).collect();
+    let numbers = |pattern: &str| -> Vec<i64> {
+        let mut all: Vec<i64> = parsed.iter().flatten().filter(|p| p.pattern == pattern).map(|p| p.number).collect();
         all.sort_unstable();
         all
     };
@@ -63,6 +66,8 @@ mod tests {
             ["Hub", "ToothL_0", "ToothL_1", "ToothL_10", "zahn7é", "Bohrung2"].map(String::from).into();
         assert_eq!(folded(&names), ["`Hub`", "`ToothL_{k}` with k from 0 to 10", "`zahn7é`", "`Bohrung2`"]);
         assert_eq!(Numbered::of("é7").map(|n| n.pattern), Some("é{k}".into()));
+        let signed = ["Zahn (-1)", "Zahn-1"].map(|n| Numbered::of(n).map(|n| (n.pattern, n.number)));
+        assert_eq!(signed, [Some(("Zahn ({k})".into(), -1)), Some(("Zahn-{k}".into(), 1))]);
         assert_eq!(Numbered::of("1234567890123456789012"), None, "no number that fits");
     }
 }

@@ -195,9 +195,9 @@ fn asked_until_it_can_be(shown: &str) -> Result<String, CommandError> {
         starter = ask(&starter, shown).map_err(|e| no_answer(&e))?;
         match checked(&starter, shown) {
             Ok(text) => return Ok(text),
-            // The line of a file that is not there yet helps nobody.
             Err(complaint) => {
-                let complaint = CommandError { excerpt: None, ..complaint }.text(colours_on_stderr());
+                let message = without_place(&complaint.message);
+                let complaint = CommandError { message, excerpt: None, ..complaint }.text(colours_on_stderr());
                 say(Loudness::Quiet, || {
                     format!("\n{complaint}The questions again; an empty answer keeps what is in brackets.")
                 });
@@ -212,8 +212,7 @@ fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     // What is complained of is the answer: all before it have been through this.
     let fits = |starter: &Starter| -> Result<(), String> {
         Scene::parse(&starter.text(shown), Path::new(shown)).map(|_| ()).map_err(|e| {
-            let said = e.to_string();
-            let said = said.split_once(": ").map_or(said.as_str(), |(_, what)| what).to_owned();
+            let said = without_place(&e.to_string());
             e.hint().map_or(said.clone(), |hint| format!("{said} ({hint})"))
         })
     };
@@ -228,6 +227,11 @@ fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     let before = kinds.iter().position(|k| k.1 == s.kind).unwrap_or(0);
     s.kind = kinds[Select::new().with_prompt("What").items(kinds.map(|k| k.0)).default(before).interact()?].1;
     Ok(s)
+}
+
+/// What is complained of, without a line of a file that is not there yet.
+fn without_place(message: &str) -> String {
+    message.split_once(": ").map_or(message, |(_, what)| what).to_owned()
 }
 
 /// Asks until the answer is a number with which `fits` has no complaint, and puts it into its place.
