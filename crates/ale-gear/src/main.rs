@@ -3,10 +3,8 @@
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    match ale_gear::command::Cli::parse().execute() {
+    match ale_gear::command::Cli::of_process().execute() {
         Ok(text) => print(&text),
         Err(error) => {
             complain(&error.text(ale_gear::talk::colours_on_stderr()));

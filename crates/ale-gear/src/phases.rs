@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde::Serialize;
 
 use crate::memory;
@@ -116,9 +116,16 @@ impl Phases {
     /// Runs a phase of `steps` units of work; `work` calls [`Progress::tick`] after each.
     pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&Progress) -> T) -> T {
         let bar = ProgressBar::new(steps);
-        bar.set_style(
-            style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}, {eta} left {msg}").progress_chars("=> "),
+        let shown = style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}{left} {msg}").with_key(
+            "left",
+            |s: &ProgressState, w: &mut dyn Write| {
+                // Before the first step is done nothing is known.
+                if s.pos() > 0 {
+                    let _ = write!(w, ", {:#} left", HumanDuration(s.eta()));
+                }
+            },
         );
+        bar.set_style(shown.progress_chars("=> "));
         self.measure(name, bar, work)
     }
 

@@ -67,7 +67,7 @@ fn physical_nonsense_names_its_line() {
         pair("centre_distance_mm = 80.0"),
         &["a.toml:11: [pair]: centre distance 80 mm is too small", "11 | centre_distance_mm = 80.0"],
     );
-    refused(pair("centre_distance_mm = 95.0"), &["a.toml:11: [pair]: the teeth jam"]);
+    refused(pair("centre_distance_mm = 95.0"), &["a.toml:11: [pair]: the teeth jam", "fit at 95.7760 mm"]);
     refused(pair("centre_distance_mm = 103.0"), &["a.toml:11: [pair]: the pair has no path of contact"]);
     refused(
         pair("root_radius_coefficient = 0.45\naddendum_coefficient = 1.24").replacen(
@@ -412,4 +412,27 @@ fn no_damage_to_a_scene_makes_the_reader_panic() {
             }
         }
     }
+}
+
+/// Habits from other programs and other countries are answered with what is written here instead.
+#[test]
+fn habits_from_elsewhere_are_put_right() {
+    let hint = |scene: &str, hint: &str| {
+        let run = Scratch::new().file("a.toml", scene).ale_gear(["run", "a.toml", "--out", "o"]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(&format!("\nhint: {hint}")), "{scene}\nis answered by {}", run.stderr);
+    };
+    hint(
+        &with("normal_module_mm = 3.0", "normal_module_mm = 3,0"),
+        "write numbers with a decimal point: `2.5`, not `2,5`\n",
+    );
+    hint(&with("teeth = 30", "teeth = 30.5"), "write it without a decimal point\n");
+    hint(&with("teeth = 30", "teeth = \"30\""), "write numbers without quotes");
+    hint(
+        &with("torque_nm = 150.0", "torque_nm = -150.0"),
+        "`torque_nm` means: torque on the driven gear, N m, against its motion; `driver` and `rotation`",
+    );
+    let run = Scratch::new().file("a.toml", ISO_SCENE).ale_gear(["a.toml"]);
+    assert!(run.stderr.contains("ale-gear run a.toml --out DIR"), "{}", run.stderr);
+    assert_eq!(run.code, Some(2));
 }

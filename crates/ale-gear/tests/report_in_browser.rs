@@ -48,6 +48,11 @@ addEventListener("load", () => {
     return { different, sum };
   };
   for (const canvas of document.querySelectorAll("figure.chart canvas")) seen.charts.push(marks(canvas).different);
+  // Marks of axes that say another number than the one they stand at: 0.03 for 0.025.
+  seen.marks = (window.report?.charts ?? []).flatMap(([chart]) => chart.axes.flatMap(axis => {
+    const at = axis._splits ?? [], step = Math.abs((at[1] ?? 1) - (at[0] ?? 0));
+    return at.flatMap((v, i) => v === null || !axis._values?.[i] || Math.abs(Number(axis._values[i]) - v) <= 0.02 * step ? [] : [`${axis._values[i]} at ${v}`]);
+  }));
   seen.figures = document.querySelectorAll("figure.chart script").length;
   const stage = document.querySelector("#stage canvas"), slider = document.getElementById("frame");
   if (stage && slider) {
@@ -89,10 +94,10 @@ fn browser() -> Option<PathBuf> {
 }
 
 /// Opens the report of a run in a window of some width and keeps a picture; what the page saw of itself comes back.
-fn look(scratch: &Scratch, browser: &Path, name: &str, [width, height]: [u32; 2]) -> Value {
-    let bytes = std::fs::metadata(scratch.path().join("o/report.html")).unwrap().len();
+fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, height]: [u32; 2]) -> Value {
+    let bytes = std::fs::metadata(scratch.path().join(file)).unwrap().len();
     assert!(bytes < LARGEST, "{name}: the report has {bytes} bytes");
-    let page = scratch.read("o/report.html");
+    let page = scratch.read(file);
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "{name}: the report needs a network");
     let checked = scratch.path().join("checked.html");
     std::fs::write(&checked, page.replacen("</body>", &format!("{SELF_CHECK}</body>"), 1)).unwrap();
@@ -116,16 +121,22 @@ fn look(scratch: &Scratch, browser: &Path, name: &str, [width, height]: [u32; 2]
     serde_json::from_str(&seen).unwrap()
 }
 
-/// What holds for every report.
-fn check(seen: &Value, name: &str) {
-    assert_eq!(seen["failed"], Value::Null, "{name}: no picture in space");
+/// What holds for every page: charts are drawn, their marks tell them apart, nothing is wider than the window.
+fn check_charts(seen: &Value, name: &str) {
     let charts: Vec<u64> = seen["charts"].as_array().unwrap().iter().map(|c| c.as_u64().unwrap()).collect();
     assert_eq!(charts.len() as u64, seen["figures"].as_u64().unwrap(), "{name}: every chart has a canvas");
     assert!(charts.len() >= 3 && charts.iter().all(|&c| c > 500), "{name}: pixels drawn in the charts: {charts:?}");
+    assert_eq!(seen["wide"], Value::Bool(false), "{name}: the page is wider than the window");
+    assert_eq!(seen["marks"], serde_json::json!([]), "{name}: marks of axes that do not stand where they say");
+}
+
+/// What holds for every report with gears in space.
+fn check(seen: &Value, name: &str) {
+    check_charts(seen, name);
+    assert_eq!(seen["failed"], Value::Null, "{name}: no picture in space");
     let gears = seen["gears"].as_u64().unwrap();
     assert!(gears > 20_000, "{name}: the gears cover {gears} pixels");
     assert_eq!(seen["moved"], Value::Bool(true), "{name}: the slider moves nothing: {seen}");
-    assert_eq!(seen["wide"], Value::Bool(false), "{name}: the page is wider than the window");
 }
 
 /// Fields that the picture in space can show, each with another picture.
@@ -145,10 +156,10 @@ fn report_of(name: &str, scene: &str) -> Option<Value> {
     let scratch = Scratch::new().file("a.toml", scene);
     let done = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
-    let seen = look(&scratch, &browser, name, DESK);
+    let seen = look(&scratch, &browser, "o/report.html", name, DESK);
     check(&seen, name);
     if name == "static" {
-        check(&look(&scratch, &browser, name, PHONE), "static on a phone");
+        check(&look(&scratch, &browser, "o/report.html", name, PHONE), "static on a phone");
     }
     Some(seen)
 }
@@ -187,4 +198,42 @@ fn gears_without_meshes_turn_too() {
     let Some(seen) = report_of("iso", util::ISO_SCENE) else { return };
     assert!(quantities(&seen).is_empty(), "{seen}");
     assert_eq!(seen["steps"].as_u64(), Some(32));
+}
+
+/// Runs commands and looks at a page of theirs.
+fn page_of(name: &str, scratch: &Scratch, commands: &[&[&str]], file: &str) -> Option<Value> {
+    let browser = browser()?;
+    for words in commands {
+        let done = scratch.command(words);
+        assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
+    }
+    // One page of the three is looked at on a phone as well: style and scripts are the same.
+    if name == "compare" {
+        check_charts(&look(scratch, &browser, file, name, PHONE), "compare on a phone");
+    }
+    Some(look(scratch, &browser, file, name, DESK))
+}
+
+#[test]
+fn a_sweep_has_its_bifurcation_diagram() {
+    let scene = std::fs::read_to_string(repository().join("scenes/seeds/004.toml")).unwrap();
+    let scratch = Scratch::new().file("a.toml", scene);
+    let sweep = ["sweep", "a.toml", "--out", "o", "--key", "operation.speed_rpm", "--from", "800", "--to", "1000"];
+    let few = ["--points", "3", "--cycles", "6", "--settle", "20", "--lyapunov", "5"];
+    let Some(seen) = page_of("sweep", &scratch, &[&[&sweep[..], &few[..]].concat()], "o/report.html") else { return };
+    check(&seen, "sweep");
+    assert_eq!(seen["charts"].as_array().unwrap().len(), 5, "diagram, peak to peak, exponent, force, mean");
+}
+
+#[test]
+fn studies_and_comparisons_draw_all_cases() {
+    let study = "[[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 1\n[[case]]\nscene = \"a.toml\"\nlabel = \"heavy\"\nvalue = 2\nset = [\"operation.torque_nm=300\"]\n\
+        [[quantity]]\ncolumn = \"ste_um\"\n[[over_time]]\ncolumn = \"contact_line_length_mm\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
+    let scratch = Scratch::new().file("a.toml", util::ISO_SCENE).file("s.toml", study);
+    let Some(seen) = page_of("study", &scratch, &[&["study", "s.toml", "--out", "o"]], "o/report.html") else { return };
+    check_charts(&seen, "study");
+    let cases = ["o/cases/01-light", "o/cases/02-heavy"];
+    let compare = ["compare", cases[0], cases[1], "--out", "c"];
+    let Some(seen) = page_of("compare", &scratch, &[&compare], "c/compare.html") else { return };
+    check_charts(&seen, "compare");
 }

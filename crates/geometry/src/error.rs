@@ -69,6 +69,8 @@ pub enum GeometryError {
     Jammed {
         /// Transverse base backlash, mm; negative.
         backlash_mm: f64,
+        /// Centre distance at which unthinned teeth of these profile shifts have no backlash, mm.
+        nominal_mm: f64,
     },
     /// A tip reaches the other gear's root circle.
     #[error("the {gear}'s tip runs into its mate's root circle: clearance {clearance_mm:.4} mm")]
@@ -154,7 +156,11 @@ impl GeometryError {
             }
             Self::Mismatch { .. } => "both gears of a pair share module, pressure angle and helix angle".into(),
             Self::CentreDistance { least_mm, .. } => format!("the centre distance must exceed {least_mm:.4} mm"),
-            Self::Jammed { .. } => "raise the centre distance or the thickness allowances".into(),
+            Self::Jammed { nominal_mm, .. } => {
+                format!(
+                    "raise the centre distance (teeth of full thickness fit at {nominal_mm:.4} mm) or the thickness allowances"
+                )
+            }
             Self::TipClearance { .. } => "raise the centre distance or the dedendum, or shorten the tip".into(),
             Self::Interference { tip, root, .. } => format!(
                 "shorten the {tip}'s tip (addendum, tip diameter), raise the dedendum or the centre distance, or shift the {root}'s profile outwards"

@@ -57,7 +57,10 @@ impl GearPair {
         }
         // Published pairs without thinning have shifts and distances rounded to four digits: a few 1e-5 m_n of jam.
         if self.backlash() < -1e-4 * a.normal_module {
-            return Err(GeometryError::Jammed { backlash_mm: self.backlash() });
+            return Err(GeometryError::Jammed {
+                backlash_mm: self.backlash(),
+                nominal_mm: nominal_centre_distance(&self.pinion, &self.wheel),
+            });
         }
         for (gear, tip, mate) in [("pinion", &self.pinion, &self.wheel), ("wheel", &self.wheel, &self.pinion)] {
             let clearance = self.centre_distance - tip.tip_radius() - mate.root_radius();

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::msh::MshError;
+use crate::numbered::folded;
 
 /// A mesh that cannot be read, written or understood as a gear.
 #[derive(Debug, thiserror::Error)]
@@ -170,14 +171,14 @@ impl From<MshError> for MeshError {
     }
 }
 
-/// Names for a message, at most twelve.
+/// Names for a message, at most twelve; those of teeth as one pattern.
 pub(crate) fn list(names: &[String]) -> String {
     if names.is_empty() {
         return "no groups of dimension 2".into();
     }
-    let shown: Vec<String> = names.iter().take(12).map(|n| format!("`{n}`")).collect();
-    let more = if names.len() > 12 { format!(" and {} more", names.len() - 12) } else { String::new() };
-    shown.join(", ") + &more
+    let shown = folded(names);
+    let more = if shown.len() > 12 { format!(" and {} more", shown.len() - 12) } else { String::new() };
+    shown.into_iter().take(12).collect::<Vec<_>>().join(", ") + &more
 }
 
 impl MeshError {

@@ -189,7 +189,12 @@ fn foreign_names_are_mapped() {
     assert_eq!(found.teeth(), [0, 1, 29]);
 
     let error = GearMesh::from_groups(mesh.clone(), &GroupNames::default(), 30).unwrap_err();
-    assert!(error.to_string().starts_with("no physical group `bore`; the mesh has `Hub`, `cut_0`"), "{error}");
+    assert!(
+        error.to_string().starts_with(
+            "no physical group `bore`; the mesh has `Hub`, `cut_{k}` with k from 0 to 1, `Zahn {k}` with k from -1 to 1"
+        ),
+        "{error}"
+    );
     let without = GroupNames { flank_left: "left".into(), ..names.clone() };
     assert!(matches!(GearMesh::from_groups(mesh.clone(), &without, 30), Err(MeshError::NoToothNumber { .. })));
     // With two teeth -1 and 1 are the same tooth.

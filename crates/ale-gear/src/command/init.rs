@@ -11,6 +11,7 @@ use crate::gears;
 use crate::rexs::read_pair;
 use crate::scene::{Kind, Scene};
 use crate::starter::Starter;
+use crate::talk::{Loudness, colours_on_stderr, say};
 
 /// Words of `ale-gear init`.
 ///
@@ -85,12 +86,9 @@ impl InitArgs {
         if !to_stdout && !asked && !self.force {
             absent(&self.file)?;
         }
-        let starter = if asked { ask()? } else { self.pair.over(self.of_file()?)? };
         let shown = if to_stdout { "scene.toml".into() } else { self.file.display().to_string() };
-        let text = starter.text(&shown);
-        // What would not run is not written.
-        let scene = Scene::parse(&text, &self.file)?;
-        gears::pair(&scene)?;
+        let text =
+            if asked { asked_until_it_can_be(&shown)? } else { checked(&self.pair.over(self.of_file()?)?, &shown)? };
         if to_stdout {
             return Ok(text);
         }
@@ -183,31 +181,90 @@ fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], Comm
     }
 }
 
-/// The questions; an empty answer takes what is shown in brackets.
-fn ask() -> Result<Starter, CommandError> {
-    let d = Starter::default();
-    let kinds = [("equilibrium at every position (static)", Kind::Static), ("motion in time (dynamic)", Kind::Dynamic)];
-    let questions = || -> dialoguer::Result<Starter> {
-        Ok(Starter {
-            teeth: [answer("Teeth of the pinion", d.teeth[0])?, answer("Teeth of the wheel", d.teeth[1])?],
-            module_mm: answer("Normal module, mm", d.module_mm)?,
-            helix_deg: answer("Helix angle of the pinion, degrees, right hand positive", d.helix_deg)?,
-            face_width_mm: answer("Face width, mm", d.face_width_mm)?,
-            torque_nm: answer("Torque on the driven gear, N m", d.torque_nm)?,
-            speed_rpm: answer("Speed of the driver, 1/min", d.speed_rpm)?,
-            kind: kinds[Select::new().with_prompt("What").items(kinds.map(|k| k.0)).default(0).interact()?].1,
-            ..d.clone()
-        })
-    };
-    questions().map_err(|e| no_answer(&e))
+/// The scene as text; what would not run is not written.
+fn checked(starter: &Starter, shown: &str) -> Result<String, CommandError> {
+    let text = starter.text(shown);
+    gears::pair(&Scene::parse(&text, Path::new(shown))?)?;
+    Ok(text)
 }
 
-fn answer<T>(question: &str, default: T) -> dialoguer::Result<T>
+/// Asks again, with the last answers in brackets, while no pair comes of the answers.
+fn asked_until_it_can_be(shown: &str) -> Result<String, CommandError> {
+    let mut starter = Starter::default();
+    loop {
+        starter = ask(&starter, shown).map_err(|e| no_answer(&e))?;
+        match checked(&starter, shown) {
+            Ok(text) => return Ok(text),
+            Err(complaint) => {
+                let message = without_place(&complaint.message);
+                let complaint = CommandError { message, excerpt: None, ..complaint }.text(colours_on_stderr());
+                say(Loudness::Quiet, || {
+                    format!("\n{complaint}The questions again; an empty answer keeps what is in brackets.")
+                });
+            }
+        }
+    }
+}
+
+/// The questions; an empty answer takes what is shown in brackets. Every answer is held against the range of its key at once.
+fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
+    let kinds = [("equilibrium at every position (static)", Kind::Static), ("motion in time (dynamic)", Kind::Dynamic)];
+    // What is complained of is the answer: all before it have been through this.
+    let fits = |starter: &Starter| -> Result<(), String> {
+        Scene::parse(&starter.text(shown), Path::new(shown)).map(|_| ()).map_err(|e| {
+            let said = without_place(&e.to_string());
+            e.hint().map_or(said.clone(), |hint| format!("{said} ({hint})"))
+        })
+    };
+    let mut s = d.clone();
+    answer("Teeth of the pinion", &mut s, |s| &mut s.teeth[0], fits)?;
+    answer("Teeth of the wheel", &mut s, |s| &mut s.teeth[1], fits)?;
+    answer("Normal module, mm", &mut s, |s| &mut s.module_mm, fits)?;
+    answer("Helix angle of the pinion, degrees, right hand positive", &mut s, |s| &mut s.helix_deg, fits)?;
+    answer("Face width, mm", &mut s, |s| &mut s.face_width_mm, fits)?;
+    answer("Torque on the driven gear, N m", &mut s, |s| &mut s.torque_nm, fits)?;
+    answer("Speed of the driver, 1/min", &mut s, |s| &mut s.speed_rpm, fits)?;
+    let before = kinds.iter().position(|k| k.1 == s.kind).unwrap_or(0);
+    s.kind = kinds[Select::new().with_prompt("What").items(kinds.map(|k| k.0)).default(before).interact()?].1;
+    Ok(s)
+}
+
+/// What is complained of, without a line of a file that is not there yet.
+fn without_place(message: &str) -> String {
+    message.split_once(": ").map_or(message, |(_, what)| what).to_owned()
+}
+
+/// Asks until the answer is a number with which `fits` has no complaint, and puts it into its place.
+fn answer<T>(
+    question: &str,
+    starter: &mut Starter,
+    place: impl Fn(&mut Starter) -> &mut T,
+    fits: impl Fn(&Starter) -> Result<(), String>,
+) -> dialoguer::Result<()>
 where
-    T: Clone + std::fmt::Display + std::str::FromStr,
-    T::Err: std::fmt::Display,
+    T: Copy + std::fmt::Display + std::str::FromStr,
 {
-    Input::new().with_prompt(question).default(default).interact_text()
+    let before = *place(starter);
+    let tried = |word: &str| -> Result<Starter, String> {
+        let whole = std::any::type_name::<T>() == std::any::type_name::<u32>();
+        let number = word.trim().parse::<T>().map_err(|_| match word.contains(',') {
+            true => format!("`{word}` is no number: write it with a decimal point"),
+            false => format!("`{word}` is no {}number", if whole { "whole " } else { "" }),
+        })?;
+        let mut with = starter.clone();
+        *place(&mut with) = number;
+        fits(&with).map(|()| with)
+    };
+    let word: String = Input::new()
+        .with_prompt(question)
+        .default(before.to_string())
+        .validate_with(|word: &String| tried(word).map(|_| ()))
+        .interact_text()?;
+    // What was validated fits.
+    if let Ok(with) = tried(&word) {
+        *starter = with;
+    }
+    Ok(())
 }
 
 fn replace(file: &Path) -> Result<bool, CommandError> {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Subcommand, ValueEnum};
-use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
+use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Numbered, Severity};
 
 use crate::error::CommandError;
 use crate::scene::Scene;
@@ -161,7 +161,10 @@ fn info(file: &Path, mesh: &MeshInfo) -> String {
     line("teeth with flanks", mesh.gear.named_teeth.to_string());
     line("volumes", mesh.volumes.join(", "));
     line("surfaces", format!("{} groups", mesh.surfaces.len()));
-    for g in &mesh.surfaces {
+    let mut surfaces: Vec<_> = mesh.surfaces.iter().collect();
+    // Tooth 2 before tooth 10.
+    surfaces.sort_by_cached_key(|g| Numbered::of(&g.name).map_or((g.name.clone(), 0), |n| (n.pattern, n.number)));
+    for g in surfaces {
         let _ = writeln!(t, "    {:<20} {:>7} faces {:>7} nodes {:>12.3} mm^2", g.name, g.faces, g.nodes, g.area);
     }
     t

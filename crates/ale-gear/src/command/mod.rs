@@ -15,6 +15,7 @@ mod shell;
 mod study;
 mod sweep;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
 
@@ -57,6 +58,8 @@ enum Command {
     Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
+    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
+    Sweep(sweep::SweepArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
@@ -74,14 +77,17 @@ enum Command {
     },
     /// Manual page on stdout (roff), as in `ale-gear man | man -l -`
     Man,
-    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
-    Sweep(sweep::SweepArgs),
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
 }
 
 impl Cli {
+    /// The command line of this process; a wrong one, and `--help`, end the process here.
+    pub fn of_process() -> Self {
+        Self::try_parse().unwrap_or_else(|error| with_a_way_out(error).exit())
+    }
+
     /// Does what was asked; the text is for stdout.
     ///
     /// # Errors
@@ -117,6 +123,17 @@ impl Cli {
             Some(Command::Mesh(command)) => command.execute(quiet),
         }
     }
+}
+
+/// Who gives a scene where a subcommand is wanted is told which one takes it.
+fn with_a_way_out(mut error: clap::Error) -> clap::Error {
+    let word = match error.get(ContextKind::InvalidSubcommand) {
+        Some(ContextValue::String(word)) if word.ends_with(".toml") => word.clone(),
+        _ => return error,
+    };
+    let tip = format!("to run a scene: ale-gear run {word} --out DIR");
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    error
 }
 
 /// Threads of the whole process, all cores where nothing is said.

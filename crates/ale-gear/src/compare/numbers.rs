@@ -21,7 +21,7 @@ pub struct NumberRow {
 pub struct Difference {
     /// This run's less the first one's, in the unit of the key.
     pub absolute: f64,
-    /// The same over the size of the first one's, per cent; `None` where that is 0.
+    /// The same over the first one's, per cent, so that a load twice as large reads +100 on either side of 0; `None` where the first is 0.
     pub per_cent: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ pub fn headline_rows(runs: &[ResultFolder]) -> Vec<NumberRow> {
 
 fn difference(first: f64, other: f64) -> Difference {
     let absolute = other - first;
-    Difference { absolute, per_cent: (first != 0.0).then(|| 100.0 * absolute / first.abs()) }
+    Difference { absolute, per_cent: (first != 0.0).then(|| 100.0 * absolute / first) }
 }
 
 fn numbers(run: &ResultFolder) -> Vec<(String, f64)> {

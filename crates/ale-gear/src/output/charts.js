@@ -20,20 +20,23 @@
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return value.toExponential(digits - 2);
     return String(Number(value.toPrecision(digits)));
   };
-  // Marks of an axis with as many decimals as tell them apart.
+  // Marks of an axis with as many decimals as say where they are: 0.025, not 0.03.
   const marks = (u, splits) => {
-    const step = splits.length > 1 ? Math.abs(splits[1] - splits[0]) : 1;
-    const size = Math.max(...splits.map(v => Math.abs(v ?? 0)));
-    if (size >= 1e6 || (size > 0 && size < 1e-3)) return splits.map(v => v === null ? "" : v.toExponential(1));
-    const places = Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), 6);
-    return splits.map(v => v === null ? "" : v.toFixed(places));
+    const at = splits.filter(v => v !== null), size = Math.max(...at.map(Math.abs));
+    const step = at.length > 1 ? Math.abs(at[1] - at[0]) : 1;
+    const large = size >= 1e6 || (size > 0 && size < 1e-3);
+    const write = (v, places) => large ? v.toExponential(places) : v.toFixed(places);
+    let places = 0;
+    while (places < 12 && at.some(v => Math.abs(Number(write(v, places)) - v) > 1e-2 * step)) places += 1;
+    return splits.map(v => v === null ? "" : large && Math.abs(v) < 1e-2 * step ? "0" : write(v, places));
   };
 
   const axes = (x, y) => [
     { label: x, values: marks, size: 40, labelSize: 22, font: "12px system-ui", labelFont: "13px system-ui" },
     {
-      label: y, values: marks, labelSize: 22, font: "12px system-ui", labelFont: "13px system-ui",
-      size: (u, values) => 18 + 7.2 * Math.max(3, ...(values ?? []).map(v => v.length)),
+      // A long name is written smaller, so that it does not reach past the ends of its axis.
+      label: y, values: marks, labelSize: 22, font: "12px system-ui", labelFont: `${Math.min(13, Math.floor(400 / y.length))}px system-ui`,
+      size: (u, values) => 22 + 7.2 * Math.max(3, ...(values ?? []).map(v => v.length)),
     },
   ];
 
@@ -41,7 +44,7 @@
   const room = zero => (u, low, high) => {
     if (low === null || high === null) return [0, 1];
     if (zero) { low = Math.min(low, 0); high = Math.max(high, 0); }
-    const margin = high > low ? 0.06 * (high - low) : 0.05 * Math.max(Math.abs(high), 1e-9);
+    const margin = high > low ? 0.06 * (high - low) : 0.05 * Math.abs(high) || 1;
     return [zero && low === 0 ? 0 : low - margin, zero && high === 0 ? 0 : high + margin];
   };
 
@@ -101,7 +104,7 @@
     const ends = values => {
       const finite = values.filter(v => v !== null);
       const [low, high] = [finite.reduce((a, b) => Math.min(a, b)), finite.reduce((a, b) => Math.max(a, b))];
-      const margin = high > low ? 0.05 * (high - low) : Math.max(1e-9, 0.05 * Math.abs(high));
+      const margin = high > low ? 0.05 * (high - low) : 0.05 * Math.abs(high) || 1;
       return [low - margin, high + margin];
     };
     words.dataset.hint = words.textContent = plot.x + ", " + plot.y;

@@ -111,7 +111,11 @@ fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, mark
         let start = if zero { (0.0, 0.0) } else { (f64::INFINITY, f64::NEG_INFINITY) };
         let (low, high) = points().map(pick).fold(start, |(lo, hi), v| (lo.min(v), hi.max(v)));
         // A constant still needs an axis of some length.
-        let margin = if high > low { 0.06 * (high - low) } else { 0.05 * high.abs().max(1e-9) };
+        let margin = match (high > low, high == 0.0) {
+            (true, _) => 0.06 * (high - low),
+            (false, true) => 1.0,
+            (false, false) => 0.05 * high.abs(),
+        };
         (low - if zero && low == 0.0 { 0.0 } else { margin }, high + margin)
     };
     let (x_low, x_high) = span(|p| p.0, false);

@@ -64,14 +64,16 @@ pub(crate) fn write_ladder_sweep_report(
     render(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)
 }
 
-/// A few values as text, the rest as dots.
-fn listed(values: &[f64]) -> String {
+/// A few values as text, ascending and each once, the rest as dots.
+fn listed(mut values: Vec<f64>) -> String {
     const SHOWN: usize = 6;
-    let mut text: Vec<String> = values.iter().take(SHOWN).map(|v| format!("{v:.4}")).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let mut text: Vec<String> = values.iter().take(SHOWN).map(ToString::to_string).collect();
     if values.len() > SHOWN {
         text.push("...".into());
     }
-    if text.is_empty() { "-".into() } else { text.join(", ") }
+    if text.is_empty() { String::new() } else { format!("at {}", text.join(", ")) }
 }
 
 /// The table at the end of a sweep.
@@ -94,7 +96,7 @@ pub(crate) fn ladder_sweep_table(
     t.text("sections that do not come back", s.not_periodic.len(), "");
     if let Some(chaotic) = &s.chaotic {
         let values: Vec<f64> = chaotic.iter().map(|(_, v)| *v).collect();
-        t.text("chaotic (exponent above 0)", chaotic.len(), &format!("at {}", listed(&values)));
+        t.text("chaotic (exponent above 0)", chaotic.len(), &listed(values));
     }
     if let Some(bands) = &s.hysteresis {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();

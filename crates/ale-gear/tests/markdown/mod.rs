@@ -13,6 +13,17 @@ pub struct Page {
     pub text: String,
 }
 
+/// A name in the first cell of a row of a table.
+pub struct TableKey {
+    /// Heading above the table.
+    pub section: String,
+    /// What stands above the first column.
+    pub title: String,
+    pub name: String,
+    /// Where it begins.
+    pub byte: usize,
+}
+
 impl Page {
     pub fn read(path: PathBuf) -> Self {
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -62,6 +73,35 @@ impl Page {
                 _ => None,
             })
             .collect()
+    }
+
+    /// Names in code font in the first cells of the rows of all tables.
+    pub fn table_keys(&self) -> Vec<TableKey> {
+        let (mut keys, mut section, mut in_heading, mut cell) = (Vec::new(), String::new(), false, 0);
+        let (mut title, mut in_head) = (String::new(), false);
+        for (event, range) in self.events() {
+            match event {
+                Event::Start(Tag::Heading { .. }) => (in_heading, section) = (true, String::new()),
+                Event::End(TagEnd::Heading(_)) => in_heading = false,
+                Event::Text(text) | Event::Code(text) if in_heading => section.push_str(&text),
+                Event::Start(Tag::TableHead) => (in_head, cell, title) = (true, 0, String::new()),
+                Event::End(TagEnd::TableHead) => in_head = false,
+                Event::Start(Tag::TableRow) => cell = 0,
+                Event::Start(Tag::TableCell) => cell += 1,
+                Event::End(TagEnd::Table) => cell = 0,
+                Event::Text(text) | Event::Code(text) if in_head && cell == 1 => title.push_str(&text),
+                Event::Code(name) if cell == 1 => {
+                    keys.push(TableKey {
+                        section: section.clone(),
+                        title: title.clone(),
+                        name: name.into_string(),
+                        byte: range.start,
+                    });
+                }
+                _ => {}
+            }
+        }
+        keys
     }
 
     /// What may stand behind `#` in a link to this page: its headings, in the spelling that repository hosts and mdBook share.

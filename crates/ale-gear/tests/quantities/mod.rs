@@ -1,7 +1,9 @@
 //! Which quantities of a result folder the documents leave out.
 
+#![allow(dead_code)] // each test file uses its own part
+
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::markdown::Page;
 
@@ -16,34 +18,43 @@ impl Documented {
     fn has(&self, name: &str) -> bool {
         let general = generalised(name);
         // `pinion_force_x_n` .. `wheel_moment_z_nmm` is documented as a range.
-        let wrench = ["<gear>_force_", "<gear>_moment_", "<gear>_bearing_force_", "<gear>_bearing_moment_"];
+        let wrench = ["force_", "moment_", "bearing_force_", "bearing_moment_", "friction_force_", "friction_moment_"];
+        // Any column of `history.csv` may stand behind `mean_` where there is `mean_<column>`.
+        let mut starts = self.0.iter().filter_map(|word| word.split_once("<column>").map(|(start, _)| start));
         self.0.contains(name)
             || self.0.contains(&general)
-            || wrench.iter().any(|w| general.starts_with(w))
+            || general.strip_prefix("<gear>_").is_some_and(|rest| wrench.iter().any(|w| rest.starts_with(w)))
             || self.0.iter().any(|word| word.starts_with('_') && general.ends_with(word.as_str()))
+            || starts.any(|start| !start.is_empty() && !start.contains('<') && name.starts_with(start))
     }
 
     /// Columns of the tables and keys of the summary in `folder` that are not there, each with its file.
     pub fn missing(&self, folder: &Path) -> Vec<String> {
-        let mut missing = Vec::new();
-        let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
-        names.sort();
-        for path in names {
-            let text = || std::fs::read_to_string(&path).unwrap();
-            let quantities: BTreeSet<String> = match path.extension().and_then(|e| e.to_str()) {
-                Some("csv") => text().lines().next().unwrap_or("").split(',').map(str::to_owned).collect(),
-                Some("json") => keys(&serde_json::from_str(&text()).unwrap()),
-                _ => continue,
-            };
-            missing
-                .extend(quantities.into_iter().filter(|q| !self.has(q)).map(|q| format!("{q} of {}", path.display())));
-        }
-        missing
+        let of_file = |(path, quantities): (PathBuf, BTreeSet<String>)| {
+            let missing = quantities.into_iter().filter(|q| !self.has(q));
+            missing.map(|q| format!("{q} of {}", path.display())).collect::<Vec<_>>()
+        };
+        written_in(folder).into_iter().flat_map(of_file).collect()
     }
 }
 
+/// Columns of the tables and keys of the summary in a folder, file by file.
+pub fn written_in(folder: &Path) -> Vec<(PathBuf, BTreeSet<String>)> {
+    let mut names: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    names.sort();
+    let quantities = |path: &PathBuf| -> Option<BTreeSet<String>> {
+        let text = || std::fs::read_to_string(path).unwrap();
+        match path.extension().and_then(|e| e.to_str()) {
+            Some("csv") => Some(text().lines().next().unwrap_or("").split(',').map(str::to_owned).collect()),
+            Some("json") => Some(keys(&serde_json::from_str(&text()).unwrap())),
+            _ => None,
+        }
+    };
+    names.into_iter().filter_map(|path| quantities(&path).map(|q| (path, q))).collect()
+}
+
 /// `pinion_x_um` as `<gear>_x_um`, numbers of pairs and harmonics as `<k>` and `<h>`.
-fn generalised(name: &str) -> String {
+pub fn generalised(name: &str) -> String {
     let name = ["pinion_", "wheel_"]
         .iter()
         .find_map(|g| name.strip_prefix(g))
@@ -54,6 +65,7 @@ fn generalised(name: &str) -> String {
         match words[i - 1] {
             "pair" if is_number => words[i] = "<k>",
             "harmonic" if is_number => words[i] = "<h>",
+            "mode" | "order" if is_number => words[i] = "<n>",
             _ => {}
         }
     }
