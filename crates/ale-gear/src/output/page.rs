@@ -75,12 +75,20 @@ fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
         ("centre distance", format!("{:.3} mm", facts.geometry.centre_distance_mm)),
         ("contact ratio", format!("{:.3}", facts.geometry.eps_gamma)),
         ("", format!("{} N m", scene.operation.torque_nm)),
-        ("", format!("{} 1/min", scene.operation.speed_rpm)),
+        ("", format!("{} 1/min", speeds(scene))),
     ];
     let mut rows = rows.map(|(label, value)| [label.to_owned(), value]);
     rows[6][0] = format!("torque on the {driven}");
     rows[7][0] = format!("speed of the {driver}");
     rows.into()
+}
+
+/// The speed of the driver, or the first and the last one.
+fn speeds(scene: &Scene) -> String {
+    let motion = scene.motion.as_ref();
+    let ramp = motion.and_then(|m| m.ramp.as_ref()).map(|r| [r.from_rpm, r.to_rpm]);
+    let ends = ramp.or(motion.and_then(|m| m.sweep.as_ref()).map(|s| [s.from_rpm, s.to_rpm]));
+    ends.map_or_else(|| scene.operation.speed_rpm.to_string(), |[from, to]| format!("{from} .. {to}"))
 }
 
 /// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
