@@ -173,9 +173,10 @@ fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Res
                 let point = Vec3::from(found.mesh().nodes[index]);
                 let off = flank.locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs());
                 if off > allowed {
+                    let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
                     return Err(CommandError::input(
                         format_args!(
-                            "{file}: node {} of the {} flank of tooth {tooth} lies {off:.3} mm off the {whose}'s flank, \
+                            "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, \
                              allowed is {allowed:.3} mm",
                             found.mesh().node_tags[index],
                             side.name()

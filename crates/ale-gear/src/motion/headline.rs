@@ -112,6 +112,7 @@ pub(super) fn headline(
         .map(|g| [format!("{g}_bearing_force_x_n"), format!("{g}_bearing_force_y_n"), format!("{g}_bearing_force_z_n")])
         .map(|n| largest(&[&n[0], &n[1], &n[2]]));
     let [min_force, max_force] = rows.extent("normal_force_n");
+    let max_coast_force = rows.extent("coast_normal_force_n")[1];
     let static_force = prepared.quasi_static.normal_force;
     Ok(MotionHeadline {
         run: words.run,
@@ -135,8 +136,8 @@ pub(super) fn headline(
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         mean_static_normal_force_n: static_force,
-        dynamic_factor: max_force / static_force,
-        max_coast_normal_force_n: rows.extent("coast_normal_force_n")[1],
+        dynamic_factor: max_force.max(max_coast_force) / static_force,
+        max_coast_normal_force_n: max_coast_force,
         mean_wheel_force_n: ["wheel_force_x_n", "wheel_force_y_n", "wheel_force_z_n"].map(|n| rows.mean(n)),
         peak_to_peak_wheel_axial_force_n: rows.peak_to_peak("wheel_force_z_n"),
         mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm"),

@@ -129,7 +129,7 @@ pub(super) fn rows(
             dte_harmonics_um: mesh_harmonics(&dte, cycles, ORDERS)?.iter().map(|h| h.amplitude).collect(),
             min_normal_force_n: extreme(f64::min, f64::INFINITY),
             max_normal_force_n: extreme(f64::max, 0.0),
-            dynamic_factor: extreme(f64::max, 0.0) / quasi_static.normal_force,
+            dynamic_factor: extreme(f64::max, point.coast_force) / quasi_static.normal_force,
             max_coast_normal_force_n: point.coast_force,
             max_bearing_force_n: point.bearing_force,
             period_cycles: point.periodicity.period,
