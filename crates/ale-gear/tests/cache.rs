@@ -133,8 +133,8 @@ fn a_stopped_run_leaves_no_broken_file() {
         Scratch::new().file("a.toml", scene("").replace("positions_per_cycle = 4", "positions_per_cycle = 20000"));
     for wait_ms in [60, 250, 700] {
         for words in [["run", "a.toml"], ["chart", "a.toml"]] {
-            let mut child = Command::new(env!("CARGO_BIN_EXE_ale-gear"))
-                .current_dir(scratch.path())
+            let mut child = scratch
+                .program()
                 .env("XDG_CACHE_HOME", scratch.path().join("user"))
                 .args(words)
                 .args(["--out", "o"])
