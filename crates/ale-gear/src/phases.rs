@@ -207,16 +207,4 @@ mod tests {
         assert!([0.0, 0.3, 5.0].iter().all(|&p| filled(p).len() == BAR));
         assert_eq!((left(200.0).as_str(), left(12.3).as_str()), ("about 3 min left", "about 12 s left"));
     }
-
-    /// A phase that touches 64 MB shows them, and the next one does not.
-    #[test]
-    fn a_phase_has_its_own_peak() {
-        let mut phases = Phases::quiet();
-        phases.run("large", || std::hint::black_box(vec![1_u8; 64_000_000]).len());
-        phases.run("small", || ());
-        let [large, small] = phases.rows() else { panic!("two phases") };
-        if let (Some(large), Some(small)) = (large.peak_memory_mb, small.peak_memory_mb) {
-            assert!(large > small + 30.0, "{large} MB, then {small} MB");
-        }
-    }
 }

@@ -29,13 +29,24 @@ use util::{Run, Scratch, column, repository};
 
 /// What a page asks to be done, in its order.
 enum Step {
-    File { name: String, content: String },
-    Run { script: String, status: i32 },
+    File {
+        name: String,
+        content: String,
+    },
+    Run {
+        script: String,
+        status: i32,
+    },
     /// It needs this program, which is not installed; or stands for what one does that is.
     LeftOut(String),
     NotNeeded,
     Prints(String),
-    Value { file: String, key: String, tolerance: f64, number: f64 },
+    Value {
+        file: String,
+        key: String,
+        tolerance: f64,
+        number: f64,
+    },
 }
 
 impl Step {
@@ -157,10 +168,8 @@ fn alike(line: &str, pattern: &str) -> bool {
 fn tell_left_out(page: &Page, steps: Vec<(String, String)>) {
     let name = page.path.file_stem().unwrap().to_string_lossy().into_owned();
     let conditional = page.text.contains("<!-- run if ");
-    let mut records: Vec<Record> = steps
-        .into_iter()
-        .map(|(place, program)| Record { test: place, reason: installed(&program).err() })
-        .collect();
+    let mut records: Vec<Record> =
+        steps.into_iter().map(|(place, program)| Record { test: place, reason: installed(&program).err() }).collect();
     if conditional && records.is_empty() {
         records.push(Record { test: name.clone(), reason: None });
     }

@@ -60,8 +60,7 @@ fn approach_is_the_layers_kernel_under_hertzian_pressure() {
                 4.0 / PI * cos * cos * (half_width * sin).ln() * 2.5 * PI * x.powi(4) / f64::from(n)
             })
             .sum();
-        let wanted: f64 =
-            depths.iter().map(|t| softness * load * (layer_constant(poisson) + t.ln() - mean_log)).sum();
+        let wanted: f64 = depths.iter().map(|t| softness * load * (layer_constant(poisson) + t.ln() - mean_log)).sum();
         let found = contact.under(load);
         assert!((found.half_width / half_width - 1.0).abs() < 1e-12, "F' = {load} N/mm: {} mm wide", found.half_width);
         assert!((found.approach / wanted - 1.0).abs() < 1e-6, "F' = {load} N/mm: {} mm, not {wanted}", found.approach);

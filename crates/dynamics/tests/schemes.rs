@@ -61,8 +61,7 @@ fn amplification(scheme: Scheme, x: f64) -> Matrix3<f64> {
         let mut state = State::new(0.0, dvector![start[0]], dvector![start[1]]);
         (state.a, state.averaged, state.last_step) = (dvector![-x * x * start[0]], dvector![start[2]], 1.0);
         // With a ledger at hand the accelerations are taken as they are.
-        let mut integrator =
-            Integrator::new(scheme, StepControl::Fixed(1.0), dvector![1.0]).resumed(Ledger::default());
+        let mut integrator = Integrator::new(scheme, StepControl::Fixed(1.0), dvector![1.0]).resumed(Ledger::default());
         integrator.advance(&mut Linear::new(1, x * x, 0.0), &mut state, 1.0, |_, _| ()).unwrap();
         [state.q[0], state.v[0], state.averaged[0]]
     };

@@ -10,8 +10,7 @@ use super::util::{Scratch, repository, scenes};
 pub fn validator(_: ()) {
     let scratch = Scratch::new().file("schema.json", json_schema().to_string());
     let is_scene = |text: String| text.contains("[pinion]");
-    let files: Vec<_> =
-        scenes().into_iter().filter(|path| std::fs::read_to_string(path).is_ok_and(is_scene)).collect();
+    let files: Vec<_> = scenes().into_iter().filter(|path| std::fs::read_to_string(path).is_ok_and(is_scene)).collect();
     let script = repository().join("tests/verification/scripts/scene_schema.py");
     let run =
         Command::new("python3").arg(script).arg(scratch.path().join("schema.json")).args(&files).output().unwrap();
