@@ -32,7 +32,7 @@ fn file(name: &str) -> Option<PathBuf> {
 pub fn browser() -> Result<PathBuf, String> {
     let wished = std::env::var_os("CHROME").map(PathBuf::from).filter(|file| file.is_file());
     let known = || BROWSERS.iter().find_map(|name| file(name));
-    wished.or_else(known).ok_or_else(|| format!("no browser ({})", BROWSERS.join(", ")))
+    wished.or_else(known).ok_or_else(|| "no browser in PATH or CHROME".to_owned())
 }
 
 /// Whether `python3` has all these modules, given as in `import a, b`.

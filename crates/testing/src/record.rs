@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Variable of the environment that names another folder for the records.
 pub const FOLDER: &str = "ALE_GEAR_LEFT_OUT";
@@ -19,12 +19,7 @@ pub struct Record {
 
 /// Where records are kept: `left-out` in the folder of the profile, `target/debug`.
 pub fn folder() -> PathBuf {
-    if let Some(folder) = std::env::var_os(FOLDER) {
-        return folder.into();
-    }
-    let own = Path::new(env!("OUT_DIR"));
-    let build = own.ancestors().find(|a| a.file_name().is_some_and(|n| n == "build"));
-    build.and_then(Path::parent).unwrap_or(own).join("left-out")
+    std::env::var_os(FOLDER).map_or_else(|| env!("ALE_GEAR_RECORDS").into(), PathBuf::from)
 }
 
 /// Top of the repository.
@@ -44,17 +39,48 @@ pub fn note(folder: &Path, source: &str, part: &str, records: &[Record]) -> std:
         let _ = writeln!(text, "{test}\t{}", reason.as_deref().unwrap_or_default());
     }
     let name: String = format!("{source} {part}").chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    // Whole or not at all: another program may read at this moment.
-    let partial = folder.join(format!(".{name}.{}", std::process::id()));
-    std::fs::write(&partial, text)?;
-    std::fs::rename(partial, folder.join(name))
+    // Tests of one program may come at the same time, and the last one must see all records.
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+    std::fs::write(folder.join(name).with_extension(RECORD), text)?;
+    write_examples(folder)
+}
+
+static ONE: Mutex<()> = Mutex::new(());
+/// What names of records end with.
+const RECORD: &str = "txt";
+/// File of the ignored examples.
+const EXAMPLES: &str = "examples.rs";
+
+/// A word of Rust that looks like a text.
+fn identifier(text: &str) -> String {
+    let plain: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { ' ' }).collect();
+    plain.split_whitespace().collect::<Vec<_>>().join("_").to_lowercase()
+}
+
+/// Every test that was left out as an ignored example of a module named after the reason: what rustdoc shows.
+fn write_examples(folder: &Path) -> std::io::Result<()> {
+    let mut modules: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
+    for Record { test, reason } in read(folder).into_values().flatten() {
+        if let Some(reason) = reason {
+            modules.entry(identifier(&reason)).or_default().insert(identifier(&test), reason);
+        }
+    }
+    let mut text = String::new();
+    for (module, tests) in modules {
+        let _ = writeln!(text, "pub mod {module} {{");
+        for (test, reason) in tests {
+            let _ = writeln!(text, "/// ```ignore\n/// // {reason}\n/// ```\npub fn {test}() {{}}");
+        }
+        text.push_str("}\n");
+    }
+    std::fs::write(folder.join(EXAMPLES), text)
 }
 
 /// All records, by source file; those of files that are no more are left alone.
 fn read(folder: &Path) -> BTreeMap<String, Vec<Record>> {
     let mut all: BTreeMap<String, Vec<Record>> = BTreeMap::new();
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path()).collect();
-    files.retain(|file| !file.file_name().is_some_and(|n| n.to_string_lossy().starts_with('.')));
+    files.retain(|file| file.extension().is_some_and(|e| e == RECORD));
     files.sort();
     for text in files.iter().filter_map(|file| std::fs::read_to_string(file).ok()) {
         let mut lines = text.lines();
@@ -95,10 +121,4 @@ pub fn summary(folder: &Path) -> String {
         }
     };
     text
-}
-
-/// Says the [`summary`] of this target folder on stderr, past a test harness that keeps what tests print.
-pub fn tell() {
-    // Whoever has closed stderr does not want to hear it.
-    let _ = write!(std::io::stderr().lock(), "\n{}", summary(&folder()));
 }

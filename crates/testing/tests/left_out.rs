@@ -41,7 +41,19 @@ fn the_last_line_names_what_was_left_out() {
     assert!(last().contains("3 of 5"), "{}", last());
     // The program that `.ci/run` ends with says the same.
     let said = Command::new(env!("CARGO_BIN_EXE_left_out")).env(testing::FOLDER, folder).output().unwrap();
-    assert!(said.status.success() && String::from_utf8(said.stderr).unwrap().ends_with(&summary(folder)));
+    assert_eq!((said.status.code(), String::from_utf8(said.stdout).unwrap()), (Some(0), summary(folder)));
+    // And so do the examples that rustdoc is to ignore.
+    let examples = std::fs::read_to_string(folder.join("examples.rs")).unwrap();
+    assert_eq!(examples.matches("```ignore").count(), 3, "{examples}");
+    for named in [
+        "pub mod no_ccx_in_path {",
+        "pub fn balances()",
+        "pub fn weighs()",
+        "pub mod no_browser_chrome {",
+        "pub fn draws()",
+    ] {
+        assert!(examples.contains(named), "no `{named}` in\n{examples}");
+    }
 }
 
 /// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the last one is this package's.
