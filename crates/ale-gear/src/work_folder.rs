@@ -15,6 +15,7 @@ use std::{
     fs::{self, File, TryLockError},
     io::{self, ErrorKind, Read, Write},
     path::{Path, PathBuf},
+    process::Command,
 };
 
 use crate::partial::{self, Partial};
@@ -31,6 +32,7 @@ const LONGEST: u64 = 4096;
 #[derive(Debug)]
 pub(crate) struct WorkFolder {
     target: PathBuf,
+    ours: Judge,
     /// Let go before the folder is removed.
     _mark: Option<File>,
     partial: Partial,
@@ -47,7 +49,7 @@ impl WorkFolder {
     pub fn beside(target: &Path, ours: Judge) -> io::Result<Self> {
         let folder = parent(target);
         fs::create_dir_all(folder)?;
-        take_away_left_over(target, ours);
+        take_away_left_over(target, ours, None);
         let own = format!("{}{}", beginning(target).to_string_lossy(), std::process::id());
         let mut path = folder.join(&own);
         let mut count = 0;
@@ -63,7 +65,7 @@ impl WorkFolder {
         fs::create_dir(partial.path().join(NEW))?;
         // Without a lock (not every file system has them) nobody may ever take the folder for a dead one.
         let mark = mark(partial.path()).ok();
-        Ok(Self { target: target.to_owned(), _mark: mark, partial })
+        Ok(Self { target: target.to_owned(), ours, _mark: mark, partial })
     }
 
     /// Where the result grows.
@@ -76,9 +78,14 @@ impl WorkFolder {
     /// # Errors
     /// When the system refuses; what was there is then still there.
     pub fn put_in_place(self) -> io::Result<()> {
-        // Who stops the program now waits until one of them stands there.
-        let _whole = partial::in_one_piece();
-        swap(self.partial.path(), &self.target)
+        {
+            // Who stops the program now waits until one of them stands there.
+            let _whole = partial::in_one_piece();
+            swap(self.partial.path(), &self.target)?;
+        }
+        // Once more: a run that was killed just before this one may have been dying still.
+        take_away_left_over(&self.target, self.ours, Some(self.partial.path()));
+        Ok(())
     }
 }
 
@@ -124,7 +131,8 @@ fn mark(folder: &Path) -> io::Result<File> {
 
 /// Name of this machine, where the system tells it.
 fn this_host() -> Option<String> {
-    let told = fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("COMPUTERNAME").ok())?;
+    let of_program = || String::from_utf8(Command::new("hostname").output().ok()?.stdout).ok();
+    let told = fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(of_program)?;
     let name = told.trim().to_owned();
     (!name.is_empty()).then_some(name)
 }
@@ -153,7 +161,7 @@ fn dead(folder: &Path) -> Option<File> {
 }
 
 /// Removes work folders of this target whose processes have died. What cannot be removed, or must not be, stays, and is no error.
-fn take_away_left_over(target: &Path, ours: Judge) {
+fn take_away_left_over(target: &Path, ours: Judge, own: Option<&Path>) {
     let beginning = beginning(target);
     let Some(beginning) = beginning.to_str() else { return };
     let Ok(entries) = fs::read_dir(parent(target)) else { return };
@@ -161,7 +169,7 @@ fn take_away_left_over(target: &Path, ours: Judge) {
         let name = entry.file_name();
         let number = name.to_str().and_then(|n| n.strip_prefix(beginning));
         let is_number = |n: &str| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit() || b == b'-');
-        if number.is_some_and(is_number) {
+        if number.is_some_and(is_number) && own != Some(&entry.path()) {
             // Nothing depends on it.
             let _ = take_away(&entry.path(), target, ours);
         }

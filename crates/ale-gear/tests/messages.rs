@@ -238,8 +238,8 @@ fn rows_beyond_any_memory_are_refused_before_the_work() {
     let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 100000 }\n";
     let sweep = motion_scene(100_000_000, sweep);
     refused(&sweep, &run, &["(`cycles` 1.0e8 x `steps_per_mesh_cycle` 16 x `speeds` 100000)"]);
-    let ladder = with("model = \"iso\"", "model = \"lumped8\"\ncycles = 100000000");
-    let ladder = ladder + "[motion]\nsteps_per_mesh_cycle = 100000\n[mesh]\nstiffness_n_per_um = 300.0\n";
+    let ladder = with("model = \"iso\"", "model = \"impact\"\ncycles = 100000000");
+    let ladder = ladder + "[motion]\nsteps_per_mesh_cycle = 100000\n";
     refused(&ladder, &run, &["1.0e13 rows (`cycles` 1.0e8 x `steps_per_mesh_cycle` 100000)"]);
     let by_key = ["sweep", "a.toml", "--key", "operation.speed_rpm", "--from", "1000", "--to", "2000", "--points", "2"];
     let long = [&by_key[..], &["--cycles", "100000", "--once", "pinion-turn"]].concat();
