@@ -18,7 +18,10 @@ use std::{
     process::Command,
 };
 
-use crate::partial::{self, Partial};
+use crate::{
+    partial::{self, Partial},
+    talk::{self, Loudness},
+};
 
 const MARK: &str = ".ale-gear-work";
 const NEW: &str = "new";
@@ -78,10 +81,14 @@ impl WorkFolder {
     /// # Errors
     /// When the system refuses; what was there is then still there.
     pub fn put_in_place(self) -> io::Result<()> {
+        let old = match (self.ours)(&self.target) {
+            Ok(Some(name)) => aside(&self.target, &name),
+            _ => self.partial.path().join(OLD),
+        };
         {
             // Who stops the program now waits until one of them stands there.
             let _whole = partial::in_one_piece();
-            swap(self.partial.path(), &self.target)?;
+            swap(&self.partial.path().join(NEW), &self.target, &old)?;
         }
         // Once more: a run that was killed just before this one may have been dying still.
         take_away_left_over(&self.target, self.ours, Some(self.partial.path()));
@@ -90,18 +97,29 @@ impl WorkFolder {
 }
 
 /// `new` takes the place of `target`, which becomes `old`.
-fn swap(work: &Path, target: &Path) -> io::Result<()> {
-    let (new, old) = (work.join(NEW), work.join(OLD));
+fn swap(new: &Path, target: &Path, old: &Path) -> io::Result<()> {
     let replaces = target.exists();
     if replaces {
-        fs::rename(target, &old)?;
+        fs::rename(target, old)?;
     }
-    fs::rename(&new, target).inspect_err(|_| {
+    fs::rename(new, target).inspect_err(|_| {
         if replaces {
             // Back to where it was; the first error is the one to tell.
-            let _ = fs::rename(&old, target);
+            let _ = fs::rename(old, target);
         }
     })
+}
+
+/// Where an earlier result goes into which somebody has put a file of theirs during the run: beside, and told.
+fn aside(target: &Path, name: &str) -> PathBuf {
+    let mut path = target.as_os_str().to_owned();
+    path.push(format!(".replaced-{}", std::process::id()));
+    let path = PathBuf::from(path);
+    talk::say(Loudness::Quiet, || {
+        let (into, now) = (target.display(), path.display());
+        format!("ale-gear: `{name}`, which is no result file, came into {into} during the run: it goes to {now}")
+    });
+    path
 }
 
 /// Says what is in a folder that no run of this program writes.

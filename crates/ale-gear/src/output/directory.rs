@@ -216,6 +216,21 @@ mod tests {
         assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 1);
     }
 
+    /// What somebody puts into the folder while the run goes on is not lost with the earlier result.
+    #[test]
+    fn a_file_that_came_in_during_the_run_is_spared() {
+        let scratch = tempfile::tempdir().unwrap();
+        let wanted = scratch.path().join("out");
+        fs::create_dir(&wanted).unwrap();
+        let whole = ResultDirectory::create(&wanted).unwrap();
+        whole.write("summary.json", b"later").unwrap();
+        fs::write(wanted.join("thesis.tex"), "years of work").unwrap();
+        whole.finish().unwrap();
+        assert_eq!(names(&wanted).unwrap(), ["summary.json"]);
+        let aside = scratch.path().join(format!("out.replaced-{}", std::process::id()));
+        assert_eq!(fs::read_to_string(aside.join("thesis.tex")).unwrap(), "years of work");
+    }
+
     #[test]
     fn a_folder_with_other_files_is_left_alone() {
         let scratch = tempfile::tempdir().unwrap();
