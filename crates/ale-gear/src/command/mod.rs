@@ -19,7 +19,7 @@ use clap::{ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::error::CommandError;
-use crate::talk::{Loudness, set_loudness};
+use crate::talk::{Loudness, read_progress_after, set_loudness};
 
 /// Reduced finite-element contact of helical gears
 ///
@@ -99,6 +99,7 @@ impl Cli {
             (_, 1) => Loudness::Steps,
             _ => Loudness::Details,
         });
+        read_progress_after()?;
         if threads == Some(0) {
             let hint = "leave it out to use all cores".to_owned();
             return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", Some(hint)));
