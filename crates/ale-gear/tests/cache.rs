@@ -157,3 +157,21 @@ fn a_stopped_run_leaves_no_broken_file() {
         assert!(path.extension().is_some_and(|e| e == "reduced"), "{} is left", path.display());
     }
 }
+
+/// What a killed process has left half written goes with the next record; what may still be written stays, and so does all else.
+#[test]
+fn half_written_records_of_killed_runs_go() {
+    let cached = Cached::new("");
+    let folder = cached.0.path().join("cache");
+    fs::create_dir(&folder).unwrap();
+    let names = ["0a.partial-17", "0a.partial-18", "notes.partial-me"];
+    for name in names {
+        fs::write(folder.join(name), "half").unwrap();
+    }
+    for name in [names[0], names[2]] {
+        let long_ago = std::time::SystemTime::now() - Duration::from_secs(3 * 24 * 3600);
+        fs::File::options().append(true).open(folder.join(name)).unwrap().set_modified(long_ago).unwrap();
+    }
+    cached.run("o");
+    assert_eq!(names.map(|n| folder.join(n).exists()), [false, true, true]);
+}
