@@ -42,6 +42,7 @@ pub mod talk;
 mod gears;
 mod geometry_fault;
 mod iso_model;
+pub mod iso_root;
 mod ladder;
 pub mod meshes;
 mod partial;
