@@ -1,6 +1,7 @@
 //! The nominal tooth root stress of ISO 6336-3 of a scene's pair, to stand beside what finite elements say.
 
-use geometry::GearPair;
+use geometry::{Gear, GearPair};
+use lumped::LumpedError;
 use lumped::iso::{IsoRoot, IsoRootPair};
 use serde::Serialize;
 
@@ -50,11 +51,11 @@ pub(crate) fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<S
 }
 
 /// As the standard has it, with the torque of the scene.
-fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, lumped::LumpedError> {
+fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedError> {
     let ratios =
         IsoRootPair { eps_alpha: pair.transverse_contact_ratio(), eps_beta: pair.overlap_ratio(), fine: false };
     let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
-    let one = |gear: &geometry::Gear| {
+    let one = |gear: &Gear| -> Result<IsoGearRoot, LumpedError> {
         let root = IsoRoot::new(gear, ratios)?;
         Ok(IsoGearRoot {
             nominal_root_stress_mpa: root.nominal_stress(tangential, pair.face_width(), gear.data().normal_module),

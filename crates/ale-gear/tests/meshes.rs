@@ -202,6 +202,7 @@ fn warnings(teeth: u32, bore: f64, sector: u32) -> (Vec<String>, f64) {
     let text = scene(2, sector)
         .replace("teeth = 30", &format!("teeth = {teeth}"))
         .replacen("bore_diameter_mm = 60.0", &format!("bore_diameter_mm = {bore}"), 1)
+        .replacen("bore_diameter_mm = 60.0", &format!("bore_diameter_mm = {}", 2 * teeth), 1)
         .replace("elements_rim = 1", "elements_rim = 2")
         .replace("[pair]", "[wheel.mesher]\norder = 2\nelements_profile = 2\nelements_fillet = 2\nelements_thickness = 2\nelements_face = 2\nelements_rim = 2\n[pair]")
         .replace("model = \"iso\"", "model = \"reduced\"\npositions_per_cycle = 4");
@@ -230,7 +231,8 @@ fn the_softness_of_a_sector_is_computed() {
         assert_eq!(told.len(), 1, "{said:?}");
         assert!(!none.iter().any(|w| w.contains("free cuts")), "{none:?}");
         let found = 100.0 * (cut / whole - 1.0);
-        assert!((per_cent(told[0]) - found).abs() < 0.1 * found, "{} where the runs are {found:.1} % apart", told[0]);
+        // A tenth of it, and the digits that are not printed.
+        assert!((per_cent(told[0]) - found).abs() < 0.1 * found + 0.5, "{} where the runs are {found:.1} % apart", told[0]);
     }
 }
 

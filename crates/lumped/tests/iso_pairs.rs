@@ -79,7 +79,10 @@ struct Measured {
 fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
     let pair = &drawn.pair;
     let torque = drawn.line_load * pair.face_width() * pair.wheel.reference_radius();
-    let options = StaticOptions::new(torque, pair);
+    let plain = StaticOptions::new(torque, pair);
+    // Room for what touches early under load.
+    let window = Some(StaticModel::window_teeth(pair, &plain) + 2);
+    let options = StaticOptions { window, ..plain };
     let first = StaticModel::first_teeth(pair, &options).unwrap();
     let [elements_profile, elements_fillet, elements_thickness, elements_face, elements_rim] = counts;
     let mesher = StructuredOptions {

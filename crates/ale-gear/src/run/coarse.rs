@@ -9,6 +9,8 @@ use reduction::{GearReducer, ReductionOptions};
 /// Positions of the mesh cycle over which is averaged.
 const POSITIONS: usize = 4;
 const SLICES: usize = 8;
+/// Teeth by which the window may grow.
+const WIDER: usize = 2;
 
 /// What is varied of a gear.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +32,7 @@ impl<'a> Coarse<'a> {
     /// The pair under the torque of `options`.
     pub fn new(pair: &'a GearPair, materials: [&'a Material; 2], options: &StaticOptions) -> Self {
         let plain = StaticOptions::new(options.torque, pair);
-        let window = options.window;
+        let window = Some(StaticModel::window_teeth(pair, options));
         let options = StaticOptions { driver: options.driver, sense: options.sense, window, slices: SLICES, ..plain };
         debug_assert_eq!(options.method, Method::Slice);
         Self { pair, materials, options }
@@ -48,9 +50,15 @@ impl<'a> Coarse<'a> {
         ratio.is_finite().then_some(ratio)
     }
 
-    /// Mean static transmission error, mm.
+    /// Mean static transmission error, mm; a softer pair than the user's may need a wider window.
     fn mean_error(&self, bodies: [Body; 2]) -> Option<f64> {
-        let first = StaticModel::first_teeth(self.pair, &self.options).ok()?;
+        let least = self.options.window.unwrap_or_default();
+        (least..=least + WIDER).find_map(|window| self.in_window(bodies, window))
+    }
+
+    fn in_window(&self, bodies: [Body; 2], window: usize) -> Option<f64> {
+        let asked = StaticOptions { window: Some(window), ..self.options.clone() };
+        let first = StaticModel::first_teeth(self.pair, &asked).ok()?;
         let nominal = [&self.pair.pinion, &self.pair.wheel].map(|gear| gear.data());
         let gears: Vec<Gear> = nominal
             .into_iter()
@@ -61,15 +69,11 @@ impl<'a> Coarse<'a> {
         let elastic = |i: usize| {
             let mesh = mesh::generate(&gears[i], &mesher(bodies[i].extent)).ok()?;
             let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gears[i].teeth()).ok()?;
-            let options = ReductionOptions {
-                sides: self.options.sides(),
-                window: StaticModel::window_teeth(&pair, &self.options),
-                first: first[i],
-                elements: ElementOptions::default(),
-            };
+            let options =
+                ReductionOptions { sides: asked.sides(), window, first: first[i], elements: ElementOptions::default() };
             Some(ElasticGear::Reduced(GearReducer::new(mesh, self.materials[i].clone(), options).ok()?))
         };
-        let mut model = StaticModel::new(pair.clone(), [elastic(0)?, elastic(1)?], self.options.clone()).ok()?;
+        let mut model = StaticModel::new(pair.clone(), [elastic(0)?, elastic(1)?], asked.clone()).ok()?;
         let history = model.run(POSITIONS, 1, |_, _, _| ()).ok()?;
         Some(history.positions.iter().map(|p| p.transmission_error).sum::<f64>() / POSITIONS as f64)
     }

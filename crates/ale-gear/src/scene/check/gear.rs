@@ -59,7 +59,7 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
     Ok(pair)
 }
 
-/// The default radius of the rack's tip, or the largest that the rack has room for, to three decimals, where that is less: 0.318 at 25 degrees.
+/// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is less: 0.3178 at 25 degrees.
 /// A rack that has room for none keeps the default, and the geometry says why there is no gear.
 fn fitting_root_radius(pair: &PairScene) -> f64 {
     let data = GearData {
@@ -69,7 +69,7 @@ fn fitting_root_radius(pair: &PairScene) -> f64 {
         thickness_allowance: 0.0,
         ..GearData::default()
     };
-    let largest = (1e3 * data.largest_root_radius_coefficient()).floor() / 1e3;
+    let largest = (1e4 * data.largest_root_radius_coefficient()).floor() / 1e4;
     if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
 }
 
