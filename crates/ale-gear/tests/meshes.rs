@@ -232,7 +232,11 @@ fn the_softness_of_a_sector_is_computed() {
         assert!(!none.iter().any(|w| w.contains("free cuts")), "{none:?}");
         let found = 100.0 * (cut / whole - 1.0);
         // A tenth of it, and the digits that are not printed.
-        assert!((per_cent(told[0]) - found).abs() < 0.1 * found + 0.5, "{} where the runs are {found:.1} % apart", told[0]);
+        assert!(
+            (per_cent(told[0]) - found).abs() < 0.1 * found + 0.5,
+            "{} where the runs are {found:.1} % apart",
+            told[0]
+        );
     }
 }
 

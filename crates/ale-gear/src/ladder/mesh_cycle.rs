@@ -71,11 +71,10 @@ pub(super) fn mesh_cycle(
         }
         StiffnessFrom::Iso => {
             let iso = iso_model::iso_stiffness(scene, pair).map_err(complain)?;
-            let own = MeshCycle::by_contact_lines(plane, 1e3 * iso.c_mesh * pair.face_width()).map_err(complain)?;
             let bodies: f64 = iso_model::bodies(scene, pair).iter().sum();
-            let softer = 1e3 * iso.c_mesh * pair.face_width() * bodies;
-            let warnings = (softer > BENDING_TOLD).then(|| bending_left_out(softer)).into_iter().collect();
-            Ok(Fed { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings })
+            let mean = 1.0 / (1.0 / (1e3 * iso.c_mesh * pair.face_width()) + bodies);
+            let own = MeshCycle::by_contact_lines(plane, mean).map_err(complain)?;
+            Ok(Fed { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
         }
         StiffnessFrom::Reduced => {
             let asked = static_scene(scene);
@@ -98,17 +97,6 @@ pub(super) fn mesh_cycle(
             Ok(fed)
         }
     }
-}
-
-/// Share of ISO's own compliance from which on the bending of the bodies is worth a word: half of what ISO's mean is trusted to.
-const BENDING_TOLD: f64 = 0.12;
-
-fn bending_left_out(softer: f64) -> String {
-    format!(
-        "the stiffness of ISO 6336-1 leaves out that the axial force bends the bodies of the gears, here by {:.0} % of the teeth's deflection; \
-         `stiffness_from = \"reduced\"` has it in",
-        100.0 * softer
-    )
 }
 
 /// k on the transverse line of action over K_n along the normal: cos^2 b_b, or cos b_b where a law projects the stiffness alone.
