@@ -41,6 +41,7 @@ pub mod talk;
 
 mod gears;
 mod geometry_fault;
+mod input_text;
 mod iso_model;
 pub mod iso_root;
 mod ladder;
@@ -48,4 +49,6 @@ pub mod meshes;
 mod partial;
 pub mod reduce;
 pub mod rexs;
+mod room;
 pub mod view;
+mod work_folder;
