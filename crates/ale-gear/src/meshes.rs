@@ -166,9 +166,9 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, Comma
     Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
 }
 
-/// Diameter (mm) of the bore that a mesh file names; `None` where it names none or cannot be read, which is told where the mesh is needed.
-pub(crate) fn bore_diameter(file: &Path, names: &GroupNames) -> Option<f64> {
-    let mesh = Mesh::read(file).ok()?;
+/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
+pub(crate) fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
+    let mesh = Mesh::parse(content, file).ok()?;
     let [low, high] = radii(&mesh, &mesh.surface(&names.bore)?.nodes());
     Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
 }

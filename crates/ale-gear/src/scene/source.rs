@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use toml::Spanned;
 
@@ -47,11 +47,6 @@ impl<'a> Source<'a> {
 }
 
 impl Source<'_> {
-    /// What a path written in the file stands for: paths are relative to its folder.
-    pub fn resolve(&self, path: &Path) -> PathBuf {
-        self.file.parent().map_or_else(|| path.to_owned(), |folder| folder.join(path))
-    }
-
     /// File and line of a byte range, or the setting that it lies in.
     pub fn place(&self, span: &Range<usize>) -> Place {
         // Its end too, where something is missing.

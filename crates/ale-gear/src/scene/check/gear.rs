@@ -6,6 +6,7 @@ use geometry::GearData;
 use mesh::GroupNames;
 
 use super::Checked;
+use crate::meshes;
 use crate::scene::{
     GearScene, Material, MesherScene, PairScene, inputs, micro,
     raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
@@ -100,7 +101,8 @@ pub(super) fn gear(
     let bore_of_mesh = match &mesh {
         // A mesh in another unit, or of another gear, is told where it is read.
         Some(path) if raw.bore_diameter_mm.is_none() => {
-            crate::meshes::bore_diameter(&s.resolve(path), &groups).filter(|bore| *bore < root)
+            let content = inputs::content(s.origin, s.file, path).ok();
+            content.and_then(|mesh| meshes::bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
         }
         _ => None,
     };
