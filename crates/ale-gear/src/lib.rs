@@ -43,6 +43,7 @@ mod gears;
 mod geometry_fault;
 mod input_text;
 mod iso_model;
+pub mod iso_root;
 mod ladder;
 pub mod meshes;
 mod partial;

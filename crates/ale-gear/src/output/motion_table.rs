@@ -31,6 +31,7 @@ pub(crate) fn motion_table(
     t.number("maximum pressure", h.max_pressure_mpa, 0, "MPa");
     if let Some([pinion, wheel]) = h.max_root_tension_mpa {
         t.text("largest root tension, pinion, wheel", format!("{}, {}", fixed(pinion, 1), fixed(wheel, 1)), "MPa");
+        t.iso_root_stress(facts);
     }
     t.cycles([c.warm_up_cycles, h.cycles], c.periodicity, c.period_cycles);
     t.text("tooth changes", h.tooth_changes, "");
