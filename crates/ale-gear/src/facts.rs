@@ -3,6 +3,7 @@
 use dynamics::result::StaticHistory;
 use serde::Serialize;
 
+use crate::certificate::Certificate;
 use crate::phases::{Phase, Phases};
 use crate::view::View;
 
@@ -37,6 +38,9 @@ pub struct Facts {
     /// Wall time from the start of the program to the first solved position, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_result_s: Option<f64>,
+    /// What must hold of the result.
+    #[serde(flatten)]
+    pub certificate: Certificate,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,

@@ -32,10 +32,6 @@ const LARGE_ERROR_MODULES: f64 = 0.05;
 pub(super) fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
-    let torque = worst(|p| p.certificate.torque_residual);
-    if torque > 1e-8 {
-        said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
-    }
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
     if error > LARGE_ERROR_MODULES * module {
         said.push(format!(

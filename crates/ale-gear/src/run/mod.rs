@@ -1,5 +1,6 @@
 //! Where a checked scene becomes a call of the solvers.
 
+mod certificate;
 mod doubts;
 mod foreseen;
 mod options;
@@ -21,6 +22,7 @@ use crate::view::ViewRecorder;
 use crate::{gears, iso_model, meshes};
 use doubts::doubts;
 
+pub(crate) use certificate::{certificate, worse};
 pub(crate) use doubts::sector_warnings;
 pub(crate) use foreseen::foreseen_s;
 pub(crate) use options::options;
