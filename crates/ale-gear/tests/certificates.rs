@@ -61,6 +61,7 @@ fn a_tolerance_needs_no_limit() {
 #[test]
 fn cheaper_models_know_their_limit() {
     let text = std::fs::read_to_string(util::repository().join("scenes/seeds/004.toml")).unwrap();
+    let text = text.replace("spectral_radius", "# spectral_radius");
     let scratch = Scratch::new().file("a.toml", text);
     let words = ["--set", "motion.method=\"rk4\"", "--set", "motion.steps_per_resonance=0", "--set", "analysis.cycles=4"];
     let run = |steps: &str, out: &str| {
@@ -79,7 +80,7 @@ fn cheaper_models_know_their_limit() {
 /// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one looks.
 #[test]
 fn a_result_that_does_not_hold_says_so_everywhere() {
-    let failing = ISO_SCENE.replace("torque_nm = 150.0", "torque_nm = 1e-320");
+    let failing = motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().replace("torque_nm = 150.0", "torque_nm = 1e-300");
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);

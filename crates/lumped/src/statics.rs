@@ -106,7 +106,8 @@ impl<M: Mechanism> Search<'_, M> {
             }
             let (step, needed) = loop {
                 let matrix = &stiffness + added * unit * &mass;
-                let downhill = |s: &DVector<f64>| s.dot(&force) > 0.0 && s.component_div(&scale).amax() <= FAR;
+                // No farther than what counts as large: beyond it, tooth spaces away, others would touch.
+                let downhill = |s: &DVector<f64>| s.dot(&force) > 0.0 && s.component_div(&scale).amax() <= 1.0;
                 if let Some(step) = solved(matrix, &force).filter(downhill) {
                     break (step, added);
                 }

@@ -17,6 +17,8 @@ use nalgebra::{Matrix6, SVector};
 mod random;
 use random::Random;
 
+const STICK_SLIP: StickSlip =
+    StickSlip { static_coefficient: 0.08, dynamic_coefficient: 0.05, static_speed: 0.1, dynamic_speed: 10.0 };
 const SCHEMES: [Scheme; 3] = [Scheme::Energy, Scheme::Newmark, Scheme::GeneralisedAlpha { rho: 0.8 }];
 
 fn gear(r: &mut Random, module: f64, teeth: u32, helix: f64, width: f64) -> Option<Gear> {
@@ -97,12 +99,7 @@ fn scene(seed: u64) -> Option<(ImpactMechanism, f64)> {
         drive: Drive::Speed(Speed::Constant(speed_rpm * PI / 30.0)),
         load: Torque::Constant(load),
         law: ImpactLaw { stiffness, exponent, damping: r.between(0.0, 50.0), depth: 0.1 },
-        friction: rubs.then_some(StickSlip {
-            static_coefficient: 0.08,
-            dynamic_coefficient: 0.05,
-            static_speed: 0.1,
-            dynamic_speed: 10.0,
-        }),
+        friction: rubs.then_some(STICK_SLIP),
         slices,
         start_cycles: 0.0,
     };
@@ -146,6 +143,96 @@ fn all_stand_and_move(seeds: std::ops::Range<u64>, phases: u32) -> usize {
     tried.iter().filter(|t| **t == Ok(true)).count()
 }
 
+/// Two small gears on bearings, with friction that turns round within a tenth of a mm/s.
+fn small_pair() -> ImpactMechanism {
+    let pinion = GearData {
+        teeth: 12,
+        normal_module: 0.5,
+        helix_angle: 0.0,
+        face_width: 4.69,
+        profile_shift: 0.532,
+        thickness_allowance: 0.01,
+        tip_edge_radius: 0.025,
+        bore_diameter: 2.4,
+        ..GearData::default()
+    };
+    let wheel = GearData { teeth: 13, profile_shift: 0.35, tip_edge_radius: 0.0, bore_diameter: 2.6, ..pinion.clone() };
+    let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let mut bearing = Bearing::default();
+    bearing.stiffness = Matrix6::from_diagonal(&SVector::from([4.278e4, 1.856e5, 0.0, 8.151e8, 0.0, 0.0]));
+    let stiffness = contact_stiffness(&pair, Driver::Pinion, 2.06e5, 0.3).unwrap();
+    let options = ImpactOptions {
+        driver: Driver::Pinion,
+        sense: Sense::Ccw,
+        bodies: [body(&pair.pinion), body(&pair.wheel)],
+        bearings: [bearing, Bearing::default()],
+        free: [[true, true, false, true, false, false], [false; COORDINATES]],
+        drive: Drive::Speed(Speed::Constant(1805.0 * PI / 30.0)),
+        load: Torque::Constant(744.215),
+        law: ImpactLaw { stiffness, exponent: 1.5, damping: 50.0, depth: 0.1 },
+        friction: Some(STICK_SLIP),
+        slices: 8,
+        start_cycles: 0.0,
+    };
+    ImpactMechanism::new(pair, options).unwrap()
+}
+
+/// Two mesh cycles by each method in steps of a 32nd and of a 256th: where flanks turn round at the pitch line, a whole Newton step jumps from one sign of the friction to the other whatever the time step.
+#[test]
+fn friction_that_turns_round_has_a_solution() {
+    let cycle = 60.0 / (1805.0 * 12.0);
+    for scheme in SCHEMES {
+        for steps in [32.0, 256.0] {
+            let control = StepControl::Fixed(cycle / steps);
+            let plan = Recording { scheme, control, settle: 0.0, duration: 2.0 * cycle, rows: 64 };
+            let done = small_pair().history(&plan).unwrap_or_else(|e| panic!("{scheme:?}, {steps} steps: {e}"));
+            let force: f64 = done.rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / done.rows.len() as f64;
+            println!("{scheme:?}, {steps} steps a cycle: mean normal force {force:.1} N");
+        }
+    }
+}
+
+/// 14 um of lead crowning under 0.5 N m: at the lag at which two whole pairs would carry the load nothing touches yet.
+#[test]
+fn light_load_on_crowned_flanks_finds_its_balance() {
+    let data = GearData {
+        teeth: 20,
+        normal_module: 2.0,
+        face_width: 12.0,
+        thickness_allowance: 0.04,
+        bore_diameter: 15.0,
+        ..GearData::default()
+    };
+    let wheel = GearData { teeth: 40, helix_angle: -data.helix_angle, bore_diameter: 30.0, ..data.clone() };
+    let flank = FlankModification { lead_crowning: 0.014, ..FlankModification::default() };
+    let crowned = GearModifications { left: flank.clone(), right: flank, pitch_errors: Vec::new() };
+    let pinion = Gear::new(data).unwrap().with_modifications(crowned).unwrap();
+    let pair = GearPair::new(pinion, Gear::new(wheel).unwrap(), None).unwrap();
+    let stiffness = contact_stiffness(&pair, Driver::Pinion, 2.06e5, 0.3).unwrap();
+    let options = ImpactOptions {
+        driver: Driver::Pinion,
+        sense: Sense::Ccw,
+        bodies: [body(&pair.pinion), body(&pair.wheel)],
+        bearings: [Bearing::default(); 2],
+        free: [[false; COORDINATES]; 2],
+        drive: Drive::Speed(Speed::Constant(300.0 * PI / 30.0)),
+        load: Torque::Constant(500.0),
+        law: ImpactLaw { stiffness, exponent: 1.5, damping: 50.0, depth: 0.1 },
+        friction: None,
+        slices: 4,
+        start_cycles: 0.0,
+    };
+    let normal = 500.0 / (pair.wheel.base_radius() * pair.base_helix_angle().cos());
+    let model = ImpactMechanism::new(pair, options).unwrap();
+    for phase in 0..16 {
+        let mut there = model.beginning_at(f64::from(phase) / 16.0).unwrap();
+        let q = there.static_state().unwrap_or_else(|e| panic!("phase {phase}/16: {e}"));
+        let found = there.row(0.0, &q, &(0.0 * &q)).normal_force[0];
+        // Tips that meet early push at other levers.
+        assert!((found / normal - 1.0).abs() < 0.01, "phase {phase}/16: {found} N, not {normal} N");
+    }
+}
+
 /// A few of them.
 #[test]
 fn random_pairs_stand_and_move() {
@@ -160,4 +247,16 @@ fn many_random_pairs_stand_and_move() {
     let made = all_stand_and_move(100..220, 8);
     println!("{made} pairs stand still at 8 phases and move by {} methods", SCHEMES.len());
     assert!(made >= 60, "{made} of 120 seeds make a pair");
+}
+
+#[test]
+#[ignore = "temporary"]
+fn zz_diagnose() {
+    let schemes: &[Scheme] = if std::env::var("ALL").is_ok() { &SCHEMES } else { &[] };
+    for seed in 100..160 {
+        if let Err(e) = stands_and_moves(seed, 3, schemes) {
+            let (m, _) = scene(seed).unwrap();
+            println!("{e}; n {} {:?}", m.coordinates().count(), m.coordinates().names());
+        }
+    }
 }
