@@ -32,9 +32,8 @@ fn steps_beyond_the_stability_limit_are_refused() {
         assert!(refused.stderr.contains("is too long for the explicit method"), "{}", refused.stderr);
         assert_eq!(scratch.names(), ["long.toml"], "a refused run leaves something behind");
         let enough = number_after(&refused.stderr, "steps_per_mesh_cycle = ");
-        let scratch = scratch
-            .file("fine.toml", explicit(method, enough))
-            .file("short.toml", explicit(method, 2 * enough / 3));
+        let scratch =
+            scratch.file("fine.toml", explicit(method, enough)).file("short.toml", explicit(method, 2 * enough / 3));
         let fine = scratch.ale_gear(["run", "fine.toml", "--out", "fine", "--json"]);
         assert_eq!(fine.code, Some(0), "{method}, {enough} steps: {}", fine.stderr);
         let summary = json(&fine.stdout);
@@ -63,7 +62,8 @@ fn cheaper_models_know_their_limit() {
     let text = std::fs::read_to_string(util::repository().join("scenes/seeds/004.toml")).unwrap();
     let text = text.replace("spectral_radius", "# spectral_radius");
     let scratch = Scratch::new().file("a.toml", text);
-    let words = ["--set", "motion.method=\"rk4\"", "--set", "motion.steps_per_resonance=0", "--set", "analysis.cycles=4"];
+    let words =
+        ["--set", "motion.method=\"rk4\"", "--set", "motion.steps_per_resonance=0", "--set", "analysis.cycles=4"];
     let run = |steps: &str, out: &str| {
         let steps = format!("motion.steps_per_mesh_cycle={steps}");
         let first = ["run", "a.toml", "--out", out, "--set", "motion.warm_up_cycles=2", "--set", &steps];
@@ -80,7 +80,11 @@ fn cheaper_models_know_their_limit() {
 /// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one looks.
 #[test]
 fn a_result_that_does_not_hold_says_so_everywhere() {
-    let failing = motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().replace("torque_nm = 150.0", "torque_nm = 1e-300");
+    let failing = motion_scene(0, "")
+        .split("kind = \"dynamic\"")
+        .next()
+        .unwrap()
+        .replace("torque_nm = 150.0", "torque_nm = 1e-300");
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);

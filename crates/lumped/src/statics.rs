@@ -35,7 +35,8 @@ pub fn equilibrium<M: Mechanism>(
     scale: &DVector<f64>,
 ) -> Result<Option<DVector<f64>>, M::Error> {
     let free: Vec<usize> = (0..start.len()).filter(|i| !held.contains(i)).collect();
-    let mut search = Search { system, t, free, scale, rest: DVector::zeros(start.len()), forces: Forces::zeros(start.len()) };
+    let mut search =
+        Search { system, t, free, scale, rest: DVector::zeros(start.len()), forces: Forces::zeros(start.len()) };
     match search.newton(start.clone())? {
         Some(found) => Ok(Some(found)),
         None => {
@@ -143,7 +144,11 @@ impl<M: Mechanism> Search<'_, M> {
             if left.abs() <= LEFT {
                 return Ok(Some(share));
             }
-            if left > 0.0 { low = share } else { high = share }
+            if left > 0.0 {
+                low = share
+            } else {
+                high = share
+            }
             share = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * share };
             if share * step.component_div(scale).amax() > FAR {
                 return Ok(None);

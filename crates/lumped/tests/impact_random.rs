@@ -4,9 +4,9 @@
 use std::f64::consts::{PI, TAU};
 
 use ale::Sense;
+use dynamics::Driver;
 use dynamics::motion::{Forces, Mechanism, Scheme, StepControl};
 use dynamics::pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
-use dynamics::Driver;
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
 use lumped::Recording;
@@ -46,9 +46,7 @@ fn gear(r: &mut Random, module: f64, teeth: u32, helix: f64, width: f64) -> Opti
         bias: 1e-3 * r.between(-3.0, 3.0),
         ..FlankModification::default()
     };
-    plain
-        .with_modifications(GearModifications { left: flank.clone(), right: flank, pitch_errors: Vec::new() })
-        .ok()
+    plain.with_modifications(GearModifications { left: flank.clone(), right: flank, pitch_errors: Vec::new() }).ok()
 }
 
 fn body(gear: &Gear) -> RigidBody {
@@ -125,7 +123,13 @@ fn stands_and_moves(seed: u64, phases: u32, schemes: &[Scheme]) -> Result<bool, 
         }
     }
     for &scheme in schemes {
-        let plan = Recording { scheme, control: StepControl::Fixed(cycle / 64.0), settle: 0.0, duration: 0.5 * cycle, rows: 16 };
+        let plan = Recording {
+            scheme,
+            control: StepControl::Fixed(cycle / 64.0),
+            settle: 0.0,
+            duration: 0.5 * cycle,
+            rows: 16,
+        };
         let mut own = model.beginning_at(0.0).unwrap();
         let recorded = own.history(&plan).map_err(|e| format!("seed {seed}, {scheme:?}: {e}"))?;
         if !recorded.rows.iter().all(|r| r.transmission_error_um.is_finite() && r.least_slice_force >= 0.0) {
@@ -247,16 +251,4 @@ fn many_random_pairs_stand_and_move() {
     let made = all_stand_and_move(100..220, 8);
     println!("{made} pairs stand still at 8 phases and move by {} methods", SCHEMES.len());
     assert!(made >= 60, "{made} of 120 seeds make a pair");
-}
-
-#[test]
-#[ignore = "temporary"]
-fn zz_diagnose() {
-    let schemes: &[Scheme] = if std::env::var("ALL").is_ok() { &SCHEMES } else { &[] };
-    for seed in 100..160 {
-        if let Err(e) = stands_and_moves(seed, 3, schemes) {
-            let (m, _) = scene(seed).unwrap();
-            println!("{e}; n {} {:?}", m.coordinates().count(), m.coordinates().names());
-        }
-    }
 }

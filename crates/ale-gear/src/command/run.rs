@@ -109,7 +109,9 @@ impl RunArgs {
     ) -> Result<Answer, CommandError> {
         let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
         match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
-            motion::Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into()),
+            motion::Outcome::Stopped { cycles } if self.json => {
+                Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into())
+            }
             motion::Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.scene.display(),

@@ -47,8 +47,8 @@ pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
-pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
+pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
 

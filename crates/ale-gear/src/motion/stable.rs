@@ -51,5 +51,9 @@ fn hint(limit: &StepLimit, steps: &Steps) -> String {
         .map(|(key, hz)| format!("`{key} = {:.0}`", needed(*hz)))
         .collect();
     let others = "an `error_tolerance`, or an implicit `method`";
-    if would_do.is_empty() { format!("take {others}") } else { format!("{} would do, or {others}", would_do.join(" or ")) }
+    if would_do.is_empty() {
+        format!("take {others}")
+    } else {
+        format!("{} would do, or {others}", would_do.join(" or "))
+    }
 }

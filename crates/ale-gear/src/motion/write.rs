@@ -31,7 +31,8 @@ pub(super) fn write_motion(
 ) -> Result<Written, CommandError> {
     let rows = Columns::read(&results.path(rows::HISTORY))?;
     let headline = headline::headline(scene, words, prepared, done, &rows).map_err(no_statistics)?;
-    let facts = Facts { certificate: prepared.facts.certificate.clone().and(headline.checks()), ..prepared.facts.clone() };
+    let facts =
+        Facts { certificate: prepared.facts.certificate.clone().and(headline.checks()), ..prepared.facts.clone() };
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
     warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));

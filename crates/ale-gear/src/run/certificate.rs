@@ -11,8 +11,7 @@ const COMPLEMENTARITY: f64 = 1e-6;
 /// Sum of the forces on both gears over the largest.
 const ACTION_REACTION: f64 = 1e-8;
 
-const WAY_OUT: &str =
-    "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
+const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
 /// The worst of all positions: torque balance, complementarity, action and reaction.
 pub(crate) fn certificate(positions: &[StaticPosition]) -> Certificate {

@@ -28,7 +28,7 @@ pub(crate) fn sector_warnings(model: &StaticModel) -> Vec<String> {
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
 const LARGE_ERROR_MODULES: f64 = 0.05;
 
-/// What the certificates say that a user should hear.
+/// What a solution says that a user should hear.
 pub(super) fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();

@@ -47,7 +47,9 @@ pub enum MotionError<E> {
         least: f64,
     },
     /// An explicit method is far from stable with steps of given length.
-    #[error("at {time:.9} s: the explicit method is stable with steps of up to {longest:.3e} s here, a step is {step:.3e} s")]
+    #[error(
+        "at {time:.9} s: the explicit method is stable with steps of up to {longest:.3e} s here, a step is {step:.3e} s"
+    )]
     Unstable {
         /// Time, s.
         time: f64,

@@ -45,7 +45,12 @@ impl Scheme {
     ///
     /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where nothing moves by itself, and for matrices that hold no
     /// numbers.
-    pub fn step_limit(&self, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -> Option<StepLimit> {
+    pub fn step_limit(
+        &self,
+        mass: &DMatrix<f64>,
+        stiffness: &DMatrix<f64>,
+        damping: &DMatrix<f64>,
+    ) -> Option<StepLimit> {
         let polynomial = self.stability_polynomial()?;
         let [stiffness, damping] = per_mass(&Cholesky::new(mass.clone())?, [stiffness, damping])?;
         limit(&polynomial, &stiffness, &damping)
