@@ -13,14 +13,13 @@ const JUMP: f64 = 1e-4;
 const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
 
 impl MotionHeadline {
-    /// Energy, flanks that pull, forces that tooth changes drop or set off.
+    /// Energy, flanks that pull, forces that tooth changes set off.
     pub(super) fn checks(&self) -> Certificate {
         let c = &self.certificate;
         let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
         Certificate::new([
             energy_check(c.ledger_residual_mj, c.work_through_pair_mj, c.ledger_residual_over_turnover),
             pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
-            contact_check("dropped_force", c.dropped_force_n, force),
             Check { bound: JUMP, ..contact_check("force_jump", c.force_jump_at_tooth_change_n, force) },
         ])
     }
