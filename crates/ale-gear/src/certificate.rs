@@ -3,6 +3,8 @@
 //! Every analysis measures how well it has solved its own equations. Each of these measures has a bound; one beyond it, or one that is no number, makes the result a failed one: its files are
 //! written all the same, so that they can be looked at, marked as failed, and the command ends with status 1.
 
+use std::collections::BTreeMap;
+
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use crate::{error::CommandError, scene::Scene};
@@ -10,7 +12,8 @@ use crate::{error::CommandError, scene::Scene};
 /// One measure with its bound.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
-    /// What is measured, as `docs/outputs.md` names it.
+    /// What is measured, as `docs/outputs.md` names it; the key of the check.
+    #[serde(skip)]
     pub name: &'static str,
     /// What was found, never below zero; the larger, the worse.
     pub value: f64,
@@ -68,13 +71,14 @@ impl Certificate {
     }
 }
 
-/// `certificate` with the verdict in a word and `certificate_checks` with all checks; nothing where nothing was checked.
+/// `certificate` with the verdict in a word, `certificate_checks` with all checks by name, `certificate_missed` with those that do not hold in words; nothing where nothing was checked.
 impl Serialize for Certificate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         if !self.0.is_empty() {
             map.serialize_entry("certificate", if self.missed().next().is_none() { "held" } else { "failed" })?;
-            map.serialize_entry("certificate_checks", &self.0)?;
+            let by_name: BTreeMap<&str, &Check> = self.0.iter().map(|check| (check.name, check)).collect();
+            map.serialize_entry("certificate_checks", &by_name)?;
             let missed: Vec<String> = self.missed().map(Check::words).collect();
             map.serialize_entry("certificate_missed", &missed)?;
         }
@@ -111,7 +115,7 @@ mod tests {
         let all = Certificate::new([check(0.0), check(f64::NAN)]);
         let json = serde_json::to_value(&all).unwrap();
         assert_eq!(json["certificate"], "failed");
-        assert_eq!(json["certificate_checks"][1]["value"], serde_json::Value::Null);
+        assert_eq!(json["certificate_checks"]["torque_residual"]["value"], serde_json::Value::Null);
         assert_eq!(json["certificate_missed"].as_array().map(Vec::len), Some(1));
         assert_eq!(serde_json::to_value(Certificate::default()).unwrap(), serde_json::json!({}));
     }
