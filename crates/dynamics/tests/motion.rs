@@ -299,7 +299,7 @@ fn steps_that_stiffening_makes_too_long_are_parted() {
     let (free, _) = thousand_steps(40.0, Scheme::RungeKutta4, h, false);
     let (watched, parted) = thousand_steps(40.0, Scheme::RungeKutta4, h, true);
     println!("largest |q| {free:.2e} with steps as they are, {watched:.3} watched, {parted} of 1000 in parts");
-    assert!(!(free < 10.0), "{free}");
+    assert!(free.is_nan() || free > 10.0, "{free}");
     assert!(watched <= 1.1 && (100..1000).contains(&parted), "{watched}, {parted} in parts");
 }
 

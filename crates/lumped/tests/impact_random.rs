@@ -162,8 +162,8 @@ fn small_pair() -> ImpactMechanism {
     };
     let wheel = GearData { teeth: 13, profile_shift: 0.35, tip_edge_radius: 0.0, bore_diameter: 2.6, ..pinion.clone() };
     let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
-    let mut bearing = Bearing::default();
-    bearing.stiffness = Matrix6::from_diagonal(&SVector::from([4.278e4, 1.856e5, 0.0, 8.151e8, 0.0, 0.0]));
+    let stiffness = Matrix6::from_diagonal(&SVector::from([4.278e4, 1.856e5, 0.0, 8.151e8, 0.0, 0.0]));
+    let bearing = Bearing { stiffness, ..Bearing::default() };
     let stiffness = contact_stiffness(&pair, Driver::Pinion, 2.06e5, 0.3).unwrap();
     let options = ImpactOptions {
         driver: Driver::Pinion,
