@@ -47,6 +47,12 @@ impl ResultFolder {
         self.path.display().to_string()
     }
 
+    /// What does not hold of it, in words; nothing where all does.
+    pub fn missed(&self) -> Vec<&str> {
+        let listed = self.summary["certificate_missed"].as_array();
+        listed.into_iter().flatten().filter_map(Value::as_str).collect()
+    }
+
     /// Everything but the rows.
     pub fn summary(&self) -> &Value {
         &self.summary

@@ -1,8 +1,15 @@
 //! What a user should hear of a motion.
 
-use dynamics::pair_motion::Drive;
+use dynamics::pair_motion::{Drive, PairMechanism, stable_step};
 
-use super::{MotionHeadline, SweepHeadline, prepare, prepare::Prepared};
+use super::{
+    MotionHeadline, SweepHeadline,
+    course::failure,
+    prepare,
+    prepare::Prepared,
+    stable::{Steps, refuse_unstable},
+};
+use crate::run::Failure;
 use crate::scene::{MotionScene, Run, Scene};
 
 /// More steps than this in a mesh cycle take half a minute or more.
@@ -26,6 +33,40 @@ pub(super) fn coarse(scene: &Scene, words: &MotionScene, prepared: &Prepared) ->
              `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
         )
     })
+}
+
+/// Refuses steps of given length that are too long for an explicit method.
+///
+/// # Errors
+/// Exit status 1 with the limit, the step, and the number of steps that would do.
+pub(super) fn unstable(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
+    let Prepared { system, settings, quasi_static, .. } = prepared;
+    if settings.tolerance.is_some() || !settings.scheme.is_explicit() {
+        return Ok(());
+    }
+    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
+    let limit = stable_step(system, settings.scheme, guess, &settings.scale).map_err(|e| failure(scene, e))?;
+    let Some(limit) = limit else { return Ok(()) };
+    let longest = longest_cycle(scene, system);
+    let step = settings.step(longest, system.mesh_resonance_hz());
+    let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: prepare::fastest_hz(system) };
+    Ok(refuse_unstable(scene, &limit, &steps)?)
+}
+
+/// Duration of the longest mesh cycle of a run, s: the slowest one.
+fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
+    let motion = scene.motion.as_ref();
+    let slowest = motion.and_then(|m| m.sweep.as_ref()).map(|s| s.from_rpm.min(s.to_rpm));
+    let speed_rpm = slowest.unwrap_or(scene.operation.speed_rpm);
+    let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().contact.driven()];
+    let steady = 60.0 / (speed_rpm * f64::from(teeth));
+    let (pair, contact, nominal) = (system.pair(), &system.options().contact, system.nominal());
+    let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
+    // The first cycle of a run-up, the last one of a run-down.
+    let cycles = |t: f64| nominal.cycles(pair, contact, t) - nominal.start;
+    let last = cycles(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
+    let times = [0.0, 1.0, last - 1.0, last].map(|c| nominal.time_at(pair, contact, c).unwrap_or(f64::NAN));
+    (times[1] - times[0]).max(times[3] - times[2])
 }
 
 /// Steps of a mesh cycle so many that a user should know why nothing seems to go on.

@@ -11,10 +11,13 @@
 //! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
+//! | `stable` | steps too long for an explicit method |
 //! | `headline`, `spectra` | what is read off the rows |
+//! | `certificate` | what must hold of a motion |
 //! | `doubts` | what a user should hear of them |
 //! | `write` | files of the result |
 
+mod certificate;
 mod course;
 mod doubts;
 mod elasticity;
@@ -26,6 +29,7 @@ mod precision;
 mod prepare;
 mod rows;
 mod spectra;
+mod stable;
 mod store;
 mod sweep;
 mod table;
@@ -39,17 +43,20 @@ use prepare::{Inputs, Prepared, prepare};
 use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
+pub(crate) use certificate::{energy_check, pulling_check};
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
+pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
 
 use crate::{
     cache::Cache,
+    certificate::Written,
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
@@ -86,8 +93,8 @@ impl Progression {
 
 /// How a run ended.
 pub(crate) enum Outcome {
-    /// All files are written; the closing table.
-    Finished(String),
+    /// All files are written.
+    Finished(Written),
     /// The user asked to stop after so many mesh cycles.
     Stopped {
         /// Mesh cycles done.
@@ -178,7 +185,9 @@ fn through_windows(
             }
             Ok(Attempt::Sweep(mut prepared, points, sweep)) => {
                 prepared.warnings.extend(widened);
-                return write_sweep(scene, (words, sweep), phases, results, &prepared, &points).map(Outcome::Finished);
+                let table = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
+                let verdict = prepared.facts.certificate.verdict(scene);
+                return Ok(Outcome::Finished(Written { table, verdict }));
             }
             Err(Failure::Command(e)) => return Err(e),
             Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
@@ -207,8 +216,13 @@ pub(crate) fn rows_of(
     let mut window = None;
     loop {
         let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
-        let done = prepare(&inputs, phases, window)
-            .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
+        let done = prepare(&inputs, phases, window).and_then(|prepared| {
+            doubts::unstable(scene, &prepared)?;
+            let done = course::run(scene, words, &prepared, phases, places)?;
+            let rows = Columns::read(&folder.join(rows::HISTORY))?;
+            let headline = headline::headline(scene, words, &prepared, &done, &rows).map_err(no_statistics)?;
+            Ok(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
+        });
         match done {
             Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
             Err(Failure::Command(e)) => return Err(e),
@@ -237,6 +251,7 @@ fn attempt<'a>(
 ) -> Result<Attempt<'a>, Failure> {
     let Inputs { scene, words, .. } = *inputs;
     let mut prepared = prepare(inputs, phases, window)?;
+    doubts::unstable(scene, &prepared)?;
     prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
     if let Some(slow) = doubts::slow(scene, words, &prepared) {
         // Who waits should hear it before the end.

@@ -5,8 +5,9 @@ use study::{StudyError, Window};
 
 use super::{Columns, MotionHeadline, course::Finished, doubts, headline, prepare::Prepared, rows, spectra, sweep};
 use crate::{
+    certificate::Written,
     error::CommandError,
-    facts::Cost,
+    facts::{Cost, Facts},
     output::{
         MotionPictures, ResultDirectory, motion_table, sweep_table, write_columnar, write_motion_report,
         write_patterns, write_summary, write_sweep_report,
@@ -19,7 +20,7 @@ pub(super) fn no_statistics(e: StudyError) -> CommandError {
     CommandError::failed(&e, e.hint())
 }
 
-/// All files of a motion; the text is the closing table.
+/// All files of a motion.
 pub(super) fn write_motion(
     scene: &Scene,
     words: &MotionScene,
@@ -27,9 +28,11 @@ pub(super) fn write_motion(
     results: &ResultDirectory,
     prepared: &Prepared,
     done: &Finished,
-) -> Result<String, CommandError> {
+) -> Result<Written, CommandError> {
     let rows = Columns::read(&results.path(rows::HISTORY))?;
     let headline = headline::headline(scene, words, prepared, done, &rows).map_err(no_statistics)?;
+    let facts =
+        Facts { certificate: prepared.facts.certificate.clone().and(headline.checks()), ..prepared.facts.clone() };
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
     warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
@@ -61,13 +64,14 @@ pub(super) fn write_motion(
         view: prepared.view.as_ref(),
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
-    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
+    let report = write_motion_report(scene, &facts, &cost, &headline, &pictures, pattern, &warnings)?;
     report.write(results)?;
     write_columnar(scene, results)?;
     let files = results.files()?;
-    let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
+    let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
-    Ok(motion_table(scene, &prepared.facts, &cost, &headline, &warnings))
+    let table = motion_table(scene, &facts, &cost, &headline, &warnings);
+    Ok(Written { table, verdict: facts.certificate.verdict(scene) })
 }
 
 /// None for a record that repeats itself, where every line stands in one bin.

@@ -10,7 +10,7 @@ use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 use super::{SweepRequest, free_turn::FreeTurn};
 use crate::{
     error::CommandError,
-    ladder::{Model, Recipe, complaint, course, within_bounds},
+    ladder::{Model, Recipe, certificate, complaint, course, refuse_unstable, within_bounds},
     scene::{MotionScene, Scene, SweepWay},
 };
 
@@ -95,8 +95,10 @@ pub(super) fn run(
     let from = from.filter(|s| s.q.len() == count);
     let located = |e: CommandError| CommandError { message: format!("{} = {value}: {}", request.key, e.message), ..e };
     let complain = |e: LumpedError| located(complaint(scene, &e));
+    refuse_unstable(recipe, words, &mut model, made.resonance_hz).map_err(located)?;
     let course = course::run(&mut model, scene, words, frequencies, from, || ()).map_err(complain)?;
     within_bounds(&course.history).map_err(located)?;
+    certificate(recipe, &course).verdict(scene).map_err(located)?;
     let every = request.every(scene) as usize;
     let points: Vec<f64> = course.section.get(&request.of).iter().copied().step_by(every).collect();
     let extent = course.history.extent(&request.of);
