@@ -21,7 +21,7 @@ pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
 pub use instant::{Instant, PressedSlice};
-pub use low_frequency::{ElasticRatio, LOW_FREQUENCY_LIMIT, harmonic_that_matters};
+pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT};
 pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
 pub use mesh_side::{Changes, SidePlace};
 pub use modal::GearVibration;
@@ -31,4 +31,4 @@ pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Seen,
 pub use shooting::{Shot, shoot};
 pub use start::quasi_static_start;
 pub use steady::{LONGEST_PERIOD, Periodicity, Returns, run_to_steady};
-pub use sweep::{SHOTS, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way, sweep};
+pub use sweep::{SHOTS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way, sweep};

@@ -21,7 +21,7 @@ use crate::{StaticError, root_stress::RootStress};
 pub use build::equivalent_mass;
 pub use extremes::Extremes;
 
-use build::equivalent_mass_of;
+use build::{equivalent_mass_of, masses_on_base_circles};
 use touching::Touching;
 
 /// A pair of gears as an integrator sees it.
@@ -119,6 +119,24 @@ impl PairMechanism {
         (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
     }
 
+    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of the drive.
+    pub fn mesh_resonances_hz(&self) -> [f64; 2] {
+        let inertia = self.base_circle_masses();
+        let driver = 1 - self.options.contact.driven();
+        [None, Some(driver)]
+            .map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
+    }
+
+    /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
+    pub fn base_circle_masses(&self) -> [f64; 2] {
+        masses_on_base_circles(&self.pair, &self.options.bodies)
+    }
+
+    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is prescribed.
+    pub fn equivalent_mass(&self) -> f64 {
+        equivalent_mass_of(&self.pair, &self.options)
+    }
+
     /// Free coordinates.
     pub fn coordinates(&self) -> &Coordinates {
         &self.coordinates
@@ -174,7 +192,7 @@ impl PairMechanism {
     /// Mesh cycles that the gears have turned, a driver's own deviation from its nominal turn included.
     fn turned_cycles(&self, t: f64, d: &Displacement) -> f64 {
         let contact = &self.options.contact;
-        if self.coordinates.driver_turn().is_none() {
+        if !self.coordinates.driver_moves() {
             return self.cycles(t);
         }
         let driver = 1 - contact.driven();
