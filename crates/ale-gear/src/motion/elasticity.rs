@@ -95,8 +95,8 @@ impl Elasticity {
             None => (0..2).map(|i| (self.lowest_hz[i], format!("{} elastic", gears[i]))).collect(),
             Some(kept) => (0..2)
                 .flat_map(|i| {
-                    let all = kept[i].modes.frequencies_hz().iter().enumerate();
-                    all.map(move |(k, hz)| (*hz, format!("{} mode {}", gears[i], k + 1)))
+                    let all = kept[i].modes.frequencies_hz().into_iter().enumerate();
+                    all.map(move |(k, hz)| (hz, format!("{} mode {}", gears[i], k + 1)))
                 })
                 .collect(),
         }

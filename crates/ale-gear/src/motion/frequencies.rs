@@ -40,7 +40,7 @@ impl Frequencies {
     ///
     /// # Errors
     /// [`StudyError`] for a frequency that is no number.
-    pub fn of(prepared: &Prepared, teeth: u32, highest_mesh_hz: f64) -> Result<Self, StudyError> {
+    pub(super) fn of(prepared: &Prepared, teeth: u32, highest_mesh_hz: f64) -> Result<Self, StudyError> {
         let mut lines = vec![(prepared.system.mesh_resonance_hz(), "mesh resonance".to_owned())];
         lines.extend(prepared.elasticity.frequencies_hz().into_iter().filter(|(hz, _)| hz.is_finite()));
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -58,7 +58,12 @@ impl Frequencies {
         let mut all: Vec<_> = self.diagram.resonances.iter().collect();
         all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         let one = |r: &study::Resonance| CriticalSpeed {
-            excitation: self.diagram.orders.iter().position(|o| *o == r.order).map_or(String::new(), |i| self.orders[i].clone()),
+            excitation: self
+                .diagram
+                .orders
+                .iter()
+                .position(|o| *o == r.order)
+                .map_or(String::new(), |i| self.orders[i].clone()),
             meets: self.names[r.mode].clone(),
             driver_speed_rpm: 60.0 * r.speed,
             frequency_hz: r.frequency,

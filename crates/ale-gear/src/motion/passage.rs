@@ -7,7 +7,7 @@ use study::{StudyError, cycle_statistics};
 use super::{options::RPM, spectra::WaterfallLine, table::Columns};
 
 /// One row a mesh cycle.
-pub(super) const CYCLES: &str = "cycles.csv";
+pub(crate) const CYCLES: &str = "cycles.csv";
 /// Amplitudes of mesh orders over speed.
 pub(super) const ORDER_CUTS: &str = "order_cuts.csv";
 /// Mesh orders that are followed.
@@ -169,12 +169,10 @@ impl Passage {
         ];
         let mut rows = Columns::named(names.into_iter().chain(pairs.then_some("max_pair_normal_force_n")));
         for c in &self.cycles {
-            let [a, b] = [[c.time_s, c.driver_speed_rpm, c.mesh_frequency_hz, c.mean_dte_um], [
-                c.peak_to_peak_dte_um,
-                c.min_normal_force_n,
-                c.max_normal_force_n,
-                c.dynamic_factor,
-            ]];
+            let [a, b] = [
+                [c.time_s, c.driver_speed_rpm, c.mesh_frequency_hz, c.mean_dte_um],
+                [c.peak_to_peak_dte_um, c.min_normal_force_n, c.max_normal_force_n, c.dynamic_factor],
+            ];
             rows.push(a.into_iter().chain(b).chain(c.max_pair_normal_force_n.filter(|_| pairs)));
         }
         rows.to_csv()

@@ -67,7 +67,8 @@ impl Asked {
     /// As the scene has it, before it begins: steps of a cycle times cycles, the lowest mode dying out among them.
     pub fn as_it_is(&self, prepared: &Prepared) -> Price {
         let fastest = super::prepare::fastest_hz(&prepared.system);
-        let slowest = prepared.system.mode_frequencies_hz().into_iter().fold(prepared.system.mesh_resonance_hz(), f64::min);
+        let slowest =
+            prepared.system.mode_frequencies_hz().into_iter().fold(prepared.system.mesh_resonance_hz(), f64::min);
         Price { cost: 1.0, ..self.with_modes(fastest, slowest, true) }
     }
 }

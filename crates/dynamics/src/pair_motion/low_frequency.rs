@@ -11,7 +11,8 @@
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
 
 /// Share of the peak to peak that may change before a user should hear of it: what one harmonic at [`LOW_FREQUENCY_LIMIT`] changes, 1/(1 - r^2) - 1 = 1/15.
-pub const CHANGE_LIMIT: f64 = LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT / (1.0 - LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT);
+pub const CHANGE_LIMIT: f64 =
+    LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT / (1.0 - LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT);
 
 /// Damping ratio of an elastic mode that an exciting frequency meets: of a steel gear with what holds it.
 const MODE_DAMPING: f64 = 0.01;

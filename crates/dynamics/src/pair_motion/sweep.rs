@@ -155,9 +155,7 @@ fn standing(
     state: Option<&State>,
 ) -> (SweepOutcome, Option<State>) {
     // Teeth missing beside the window are no matter of the start.
-    let starved = |e: &PairMotionError| {
-        matches!(e, MotionError::Mechanism { source: StaticError::Starved { .. }, .. })
-    };
+    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source: StaticError::Starved { .. }, .. });
     let carried = state.map(|state| one(system, plan, way, speed, Some(state)));
     let found = match carried {
         Some(Ok(found)) => Ok(found),
@@ -182,9 +180,7 @@ fn one(
         Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
         _ => Drive::Speed(Speed::Constant(speed)),
     };
-    let mut own = system
-        .with_drive(drive)
-        .map_err(|source| MotionError::Mechanism { time, source })?;
+    let mut own = system.with_drive(drive).map_err(|source| MotionError::Mechanism { time, source })?;
     let own_start = state.is_none();
     let state = match state {
         Some(before) => State::new(time, before.q.clone(), before.v.clone()),

@@ -1,6 +1,6 @@
 //! Motion in time: bodies, bearings, torques, modes, integration, analyses.
 
-use super::{Key, Table, bare, keys, number, rows, switch, table, whole, word, words};
+use super::{Key, Table, bare, bare_word, keys, number, rows, switch, table, whole, word, words};
 
 /// `[pinion.body]`
 pub(in crate::scene) static BODY: Table = keys(

@@ -9,8 +9,7 @@ use super::{Extremes, PairMechanism};
 use crate::{
     ElasticGear, StaticError,
     pair_motion::{
-        Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal,
-        RigidBody, Speed,
+        Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal, RigidBody, Speed,
         mesh_side::MeshSide, modal::Modal,
     },
 };

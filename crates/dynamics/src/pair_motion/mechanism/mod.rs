@@ -123,8 +123,7 @@ impl PairMechanism {
     pub fn mesh_resonances_hz(&self) -> [f64; 2] {
         let inertia = self.base_circle_masses();
         let driver = 1 - self.options.contact.driven();
-        [None, Some(driver)]
-            .map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
+        [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
     }
 
     /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
