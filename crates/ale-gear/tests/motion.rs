@@ -259,8 +259,8 @@ fn wrong_motions_are_told_with_line_and_hint() {
          [wheel.body], or leave it out",
     );
     says(
-        of("[drive]\ntorque_nm = 100.0\n"),
-        "25: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
+        of("[drive]\nby = \"speed\"\ntorque_nm = 100.0\n"),
+        "26: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
          leave the torque out",
     );
     says(

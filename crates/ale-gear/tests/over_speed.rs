@@ -8,7 +8,7 @@ use util::{Scratch, column, motion_scene as scene, repository};
 fn run(scratch: &Scratch, more: &[&str]) -> Value {
     let words = [&["run", "a.toml", "--out", "o"], more].concat();
     let run = scratch.command(&words);
-    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
     serde_json::from_str(&scratch.read("o/summary.json")).unwrap()
 }
 
@@ -93,7 +93,7 @@ fn both_gears_are_free_unless_the_scene_holds_the_driver() {
 /// A run-up through the resonance: the headline is the largest mesh cycle with its speed, not the mean over all of them, and the files follow every cycle and order over speed.
 #[test]
 fn the_headline_of_a_run_up_is_its_largest_cycle_and_where() {
-    let ramp = "run = \"ramp\"\nmesh_damping_ratio = 0.03\nramp = { from_rpm = 3000, to_rpm = 14000, duration_s = 0.06, waterfall_cycles = 8 }\n";
+    let ramp = "run = \"ramp\"\nmesh_damping_ratio = 0.03\nramp = { from_rpm = 3000, to_rpm = 14000, duration_s = 0.03, waterfall_cycles = 8 }\n";
     let scratch = Scratch::new().file("a.toml", scene(0, ramp).replace("resonance = 0", "resonance = 10"));
     let summary = run(&scratch, &[]);
     let headline = &summary["headline"];
@@ -153,38 +153,37 @@ fn a_pair_without_backlash_is_told_in_motion() {
 #[test]
 fn a_value_without_a_solution_leaves_the_others_alone() {
     let seed = std::fs::read_to_string(repository().join("scenes/seeds/004.toml")).unwrap();
-    let words = |from: &'static str, to: &'static str| {
-        let all = [
-            "sweep",
-            "a.toml",
-            "--out",
-            "o",
-            "--key",
-            "pinion.bearing.stiffness_y_n_per_mm",
-            "--points",
-            "3",
-            "--cycles",
-            "2",
-            "--settle",
-            "20",
-            "--lyapunov",
-            "0",
-        ];
-        [&all[..], &["--from", from, "--to", to, "--set", "motion.steps_per_resonance=0"]].concat()
+    let own: String = seed
+        .lines()
+        .filter(|l| !l.starts_with("spectral_radius") && !l.starts_with("method"))
+        .map(|l| format!("{l}\n"))
+        .collect();
+    let swept = |from: &str| {
+        let scratch = Scratch::new().file("a.toml", &own);
+        let words = "sweep a.toml --out o --quiet --key mesh.stiffness_n_per_um --to 1e9 --points 3 --log --cycles 2 --settle 20 --lyapunov 0 --set motion.steps_per_resonance=0";
+        let mut words: Vec<&str> = words.split(' ').collect();
+        words.extend(["--from", from, "--set", "motion.method=\"rk4\""]);
+        let done = scratch.command(&words);
+        (scratch, done)
     };
-    // A gear that nothing holds along the line of action has no place to begin.
-    let scratch = Scratch::new().file("a.toml", &seed);
-    let done = scratch.command(&words("0", "2e5"));
-    assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""), "{}", done.stdout);
+    // Steps that a soft mesh stands blow an explicit method up on a hard one.
+    let (scratch, done) = swept("1e3");
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
     let csv = scratch.read("o/sweep.csv");
-    let rows: Vec<&str> = csv.lines().skip(1).collect();
-    assert_eq!(rows.len(), 6, "{csv}");
-    for row in rows {
-        let failed = row.starts_with("up,0,") || row.starts_with("down,0,");
-        assert_eq!(row.contains(",failed,"), failed, "{row}");
-        assert_eq!(row.contains("NaN,NaN,NaN"), failed, "{row}");
+    for way in ["up", "down"] {
+        let rows: Vec<&str> = csv.lines().filter(|l| l.starts_with(&format!("{way},"))).collect();
+        assert_eq!(rows.len(), 3, "{csv}");
+        assert!(rows[0].ends_with(",solved,") && !rows[0].contains("NaN,NaN,NaN"), "{csv}");
+        assert!(rows[2].contains(",failed,") && rows[2].contains("NaN,NaN,NaN"), "{csv}");
     }
     let summary: Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    assert!(warned(&summary, "2 of 6 points have no solution"), "{}", summary["warnings"]);
-    assert_eq!(summary["headline"]["failed"].as_array().unwrap().len(), 2);
+    let failed = summary["headline"]["failed"].as_array().unwrap();
+    assert!(
+        !failed.is_empty() && warned(&summary, &format!("{} of 6 points have no solution", failed.len())),
+        "{}",
+        summary["warnings"]
+    );
+    let (scratch, done) = swept("1e8");
+    assert_eq!((done.code, scratch.names()), (Some(1), vec!["a.toml".to_owned()]), "{}", done.stderr);
+    assert!(done.stderr.starts_with("ale-gear: mesh.stiffness_n_per_um = 100000000: "), "{}", done.stderr);
 }
