@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dynamics::{
     ElasticGear,
-    pair_motion::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT},
+    pair_motion::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance},
 };
 use reduction::{GearModes, GearReducer, ModeChoice, ReductionError};
 use serde::Serialize;
@@ -102,22 +102,17 @@ impl Elasticity {
         }
     }
 
-    /// What the inertia of elastic deformation that is left out may change in a motion. Of every harmonic the larger one of the quasi-static and of the dynamic transmission error counts:
-    /// the first is what excites, the second what has been excited.
-    pub fn beside(&self, found: &Vibration<'_>) -> ElasticChange {
-        let count = self.amplitudes_um.len().max(found.harmonics_um.len());
-        let of = |all: &[f64], k: usize| all.get(k).map_or(0.0, |a| a.abs());
-        let amplitudes: Vec<f64> =
-            (0..count).map(|k| of(&self.amplitudes_um, k).max(of(found.harmonics_um, k))).collect();
+    /// What the inertia of elastic deformation that is left out may change in a motion.
+    pub fn beside(&self, found: &Vibration) -> ElasticChange {
         let bounds = match &self.kept {
             None => self.lowest_hz,
             Some(kept) => [0, 1].map(|i| highest(&kept[i]).unwrap_or(self.lowest_hz[i])),
         };
-        ElasticChange::of(&amplitudes, found.mesh_hz, bounds)
+        ElasticChange::of(&self.amplitudes_um, found.mesh_hz, bounds, found.resonance)
     }
 
     /// For the results of a run.
-    pub fn headline(&self, found: &Vibration<'_>) -> ElasticHeadline {
+    pub fn headline(&self, found: &Vibration) -> ElasticHeadline {
         let change = self.beside(found);
         let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
         ElasticHeadline {
@@ -126,8 +121,8 @@ impl Elasticity {
             mesh_harmonic: change.harmonic,
             mesh_harmonic_over_elastic: change.harmonic_hz() / lowest,
             limit_of_quasi_static: LOW_FREQUENCY_LIMIT,
-            change_of_peak_to_peak_um: change.change,
-            change_over_peak_to_peak: change.change / found.peak_to_peak_um,
+            change_of_peak_to_peak_um: change.share * found.peak_to_peak_um,
+            change_over_peak_to_peak: change.share,
             limit_of_change: CHANGE_LIMIT,
             kept_modes: self.kept.as_ref().map(|kept| KeptModes {
                 count: kept.each_ref().map(|g| g.modes.count()),
@@ -137,9 +132,9 @@ impl Elasticity {
     }
 
     /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its highest kept mode. The remedy has its price, at the pace of this run.
-    pub fn warning(&self, found: &Vibration<'_>, asked: &Asked, pace: Pace) -> Option<String> {
+    pub fn warning(&self, found: &Vibration, asked: &Asked, pace: Pace) -> Option<String> {
         let change = self.beside(found);
-        if !change.matters(found.peak_to_peak_um) {
+        if !change.matters() {
             return None;
         }
         let [pinion, wheel] = change.ratios();
@@ -161,8 +156,8 @@ impl Elasticity {
             change.harmonic,
             change.harmonic_hz(),
             change.largest_ratio(),
-            change.change,
-            100.0 * change.change / found.peak_to_peak_um,
+            change.share * found.peak_to_peak_um,
+            100.0 * change.share,
             100.0 * CHANGE_LIMIT,
             asked.with_modes(below_hz, lowest, self.kept.is_some()).said(pace),
         ))
@@ -171,12 +166,11 @@ impl Elasticity {
 
 /// What has been found of a motion, to be held against the elastic frequencies.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Vibration<'a> {
+pub(super) struct Vibration {
     /// Least and highest mesh frequency, Hz.
     pub mesh_hz: [f64; 2],
-    /// Mesh harmonics of the DTE, um.
-    pub harmonics_um: &'a [f64],
-    /// Its peak to peak, um.
+    pub resonance: MeshResonance,
+    /// Peak to peak of the DTE, um.
     pub peak_to_peak_um: f64,
 }
 

@@ -131,7 +131,7 @@ pub(super) fn headline(
     };
     let vibration = Vibration {
         mesh_hz: mesh_range_hz(scene, words, Some(rows)),
-        harmonics_um: &harmonics,
+        resonance: system.mesh_resonance(),
         peak_to_peak_um: peak_to_peak,
     };
     Ok(MotionHeadline {

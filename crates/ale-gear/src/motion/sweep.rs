@@ -293,7 +293,7 @@ pub(super) fn write(rows: &[SweepRow]) -> String {
 pub(super) fn headline(
     words: (&MotionScene, &SweepScene),
     prepared: &Prepared,
-    (rows, vibration): (&[SweepRow], &Vibration<'_>),
+    (rows, vibration): (&[SweepRow], &Vibration),
     critical_speeds: Vec<CriticalSpeed>,
     teeth: u32,
 ) -> SweepHeadline {
@@ -326,9 +326,7 @@ pub(super) fn headline(
     }
 }
 
-/// The largest mesh harmonics of all speeds, um, and the largest peak to peak.
-pub(super) fn largest(rows: &[SweepRow]) -> (Vec<f64>, f64) {
-    let most = |value: &dyn Fn(&SweepRow) -> f64| rows.iter().map(value).filter(|x| x.is_finite()).fold(0.0, f64::max);
-    let harmonic = |k: usize| most(&|r: &SweepRow| r.dte_harmonics_um.get(k).copied().unwrap_or(0.0));
-    ((0..ORDERS).map(harmonic).collect(), most(&|r| r.peak_to_peak_dte_um))
+/// The largest peak to peak of all speeds, um.
+pub(super) fn largest(rows: &[SweepRow]) -> f64 {
+    rows.iter().map(|r| r.peak_to_peak_dte_um).filter(|x| x.is_finite()).fold(0.0, f64::max)
 }

@@ -56,8 +56,11 @@ pub(super) fn write_motion(
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
     let mesh_hz = mesh_range_hz(scene, words, Some(&rows));
-    let vibration =
-        Vibration { mesh_hz, harmonics_um: &headline.dte_harmonics_um, peak_to_peak_um: headline.peak_to_peak_dte_um };
+    let vibration = Vibration {
+        mesh_hz,
+        resonance: prepared.system.mesh_resonance(),
+        peak_to_peak_um: headline.peak_to_peak_dte_um,
+    };
     let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
     let asked = Asked::new(scene, words, cycles, mesh_hz);
     let pace = pace(phases, &["settle", "solve"], headline.certificate.steps as f64);
@@ -135,8 +138,8 @@ pub(super) fn write_sweep(
     let teeth = driver_teeth(scene, prepared);
     let mesh_hz = mesh_range_hz(scene, words.0, None);
     let campbell = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
-    let (harmonics, peak_to_peak_um) = sweep::largest(&rows);
-    let vibration = Vibration { mesh_hz, harmonics_um: &harmonics, peak_to_peak_um };
+    let resonance = prepared.system.mesh_resonance();
+    let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: sweep::largest(&rows) };
     let headline = sweep::headline(words, prepared, (&rows, &vibration), campbell.critical_speeds(), teeth);
     let mut warnings = prepared.warnings.clone();
     let waited: u64 = rows.iter().map(|r| r.warm_up_cycles + u64::from(scene.analysis.cycles)).sum();

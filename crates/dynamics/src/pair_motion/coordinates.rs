@@ -23,8 +23,6 @@ pub struct Coordinates {
     names: Vec<&'static str>,
     lag: usize,
     driver_turn: Option<usize>,
-    /// Whether the driver turns off its nominal motion.
-    driver_moves: bool,
 }
 
 const NAMES: [[&str; COORDINATES]; 2] = [
@@ -63,8 +61,7 @@ impl Coordinates {
             }
         }
         let map = DMatrix::from_fn(12, columns.len(), |i, j| columns[j].0[i]);
-        let driver_moves = driver_turn.is_some();
-        Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn, driver_moves }
+        Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
     /// The same with the lag shared between both gears, so that it leaves the momentum of their common motion alone. Theory (45a).
@@ -84,7 +81,6 @@ impl Coordinates {
             // The driver runs ahead the way the driven gear lags: one turns against the other.
             self.map[(turn(1 - driven), self.lag)] = of_driver * options.side().sign() / base[1 - driven];
             self.map[(turn(driven), self.lag)] *= 1.0 - of_driver;
-            self.driver_moves = true;
         }
         self
     }
@@ -107,11 +103,6 @@ impl Coordinates {
     /// Number of the coordinate that is the driver's turn (rad), where a torque drives it.
     pub fn driver_turn(&self) -> Option<usize> {
         self.driver_turn
-    }
-
-    /// Whether the driver turns off its nominal motion, by a coordinate of its own or by its share of the lag.
-    pub fn driver_moves(&self) -> bool {
-        self.driver_moves
     }
 
     /// Sizes of the coordinates that belong to a displacement of `length` (mm) at the flanks: turns are taken over a lever of `lever` (mm).

@@ -10,22 +10,33 @@
 /// at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such gears is up to twice as high: as a bound it would warn too late.
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
 
-/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at [`LOW_FREQUENCY_LIMIT`] changes, 1/(1 - r^2) - 1 = 1/15.
-pub const CHANGE_LIMIT: f64 =
-    LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT / (1.0 - LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT);
+/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at [`LOW_FREQUENCY_LIMIT`] changes far above the mesh resonance, r^2.
+pub const CHANGE_LIMIT: f64 = LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT;
 
 /// Damping ratio of an elastic mode that an exciting frequency meets: of a steel gear with what holds it.
 const MODE_DAMPING: f64 = 0.01;
-/// Mesh frequencies at which a motion that passes through many is looked at, beside those that meet the lowest mode.
-const PLACES: usize = 64;
+/// Least damping ratio of the mesh that is reckoned with.
+const MESH_DAMPING: f64 = 0.005;
+/// Mesh frequencies at which a motion that passes through many is looked at, beside those that meet a resonance.
+const PLACES: usize = 256;
 
-/// Mesh harmonics of the transmission error beside the lowest elastic frequencies of both gears. Theory (63).
+/// The mesh resonance: frequency of the two gears on the mean stiffness of their teeth, Hz, and its damping ratio.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshResonance {
+    /// Frequency, Hz.
+    pub hz: f64,
+    /// Damping ratio.
+    pub damping: f64,
+}
+
+/// What elastic inertia that is left out may change in the transmission error. Theory (63).
 ///
 /// ```text
-/// change(f_m) = sum_k 2 A_k |1 / (1 - r_k^2 + 2 i zeta r_k) - 1|,   r_k = k f_m / f_1
+/// x_k = A_k / (1 - rho_k^2 D_k + 2 i zeta rho_k),   rho_k = k f_m / f_0,   D_k = 1 / (1 - r_k^2),   r_k = k f_m / f_1
+/// change(f_m) = sum_k | |x_k| - |x_k at D = 1| |,   share = max change / max sum_k |x_k at D = 1|
 /// ```
-/// The largest over the mesh frequencies of the motion: by so much its peak to peak may change if the inertia of elastic deformation is taken into account. A bound, since it puts all compliance of the
-/// flanks into the lowest mode.
+/// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and bodies give way by D times as much as at rest, if all of their compliance is in the
+/// lowest mode. So it is a bound. A motion that passes through many mesh frequencies is compared at equal places beside its resonance, which D shifts by r^2 / 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticChange {
     /// Mesh frequency at which most may change, Hz.
@@ -34,27 +45,39 @@ pub struct ElasticChange {
     pub harmonic: usize,
     /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz ([`reduction::LowestFrequencies::flanks_free_hz`]), or the highest mode that is kept.
     pub elastic_hz: [f64; 2],
-    /// By how much the peak to peak may change, mm or whatever the amplitudes are in.
-    pub change: f64,
+    /// By how much of itself the peak to peak may change.
+    pub share: f64,
 }
 
 impl ElasticChange {
-    /// `amplitudes`: of mesh harmonics 1, 2, ...; `mesh_hz`: least and highest mesh frequency of the motion.
-    pub fn of(amplitudes: &[f64], mesh_hz: [f64; 2], elastic_hz: [f64; 2]) -> Self {
+    /// `amplitudes`: of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz`: least and highest mesh frequency of the motion.
+    pub fn of(amplitudes: &[f64], mesh_hz: [f64; 2], elastic_hz: [f64; 2], resonance: MeshResonance) -> Self {
         let lowest = elastic_hz[0].min(elastic_hz[1]);
-        let part = |k: usize, mesh: f64| 2.0 * amplitudes[k].abs() * off((k + 1) as f64 * mesh / lowest);
+        let response = Response { resonance, lowest };
         let [from, to] = mesh_hz;
+        let shift = if from < to { response.shift() } else { 1.0 };
+        let part = |k: usize, mesh: f64| {
+            let hz = (k + 1) as f64 * mesh;
+            let still = amplitudes[k].abs() * response.size(hz, false);
+            [still, (amplitudes[k].abs() * response.size(shift * hz, true) - still).abs()]
+        };
         let passed = (0..=PLACES).map(|i| from + (to - from) * i as f64 / PLACES as f64);
-        let met = (1..=amplitudes.len()).map(|k| lowest / k as f64).filter(|f| (from..to).contains(f));
-        let mut worst = Self { mesh_hz: to, harmonic: 1, elastic_hz, change: 0.0 };
+        let met = (1..=amplitudes.len()).flat_map(|k| [lowest / k as f64, resonance.hz / k as f64]);
+        let met = met.filter(|f| (from..to).contains(f));
+        let (mut worst, mut largest, mut most) =
+            (Self { mesh_hz: to, harmonic: 1, elastic_hz, share: 0.0 }, 0.0f64, 0.0);
         for mesh in passed.chain(met) {
-            let change: f64 = (0..amplitudes.len()).map(|k| part(k, mesh)).sum();
-            if change > worst.change {
-                let first = |best: usize, k: usize| if part(k, mesh) > part(best, mesh) { k } else { best };
-                let harmonic = 1 + (0..amplitudes.len()).fold(0, first);
-                worst = Self { mesh_hz: mesh, harmonic, elastic_hz, change };
+            let parts: Vec<[f64; 2]> = (0..amplitudes.len()).map(|k| part(k, mesh)).collect();
+            largest = largest.max(parts.iter().map(|p| p[0]).sum());
+            let change: f64 = parts.iter().map(|p| p[1]).sum();
+            if change > most {
+                let first = |best: usize, k: usize| if parts[k][1] > parts[best][1] { k } else { best };
+                most = change;
+                worst.mesh_hz = mesh;
+                worst.harmonic = 1 + (0..parts.len()).fold(0, first);
             }
         }
+        worst.share = if largest > 0.0 { most / largest } else { 0.0 };
         worst
     }
 
@@ -73,17 +96,37 @@ impl ElasticChange {
         self.ratios().into_iter().fold(0.0, f64::max)
     }
 
-    /// Whether a user should hear of it beside a peak to peak, in the unit of the amplitudes.
-    pub fn matters(&self, peak_to_peak: f64) -> bool {
-        self.change > CHANGE_LIMIT * peak_to_peak
+    /// Whether a user should hear of it.
+    pub fn matters(&self) -> bool {
+        self.share > CHANGE_LIMIT
     }
 }
 
-/// |1 / (1 - r^2 + 2 i zeta r) - 1|: what a lowest mode changes in a deflection at r times its frequency.
-fn off(r: f64) -> f64 {
-    let (re, im) = (1.0 - r * r, 2.0 * MODE_DAMPING * r);
-    // (1 - d) / d with d = re + i im.
-    (1.0 - re).hypot(im) / re.hypot(im)
+/// Both gears on their teeth, with and without inertia of elastic deformation.
+struct Response {
+    resonance: MeshResonance,
+    /// f_1, Hz.
+    lowest: f64,
+}
+
+impl Response {
+    /// |1 / (1 - rho^2 D + 2 i zeta rho)|.
+    fn size(&self, hz: f64, elastic: bool) -> f64 {
+        let (rho, zeta) = (hz / self.resonance.hz, self.resonance.damping.max(MESH_DAMPING));
+        let times = if elastic { gives_way(hz / self.lowest) } else { 1.0 };
+        1.0 / (1.0 - rho * rho * times).hypot(2.0 * zeta * rho)
+    }
+
+    /// Mesh resonance with that inertia over the one without: rho^2 D = 1.
+    fn shift(&self) -> f64 {
+        1.0 / (1.0 + (self.resonance.hz / self.lowest).powi(2)).sqrt()
+    }
+}
+
+/// D = 1 / (1 - r^2), and no more either way than damping lets it.
+fn gives_way(r: f64) -> f64 {
+    let rest = 1.0 - r * r;
+    1.0 / rest.abs().max(2.0 * MODE_DAMPING).copysign(rest)
 }
 
 #[cfg(test)]
@@ -91,31 +134,45 @@ mod tests {
     use super::*;
 
     const ELASTIC: [f64; 2] = [36_000.0, 24_000.0];
+    const LOW: MeshResonance = MeshResonance { hz: 50.0, damping: 0.05 };
 
-    /// One harmonic alone matters from a quarter of the lower frequency on.
+    /// Far above the mesh resonance one harmonic alone matters from a quarter of the lower elastic frequency on, and gets smaller by r^2.
     #[test]
     fn one_harmonic_matters_from_the_limit_on() {
-        let at = |mesh_hz: f64| ElasticChange::of(&[0.0, 0.0, 1.0], [mesh_hz; 2], ELASTIC);
-        assert!(!at(1_990.0).matters(2.0) && at(2_010.0).matters(2.0), "{:?} {:?}", at(1_990.0), at(2_010.0));
+        let at = |mesh_hz: f64| ElasticChange::of(&[0.0, 0.0, 1.0], [mesh_hz; 2], ELASTIC, LOW);
+        assert!(!at(1_990.0).matters() && at(2_010.0).matters(), "{:?} {:?}", at(1_990.0), at(2_010.0));
         assert_eq!((at(2_010.0).harmonic, at(2_010.0).harmonic_hz()), (3, 6_030.0));
-        assert!((at(2_000.0).change / (2.0 * CHANGE_LIMIT) - 1.0).abs() < 1e-2, "{:?}", at(2_000.0));
+        assert!((at(4_000.0).share / 0.25 - 1.0).abs() < 1e-2, "{:?}", at(4_000.0));
+        assert!(at(8_000.0).share > 0.9, "at its own frequency the gear gives way to everything: {:?}", at(8_000.0));
     }
 
-    /// A harmonic of a thousandth of the motion may be fast: it changes nothing. The same beside a still motion does.
+    /// Far below the mesh resonance the gears follow their teeth however they give way.
+    #[test]
+    fn slow_gears_change_little() {
+        let stiff = MeshResonance { hz: 20_000.0, damping: 0.05 };
+        assert!(ElasticChange::of(&[1.0, 0.5], [500.0; 2], ELASTIC, stiff).share < 1e-4);
+    }
+
+    /// A harmonic of a thousandth of the motion may be as fast as it likes.
     #[test]
     fn a_small_harmonic_changes_little() {
-        let change = ElasticChange::of(&[0.5, 0.0, 0.001], [4_000.0; 2], ELASTIC);
-        assert!(!change.matters(1.0), "{change:?}");
-        assert!(ElasticChange::of(&[0.0, 0.0, 0.001], [4_000.0; 2], ELASTIC).matters(0.002));
+        let resonance = MeshResonance { hz: 4_000.0, damping: 0.05 };
+        let change = |a: &[f64]| ElasticChange::of(a, [500.0; 2], ELASTIC, resonance);
+        let mut all = [0.0; 32];
+        (all[0], all[24]) = (0.1, 0.0001);
+        assert!(change(&all[..24]).share < 0.01 && !change(&all).matters(), "{:?}", change(&all));
+        all[0] = 0.0;
+        assert!(change(&all).matters(), "the only one there is: {:?}", change(&all));
+        assert_eq!(change(&[]).share, 0.0);
     }
 
-    /// A motion that passes through a mode meets it between the places that are looked at; far above a mode the gear no longer gives way, and all of the harmonic is off.
+    /// A motion that passes its mesh resonance finds it some percent lower with elastic inertia: its peak is the same.
     #[test]
-    fn passing_a_mode_is_seen() {
-        let passing = ElasticChange::of(&[0.001], [10_000.0, 30_000.0], ELASTIC);
-        assert_eq!(passing.mesh_hz, 24_000.0);
-        assert!((passing.change - 0.002 * 50.0).abs() < 1e-4, "{passing:?}");
-        assert!((ElasticChange::of(&[1.0], [1e6; 2], ELASTIC).change - 2.0).abs() < 1e-2);
-        assert_eq!(ElasticChange::of(&[], [1.0; 2], ELASTIC).change, 0.0);
+    fn a_shifted_resonance_is_no_change() {
+        let resonance = MeshResonance { hz: 4_000.0, damping: 0.02 };
+        let passing = ElasticChange::of(&[1.0], [2_000.0, 5_000.0], ELASTIC, resonance);
+        assert!(!passing.matters(), "{passing:?}");
+        let on_its_flank = ElasticChange::of(&[1.0], [4_100.0; 2], ELASTIC, resonance);
+        assert!(on_its_flank.matters(), "{on_its_flank:?}");
     }
 }

@@ -21,7 +21,7 @@ pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
 pub use instant::{Instant, PressedSlice};
-pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT};
+pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
 pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
 pub use mesh_side::{Changes, SidePlace};
 pub use modal::GearVibration;

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Changes, Coordinates, Displacement, Moment, MotionOptions, Nominal, SidePlace,
+    COORDINATES, Changes, Coordinates, Displacement, MeshResonance, Moment, MotionOptions, Nominal, SidePlace,
     mesh_side::MeshSide,
     modal::{Modal, Posture},
 };
@@ -126,6 +126,14 @@ impl PairMechanism {
         [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
     }
 
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact lines.
+    pub fn mesh_resonance(&self) -> MeshResonance {
+        let cos = self.pair.base_helix_angle().cos();
+        let damping =
+            self.damping * self.means[1] * cos * cos / (2.0 * (self.means[0] * self.equivalent_mass()).sqrt());
+        MeshResonance { hz: self.mesh_resonance_hz(), damping }
+    }
+
     /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
     pub fn base_circle_masses(&self) -> [f64; 2] {
         masses_on_base_circles(&self.pair, &self.options.bodies)
@@ -191,7 +199,7 @@ impl PairMechanism {
     /// Mesh cycles that the gears have turned, a driver's own deviation from its nominal turn included.
     fn turned_cycles(&self, t: f64, d: &Displacement) -> f64 {
         let contact = &self.options.contact;
-        if !self.coordinates.driver_moves() {
+        if self.coordinates.driver_turn().is_none() {
             return self.cycles(t);
         }
         let driver = 1 - contact.driven();
