@@ -39,7 +39,7 @@ impl PairMechanism {
         g
     }
 
-    /// Torque of a driver that balances the load, about +z, N mm: no force is left along the turn of both gears in the ratio of their teeth; normal forces do no work there.
+    /// Torque of a driver that balances the load, about +z, N mm: no force is left along the turn of both gears in the ratio of their teeth; normal forces do no work there. Theory (45b).
     ///
     /// `other`: all forces but those, on the twelve coordinates. Nothing with another drive.
     pub(super) fn balancing_torque(&self, other: &Displacement) -> f64 {
