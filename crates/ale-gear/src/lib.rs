@@ -41,10 +41,13 @@ pub mod talk;
 
 mod gears;
 mod geometry_fault;
+mod input_text;
 mod iso_model;
 mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
 pub mod rexs;
+mod room;
 pub mod view;
+mod work_folder;

@@ -185,10 +185,7 @@ pub(super) fn rows(
     outcomes: &[SweepOutcome],
 ) -> Vec<SweepRow> {
     let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
-    let teeth = f64::from(match scene.operation.driver {
-        crate::scene::Driver::Pinion => scene.pinion.teeth,
-        crate::scene::Driver::Wheel => scene.wheel.teeth,
-    });
+    let teeth = f64::from(scene.driver_teeth());
     let cycles = scene.analysis.cycles as usize;
     let one = |outcome: &SweepOutcome| match outcome {
         Ok(point) => solved(point, cycles, (teeth, tolerance), quasi_static)

@@ -42,7 +42,7 @@ pub(super) fn write_motion(
 ) -> Result<String, CommandError> {
     let rows = Columns::read(&results.path(rows::HISTORY))?;
     let per_cycle = words.steps_per_mesh_cycle as usize;
-    let teeth = driver_teeth(scene, prepared);
+    let teeth = scene.driver_teeth();
     let mut waterfall = Vec::new();
     let mut over_speed = None;
     if let Some(ramp) = words.ramp {
@@ -107,10 +107,6 @@ pub(super) fn write_motion(
     Ok(motion_table(scene, &prepared.facts, &cost, &headline, &warnings))
 }
 
-fn driver_teeth(scene: &Scene, prepared: &Prepared) -> u32 {
-    [scene.pinion.teeth, scene.wheel.teeth][1 - prepared.system.options().contact.driven()]
-}
-
 /// Wall time of a step in these phases, as far as they took so many.
 fn pace(phases: &Phases, names: &[&str], steps: f64) -> Pace {
     let wall: f64 = phases.rows().iter().filter(|p| names.contains(&p.name.as_str())).map(|p| p.wall_s).sum();
@@ -135,7 +131,7 @@ pub(super) fn write_sweep(
     outcomes: &[SweepOutcome],
 ) -> Result<String, CommandError> {
     let rows = sweep::rows(scene, words.0, &prepared.quasi_static, outcomes);
-    let teeth = driver_teeth(scene, prepared);
+    let teeth = scene.driver_teeth();
     let mesh_hz = mesh_range_hz(scene, words.0, None);
     let campbell = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
     let resonance = prepared.system.mesh_resonance();
