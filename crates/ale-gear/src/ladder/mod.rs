@@ -36,7 +36,7 @@ use crate::{
     error::CommandError,
     facts::{Cost, Facts},
     gears,
-    motion::{self, Columns, ENERGY_FILE, HISTORY},
+    motion::{self, Columns, ENERGY_FILE, HISTORY, Passage},
     output::{
         LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
         write_summary,
@@ -122,6 +122,7 @@ impl Case<'_> {
         let coordinates = made.coordinates();
         let Made { mut model, resonance_hz, mut warnings, shafts } = made;
         warnings.extend(gears::doubts(&recipe.pair));
+        warnings.extend(no_backlash(recipe));
         let mut facts = facts(recipe, coordinates);
         let mesh_frequency_hz = recipe.mesh_frequency_hz(words);
         refuse_unstable(recipe, words, &mut model, resonance_hz)?;
@@ -148,7 +149,17 @@ impl Case<'_> {
         };
         let no_statistics = |e: study::StudyError| CommandError::failed(&e, e.hint());
         let judged = course.history.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
-        let headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
+        let passage = words.ramp.map(|_| {
+            let driver = (motion::speed(scene), recipe.driver_teeth());
+            let per_cycle = words.steps_per_mesh_cycle as usize;
+            Passage::of(&course.history, per_cycle, driver, known.static_normal_force, &[])
+        });
+        let passage = passage.transpose().map_err(no_statistics)?;
+        let mut headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
+        headline.ramp = passage.as_ref().and_then(Passage::headline);
+        if let Some(passage) = &passage {
+            results.write(motion::CYCLES, passage.cycles_csv().as_bytes())?;
+        }
         warnings.extend(doubts(words, &headline));
         facts.certificate = certificate(recipe, &course);
         let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
@@ -167,6 +178,8 @@ impl Case<'_> {
             energy: &course.energy,
             spectrum: Some(&spectrum),
             waterfall: &[],
+            ramp: passage.as_ref().map(|p| (motion::speed(scene), recipe.driver_teeth(), p)),
+            campbell: None,
             per_cycle: words.steps_per_mesh_cycle as usize,
             quasi_static: static_errors.as_deref(),
             view: None,
@@ -245,6 +258,24 @@ fn window(words: &MotionScene, course: &Course) -> Window {
         p.residual <= 10.0 * tolerance && course.cycles.is_multiple_of(p.period as u64)
     };
     if course.periodicity.as_ref().is_some_and(whole) { Window::Rectangular } else { Window::Hann }
+}
+
+/// A mesh without backlash where the model has one: its flanks do not part.
+fn no_backlash(recipe: &Recipe) -> Option<String> {
+    let Recipe { scene, pair, .. } = recipe;
+    let of_pair = 1e3 * pair.backlash();
+    let backlash_um = match (scene.analysis.model, &scene.mesh) {
+        (Name::Lumped8 | Name::Shaft18, Some(mesh)) => mesh.half_backlash_um.map_or(of_pair, |half| 2.0 * half),
+        (Name::Impact, _) => of_pair,
+        _ => return None,
+    };
+    let own = if scene.mesh.is_some() { "`half_backlash_um` in [mesh], or " } else { "" };
+    (backlash_um.abs() < motion::NO_BACKLASH_UM).then(|| {
+        format!(
+            "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance; give {own}`thickness_allowance_mm` \
+             in [pinion] and [wheel]"
+        )
+    })
 }
 
 /// What the certificate says that a user should hear.

@@ -12,8 +12,11 @@
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
 //! | `stable` | steps too long for an explicit method |
-//! | `headline`, `spectra` | what is read off the rows |
+//! | `headline`, `spectra`, `inertia` | what is read off the rows; which inertia counts |
 //! | `certificate` | what must hold of a motion |
+//! | `passage` | a ramp over speed: what is largest, and where |
+//! | `frequencies` | Campbell diagram |
+//! | `price` | what a longer analysis would cost |
 //! | `doubts` | what a user should hear of them |
 //! | `write` | files of the result |
 
@@ -21,12 +24,16 @@ mod certificate;
 mod course;
 mod doubts;
 mod elasticity;
+mod frequencies;
 mod headline;
+mod inertia;
 mod inputs;
 mod options;
+mod passage;
 mod pattern;
 mod precision;
 mod prepare;
+mod price;
 mod rows;
 mod spectra;
 mod stable;
@@ -44,9 +51,13 @@ use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
 pub(crate) use certificate::{energy_check, pulling_check};
+pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
+pub(crate) use frequencies::Frequencies;
 pub(crate) use headline::MotionHeadline;
-pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
+pub(crate) use inertia::InertiaHeadline;
+pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque};
+pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
@@ -237,7 +248,7 @@ pub(crate) fn rows_of(
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),
-    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepPoint>, &'a SweepScene),
+    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepOutcome>, &'a SweepScene),
     Stopped { cycles: u64 },
 }
 
@@ -253,14 +264,17 @@ fn attempt<'a>(
     let mut prepared = prepare(inputs, phases, window)?;
     doubts::unstable(scene, &prepared)?;
     prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
-    if let Some(slow) = doubts::slow(scene, words, &prepared) {
+    prepared.warnings.extend(doubts::no_backlash(scene, &prepared));
+    let slow = doubts::slow(scene, words, &prepared).or_else(|| doubts::long(scene, words, &prepared));
+    if let Some(slow) = slow {
         // Who waits should hear it before the end.
         talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
         prepared.warnings.push(slow);
     }
     if let Some(sweep) = &words.sweep {
-        let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
-        return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));
+        let wider = |e: &dynamics::StaticError| prepare::wider(inputs, window, e).is_some();
+        let outcomes = sweep::run(scene, (words, sweep), &prepared, &wider, phases)?;
+        return Ok(Attempt::Sweep(Box::new(prepared), outcomes, sweep));
     }
     let rows: PathBuf = match checkpoints {
         Some(Checkpoints { folder, .. }) => {

@@ -47,9 +47,31 @@ pub(crate) struct SweepPoint {
     pub normal_force_n: [f64; 2],
     /// Rows in which the driving flanks do not press.
     pub rows_apart: usize,
+    /// Why there is no motion at this value; `None` where there is one.
+    #[serde(skip)]
+    pub failed: Option<CommandError>,
 }
 
 impl SweepPoint {
+    /// A value without a motion: nothing is known of it but why.
+    pub fn missing(way: SweepWay, value: f64, error: CommandError) -> Self {
+        let none = f64::NAN;
+        Self {
+            way,
+            value,
+            points: Vec::new(),
+            mean: none,
+            extent: [none; 2],
+            period: None,
+            periodicity: None,
+            warm_up_cycles: 0,
+            lyapunov: None,
+            normal_force_n: [none; 2],
+            rows_apart: 0,
+            failed: Some(error),
+        }
+    }
+
     /// Exponent above zero beyond three standard errors, and a section that does not come back.
     pub fn is_chaotic(&self) -> bool {
         self.period.is_none() && self.lyapunov.is_some_and(|l| l.is_chaotic())
@@ -119,6 +141,7 @@ pub(super) fn run(
         lyapunov,
         normal_force_n: course.history.extent("normal_force_n"),
         rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f <= 0.0).count(),
+        failed: None,
     };
     Ok(Found { point, end: course.end })
 }
