@@ -231,7 +231,7 @@ pub(crate) fn rows_of(
             doubts::unstable(scene, &prepared)?;
             let done = course::run(scene, words, &prepared, phases, places)?;
             let rows = Columns::read(&folder.join(rows::HISTORY))?;
-            let headline = headline::headline(scene, words, &prepared, &done, &rows).map_err(no_statistics)?;
+            let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
             Ok(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
         });
         match done {
