@@ -3,6 +3,7 @@
 use dynamics::result::StaticHistory;
 use serde::Serialize;
 
+use crate::certificate::Certificate;
 use crate::iso_root::IsoRootStress;
 use crate::phases::{Phase, Phases};
 use crate::view::View;
@@ -41,6 +42,9 @@ pub struct Facts {
     /// Nominal root stress after ISO 6336-3, beside that of finite elements where that is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iso_root_stress: Option<IsoRootStress>,
+    /// What must hold of the result.
+    #[serde(flatten)]
+    pub certificate: Certificate,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,

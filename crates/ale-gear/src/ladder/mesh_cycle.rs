@@ -82,6 +82,8 @@ pub(super) fn mesh_cycle(
                 return Ok(fed.clone());
             }
             let solved = run::solve(&asked, sources.phases, sources.results, sources.cache)?;
+            // Nothing is fed by what does not hold.
+            run::certificate(&solved.history.positions).verdict(scene)?;
             let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
             let driven =
                 [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];

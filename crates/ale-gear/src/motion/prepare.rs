@@ -126,6 +126,8 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         dof_before,
         dof_after: run::dof_after(&model, dof_before),
         window_teeth: Some(model.window().count() as u32),
+        // The motion begins in it and is measured by it.
+        certificate: run::certificate(&history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(run::reduced(g)?.way().name())).collect(),
         ..Facts::default()
     };

@@ -52,6 +52,9 @@ impl Lines {
     /// Begins with what every analysis has: the contact ratio.
     pub(super) fn new(facts: &Facts) -> Self {
         let mut lines = Self(String::new());
+        for check in facts.certificate.missed() {
+            lines.text("THE RESULT DOES NOT HOLD", "", &check.words());
+        }
         lines.text("contact ratio eps_gamma", format!("{:.4}", facts.geometry.eps_gamma), "");
         lines
     }

@@ -73,14 +73,10 @@ fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Str
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
 const LARGE_ERROR_MODULES: f64 = 0.05;
 
-/// What the certificates say that a user should hear.
+/// What a solution says that a user should hear.
 pub(super) fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
-    let torque = worst(|p| p.certificate.torque_residual);
-    if torque > 1e-8 {
-        said.push(format!("torque balance holds to {torque:.1e} only (asked: 1e-8)"));
-    }
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
     if error > LARGE_ERROR_MODULES * module {
         said.push(format!(

@@ -1,5 +1,6 @@
 //! Where a checked scene becomes a call of the solvers.
 
+mod certificate;
 mod coarse;
 mod doubts;
 mod foreseen;
@@ -22,6 +23,7 @@ use crate::view::ViewRecorder;
 use crate::{gears, iso_model, iso_root, meshes};
 use doubts::doubts;
 
+pub(crate) use certificate::{certificate, worse};
 pub(crate) use doubts::body_warnings;
 pub(crate) use foreseen::foreseen_s;
 pub(crate) use options::options;
