@@ -134,3 +134,46 @@ fn every_cycle_repeats_the_first() {
         }
     }
 }
+
+/// The bending of the bodies stands beside ISO's own stiffness: the transmission error is their sum, and spur gears have none of it.
+#[test]
+fn bodies_bend_beside_the_stiffness_of_the_standard() {
+    let parts = |scene: &str| {
+        let (.., summary) = run(scene);
+        let bodies: f64 =
+            summary["model"]["axial_bending_ste_um"].as_array().unwrap().iter().filter_map(|x| x.as_f64()).sum();
+        let own = summary["model"]["iso_mean_ste_closed_form_um"].as_f64().unwrap();
+        let least = summary["headline"]["min_ste_um"].as_f64().unwrap();
+        (bodies, own, summary["headline"]["mean_ste_um"].as_f64().unwrap(), least)
+    };
+    let (bodies, own, mean, _) = parts(ISO_SCENE);
+    assert!(bodies > 0.05 * own, "{bodies} um of {own}");
+    // Over the cycle the mean of 1/L is a little above 1 over the mean of L.
+    let ratio = (mean - bodies) / own;
+    assert!((1.0..1.02).contains(&ratio), "{mean} - {bodies} um, by the standard {own}");
+    let (bodies, own, mean, least) = parts(&ISO_SCENE.replace("helix_angle_deg = 20.0", "helix_angle_deg = 0.0"));
+    assert_eq!(bodies, 0.0);
+    assert!(least < own && own < mean, "{least}, {own}, {mean}");
+}
+
+/// The nominal root stress of the standard is always there for `iso`, and for others where theirs is asked for: the same value, in summary, table and report.
+#[test]
+fn the_root_stress_of_the_standard_stands_beside() {
+    let stress = |summary: &serde_json::Value| summary["iso_root_stress"]["pinion"]["nominal_root_stress_mpa"].as_f64();
+    let (scratch, _, summary) = run(ISO_SCENE);
+    let of_iso = stress(&summary).expect("a root stress");
+    // Beside 119.3 MPa of resolved finite elements.
+    assert!((of_iso / 119.3 - 1.0).abs() < 0.1, "{of_iso} MPa");
+    assert!(scratch.read("deep/er/o/report.html").contains("nominal root stress of the wheel by ISO 6336-3"));
+    let meshed = util::motion_scene(0, "");
+    let meshed = meshed.split("kind = \"dynamic\"").next().unwrap().to_owned() + "positions_per_cycle = 2\n";
+    assert_eq!(stress(&run(&meshed).2), None, "nobody asked");
+    let asked = run(&(meshed + "[output]\nroot_stress = true\n")).2;
+    assert_eq!(stress(&asked), Some(of_iso));
+    assert!(asked["headline"]["root_stress"]["pinion"]["max_principal"]["stress_mpa"].as_f64().unwrap() > 0.0);
+    // A rim that the standard does not cover: said, not made up.
+    let thin = run(&ISO_SCENE.replacen("bore_diameter_mm = 60.0", "bore_diameter_mm = 86.0", 1)).2;
+    assert_eq!(stress(&thin), None);
+    let said = thin["warnings"].to_string();
+    assert!(said.contains("no nominal root stress after ISO 6336-3: rim thickness over tooth height = 0.16"), "{said}");
+}

@@ -71,7 +71,7 @@ impl<'a> Coarse<'a> {
             let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gears[i].teeth()).ok()?;
             let options =
                 ReductionOptions { sides: asked.sides(), window, first: first[i], elements: ElementOptions::default() };
-            Some(ElasticGear::Reduced(GearReducer::new(mesh, self.materials[i].clone(), options).ok()?))
+            Some(ElasticGear::Reduced(GearReducer::new(mesh, *self.materials[i], options).ok()?))
         };
         let mut model = StaticModel::new(pair.clone(), [elastic(0)?, elastic(1)?], asked.clone()).ok()?;
         let history = model.run(POSITIONS, 1, |_, _, _| ()).ok()?;
