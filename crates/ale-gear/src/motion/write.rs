@@ -8,8 +8,8 @@ use crate::{
     error::CommandError,
     facts::Cost,
     output::{
-        MotionPictures, ResultDirectory, motion_table, sweep_table, write_columnar, write_motion_report,
-        write_patterns, write_summary, write_sweep_report,
+        MotionPictures, ResultDirectory, motion_table, root_stress_warnings, sweep_table, write_columnar,
+        write_motion_report, write_patterns, write_summary, write_sweep_report,
     },
     phases::Phases,
     scene::{MotionScene, Scene, SweepScene},
@@ -33,6 +33,7 @@ pub(super) fn write_motion(
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
     warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
+    warnings.extend(headline.root_tensions().into_iter().flat_map(root_stress_warnings));
     let (mut spectrum, mut waterfall) = (None, Vec::new());
     let per_cycle = words.steps_per_mesh_cycle as usize;
     match words.ramp {
