@@ -44,7 +44,7 @@ const ERROR_SHARE: f64 = 0.35;
 pub struct StressPeak {
     /// MPa, tension positive.
     pub stress: f64,
-    /// The same measure at the same node from the Gauss points of the elements, MPa.
+    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs print.
     pub from_volume: f64,
     /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
     pub node: u64,
@@ -259,7 +259,7 @@ impl WindowRoots {
             };
             Some(StressPeak {
                 stress,
-                from_volume: measure(&volume[at]),
+                from_volume: fillet.largest(|at| measure(&volume[at]), sign)?,
                 node: mesh.node_tags[own as usize],
                 radius: x.hypot(y),
                 z,

@@ -79,6 +79,11 @@ impl<'a> Surroundings<'a> {
 }
 
 impl Fillet {
+    /// Largest of `sign` times a measure over all nodes, as a value of the measure.
+    pub fn largest(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<f64> {
+        self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
+    }
+
     /// Place and value of the largest hill of `sign` times a measure; of the largest value below the [`FALLBACK_TANGENT`] where
     /// there is no hill, of the largest at all where no node is below it.
     ///
