@@ -2,7 +2,7 @@
 
 mod util;
 
-use util::{ISO_SCENE, Scratch};
+use util::{ISO_SCENE, Scratch, motion_scene};
 
 fn says(scene: &str, text: &str) {
     let scratch = Scratch::new().file("a.toml", scene);
@@ -100,6 +100,27 @@ fn physical_nonsense_names_its_line() {
             .replace("[pair]\n", "[pair]\nnormal_pressure_angle_deg = 35.0\n"),
         &["a.toml:9: [pinion]: the teeth are pointed", "9 | normal_pressure_angle_deg = 35.0"],
     );
+}
+
+/// The default root radius is never larger than the rack has room for: 25 degrees leave 0.3178. One that is stated is taken at its word.
+#[test]
+fn the_default_root_radius_fits_the_pressure_angle() {
+    let steep = ISO_SCENE.replace("[pair]\n", "[pair]\nnormal_pressure_angle_deg = 25.0\n");
+    let scratch = Scratch::new().file("a.toml", steep);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let summary = std::fs::read_to_string(scratch.path().join("o/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["inputs"]["pair"]["root_radius_coefficient"], serde_json::json!(0.3178));
+    let stated = "[pair]\nnormal_pressure_angle_deg = 25.0\nroot_radius_coefficient = 0.38\n";
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE.replace("[pair]\n", stated));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    for part in
+        ["a.toml:12: [pinion]: root radius coefficient 0.38 is too large", "12 | root_radius_coefficient = 0.38"]
+    {
+        assert!(run.stderr.contains(part), "{part} is not in {}", run.stderr);
+    }
 }
 
 /// What only another model writes is not read and ignored.
@@ -205,6 +226,50 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
         "ale-gear: a.toml:17: `model = \"iso\"` asks for another model in time, which this version cannot do\n\
          hint: use `model = \"reduced\"`\n",
     );
+}
+
+/// Every count is in its range, and their product is beyond any memory: told with rows, bytes and keys, by every kind of analysis.
+#[test]
+fn rows_beyond_any_memory_are_refused_before_the_work() {
+    let refused = |scene: &str, words: &[&str], said: &[&str]| {
+        let scratch = Scratch::new().file("a.toml", scene);
+        let run = scratch.command(&[words, &["--out", "o"]].concat());
+        for text in said {
+            assert!(run.stderr.contains(text), "no `{text}` in\n{}", run.stderr);
+        }
+        assert!(run.stderr.contains(" GB of memory are free\n"), "{}", run.stderr);
+        assert_eq!((run.code, scratch.names().len()), (Some(2), 1), "{}", run.stderr);
+    };
+    let run = ["run", "a.toml"];
+    let huge = |scene: &str| scene.to_owned() + "positions_per_cycle = 100000\ncycles = 100000000\n";
+    let said = [
+        "1.0e13 positions (`cycles` 1.0e8 x `positions_per_cycle` 100000)",
+        "\nhint: lower `cycles` or `positions_per_cycle`: ",
+    ];
+    refused(&huge(ISO_SCENE), &run, &[&["ale-gear: a.toml:18: "], &said[..]].concat());
+    refused(&huge(&with("model = \"iso\"", "model = \"reduced\"")), &run, &said);
+    refused(&huge(&with("model = \"iso\"", "model = \"full\"")), &run, &said);
+    let seconds =
+        motion_scene(0, "run = \"span\"\nduration_s = 1e9\n").replace("per_mesh_cycle = 16", "per_mesh_cycle = 100000");
+    refused(
+        &seconds,
+        &run,
+        &["5.0e16 rows (`duration_s` 5.0e11 x `steps_per_mesh_cycle` 100000)", "hint: lower `duration_s`"],
+    );
+    let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 100000 }\n";
+    let sweep = motion_scene(100_000_000, sweep);
+    refused(&sweep, &run, &["(`cycles` 1.0e8 x `steps_per_mesh_cycle` 16 x `speeds` 100000)"]);
+    let ladder = with("model = \"iso\"", "model = \"impact\"\ncycles = 100000000");
+    let ladder = ladder + "[motion]\nsteps_per_mesh_cycle = 100000\n";
+    refused(&ladder, &run, &["1.0e13 rows (`cycles` 1.0e8 x `steps_per_mesh_cycle` 100000)"]);
+    let by_key = ["sweep", "a.toml", "--key", "operation.speed_rpm", "--from", "1000", "--to", "2000", "--points", "2"];
+    let long = [&by_key[..], &["--cycles", "100000", "--once", "pinion-turn"]].concat();
+    refused(&ladder, &long, &["(`--cycles` 100000 x `steps_per_mesh_cycle` 100000 x `mesh cycles of a turn` 30)"]);
+    let study = "[[case]]\nscene = \"b.toml\"\nvalue = 1\n[[quantity]]\ncolumn = \"ste_um\"\n";
+    let scratch = Scratch::new().file("b.toml", huge(ISO_SCENE)).file("a.toml", study);
+    let refused = scratch.ale_gear(["study", "a.toml", "--out", "o"]);
+    assert!(refused.stderr.starts_with("ale-gear: b.toml:18: 1.0e13 positions "), "{}", refused.stderr);
+    assert_eq!(refused.code, Some(2));
 }
 
 #[test]

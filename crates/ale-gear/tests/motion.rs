@@ -40,7 +40,6 @@ fn a_motion_settles_and_its_certificate_holds() {
     assert!(number(certificate, "ledger_residual_over_work").abs() < 1e-6, "{certificate}");
     assert!(number(certificate, "ledger_residual_over_turnover").abs() < 1e-6, "{certificate}");
     assert!(number(certificate, "least_contact_force_n") >= 0.0, "a flank pulls: {certificate}");
-    assert_eq!(number(certificate, "dropped_force_n"), 0.0);
     let jump = number(certificate, "force_jump_at_tooth_change_n") / number(headline, "mean_normal_force_n");
     assert!(jump < 1e-9, "the force jumps by {jump:e} of itself at a tooth change");
     assert!(number(headline, "tooth_changes") >= 2.0);
@@ -100,7 +99,8 @@ fn a_run_that_was_cut_goes_on_byte_for_byte() {
 #[test]
 fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
     let slow = "run = \"span\"\nmethod = \"generalised-alpha\"\nspectral_radius = 0.0\nmesh_damping_ratio = 0.5\n";
-    let motion = &format!("{slow}[output]\nroot_stress = true\n");
+    // The driver is held: in a step of a second gears that are both free would be anywhere if the first one missed contact.
+    let motion = &format!("{slow}[output]\nroot_stress = true\n[drive]\nby = \"speed\"\n");
     let moving = scene(1, motion).replace("[operation]", "[operation]\nspeed_rpm = 0.1");
     let still = scene(1, "[output]\nroot_stress = true\n")
         .replace("kind = \"dynamic\"\npositions_per_cycle = 4", "positions_per_cycle = 16")
@@ -163,9 +163,9 @@ fn a_motion_may_begin_on_the_coast_flanks() {
 fn a_slow_motion_says_how_many_steps_it_takes() {
     let slow = scene(1, "run = \"span\"\n").replace("resonance = 0", "resonance = 16");
     let scratch = Scratch::new().file("a.toml", slow.replace("[operation]\n", "[operation]\nspeed_rpm = 0.01\n"));
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_ale-gear"))
+    let mut child = scratch
+        .program()
         .args(["run", "a.toml", "--out", "o", "--no-cache"])
-        .current_dir(scratch.path())
         .stderr(std::process::Stdio::piped())
         .stdout(std::process::Stdio::null())
         .spawn()
@@ -259,8 +259,8 @@ fn wrong_motions_are_told_with_line_and_hint() {
          [wheel.body], or leave it out",
     );
     says(
-        of("[drive]\ntorque_nm = 100.0\n"),
-        "25: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
+        of("[drive]\nby = \"speed\"\ntorque_nm = 100.0\n"),
+        "26: a driver whose speed is given takes whatever torque that needs\nhint: say `by = \"torque\"` in [drive], or \
          leave the torque out",
     );
     says(

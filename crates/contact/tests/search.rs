@@ -64,8 +64,8 @@ proptest! {
     /// than the reach, and the gaps are the same.
     #[test]
     fn two_stages_find_what_brute_force_finds(
-        turn in -0.15..0.15f64, lag in -2e-3..2e-3f64, shift in prop::array::uniform3(-0.3..0.3f64),
-        tilt in prop::array::uniform2(-5e-3..5e-3f64), reach in 0.0..0.2f64, order in 1..=2u32,
+        turn in -0.15..0.15f64, lag in -3e-2..3e-2f64, shift in prop::array::uniform3(-0.3..0.3f64),
+        tilt in prop::array::uniform2(-5e-3..5e-3f64), reach in 0.0..1.5f64, order in 1..=2u32,
     ) {
         static SETS: std::sync::OnceLock<[Flanks; 2]> = std::sync::OnceLock::new();
         let set = &SETS.get_or_init(|| [flanks(1), flanks(2)])[order as usize - 1];
@@ -91,6 +91,9 @@ proptest! {
             let twin = found.iter().find(|r| key(r) == key(row));
             prop_assert!(twin == Some(row), "missed {:?} with gap {}", key(row), row.gap);
         }
+        for row in &found {
+            prop_assert!(row.gap <= reach, "{:?} with gap {} is beyond the reach of {reach} mm", key(row), row.gap);
+        }
     }
 }
 
@@ -115,9 +118,11 @@ fn a_hundred_thousand_poses() {
             source: GapSource::Smooth,
             line: &line,
         };
-        let check = |seed: u64| -> (usize, usize) {
+        let check = |seed: u64| -> [usize; 2] {
             let mut random = Random::new(seed);
-            let (turn, lag) = (random.between(-0.3, 0.3), random.between(-2e-3, 2e-3));
+            // Every other pose lies wide open, or as deep.
+            let (most_lag, most_reach) = if seed.is_multiple_of(2) { (2e-3, 0.2) } else { (5e-2, 2.0) };
+            let (turn, lag) = (random.between(-0.3, 0.3), random.between(-1.0, 1.0) * most_lag);
             let shift = [0.0; 3].map(|_: f64| random.between(-0.3, 0.3));
             // Every other pose is misaligned, every tenth by far more than teeth bear.
             let most = [0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-3, 0.0, 5e-2][(seed % 10) as usize];
@@ -129,10 +134,10 @@ fn a_hundred_thousand_poses() {
                     points[0].iter().enumerate().filter_map(|(i, p)| contact_row(&scene, &poses, (0, second), i, p)),
                 );
             }
-            let mut reach = random.between(0.0, 0.2);
+            let mut reach = random.between(0.0, most_reach);
             if seed.is_multiple_of(3) {
                 // At the very distance of one of the points: a box that is a hair too small would lose it.
-                let near = all.iter().map(|r| r.gap.abs()).filter(|g| *g < 1.0).fold(f64::INFINITY, f64::min);
+                let near = all.iter().map(|r| r.gap.abs()).filter(|g| *g < most_reach).fold(f64::INFINITY, f64::min);
                 reach = if near.is_finite() { near } else { reach };
             }
             all.retain(|r| r.gap.abs() <= reach);
@@ -143,13 +148,54 @@ fn a_hundred_thousand_poses() {
                 "order {order}, pose {seed}: {missed} of {} contacts missed within {reach} mm",
                 all.len()
             );
-            (usize::from(!all.is_empty()), all.len())
+            [usize::from(!all.is_empty()), all.len()]
         };
-        let count = |a: (usize, usize), b: (usize, usize)| (a.0 + b.0, a.1 + b.1);
-        let (touching, contacts) = (0..POSES / 2).into_par_iter().map(check).reduce(|| (0, 0), count);
+        let count = |a: [usize; 2], b: [usize; 2]| [a[0] + b[0], a[1] + b[1]];
+        let [touching, contacts] = (0..POSES / 2).into_par_iter().map(check).reduce(|| [0; 2], count);
         println!("order {order}: {} poses, {touching} with contacts, {contacts} contacts, none missed", POSES / 2);
         assert!(touching > 5_000, "only {touching} poses touch");
     }
+}
+
+/// Boxes of faces that lie askew are thick, and have margins: contacts within them are found whatever the reach. On small faces millimetres apart it is the reach that finds them:
+/// contacts lie where the boxes are farther apart than six tenths of it.
+#[test]
+fn the_reach_finds_what_boxes_alone_do_not() {
+    let set = flanks_of(1, [16, 32]);
+    let first = &set.patches[0][1..2];
+    let points: Vec<_> = first.iter().map(|p| contact_points(p, 1, GapSource::Smooth)).collect();
+    let per_face = points[0].len() / first[0].face_count();
+    let trees = [Candidates::new(first), Candidates::new(&set.patches[1])];
+    let line = LinePoints::new();
+    let scene = Scene {
+        first,
+        points: &points,
+        second: &set.patches[1],
+        first_tree: &trees[0],
+        second_tree: &trees[1],
+        source: GapSource::Smooth,
+        line: &line,
+    };
+    let mut beyond = 0;
+    for seed in 0..200 {
+        let mut random = Random::new(seed);
+        let (turn, lag) = (random.between(-0.1, 0.1), random.between(-9e-2, 9e-2));
+        let poses = poses(&set.pair, turn, lag, [0.0; 3], [0.0; 2]);
+        let reach = random.between(0.5, 4.0);
+        let found = closest_points(&scene, &poses, reach);
+        let boxes = trees[0].pairs(&poses[0], &trees[1], &poses[1], 0.6 * reach);
+        let near: std::collections::BTreeSet<_> = boxes.iter().map(|p| (p.first.1, p.second.0)).collect();
+        for second in 0..set.patches[1].len() {
+            for (i, p) in points[0].iter().enumerate() {
+                let row = contact_row(&scene, &poses, (0, second), i, p).filter(|r| r.gap.abs() <= reach);
+                let Some(row) = row else { continue };
+                assert!(found.contains(&row), "pose {seed}: a contact {} mm off is missed within {reach} mm", row.gap);
+                beyond += usize::from(!near.contains(&(i / per_face, second)));
+            }
+        }
+    }
+    println!("{beyond} contacts where the boxes are farther apart than 0.6 of the reach");
+    assert!(beyond > 50, "only {beyond} contacts need the reach");
 }
 
 /// A row's weights sum to one on both bodies, its forces are opposite, and the weights interpolate the point: a uniform field

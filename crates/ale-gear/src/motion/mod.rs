@@ -8,23 +8,35 @@
 //! | `pattern` | what the flanks are pressed by |
 //! | `course` | settle, write rows, checkpoints |
 //! | `rows`, `table` | files of rows, written on the way and read back at the end |
-//! | `store` | checkpoints on disk |
+//! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
-//! | `headline`, `spectra` | what is read off the rows |
+//! | `stable` | steps too long for an explicit method |
+//! | `headline`, `spectra`, `inertia` | what is read off the rows; which inertia counts |
+//! | `certificate` | what must hold of a motion |
+//! | `passage` | a ramp over speed: what is largest, and where |
+//! | `frequencies` | Campbell diagram |
+//! | `price` | what a longer analysis would cost |
 //! | `doubts` | what a user should hear of them |
 //! | `write` | files of the result |
 
+mod certificate;
 mod course;
 mod doubts;
 mod elasticity;
+mod frequencies;
 mod headline;
+mod inertia;
+mod inputs;
 mod options;
+mod passage;
 mod pattern;
 mod precision;
 mod prepare;
+mod price;
 mod rows;
 mod spectra;
+mod stable;
 mod store;
 mod sweep;
 mod table;
@@ -33,21 +45,29 @@ mod write;
 use std::path::{Path, PathBuf};
 
 use course::{Finished, Places};
+use inputs::{Change, InputDigests};
 use prepare::{Inputs, Prepared, prepare};
-use store::{CheckpointFolder, Stored};
+use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
+pub(crate) use certificate::{energy_check, pulling_check};
+pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
+pub(crate) use frequencies::Frequencies;
 pub(crate) use headline::MotionHeadline;
-pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
+pub(crate) use inertia::InertiaHeadline;
+pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque};
+pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
+pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
 
 use crate::{
     cache::Cache,
+    certificate::Written,
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
@@ -84,8 +104,8 @@ impl Progression {
 
 /// How a run ended.
 pub(crate) enum Outcome {
-    /// All files are written; the closing table.
-    Finished(String),
+    /// All files are written.
+    Finished(Written),
     /// The user asked to stop after so many mesh cycles.
     Stopped {
         /// Mesh cycles done.
@@ -105,20 +125,70 @@ pub(crate) fn solve(
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
-    let inputs = Inputs::new(scene, words, phases, cache)?;
-    let meshes: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
-    let mut from = match &progression.folder {
-        Some(folder) if progression.resume => {
-            let stored = folder.read()?;
-            stored.check(scene, &meshes)?;
-            Some(stored)
-        }
-        _ => None,
+    let stop_after = progression.stop_after;
+    let Some(folder) = &progression.folder else {
+        return through_windows(scene, words, phases, (results, cache), None, stop_after);
     };
+    if progression.resume && !folder.path().is_dir() {
+        folder.read(scene)?;
+    }
+    let alone = folder.hold()?;
+    let begin = || {
+        let inputs = InputDigests::of(scene)?;
+        let from = if progression.resume { going_on(folder, scene, &inputs)? } else { None };
+        Ok((inputs, from))
+    };
+    let solved = begin().and_then(|(inputs, from)| {
+        let checkpoints = Checkpoints { folder, inputs: &inputs };
+        through_windows(scene, words, phases, (results, cache), Some((checkpoints, from)), stop_after)
+    });
+    if solved.is_err() {
+        folder.remove_if_empty();
+    }
+    drop(alone);
+    solved
+}
+
+/// The state to go on from; `None` where an earlier run was cut short before its first checkpoint.
+fn going_on(folder: &CheckpointFolder, scene: &Scene, inputs: &InputDigests) -> Result<Option<Stored>, CommandError> {
+    if folder.is_without_state() {
+        talk::say(Loudness::Bars, || {
+            format!(
+                "ale-gear: {}: the run was cut short before its first checkpoint and begins anew",
+                folder.path().display()
+            )
+        });
+        return Ok(None);
+    }
+    let stored = folder.read(scene)?;
+    stored.check_inputs(scene, inputs)?;
+    Ok(Some(stored))
+}
+
+/// Tries window after window until one suffices, from a state where there is one.
+fn through_windows(
+    scene: &Scene,
+    words: &MotionScene,
+    phases: &mut Phases,
+    (results, cache): (&ResultDirectory, &Cache),
+    kept: Option<(Checkpoints<'_>, Option<Stored>)>,
+    stop_after: Option<u64>,
+) -> Result<Outcome, CommandError> {
+    let inputs = Inputs::new(scene, words, phases, cache)?;
+    let (checkpoints, mut from) = kept.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
+    if let Some(Checkpoints { inputs: digests, .. }) = checkpoints {
+        let meshes: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
+        if let Some(Change::File(file)) = digests.change(&InputDigests::of(scene)?) {
+            let file = scene.resolve(Path::new(&file));
+            let said = format_args!("{}: has changed while it was read", file.display());
+            return Err(CommandError::input(said, Some("run again when nobody writes to it".into())));
+        }
+        from.as_ref().map_or(Ok(()), |stored| stored.check_meshes(scene, &meshes))?;
+    }
     let mut window = from.as_ref().map(|f| f.window);
     let mut widened = Vec::new();
     loop {
-        match attempt(&inputs, phases, results, progression, window, from.take()) {
+        match attempt(&inputs, phases, results, (checkpoints, stop_after), window, from.take()) {
             Ok(Attempt::Stopped { cycles }) => return Ok(Outcome::Stopped { cycles }),
             Ok(Attempt::Motion(mut prepared, done)) => {
                 prepared.warnings.extend(widened);
@@ -126,7 +196,9 @@ pub(crate) fn solve(
             }
             Ok(Attempt::Sweep(mut prepared, points, sweep)) => {
                 prepared.warnings.extend(widened);
-                return write_sweep(scene, (words, sweep), phases, results, &prepared, &points).map(Outcome::Finished);
+                let table = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
+                let verdict = prepared.facts.certificate.verdict(scene);
+                return Ok(Outcome::Finished(Written { table, verdict }));
             }
             Err(Failure::Command(e)) => return Err(e),
             Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
@@ -154,9 +226,14 @@ pub(crate) fn rows_of(
     let inputs = Inputs::new(scene, words, phases, &cache)?;
     let mut window = None;
     loop {
-        let places = Places { rows: folder, checkpoint: None, from: None, stop_after: None };
-        let done = prepare(&inputs, phases, window)
-            .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
+        let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
+        let done = prepare(&inputs, phases, window).and_then(|prepared| {
+            doubts::unstable(scene, &prepared)?;
+            let done = course::run(scene, words, &prepared, phases, places)?;
+            let rows = Columns::read(&folder.join(rows::HISTORY))?;
+            let headline = headline::headline(scene, words, &prepared, &done, &rows).map_err(no_statistics)?;
+            Ok(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
+        });
         match done {
             Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
             Err(Failure::Command(e)) => return Err(e),
@@ -171,7 +248,7 @@ pub(crate) fn rows_of(
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),
-    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepPoint>, &'a SweepScene),
+    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepOutcome>, &'a SweepScene),
     Stopped { cycles: u64 },
 }
 
@@ -179,24 +256,28 @@ fn attempt<'a>(
     inputs: &Inputs<'a>,
     phases: &mut Phases,
     results: &ResultDirectory,
-    progression: &Progression,
+    (checkpoints, stop_after): (Option<Checkpoints<'_>>, Option<u64>),
     window: Option<usize>,
     from: Option<Stored>,
 ) -> Result<Attempt<'a>, Failure> {
     let Inputs { scene, words, .. } = *inputs;
     let mut prepared = prepare(inputs, phases, window)?;
+    doubts::unstable(scene, &prepared)?;
     prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
-    if let Some(slow) = doubts::slow(scene, words, &prepared) {
+    prepared.warnings.extend(doubts::no_backlash(scene, &prepared));
+    let slow = doubts::slow(scene, words, &prepared).or_else(|| doubts::long(scene, words, &prepared));
+    if let Some(slow) = slow {
         // Who waits should hear it before the end.
         talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
         prepared.warnings.push(slow);
     }
     if let Some(sweep) = &words.sweep {
-        let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
-        return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));
+        let wider = |e: &dynamics::StaticError| prepare::wider(inputs, window, e).is_some();
+        let outcomes = sweep::run(scene, (words, sweep), &prepared, &wider, phases)?;
+        return Ok(Attempt::Sweep(Box::new(prepared), outcomes, sweep));
     }
-    let rows: PathBuf = match &progression.folder {
-        Some(folder) => {
+    let rows: PathBuf = match checkpoints {
+        Some(Checkpoints { folder, .. }) => {
             if from.is_none() {
                 folder.start()?;
             }
@@ -204,13 +285,12 @@ fn attempt<'a>(
         }
         None => results.folder().to_owned(),
     };
-    let places =
-        Places { rows: &rows, checkpoint: progression.folder.as_ref(), from, stop_after: progression.stop_after };
+    let places = Places { rows: &rows, checkpoints, from, stop_after };
     let done = course::run(scene, words, &prepared, phases, places)?;
     if done.stopped {
         return Ok(Attempt::Stopped { cycles: done.motion.cycle() });
     }
-    if progression.folder.is_some() {
+    if checkpoints.is_some() {
         for file in [rows::HISTORY, rows::ENERGY_FILE] {
             results.copy(&rows.join(file), file)?;
         }
