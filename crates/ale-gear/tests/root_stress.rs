@@ -35,7 +35,8 @@ fn root_stress_is_written_when_asked_for() {
     let columns = history(&scratch, "o");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     let root = &summary["headline"]["root_stress"];
-    assert!(root["averaging"].as_str().unwrap().contains("averaged over the elements of a node"), "{root}");
+    assert!(root["averaging"].as_str().unwrap().contains("averaged over the faces of a node"), "{root}");
+    assert!(root["definition"].as_str().unwrap().contains("20 deg tangent"), "{root}");
     for gear in ["pinion", "wheel"] {
         for (measure, sign) in [("max_principal", 1.0), ("min_principal", -1.0), ("von_mises", 1.0)] {
             let column = &columns[&format!("{gear}_root_stress_{measure}_mpa")];
@@ -48,6 +49,16 @@ fn root_stress_is_written_when_asked_for() {
             let r = place["radius_mm"].as_f64().unwrap();
             assert!((44.0..45.6).contains(&r) && place["tooth"].as_u64().unwrap() < 30, "{place}");
         }
+        // Linear elements, two along the fillet: far off, and the program says so, beside the value and in a warning.
+        let error = root[gear]["max_principal"]["estimated_error_percent"].as_f64().unwrap();
+        assert!(error > 3.0, "{gear}: {error} %");
+        let of_rows = &columns[&format!("{gear}_root_stress_estimated_error_percent")];
+        assert!(of_rows.iter().any(|e| (e / error - 1.0).abs() < 1e-12), "{gear}: {error} %, {of_rows:?}");
+        let told = format!("the {gear}'s root stress of");
+        assert!(
+            summary["warnings"].as_array().unwrap().iter().any(|w| w.as_str().unwrap().contains(&told)),
+            "{summary}"
+        );
         // The gear's largest value is that of one of its loaded teeth.
         let all = &columns[&format!("{gear}_root_stress_max_principal_mpa")];
         let name = |k: i32| format!("{gear}_root_stress_max_principal_pair_{k}_mpa");

@@ -38,6 +38,6 @@ pub use mesh_contact::{ContactWork, MeshContact, MeshForce};
 pub use options::{Bulk, Driver, Method, StaticOptions};
 pub use pose::{Misalignment, Offset};
 pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
-pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};
+pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StressPeak};
 pub use slice_set::SliceSet;
 pub use statics::{Change, StaticModel};

@@ -8,13 +8,15 @@
 //! Components: xx, yy, zz, xy, yz, zx, MPa.
 
 mod element;
+mod surface;
 
 use faer::{Mat, MatRef};
-use mesh::Mesh;
+use mesh::{Face, FaceKind, Mesh};
 use rayon::prelude::*;
 
 use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
 use element::ElementStress;
+use surface::SurfaceStress;
 
 /// Stress at every node (MPa) from the displacement of every node (mm).
 ///
@@ -110,15 +112,7 @@ impl StressOperator {
         nodes: &[u32],
     ) -> Result<Self, FemError> {
         check_blocks(mesh)?;
-        let count = mesh.nodes.len();
-        let wrong = nodes.iter().map(|&n| n as usize).find(|&n| n >= count);
-        if let Some(found) = wrong.or((dofs.node_count() != count).then_some(dofs.node_count())) {
-            return Err(FemError::Shape { what: "nodes", expected: count, found });
-        }
-        let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for (place, &node) in nodes.iter().enumerate() {
-            places[node as usize].push(place);
-        }
+        let places = places(mesh, dofs, nodes)?;
         let mut rows = vec![(Vec::new(), 0u32); nodes.len()];
         for block in &mesh.blocks {
             let kernel = ElementStress::new(block.kind, material, options);
@@ -150,6 +144,47 @@ impl StressOperator {
                             }
                         }
                     }
+                }
+            }
+        }
+        let rows = rows.into_iter().map(|(row, touching)| merge(row, touching)).collect();
+        Ok(Self { rows, free_count: dofs.free_count() })
+    }
+
+    /// The same on free surfaces, from the displacement of `faces` alone: strains in the tangent plane, no stress across it. Theory (22c).
+    ///
+    /// The mean over those of the faces that a node is on; zero at a node that is on none. Faces must be free of traction where nodes
+    /// are asked for.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.
+    pub fn on_surface(
+        mesh: &Mesh,
+        material: &Material,
+        dofs: &DofMap,
+        faces: &[Face],
+        nodes: &[u32],
+    ) -> Result<Self, FemError> {
+        let places = places(mesh, dofs, nodes)?;
+        let kernels = FaceKind::ALL.map(|kind| (kind, SurfaceStress::new(kind, material)));
+        let mut rows = vec![(Vec::new(), 0u32); nodes.len()];
+        for face in faces {
+            let at = |&n: &u32| mesh.nodes.get(n as usize).copied();
+            let Some(x) = face.nodes().iter().map(at).collect::<Option<Vec<_>>>() else {
+                let found = face.nodes().iter().max().map_or(0, |&n| n as usize);
+                return Err(FemError::Shape { what: "nodes", expected: mesh.nodes.len(), found });
+            };
+            if face.nodes().iter().all(|&n| places[n as usize].is_empty()) {
+                continue;
+            }
+            let kernel = kernels.iter().find(|(kind, _)| *kind == face.kind).map(|(_, kernel)| kernel);
+            let Some(blocks) = kernel.and_then(|kernel| kernel.blocks(&x)) else { continue };
+            for (&node, blocks) in face.nodes().iter().zip(&blocks) {
+                for &place in &places[node as usize] {
+                    let (row, touching) = &mut rows[place];
+                    *touching += 1;
+                    let free = face.nodes().iter().zip(blocks);
+                    row.extend(free.filter_map(|(&other, block)| Some((dofs.position(other)?, *block))));
                 }
             }
         }
@@ -220,6 +255,20 @@ impl StressOperator {
         });
         Ok(result)
     }
+}
+
+/// Where in `nodes` each node of the mesh is asked for.
+fn places(mesh: &Mesh, dofs: &DofMap, nodes: &[u32]) -> Result<Vec<Vec<usize>>, FemError> {
+    let count = mesh.nodes.len();
+    let wrong = nodes.iter().map(|&n| n as usize).find(|&n| n >= count);
+    if let Some(found) = wrong.or((dofs.node_count() != count).then_some(dofs.node_count())) {
+        return Err(FemError::Shape { what: "nodes", expected: count, found });
+    }
+    let mut places: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for (place, &node) in nodes.iter().enumerate() {
+        places[node as usize].push(place);
+    }
+    Ok(places)
 }
 
 /// Sums the blocks of one node by free node and divides by the number of elements.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use geometry::{Gear, Side};
 
-use crate::{FaceTable, GearMesh};
+use crate::{Face, FaceTable, GearMesh};
 
 /// Nodes may lie this many modules below the root circle: mid-side nodes of straight edges across a hollow do.
 const BELOW_ROOT_MODULES: f64 = 0.02;
@@ -24,13 +24,14 @@ const END_FACE_NORMAL: f64 = 0.95;
 /// How far, in pitches, a node may be from the middle of a tooth space to count as lying on it.
 const MIDDLE_PITCHES: f64 = 1e-6;
 
-/// Surface nodes of the root fillets, by tooth and side.
+/// Surface nodes of the root fillets, by tooth and side, and the free faces that they are on.
 ///
 /// The fillet on the left of tooth k reaches from where its tangent makes 20 deg with the tooth's centre line (or from the root
 /// form circle, if the fillet ends before) to the middle of the tooth space between k and k + 1; half of the root land belongs to it. A node on that middle belongs to both fillets of the space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootFillets {
     nodes: BTreeMap<(u32, Side), Vec<u32>>,
+    faces: Vec<Face>,
 }
 
 impl RootFillets {
@@ -48,7 +49,7 @@ impl RootFillets {
         elsewhere.extend(mesh.cuts().into_iter().flatten().flat_map(|c| &c.faces).map(|f| f.corner_key()));
         elsewhere.sort_unstable();
 
-        let mut surface: Vec<u32> = Vec::new();
+        let (mut surface, mut faces): (Vec<u32>, Vec<Face>) = Default::default();
         for face in FaceTable::new(body).boundary().iter().map(|owner| owner.face(body)) {
             let on_radius = |&n: &u32| {
                 let [x, y, _] = body.nodes[n as usize];
@@ -60,6 +61,7 @@ impl RootFillets {
             let corners: Vec<[f64; 3]> = face.corners().iter().map(|&n| body.nodes[n as usize]).collect();
             if axial_share(&corners) < END_FACE_NORMAL {
                 surface.extend(face.nodes().iter().filter(|n| on_radius(n)));
+                faces.push(face);
             }
         }
         surface.sort_unstable();
@@ -72,6 +74,7 @@ impl RootFillets {
             .collect();
         loaded.sort_unstable();
         surface.retain(|node| loaded.binary_search(node).is_err());
+        faces.retain(|face| face.nodes().iter().any(|node| surface.binary_search(node).is_ok()));
 
         let mut nodes: BTreeMap<(u32, Side), Vec<u32>> = BTreeMap::new();
         let teeth = i64::from(gear.teeth());
@@ -92,7 +95,12 @@ impl RootFillets {
                 put(tooth as i64, if off > 0.0 { Side::Left } else { Side::Right });
             }
         }
-        Self { nodes }
+        Self { nodes, faces }
+    }
+
+    /// Every free face with a node of a fillet on it, those that go on above the upper end included.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
     }
 
     /// Radius up to which the fillets of `gear` are followed, mm.

@@ -3,7 +3,10 @@
 use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::{GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method};
+use crate::{
+    GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method,
+    stress_modes::StressRecovery,
+};
 
 impl GearReducer {
     /// Displacement (mm) of every node of the mesh in the gear's own frame when the window's coordinates are `u` and all else is free
@@ -155,12 +158,24 @@ impl GearReducer {
     }
 
     /// Stress at `nodes` (6 rows a node) for unit coordinates of a window, MPa/mm, in the frame of its matrices.
-    pub(crate) fn stress_of(&self, window: &Window, nodes: &[u32]) -> Result<Mat<f64>, ReductionError> {
+    pub(crate) fn stress_of(
+        &self,
+        window: &Window,
+        nodes: &[u32],
+        recovery: StressRecovery,
+    ) -> Result<Mat<f64>, ReductionError> {
         let by_force = match self.method()? {
-            Method::Cyclic(cyclic) => cyclic.stress(nodes)?,
+            Method::Cyclic(cyclic) => cyclic.stress(nodes, recovery)?,
             Method::General(general, _) => {
                 let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
-                let operator = fem::StressOperator::new(mesh, self.material(), self.elements(), &self.dofs, nodes)?;
+                let operator = match recovery {
+                    StressRecovery::Volume => {
+                        fem::StressOperator::new(mesh, self.material(), self.elements(), &self.dofs, nodes)?
+                    }
+                    StressRecovery::Surface(faces) => {
+                        fem::StressOperator::on_surface(mesh, self.material(), &self.dofs, faces, nodes)?
+                    }
+                };
                 if self.is_last(window) {
                     return general.stress(Seen::Last, count, &operator);
                 }

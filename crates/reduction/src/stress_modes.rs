@@ -1,8 +1,20 @@
-//! Stress modes: stress at chosen nodes straight from a window's boundary coordinates. Theory (22a), (22b).
+//! Stress modes: stress at chosen nodes straight from a window's boundary coordinates. Theory (22a), (22b), (22c).
 
 use faer::Mat;
+use mesh::Face;
 
 use crate::{GearReducer, ReductionError, Window};
+
+/// How the stress at a node comes from the displacement of the mesh.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum StressRecovery<'a> {
+    /// From Gauss points of the elements, the mean over the elements of a node ([`fem::StressOperator::new`]): any node.
+    Volume,
+    /// From these free faces alone, the mean over the faces of a node ([`fem::StressOperator::on_surface`]): nodes on them.
+    ///
+    /// On a cyclic gear the faces must be whole orbits, or all that are about the nodes.
+    Surface(&'a [Face]),
+}
 
 /// Stress at some nodes of a gear as a linear map of a window's boundary coordinates.
 ///
@@ -63,6 +75,22 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError::Fem`] when a node does not exist; [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
     pub fn stress_modes(&self, window: &Window, nodes: &[u32]) -> Result<StressModes, ReductionError> {
-        Ok(StressModes { nodes: nodes.to_vec(), modes: self.stress_of(window, nodes)? })
+        let modes = self.stress_of(window, nodes, StressRecovery::Volume)?;
+        Ok(StressModes { nodes: nodes.to_vec(), modes })
+    }
+
+    /// The same for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the frame of the window's
+    /// matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
+    ///
+    /// # Errors
+    /// As [`GearReducer::stress_modes`].
+    pub fn surface_stress_modes(
+        &self,
+        window: &Window,
+        nodes: &[u32],
+        faces: &[Face],
+    ) -> Result<StressModes, ReductionError> {
+        let modes = self.stress_of(window, nodes, StressRecovery::Surface(faces))?;
+        Ok(StressModes { nodes: nodes.to_vec(), modes })
     }
 }

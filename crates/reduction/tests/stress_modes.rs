@@ -1,9 +1,10 @@
-//! Stress modes against the long way: displacement of the whole mesh, then its nodal stress.
+//! Stress modes against the long way: displacement of the whole mesh, then its stress, from elements and from the free surface.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::path::Path;
 
-use fem::{ElementOptions, Material};
+use faer::Mat;
+use fem::{DofMap, ElementOptions, Material, StressOperator};
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GearMesh, GroupNames, Mesh, RootFillets, StructuredOptions};
 use reduction::{GearReducer, ReductionError, ReductionOptions, Window};
@@ -55,14 +56,28 @@ fn pressed(window: &Window) -> Vec<f64> {
 fn difference(gear: &GearReducer, window: &Window) -> f64 {
     let nodes = fillet_nodes(gear, window);
     let u = pressed(window);
-    let by_modes = gear.stress_modes(window, &nodes).unwrap().stress(&u).unwrap();
     let field = gear.expand(window, &u).unwrap();
-    let all = fem::nodal_stress(gear.gear().mesh(), gear.material(), gear.elements(), &field).unwrap();
+    let mesh = gear.gear().mesh();
+    let all = fem::nodal_stress(mesh, gear.material(), gear.elements(), &field).unwrap();
+    let by_elements = off(gear, window, &nodes, &gear.stress_modes(window, &nodes).unwrap().stress(&u).unwrap(), &all);
+
+    // The same from the faces of the fillets alone.
+    let fillets = RootFillets::new(gear.gear(), &pinion());
+    let (free, every) = (DofMap::new(mesh.nodes.len(), &[]), (0..mesh.nodes.len() as u32).collect::<Vec<_>>());
+    let operator = StressOperator::on_surface(mesh, gear.material(), &free, fillets.faces(), &every).unwrap();
+    let stress = operator.apply(Mat::from_fn(3 * field.len(), 1, |i, _| field[i / 3][i % 3]).as_ref()).unwrap();
+    let all: Vec<[f64; 6]> = (0..every.len()).map(|i| [0, 1, 2, 3, 4, 5].map(|k| stress[(6 * i + k, 0)])).collect();
+    let modes = gear.surface_stress_modes(window, &nodes, fillets.faces()).unwrap();
+    by_elements.max(off(gear, window, &nodes, &modes.stress(&u).unwrap(), &all))
+}
+
+/// Largest difference of stress by modes from that of the whole mesh, over the largest stress.
+fn off(gear: &GearReducer, window: &Window, nodes: &[u32], by_modes: &[[f64; 6]], all: &[[f64; 6]]) -> f64 {
     let (sin, cos) = gear.frame_angle(window).sin_cos();
     let turn = nalgebra::Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
     let tensor = |s: &[f64; 6]| nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
-    for (&node, s) in nodes.iter().zip(&by_modes) {
+    for (&node, s) in nodes.iter().zip(by_modes) {
         let wanted = tensor(&all[gear.material_node(window, node) as usize]);
         worst = worst.max((turn * tensor(s) * turn.transpose() - wanted).amax());
         largest = largest.max(wanted.amax());

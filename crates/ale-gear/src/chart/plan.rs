@@ -16,7 +16,8 @@ impl Density {
     /// Those of a quick look.
     pub const QUICK: [Self; 3] = [Self { profile: 2 }, Self { profile: 3 }, Self { profile: 4 }];
 
-    /// Counts in about the proportions of the mesher's default; `sector_teeth` stays the scene's own.
+    /// Counts for the transmission error: about those of the default, but half as many in fillet and rim;
+    /// `sector_teeth` stays the scene's own.
     fn mesher(self, own: Option<MesherScene>) -> MesherScene {
         let p = self.profile;
         MesherScene {

@@ -55,10 +55,19 @@ pub(crate) struct MotionHeadline {
     pub max_bearing_force_n: f64,
     pub max_pressure_mpa: f64,
     pub max_root_tension_mpa: Option<[f64; 2]>,
+    pub max_root_tension_estimated_error_percent: Option<[f64; 2]>,
     pub tooth_changes: u64,
     pub ramp: Option<PassageHeadline>,
     pub critical_speeds: Vec<CriticalSpeed>,
     pub certificate: MotionCertificate,
+}
+
+impl MotionHeadline {
+    /// Largest root tension (MPa) of pinion and wheel and its estimated error (%), when they were asked for.
+    pub fn root_tensions(&self) -> Option<[(f64, f64); 2]> {
+        let (stress, error) = (self.max_root_tension_mpa?, self.max_root_tension_estimated_error_percent?);
+        Some([(stress[0], error[0]), (stress[1], error[1])])
+    }
 }
 
 /// How far a motion can be trusted.
@@ -120,6 +129,7 @@ pub(super) fn headline(
     let [min_force, max_force] = rows.extent("normal_force_n");
     let max_coast_force = rows.extent("coast_normal_force_n")[1];
     let static_force = prepared.quasi_static.normal_force;
+    let tension = root_tension(scene, rows);
     let ramp = passage.and_then(Passage::headline);
     let (peak_to_peak, harmonics): (f64, Vec<f64>) = match &ramp {
         Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
@@ -165,15 +175,25 @@ pub(super) fn headline(
         mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
         max_bearing_force_n: bearing[0].max(bearing[1]),
         max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
-        max_root_tension_mpa: scene
-            .output
-            .root_stress
-            .then(|| GEARS.map(|gear| rows.extent(&format!("{gear}_root_stress_max_principal_mpa"))[1])),
+        max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
+        max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
         tooth_changes: done.motion.system().changes().count,
         ramp,
         critical_speeds: Vec::new(),
         certificate: certificate(done),
     })
+}
+
+/// Largest root tension of pinion and wheel over the rows (MPa), and its estimated error (%), when they were asked for.
+fn root_tension(scene: &Scene, rows: &Columns) -> Option<[(f64, f64); 2]> {
+    let largest = |gear: &str| {
+        let stress = rows.get(&format!("{gear}_root_stress_max_principal_mpa")).iter();
+        let all = stress.zip(rows.get(&format!("{gear}_root_stress_estimated_error_percent")));
+        // NaN where coast flanks press.
+        let known = all.filter(|(stress, _)| !stress.is_nan()).map(|(stress, error)| (*stress, *error));
+        known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
+    };
+    scene.output.root_stress.then(|| GEARS.map(largest))
 }
 
 fn certificate(done: &Finished) -> MotionCertificate {

@@ -21,8 +21,8 @@ use crate::{
     error::CommandError,
     facts::{Cost, Facts},
     output::{
-        MotionPictures, ResultDirectory, SweepPictures, motion_table, sweep_table, write_columnar, write_motion_report,
-        write_patterns, write_summary, write_sweep_report,
+        MotionPictures, ResultDirectory, SweepPictures, motion_table, root_stress_warnings, sweep_table,
+        write_columnar, write_motion_report, write_patterns, write_summary, write_sweep_report,
     },
     phases::Phases,
     scene::{MotionScene, Scene, SweepScene},
@@ -68,6 +68,7 @@ pub(super) fn write_motion(
     let asked = Asked::new(scene, words, cycles, mesh_hz);
     let pace = pace(phases, &["settle", "solve"], headline.certificate.steps as f64);
     warnings.extend(prepared.elasticity.warning(&vibration, &asked, pace));
+    warnings.extend(headline.root_tensions().into_iter().flat_map(root_stress_warnings));
     let (mut spectrum, mut campbell) = (None, None);
     match &over_speed {
         Some(passage) => {

@@ -73,7 +73,7 @@ pub use pvd::{PvdEntry, write_pvd};
 pub use rendered::{Rendered, report_again};
 pub use report::write_report;
 pub use root_stress::{GearRootStress, Place, RootStressHeadline};
-pub(crate) use root_stress::{root_stress_columns, root_stress_row};
+pub(crate) use root_stress::{root_stress_columns, root_stress_headline, root_stress_row, root_stress_warnings};
 pub(crate) use study_report::{StudyResult, write_study_report, write_study_summary};
 pub(crate) use study_tables::{study_csv, study_table};
 pub use summary::{SUMMARY_SCHEMA, write_summary};

@@ -46,8 +46,9 @@ pub(crate) fn motion_table(
         t.number("largest force of a bearing", h.max_bearing_force_n, 1, "N");
     }
     t.number("maximum pressure", h.max_pressure_mpa, 0, "MPa");
-    if let Some([pinion, wheel]) = h.max_root_tension_mpa {
-        t.text("largest root tension, pinion, wheel", format!("{}, {}", fixed(pinion, 1), fixed(wheel, 1)), "MPa");
+    if let Some([pinion, wheel]) = h.root_tensions() {
+        let unit = format!("MPa, within about {}, {} %", fixed(pinion.1, 1), fixed(wheel.1, 1));
+        t.text("largest root tension, pinion, wheel", format!("{}, {}", fixed(pinion.0, 1), fixed(wheel.0, 1)), &unit);
         t.iso_root_stress(facts);
     }
     t.cycles([c.warm_up_cycles, h.cycles], c.periodicity, c.period_cycles);

@@ -1,7 +1,7 @@
 //! Root stress in the result files: what is the largest, of which tooth, and where.
 
 use dynamics::{
-    FilletStress, ROOT_STRESS_AVERAGING, StressPeak,
+    FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StressPeak,
     result::{StaticHistory, StaticPosition},
 };
 use geometry::Side;
@@ -11,6 +11,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
 pub struct RootStressHeadline {
+    pub definition: &'static str,
     pub averaging: &'static str,
     pub pinion: GearRootStress,
     pub wheel: GearRootStress,
@@ -30,6 +31,7 @@ pub struct GearRootStress {
 #[allow(missing_docs)]
 pub struct Place {
     pub stress_mpa: f64,
+    pub estimated_error_percent: f64,
     pub tooth: u32,
     pub side: Side,
     pub radius_mm: f64,
@@ -75,6 +77,7 @@ impl Measure {
         let peak = (self.peak)(&fillet);
         Some(Place {
             stress_mpa: peak.stress,
+            estimated_error_percent: 100.0 * peak.relative_error(),
             tooth: fillet.tooth,
             side: fillet.side,
             radius_mm: peak.radius,
@@ -86,18 +89,38 @@ impl Measure {
     }
 }
 
-/// Names of a gear's columns of root stress: the worst of the whole window.
-pub(crate) fn root_stress_columns(gear: &str) -> [String; 3] {
-    MEASURES.map(|m| format!("{gear}_root_stress_{}_mpa", m.name))
+/// Names of a gear's columns of root stress: the worst of the whole window, and how far the largest tension may be off.
+pub(crate) fn root_stress_columns(gear: &str) -> [String; 4] {
+    let [tension, compression, von_mises] = MEASURES.map(|m| format!("{gear}_root_stress_{}_mpa", m.name));
+    [tension, compression, von_mises, format!("{gear}_root_stress_estimated_error_percent")]
 }
 
-/// The values of these columns, MPa.
-pub(crate) fn root_stress_row(fillets: &[FilletStress]) -> [f64; 3] {
-    MEASURES.map(|m| m.stress(fillets, None))
+/// The values of these columns: MPa, and per cent of the largest tension.
+pub(crate) fn root_stress_row(fillets: &[FilletStress]) -> [f64; 4] {
+    let [tension, compression, von_mises] = MEASURES.map(|m| m.stress(fillets, None));
+    let error = MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error());
+    [tension, compression, von_mises, error]
 }
+
+/// What a user should hear of root stresses whose mesh is too coarse for them.
+///
+/// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
+pub(crate) fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = String> {
+    ["pinion", "wheel"].into_iter().zip(largest).filter(|(_, (_, error))| *error > DOUBTFUL_PERCENT).map(
+        |(gear, (stress, error))| {
+            format!(
+                "the {gear}'s root stress of {stress:.1} MPa may be {error:.0} % off: its mesh is coarse in the fillet; \
+                 raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there"
+            )
+        },
+    )
+}
+
+/// From this estimate on the user is told, %.
+const DOUBTFUL_PERCENT: f64 = 3.0;
 
 /// Largest root stresses of a run that computed them.
-pub(super) fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
+pub(crate) fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
     let gear = |i| {
         Some(GearRootStress {
             max_principal: MAX_PRINCIPAL.place(history, i)?,
@@ -105,5 +128,13 @@ pub(super) fn root_stress_headline(history: &StaticHistory) -> Option<RootStress
             von_mises: VON_MISES.place(history, i)?,
         })
     };
-    Some(RootStressHeadline { averaging: ROOT_STRESS_AVERAGING, pinion: gear(0)?, wheel: gear(1)? })
+    let (definition, averaging) = (ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY);
+    Some(RootStressHeadline { definition, averaging, pinion: gear(0)?, wheel: gear(1)? })
+}
+
+impl RootStressHeadline {
+    /// Largest tension (MPa) of pinion and wheel and its estimated error (%).
+    pub(crate) fn largest_tensions(&self) -> [(f64, f64); 2] {
+        [self.pinion, self.wheel].map(|g| (g.max_principal.stress_mpa, g.max_principal.estimated_error_percent))
+    }
 }

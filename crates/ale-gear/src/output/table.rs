@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::Headline;
+use super::{Headline, Place};
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
 
@@ -138,8 +138,12 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// Unit, tooth and place of a root stress.
-fn place(at: &super::Place) -> String {
-    format!("MPa (tooth {}, {} fillet, r {:.3} mm, z {:.2} mm)", at.tooth, at.side.name(), at.radius_mm, at.z_mm)
+fn place(at: &Place) -> String {
+    let Place { tooth, radius_mm, z_mm, estimated_error_percent, .. } = at;
+    let side = at.side.name();
+    format!(
+        "MPa, within about {estimated_error_percent:.1} % (tooth {tooth}, {side} fillet, r {radius_mm:.3} mm, z {z_mm:.2} mm)"
+    )
 }
 
 fn sum([pinion, wheel]: [usize; 2]) -> String {

@@ -16,7 +16,7 @@ use crate::error::CommandError;
 use crate::facts::{Facts, Solved};
 use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
-use crate::output::ResultDirectory;
+use crate::output::{self, ResultDirectory};
 use crate::phases::Phases;
 use crate::scene::{Analysis, Model, Scene};
 use crate::view::ViewRecorder;
@@ -106,6 +106,8 @@ fn solve_scene(
     facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     warnings.extend(body_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
+    let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
+    warnings.extend(root.into_iter().flat_map(output::root_stress_warnings));
     let view =
         in_space.then(|| phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings))).flatten();
     history.warnings.extend(warnings);

@@ -127,15 +127,21 @@ fn rim_block(
     }))
 }
 
-/// Fractions 0..=1 of a depth in `elements` geometric steps, the first about `first`, neighbours at most 1 : 2;
+/// Most that a row of the rim may be thicker than the one above it.
+///
+/// The first row must be as thin as the fillet's elements are long, however deep the rim: with 1 : 2 the root stress of a gear of 90 teeth on a solid
+/// body was 6 % off with four rows.
+const GROWTH: f64 = 2.5;
+
+/// Fractions 0..=1 of a depth in `elements` geometric steps, the first about `first`, neighbours at most 1 : [`GROWTH`];
 /// mid-side positions half-way.
 fn graded(elements: usize, order: usize, first: f64) -> Vec<f64> {
     let sum = |q: f64| (0..elements).map(|i| q.powi(i as i32)).sum::<f64>();
-    let (mut low, mut high) = (1.0, 2.0);
+    let (mut low, mut high) = (1.0, GROWTH);
     if first * sum(1.0) >= 1.0 {
         high = 1.0;
-    } else if first * sum(2.0) < 1.0 {
-        low = 2.0;
+    } else if first * sum(GROWTH) < 1.0 {
+        low = GROWTH;
     }
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

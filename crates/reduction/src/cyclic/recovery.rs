@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
-use fem::dense;
+use fem::{StressOperator, dense};
+use mesh::{Face, Origin};
 
 use super::{
     CyclicGear,
     chain::{congruent, stacked},
 };
-use crate::{ReductionError, load::Load};
+use crate::{ReductionError, load::Load, stress_modes::StressRecovery};
 
 /// Copy, node of the sector, and share in a nodal mean.
 type Share = (u32, u32, f64);
@@ -111,16 +112,33 @@ impl CyclicGear {
 
     /// Stress at nodes of the larger mesh (6 rows a node, MPa) for unit forces on the coordinates, in the frame of copy 0.
     ///
-    /// On a cut the mean is over the elements on both of its sides.
-    pub(crate) fn stress(&self, nodes: &[u32]) -> Result<Mat<f64>, ReductionError> {
-        let parts = self.shares(nodes)?;
+    /// On a cut the mean is over the elements (faces) on both of its sides.
+    pub(crate) fn stress(&self, nodes: &[u32], recovery: StressRecovery) -> Result<Mat<f64>, ReductionError> {
+        let faces = match recovery {
+            StressRecovery::Volume => None,
+            StressRecovery::Surface(faces) => Some(self.own_faces(faces)),
+        };
+        let touching = match &faces {
+            None => self.sector.elements_about(),
+            Some(faces) => {
+                let mut count = vec![0; self.part.mesh.nodes.len()];
+                faces.iter().flat_map(Face::nodes).for_each(|&n| count[n as usize] += 1);
+                count
+            }
+        };
+        let parts = self.shares(nodes, &touching)?;
         let mut own: Vec<u32> = parts.iter().flatten().map(|p| p.1).collect();
         let mut copies: Vec<u32> = parts.iter().flatten().map(|p| p.0).collect();
         for list in [&mut own, &mut copies] {
             list.sort_unstable();
             list.dedup();
         }
-        let [by_load, by_cut] = self.sector.stress(&self.material, &self.elements, &own)?;
+        let (mesh, dofs) = (self.sector.mesh(), &self.sector.dofs);
+        let operator = match &faces {
+            None => StressOperator::new(mesh, &self.material, &self.elements, dofs, &own)?,
+            Some(faces) => StressOperator::on_surface(mesh, &self.material, dofs, faces, &own)?,
+        };
+        let [by_load, by_cut] = self.sector.stress(&operator)?;
         let unit = Mat::<f64>::identity(3 * self.coordinates.len(), 3 * self.coordinates.len());
         let ring = self.ring_cuts(None);
         let mut stress = Mat::<f64>::zeros(6 * nodes.len(), unit.ncols());
@@ -147,8 +165,8 @@ impl CyclicGear {
     }
 
     /// Of which the nodal mean at each node is made.
-    fn shares(&self, nodes: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
-        let (z, touching) = (self.part.teeth, self.sector.touching());
+    fn shares(&self, nodes: &[u32], touching: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
+        let z = self.part.teeth;
         let count = self.part.places.len();
         let of = |&node: &u32| {
             let wrong = || fem::FemError::Shape { what: "nodes", expected: count, found: node as usize };
@@ -161,6 +179,31 @@ impl CyclicGear {
             Ok(vec![(place.copy, place.node, here / sum), ((place.copy + z - 1) % z, right, behind / sum)])
         };
         nodes.iter().map(of).collect()
+    }
+
+    /// Faces of the larger mesh as those of the sector, each once; faces that lie in a cut are left out.
+    fn own_faces(&self, faces: &[Face]) -> Vec<Face> {
+        let z = self.part.teeth;
+        let own = |face: &Face| {
+            let places: Vec<Origin> =
+                face.nodes().iter().map(|&n| self.part.places.get(n as usize).copied()).collect::<Option<_>>()?;
+            // A node of the right cut is kept as one of the next copy's left cut.
+            let in_copy = |copy: u32| -> Option<Vec<u32>> {
+                let of = |p: &Origin| match (p.copy == copy, p.copy == (copy + 1) % z) {
+                    (true, _) => Some(p.node),
+                    (_, true) => self.part.right_of(p.node),
+                    _ => None,
+                };
+                places.iter().map(of).collect()
+            };
+            let on_left = |p: &Origin| self.part.right_of(p.node).is_some();
+            let first = places.iter().find(|p| !on_left(p)).or(places.first())?.copy;
+            [first, (first + z - 1) % z].into_iter().find_map(in_copy).map(|nodes| Face::new(face.kind, &nodes))
+        };
+        let mut all: Vec<Face> = faces.iter().filter_map(own).collect();
+        all.sort_by_key(Face::corner_key);
+        all.dedup_by_key(|face| face.corner_key());
+        all
     }
 
     /// M^ (t) of the coordinates, whose stiffness is `stiffness`, in the frame of copy 0.

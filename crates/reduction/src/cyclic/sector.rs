@@ -220,19 +220,14 @@ impl Sector {
         &self.mesh
     }
 
-    /// Stress at some nodes for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts (6q x 2c, MPa/mm); components in the sector's
-    /// frame, the mean over the elements of this sector alone.
-    pub(super) fn stress(
-        &self,
-        material: &Material,
-        elements: &ElementOptions,
-        nodes: &[u32],
-    ) -> Result<[Mat<f64>; 2], ReductionError> {
-        let operator = StressOperator::new(&self.mesh, material, elements, &self.dofs, nodes)?;
+    /// Stress at the nodes of `operator` (q of them) for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts (6q x 2c, MPa/mm);
+    /// components in the sector's frame.
+    pub(super) fn stress(&self, operator: &StressOperator) -> Result<[Mat<f64>; 2], ReductionError> {
+        let nodes = operator.node_count();
         let (m, ends) = (self.loads(), 2 * self.cut);
-        let (mut by_load, mut by_cut) = (Mat::zeros(6 * nodes.len(), m), Mat::zeros(6 * nodes.len(), ends));
-        for start in (0..nodes.len()).step_by(COLUMNS / 6) {
-            let end = nodes.len().min(start + COLUMNS / 6);
+        let (mut by_load, mut by_cut) = (Mat::zeros(6 * nodes, m), Mat::zeros(6 * nodes, ends));
+        for start in (0..nodes).step_by(COLUMNS / 6) {
+            let end = nodes.min(start + COLUMNS / 6);
             let answer = self.adjoint(operator.transposed(start..end)?.as_ref())?;
             let (own, cuts) = answer.as_ref().split_at_row(m);
             let (rows, count) = (6 * start, 6 * (end - start));
@@ -263,7 +258,7 @@ impl Sector {
     }
 
     /// Number of elements about each node.
-    pub(super) fn touching(&self) -> Vec<u32> {
+    pub(super) fn elements_about(&self) -> Vec<u32> {
         let mut count = vec![0; self.mesh.nodes.len()];
         self.mesh.blocks.iter().flat_map(|b| &b.connectivity).for_each(|&n| count[n as usize] += 1);
         count

@@ -66,10 +66,10 @@ pub(in crate::scene) static MESHER: Table = keys(
     &[
         whole("order", 1, 2, 2, "1: hex8, 2: hex20"),
         whole("elements_profile", 1, 500, 6, "elements along the active flank"),
-        whole("elements_fillet", 2, 500, 3, "elements along fillet and root land"),
+        whole("elements_fillet", 2, 500, 6, "elements along fillet and root land"),
         whole("elements_thickness", 1, 500, 4, "elements across the tooth"),
         whole("elements_face", 1, 2000, 6, "elements along the face width"),
-        whole("elements_rim", 1, 500, 3, "elements from the root to the bore"),
+        whole("elements_rim", 1, 500, 5, "elements from the root to the bore"),
         whole(
             "sector_teeth",
             0,

@@ -1,0 +1,104 @@
+//! The nodes of one fillet, which of them are neighbours, and the hill of a stress on them.
+
+use std::collections::BTreeMap;
+
+use geometry::{Gear, Side};
+use mesh::{Face, Mesh, RootFillets};
+
+/// One fillet of a window.
+#[derive(Debug)]
+pub(super) struct Fillet {
+    /// In the matrices' frame.
+    pub tooth: u32,
+    pub side: Side,
+    /// Places of its nodes among those of the window.
+    places: Vec<usize>,
+    /// Places with which each of them shares a face.
+    neighbours: Vec<Vec<usize>>,
+    /// Whether it is in the uppermost row: no neighbour is farther from the axis.
+    uppermost: Vec<bool>,
+    /// Whether it is below the [`FALLBACK_TANGENT`].
+    below: Vec<bool>,
+}
+
+/// Where stress is looked at in a fillet on which it has no hill: below this tangent, rad (25 deg).
+const FALLBACK_TANGENT: f64 = 25.0 * std::f64::consts::PI / 180.0;
+/// Nodes of the neck of a generated mesh lie on that circle, modules.
+const ON_CIRCLE_MODULES: f64 = 0.01;
+
+/// Radius of the [`FALLBACK_TANGENT`] of a gear, mm.
+pub(super) fn fallback_radius(gear: &Gear) -> f64 {
+    let profile = gear.profile();
+    let (radius, _) = profile.fillet(profile.fillet_at_tangent(FALLBACK_TANGENT));
+    radius + ON_CIRCLE_MODULES * gear.data().normal_module
+}
+
+/// Neighbours of the fillets' nodes.
+pub(super) struct Surroundings<'a> {
+    mesh: &'a Mesh,
+    faces: &'a [Face],
+    /// Faces by node.
+    about: BTreeMap<u32, Vec<usize>>,
+    fallback: f64,
+}
+
+impl<'a> Surroundings<'a> {
+    pub fn new(found: &'a RootFillets, mesh: &'a Mesh, fallback: f64) -> Self {
+        let mut about: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (i, face) in found.faces().iter().enumerate() {
+            face.nodes().iter().for_each(|&n| about.entry(n).or_default().push(i));
+        }
+        Self { mesh, faces: found.faces(), about, fallback }
+    }
+
+    /// The fillet of these nodes (ascending), which come to stand from `first` on.
+    pub fn fillet(&self, tooth: u32, side: Side, nodes: &[u32], first: usize) -> Fillet {
+        let radius = |node: u32| {
+            let [x, y, _] = self.mesh.nodes[node as usize];
+            x.hypot(y)
+        };
+        let beside = |node: &u32| -> Vec<usize> {
+            let faces = self.about.get(node).into_iter().flatten().flat_map(|&i| self.faces[i].nodes());
+            let own = faces.filter(|other| *other != node).filter_map(|other| nodes.binary_search(other).ok());
+            let mut beside: Vec<usize> = own.collect();
+            beside.sort_unstable();
+            beside.dedup();
+            beside
+        };
+        let neighbours: Vec<Vec<usize>> = nodes.iter().map(beside).collect();
+        let farther = |node: u32, other: usize| radius(nodes[other]) > radius(node) * (1.0 + 1e-9);
+        Fillet {
+            tooth,
+            side,
+            places: (first..first + nodes.len()).collect(),
+            uppermost: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| farther(n, m))).collect(),
+            below: nodes.iter().map(|&n| radius(n) <= self.fallback).collect(),
+            neighbours: neighbours.into_iter().map(|of| of.into_iter().map(|m| first + m).collect()).collect(),
+        }
+    }
+}
+
+impl Fillet {
+    /// Largest of `sign` times a measure over all nodes, as a value of the measure.
+    pub fn largest(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<f64> {
+        self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
+    }
+
+    /// Place and value of the largest hill of `sign` times a measure; of the largest value below the [`FALLBACK_TANGENT`] where
+    /// there is no hill, of the largest at all where no node is below it.
+    ///
+    /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there is the stress of contact
+    /// beside it, which has no limit as the mesh is refined.
+    pub fn peak(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<(usize, f64)> {
+        let largest = |counts: &dyn Fn(usize) -> bool| {
+            let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], value(self.places[i])));
+            // The first of equals, so that nothing depends on how the nodes are gone through.
+            values.reduce(|best, v| if sign * v.1 > sign * best.1 { v } else { best })
+        };
+        let hill = |i: usize| {
+            let own = sign * value(self.places[i]);
+            !self.uppermost[i] && self.neighbours[i].iter().all(|&other| sign * value(other) <= own)
+        };
+        largest(&hill).or_else(|| largest(&|i| self.below[i])).or_else(|| largest(&|_| true))
+    }
+}
