@@ -5,7 +5,7 @@
 
 mod support;
 
-use dynamics::{ElasticGear, Misalignment, StaticModel, StaticOptions, slice_errors, slices_needed};
+use dynamics::{ElasticGear, Misalignment, SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
 use mesh::Extent;
 use support::{Case, default_data, modified, quadratic, summary};
@@ -74,9 +74,10 @@ fn row(name: &str, [mean, swing, length, pressure]: [f64; 4]) {
     println!("{name}: mean {mean:+.2}, peak to peak {swing:+.1}, length {length:+.2}, pressure {pressure:+.2} %");
 }
 
-/// The default pair keeps its 32 slices; wider and more crowned pairs under less load never ask for less.
+/// The default pair keeps its 32 slices; wider pairs and crowned ones under a light load ask for more.
 #[test]
-fn counts_follow_width_crowning_and_load() {
+fn counts_follow_width_and_load() {
+    let said = |e: &SpringErrors| format!("{:.2}, {:.2}, {:.2} %", 100.0 * e.mean, 100.0 * e.swing, 100.0 * e.peak);
     let count = |width: f64, [crowning, misaligned]: [f64; 2], line_load: f64| {
         let data = default_data(20.0).map(|d| GearData { face_width: width * MODULE, ..d });
         let [pinion, wheel] = data.map(|d| Gear::new(d).unwrap());
@@ -86,7 +87,10 @@ fn counts_follow_width_crowning_and_load() {
         let need = slices_needed(&pair, &options);
         let of_32 = slice_errors(&pair, &options, 32);
         println!(
-            "b/m {width:.2}, crowning {crowning} um, misalignment {misaligned} um, {line_load} N mm/mm: {need:.4?}, 32: {of_32:.4?}"
+            "b/m {width:.2}, crowning {crowning} um, misalignment {misaligned} um, {line_load} N mm/mm: {} slices ({}), 32: {}",
+            need.count,
+            said(&need.errors),
+            said(&of_32)
         );
         need.count
     };
@@ -96,11 +100,9 @@ fn counts_follow_width_crowning_and_load() {
         count(w, f, usual);
     });
     let by_width = WIDTHS.map(|w| count(w, [0.0, 0.0], usual));
-    let by_crowning = [30.0, 200.0, 1000.0].map(|c| count(15.0, [c, 0.0], usual));
     let by_load = [1.0, 0.1, 0.01].map(|part| count(15.0, [30.0, 0.0], part * usual));
-    for counts in [by_width, by_crowning, by_load] {
-        assert!(counts.windows(2).all(|w| w[0] <= w[1]) && counts[2] > 32, "{counts:?}");
-    }
+    assert!(by_width.windows(2).all(|w| w[0] < w[1]), "{by_width:?}");
+    assert!(by_load[2] > by_load[0] && by_load[2] > 32, "{by_load:?}");
 }
 
 /// Contact-line length of the default pair at every position, with 16 and 32 slices against 256: within 0.1 %, where it went up and down by 0.5 mm of 34 with the slices that came and went. The mean within 0.02 %.
@@ -168,7 +170,7 @@ fn short_lines_have_their_length() {
 #[test]
 #[ignore = "minutes: a table for docs/validation.md"]
 fn slices_alone() {
-    for (width, face) in WIDTHS.into_iter().zip([6, 10, 16]) {
+    for (width, face) in WIDTHS.into_iter().zip([6, 10, 16]).rev() {
         let case = case(width, [3, 2, 2, face, 2]);
         let base = options(&case);
         let mut gears = Some(case.reduced_gears(&base));
@@ -214,4 +216,53 @@ fn face_elements_alone() {
             }
         }
     }
+}
+
+/// The counts that the program chooses, on a coarse section, against 384 slices and about three times as many face elements: mean within 1 %, peak to peak and pressure within 3 %, length within 2 %.
+fn defaults_against_the_finest(width: f64, finest_face: u32) {
+    let mut finest = Vec::new();
+    for face in [finest_face, mesh::face_elements(width * MODULE, MODULE, 2)] {
+        let case = case(width, [3, 2, 2, face, 2]);
+        let base = options(&case);
+        let mut gears = Some(case.reduced_gears(&base));
+        for (k, flank) in FLANKS.into_iter().enumerate() {
+            let (pair, options) = flank_case(&case.pair, &base, flank);
+            let chosen = slices_needed(&pair, &options).count;
+            let slices = if face == finest_face { 384 } else { chosen };
+            let (found, back) = answer(&pair, gears.take().unwrap(), &StaticOptions { slices, ..options });
+            gears = Some(back);
+            if face == finest_face {
+                finest.push(found);
+                continue;
+            }
+            let off = found.off(&finest[k]);
+            let [crowning, misaligned] = flank;
+            row(
+                &format!(
+                    "b/m {width}, crowning {crowning} um, misalignment {misaligned} um, {slices} slices, {face} face elements"
+                ),
+                off,
+            );
+            let within = off.iter().zip([1.0, 3.0, 2.0, 3.0]).all(|(off, most)| off.abs() < most);
+            assert!(within, "b/m {width}, {flank:?}: {off:?} %");
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: a table for docs/validation.md"]
+fn defaults_of_narrow_pairs() {
+    defaults_against_the_finest(5.0, 18);
+}
+
+#[test]
+#[ignore = "minutes: a table for docs/validation.md"]
+fn defaults_of_medium_pairs() {
+    defaults_against_the_finest(15.0, 27);
+}
+
+#[test]
+#[ignore = "half an hour: a table for docs/validation.md"]
+fn defaults_of_wide_pairs() {
+    defaults_against_the_finest(40.0, 60);
 }

@@ -4,6 +4,7 @@ use dynamics::result::StaticHistory;
 use serde::Serialize;
 
 use crate::phases::{Phase, Phases};
+pub use crate::resolution::Resolution;
 use crate::view::View;
 
 /// A solved scene.
@@ -34,6 +35,9 @@ pub struct Facts {
     pub window_teeth: Option<u32>,
     /// Contact points of the window.
     pub contact_points: Option<usize>,
+    /// How fine contact and meshes are along the face; `None` for a model without meshes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<Resolution>,
     /// Wall time from the start of the program to the first solved position, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_result_s: Option<f64>,

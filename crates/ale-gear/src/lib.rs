@@ -46,5 +46,6 @@ mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
+mod resolution;
 pub mod rexs;
 pub mod view;

@@ -38,7 +38,7 @@ pub use kinematic::kinematic_transmission_error;
 pub use mesh_contact::{ContactWork, MeshContact, MeshForce};
 pub use options::{Bulk, Driver, Method, StaticOptions};
 pub use pose::{Misalignment, Offset};
-pub use result::{Certificate, PairResult, SliceResult, StaticHistory, StaticPosition, Wrench};
+pub use result::{Certificate, PairResult, Site, SliceResult, StaticHistory, StaticPosition, Wrench};
 pub use root_stress::{FilletStress, ROOT_STRESS_AVERAGING, StressPeak};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};
 pub use slice_set::SliceSet;

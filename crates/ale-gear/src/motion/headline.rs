@@ -11,6 +11,7 @@ use super::{
     rows::GEARS,
     table::Columns,
 };
+use crate::output::{PLACE_COLUMNS, PressurePlace};
 use crate::scene::{MotionScene, Run, Scene};
 
 /// Mesh harmonics that are listed.
@@ -50,6 +51,7 @@ pub(crate) struct MotionHeadline {
     pub mean_wheel_tilting_moment_nmm: f64,
     pub max_bearing_force_n: f64,
     pub max_pressure_mpa: f64,
+    pub max_pressure_at: Option<PressurePlace>,
     pub max_root_tension_mpa: Option<[f64; 2]>,
     pub tooth_changes: u64,
     pub certificate: MotionCertificate,
@@ -145,6 +147,7 @@ pub(super) fn headline(
         mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
         max_bearing_force_n: bearing[0].max(bearing[1]),
         max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
+        max_pressure_at: hardest(rows),
         max_root_tension_mpa: scene
             .output
             .root_stress
@@ -152,6 +155,14 @@ pub(super) fn headline(
         tooth_changes: done.motion.system().changes().count,
         certificate: certificate(done),
     })
+}
+
+/// Where the pressure is largest in any row.
+fn hardest(rows: &Columns) -> Option<PressurePlace> {
+    let pressure = rows.get("max_pressure_mpa");
+    let row = (0..pressure.len()).reduce(|best, i| if pressure[i] > pressure[best] { i } else { best })?;
+    let at = |name: &str| rows.get(name).get(row).copied().unwrap_or(f64::NAN);
+    PressurePlace::of_row(PLACE_COLUMNS.map(at), at("pinion_angle_deg"), at("mesh_phase"))
 }
 
 fn certificate(done: &Finished) -> MotionCertificate {

@@ -7,6 +7,7 @@ use dynamics::result::StaticHistory;
 
 use super::{
     pairs,
+    pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values},
     root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
 use crate::scene::Scene;
@@ -26,6 +27,9 @@ const LEADING: &[&str] = &[
 const WRENCH: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
 const TRAILING: &[&str] = &[
     "max_pressure_mpa",
+    PLACE_COLUMNS[0],
+    PLACE_COLUMNS[1],
+    PLACE_COLUMNS[2],
     "strain_energy_nmm",
     "friction_power_loss_w",
     "tooth_changes",
@@ -68,8 +72,13 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         }
         row.extend(columns.iter().map(|&k| pairs::force(p, k, pitch)));
         let c = &p.certificate;
+        let [place, place_z, place_diameter] =
+            place_values(base_radius_mm(scene, 0), p.pairs.iter().flat_map(|pair| &pair.slices));
         row.extend([
             p.max_pressure,
+            place,
+            place_z,
+            place_diameter,
             p.strain_energy,
             1e-3 * p.friction_work * scene.pinion_speed(),
             p.tooth_changes as f64,

@@ -16,6 +16,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::ResultDirectory;
 use crate::phases::Phases;
+use crate::resolution::resolution;
 use crate::scene::{Analysis, Model, Scene};
 use crate::view::ViewRecorder;
 use crate::{gears, iso_model, meshes};
@@ -68,6 +69,8 @@ fn solve_scene(
     let mut warnings = gears::doubts(&pair);
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     let mut options = options(scene, &pair);
+    let (resolution, said) = resolution(scene, &pair, &options);
+    warnings.extend(said);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
     let Attempt { model, mut history, first_result_s, recorder } = loop {
         match attempt(inputs, phases, &options) {
@@ -91,6 +94,7 @@ fn solve_scene(
         window_teeth: Some(model.window().count() as u32),
         first_result_s,
         contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
+        resolution: Some(resolution),
         ..Facts::default()
     };
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));

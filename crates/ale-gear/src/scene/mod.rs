@@ -146,7 +146,7 @@ impl Scene {
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let (all, ranges) = setting::below(text, settings);
         let source = source::Source::scene(file, &all, settings, &ranges);
-        let scene = check::scene(&source, raw::read(&source)?)?;
+        let scene = crate::resolution::settled(check::scene(&source, raw::read(&source)?)?);
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
 
