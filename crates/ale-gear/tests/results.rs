@@ -43,8 +43,7 @@ fn history_has_the_documented_columns() {
          pinion_moment_x_nmm,pinion_moment_y_nmm,pinion_moment_z_nmm,\
          wheel_force_x_n,wheel_force_y_n,wheel_force_z_n,wheel_moment_x_nmm,wheel_moment_y_nmm,wheel_moment_z_nmm,\
          normal_force_pair_-1_n,normal_force_pair_0_n,normal_force_pair_1_n,\
-         max_pressure_mpa,max_pressure_place,max_pressure_z_mm,max_pressure_pinion_diameter_mm,\
-         strain_energy_nmm,friction_power_loss_w,tooth_changes,torque_residual,complementarity_residual,\
+         max_pressure_mpa,strain_energy_nmm,friction_power_loss_w,tooth_changes,torque_residual,complementarity_residual,\
          action_reaction_residual,window_edge_load,iterations"
     );
     assert_eq!(csv.lines().count(), 33);

@@ -57,11 +57,14 @@ pub struct SliceResult {
 }
 
 impl SliceResult {
-    /// The slice with the largest pressure, the first of equals.
+    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an order.
+    pub fn is_harder(&self, other: &Self) -> bool {
+        self.pressure > other.pressure * (1.0 + 1e-9)
+    }
+
+    /// The slice with the largest pressure, the first of those that have it but for round-off.
     pub fn hardest<'a>(slices: impl IntoIterator<Item = &'a Self>) -> Option<&'a Self> {
-        slices
-            .into_iter()
-            .fold(None, |best, s| if best.is_none_or(|b: &Self| s.pressure > b.pressure) { Some(s) } else { best })
+        slices.into_iter().fold(None, |best, s| if best.is_none_or(|b: &Self| s.is_harder(b)) { Some(s) } else { best })
     }
 }
 

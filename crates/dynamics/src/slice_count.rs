@@ -60,8 +60,8 @@ impl SpringErrors {
 /// solved exactly at eight phases. Without torque, or where the flanks face each other nowhere, the first count.
 pub fn slices_needed(pair: &GearPair, options: &StaticOptions) -> SliceCount {
     let springs = Springs::new(pair, options);
-    let counted = COUNTS.map(|count| SliceCount { count, errors: springs.errors(count) });
-    counted.into_iter().find(|c| !c.errors.exceed(1.0)).unwrap_or(counted[COUNTS.len() - 1])
+    let of = |count: usize| SliceCount { count, errors: springs.errors(count) };
+    COUNTS.into_iter().map(of).find(|c| !c.errors.exceed(1.0)).unwrap_or_else(|| of(COUNTS[COUNTS.len() - 1]))
 }
 
 /// What the springs lose with any count of slices: see [`slices_needed`].

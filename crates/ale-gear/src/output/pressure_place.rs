@@ -35,7 +35,7 @@ impl PressurePlace {
             .iter()
             .flat_map(|p| p.pairs.iter().flat_map(move |q| q.slices.iter().map(move |s| (p, q, s))));
         let (p, q, s) = slices.fold(None, |best: Option<(_, _, &SliceResult)>, now| match best {
-            Some(b) if now.2.pressure <= b.2.pressure => Some(b),
+            Some(b) if !now.2.is_harder(b.2) => Some(b),
             _ => Some(now),
         })?;
         let at = |gear: usize| diameter(base_radius_mm(scene, gear), s.roll[gear]);
