@@ -3,7 +3,7 @@
 use std::{
     fs::{self, File},
     path::{Path, PathBuf},
-    time::SystemTime,
+    time::{Duration, SystemTime},
 };
 
 use reduction::{RecordKey, ReductionRecord};
@@ -23,6 +23,10 @@ pub struct Cache {
 const LIMIT: u64 = 4_000_000_000;
 /// Suffix of the files.
 const SUFFIX: &str = "reduced";
+/// And of those that are being written, before the number of the process.
+const TORN: &str = "partial-";
+/// Nobody writes for so long.
+const LONGEST_WRITE: Duration = Duration::from_secs(24 * 3600);
 
 impl Cache {
     /// Nothing is read or written.
@@ -79,10 +83,11 @@ impl Cache {
     fn write(&self, file: &Path, bytes: &[u8]) -> std::io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         fs::create_dir_all(folder)?;
-        let partial = Partial::new(file.with_extension(format!("partial-{}", std::process::id())));
+        let partial = Partial::new(file.with_extension(format!("{TORN}{}", std::process::id())));
         fs::write(partial.path(), bytes)?;
         fs::rename(partial.path(), file)?;
         partial.keep();
+        forget_torn(folder);
         make_room(folder, file);
         Ok(())
     }
@@ -91,6 +96,19 @@ impl Cache {
 /// Marks a file as used now. Where the system does not let it, the file is only taken for older than it is.
 fn touch(file: &Path) {
     let _ = File::options().append(true).open(file).and_then(|f| f.set_modified(SystemTime::now()));
+}
+
+/// Removes what killed processes have left half written.
+fn forget_torn(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let of_process = |e: &str| e.strip_prefix(TORN).is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit()));
+        let ours = path.extension().and_then(|e| e.to_str()).is_some_and(of_process);
+        let since = fs::metadata(&path).and_then(|data| data.modified()).ok().and_then(|t| t.elapsed().ok());
+        if ours && since.is_some_and(|age| age > LONGEST_WRITE) {
+            let _ = fs::remove_file(path);
+        }
+    }
 }
 
 /// Removes the least recently used files until the rest is within the limit; `newest` stays.

@@ -41,6 +41,7 @@ pub mod talk;
 
 mod gears;
 mod geometry_fault;
+mod input_text;
 mod iso_model;
 mod ladder;
 pub mod meshes;
@@ -48,4 +49,6 @@ mod partial;
 pub mod reduce;
 mod resolution;
 pub mod rexs;
+mod room;
 pub mod view;
+mod work_folder;

@@ -47,7 +47,10 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 let message = if said.starts_with(&file) { said } else { format!("{file}: {said}") };
                 CommandError::input(message, e.hint())
             };
-            let mesh = Mesh::read(&file).map_err(|e| complain(&e))?;
+            let content =
+                scene.content(path).map_err(|source| complain(&MeshError::Read { path: file.clone(), source }))?;
+            let mesh = Mesh::parse(&content, &file).map_err(|e| complain(&e))?;
+            drop(content);
             of_this_size(&file.display().to_string(), whose, &mesh, exact)?;
             let mut warnings = sound(&file.display().to_string(), &mesh, gear)?;
             let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(|e| complain(&e))?;

@@ -52,6 +52,11 @@ impl Drop for Partial {
     }
 }
 
+/// As long as the value lives nobody stops the program by its handler, nor takes a path away: for changes that must be whole.
+pub(crate) fn in_one_piece() -> impl Sized {
+    paths()
+}
+
 fn paths() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
     PARTIAL.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -46,9 +46,6 @@ pub struct Progress {
     due: Option<Arc<AtomicU64>>,
 }
 
-/// Seconds into a phase at which a log gets its first line; the next ones are due after twice the time each.
-const FIRST_LINE: u64 = 20;
-
 impl Progress {
     /// One more unit of work is done.
     pub fn tick(&self) {
@@ -58,12 +55,12 @@ impl Progress {
         }
     }
 
-    /// A line for a log, that nobody who waits has to wonder: as due.
+    /// A line for a log, that nobody who waits has to wonder: as due, and again after twice the time.
     fn log(&self, due: &AtomicU64) {
         let elapsed = self.bar.elapsed();
         let at = due.load(Ordering::Relaxed);
         let now = elapsed.as_secs();
-        if now < at || due.compare_exchange(at, 2 * now, Ordering::Relaxed, Ordering::Relaxed).is_err() {
+        if now < at || due.compare_exchange(at, (2 * now).max(1), Ordering::Relaxed, Ordering::Relaxed).is_err() {
             return;
         }
         let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
@@ -142,7 +139,7 @@ impl Phases {
         let own_peak = memory::reset_peak();
         let start = Instant::now();
         let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
-        let due = logs.then(|| Arc::new(AtomicU64::new(FIRST_LINE)));
+        let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
         let result = work(&Progress { bar: bar.clone(), due });
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
@@ -209,17 +206,5 @@ mod tests {
         assert_eq!((full(-1.0), full(0.0), full(0.5), full(1.0), full(1e9)), (0, 0, 16, 31, 31));
         assert!([0.0, 0.3, 5.0].iter().all(|&p| filled(p).len() == BAR));
         assert_eq!((left(200.0).as_str(), left(12.3).as_str()), ("about 3 min left", "about 12 s left"));
-    }
-
-    /// A phase that touches 64 MB shows them, and the next one does not.
-    #[test]
-    fn a_phase_has_its_own_peak() {
-        let mut phases = Phases::quiet();
-        phases.run("large", || std::hint::black_box(vec![1_u8; 64_000_000]).len());
-        phases.run("small", || ());
-        let [large, small] = phases.rows() else { panic!("two phases") };
-        if let (Some(large), Some(small)) = (large.peak_memory_mb, small.peak_memory_mb) {
-            assert!(large > small + 30.0, "{large} MB, then {small} MB");
-        }
     }
 }

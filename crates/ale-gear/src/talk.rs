@@ -2,7 +2,9 @@
 
 use std::fmt::Display;
 use std::io::{IsTerminal, Write};
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+
+use crate::error::CommandError;
 
 /// How much is said while work is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,6 +31,35 @@ pub fn set_loudness(loudness: Loudness) {
 /// How much the process says.
 pub fn loudness() -> Loudness {
     ALL[usize::from(LOUDNESS.load(Ordering::Relaxed)).min(ALL.len() - 1)]
+}
+
+/// Variable of the environment: seconds into a phase at which a log gets its first line on how far it is, or `never`.
+pub const PROGRESS_AFTER_S: &str = "ALE_GEAR_PROGRESS_AFTER_S";
+/// Word of [`PROGRESS_AFTER_S`] for no such lines.
+const NEVER: &str = "never";
+/// Seconds of this process; the largest number stands for never. Twenty where the environment says nothing.
+static PROGRESS_AFTER: AtomicU64 = AtomicU64::new(20);
+
+/// Takes [`PROGRESS_AFTER_S`] from the environment.
+///
+/// # Errors
+/// When it is neither whole seconds nor `never`.
+pub(crate) fn read_progress_after() -> Result<(), CommandError> {
+    let Some(word) = std::env::var_os(PROGRESS_AFTER_S) else { return Ok(()) };
+    let word = word.to_string_lossy();
+    let seconds = if word == NEVER { Some(u64::MAX) } else { word.parse().ok() };
+    let wrong = || {
+        let hint = "unset it for 20 s; it is a variable of the environment".to_owned();
+        let allowed = format!("allowed are whole seconds and `{NEVER}`");
+        CommandError::input(format_args!("{PROGRESS_AFTER_S} is `{word}`, {allowed}"), Some(hint))
+    };
+    PROGRESS_AFTER.store(seconds.ok_or_else(wrong)?, Ordering::Relaxed);
+    Ok(())
+}
+
+/// Seconds into a phase at which a log gets its first line on how far it is; `None`: no such lines.
+pub(crate) fn progress_after_s() -> Option<u64> {
+    Some(PROGRESS_AFTER.load(Ordering::Relaxed)).filter(|&s| s < u64::MAX)
 }
 
 /// Says a line on stderr if that much is wanted.

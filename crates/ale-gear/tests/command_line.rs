@@ -48,7 +48,8 @@ fn data_goes_to_stdout_and_talk_to_stderr() {
         assert_eq!((quiet.code, quiet.stdout.as_str(), quiet.stderr.as_str()), (Some(0), "", ""));
     }
     let steps = scratch.ale_gear(["-v", "run", "a.toml", "--out", "o", "--threads", "1"]);
-    assert!(steps.stderr.contains("geometry ...\ngeometry: 0."), "{}", steps.stderr);
+    let timed = steps.stderr.split_once("geometry ...\ngeometry: ").and_then(|(_, rest)| rest.split_once(" s\n"));
+    assert!(timed.is_some_and(|(s, _)| s.parse::<f64>().is_ok_and(|s| s >= 0.0)), "{}", steps.stderr);
     assert!(steps.stdout.contains("mean STE"), "{}", steps.stdout);
     let summary = json(&scratch.read("o/summary.json"));
     assert_eq!((&summary["headline"], &summary["cost"]["threads"]), (&headline, &Value::from(1)));
@@ -57,6 +58,29 @@ fn data_goes_to_stdout_and_talk_to_stderr() {
         (none.code, none.stderr.as_str()),
         (Some(2), "ale-gear: `--threads` is 0, allowed is 1 or more\nhint: leave it out to use all cores\n")
     );
+}
+
+/// Into a log goes a line on how far a phase is, as late as the environment says: twenty seconds, at once, or never.
+#[test]
+fn a_log_is_told_how_far_the_work_is() {
+    let still = motion_scene(0, "").replace("kind = \"dynamic\"\n", "").replace(util::MOTION_LINES, "");
+    let scratch = Scratch::new().file("a.toml", still);
+    let run = |after: &str| {
+        let words = ["run", "a.toml", "--out", "o"];
+        Scratch::done(scratch.program().args(words).env(ale_gear::talk::PROGRESS_AFTER_S, after))
+    };
+    for late in ["1000000", "never"] {
+        fine(&run(late));
+    }
+    let told = run("0");
+    assert_eq!(told.code, Some(0), "{}", told.stderr);
+    let tells = |line: &str| line.starts_with("solve: ") && line.contains(" of 4 after ") && line.contains(" s, ");
+    assert!(told.stderr.lines().any(tells), "{}", told.stderr);
+    for wrong in ["soon", "-1", "2.5", ""] {
+        let refused = run(wrong);
+        let said = format!("ale-gear: ALE_GEAR_PROGRESS_AFTER_S is `{wrong}`, allowed are whole seconds and `never`\n");
+        assert!(refused.stderr.starts_with(&said) && refused.code == Some(2), "{wrong}: {}", refused.stderr);
+    }
 }
 
 /// Every shell's script knows the subcommands, and the manual page has a part for each.

@@ -2,7 +2,7 @@
 
 mod util;
 
-use util::{ISO_SCENE, Scratch};
+use util::{ISO_SCENE, Scratch, motion_scene};
 
 fn says(scene: &str, text: &str) {
     let scratch = Scratch::new().file("a.toml", scene);
@@ -205,6 +205,50 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
         "ale-gear: a.toml:17: `model = \"iso\"` asks for another model in time, which this version cannot do\n\
          hint: use `model = \"reduced\"`\n",
     );
+}
+
+/// Every count is in its range, and their product is beyond any memory: told with rows, bytes and keys, by every kind of analysis.
+#[test]
+fn rows_beyond_any_memory_are_refused_before_the_work() {
+    let refused = |scene: &str, words: &[&str], said: &[&str]| {
+        let scratch = Scratch::new().file("a.toml", scene);
+        let run = scratch.command(&[words, &["--out", "o"]].concat());
+        for text in said {
+            assert!(run.stderr.contains(text), "no `{text}` in\n{}", run.stderr);
+        }
+        assert!(run.stderr.contains(" GB of memory are free\n"), "{}", run.stderr);
+        assert_eq!((run.code, scratch.names().len()), (Some(2), 1), "{}", run.stderr);
+    };
+    let run = ["run", "a.toml"];
+    let huge = |scene: &str| scene.to_owned() + "positions_per_cycle = 100000\ncycles = 100000000\n";
+    let said = [
+        "1.0e13 positions (`cycles` 1.0e8 x `positions_per_cycle` 100000)",
+        "\nhint: lower `cycles` or `positions_per_cycle`: ",
+    ];
+    refused(&huge(ISO_SCENE), &run, &[&["ale-gear: a.toml:18: "], &said[..]].concat());
+    refused(&huge(&with("model = \"iso\"", "model = \"reduced\"")), &run, &said);
+    refused(&huge(&with("model = \"iso\"", "model = \"full\"")), &run, &said);
+    let seconds =
+        motion_scene(0, "run = \"span\"\nduration_s = 1e9\n").replace("per_mesh_cycle = 16", "per_mesh_cycle = 100000");
+    refused(
+        &seconds,
+        &run,
+        &["5.0e16 rows (`duration_s` 5.0e11 x `steps_per_mesh_cycle` 100000)", "hint: lower `duration_s`"],
+    );
+    let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 100000 }\n";
+    let sweep = motion_scene(100_000_000, sweep);
+    refused(&sweep, &run, &["(`cycles` 1.0e8 x `steps_per_mesh_cycle` 16 x `speeds` 100000)"]);
+    let ladder = with("model = \"iso\"", "model = \"impact\"\ncycles = 100000000");
+    let ladder = ladder + "[motion]\nsteps_per_mesh_cycle = 100000\n";
+    refused(&ladder, &run, &["1.0e13 rows (`cycles` 1.0e8 x `steps_per_mesh_cycle` 100000)"]);
+    let by_key = ["sweep", "a.toml", "--key", "operation.speed_rpm", "--from", "1000", "--to", "2000", "--points", "2"];
+    let long = [&by_key[..], &["--cycles", "100000", "--once", "pinion-turn"]].concat();
+    refused(&ladder, &long, &["(`--cycles` 100000 x `steps_per_mesh_cycle` 100000 x `mesh cycles of a turn` 30)"]);
+    let study = "[[case]]\nscene = \"b.toml\"\nvalue = 1\n[[quantity]]\ncolumn = \"ste_um\"\n";
+    let scratch = Scratch::new().file("b.toml", huge(ISO_SCENE)).file("a.toml", study);
+    let refused = scratch.ale_gear(["study", "a.toml", "--out", "o"]);
+    assert!(refused.stderr.starts_with("ale-gear: b.toml:18: 1.0e13 positions "), "{}", refused.stderr);
+    assert_eq!(refused.code, Some(2));
 }
 
 #[test]

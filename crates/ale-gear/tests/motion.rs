@@ -40,7 +40,6 @@ fn a_motion_settles_and_its_certificate_holds() {
     assert!(number(certificate, "ledger_residual_over_work").abs() < 1e-6, "{certificate}");
     assert!(number(certificate, "ledger_residual_over_turnover").abs() < 1e-6, "{certificate}");
     assert!(number(certificate, "least_contact_force_n") >= 0.0, "a flank pulls: {certificate}");
-    assert_eq!(number(certificate, "dropped_force_n"), 0.0);
     let jump = number(certificate, "force_jump_at_tooth_change_n") / number(headline, "mean_normal_force_n");
     assert!(jump < 1e-9, "the force jumps by {jump:e} of itself at a tooth change");
     assert!(number(headline, "tooth_changes") >= 2.0);
@@ -163,9 +162,9 @@ fn a_motion_may_begin_on_the_coast_flanks() {
 fn a_slow_motion_says_how_many_steps_it_takes() {
     let slow = scene(1, "run = \"span\"\n").replace("resonance = 0", "resonance = 16");
     let scratch = Scratch::new().file("a.toml", slow.replace("[operation]\n", "[operation]\nspeed_rpm = 0.01\n"));
-    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_ale-gear"))
+    let mut child = scratch
+        .program()
         .args(["run", "a.toml", "--out", "o", "--no-cache"])
-        .current_dir(scratch.path())
         .stderr(std::process::Stdio::piped())
         .stdout(std::process::Stdio::null())
         .spawn()

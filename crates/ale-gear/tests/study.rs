@@ -47,7 +47,7 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     assert_eq!(
         csv.lines().next().unwrap(),
         "label,value,eps_alpha,eps_beta,eps_gamma,peak_to_peak_ste_um,mean_wheel_force_z_n,\
-         correlation_ste_um_contact_line_length_mm,correlation_ste_um_pairs_in_contact"
+         correlation_ste_um_contact_line_length_mm,correlation_ste_um_pairs_in_contact,reason"
     );
     let numbers = csv.lines().map(|l| l.split_once(',').unwrap().1).collect::<Vec<_>>().join("\n");
     let (swing, axial) = (column(&numbers, "peak_to_peak_ste_um"), column(&numbers, "mean_wheel_force_z_n"));
@@ -81,6 +81,56 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     let refused = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
     assert!(refused.stderr.contains("holds `cases/01-10-deg/thesis.tex`"), "{}", refused.stderr);
     assert_eq!(refused.code, Some(2));
+}
+
+/// A case without a solution stands with its reason in its row, and takes nothing from the others; where none has one, nothing is left.
+#[test]
+fn a_case_without_a_solution_stands_alone() {
+    let failing = "set = [\"pair.centre_distance_mm=80\"]\n";
+    let at = |study: String, label: &str| {
+        let line = format!("label = \"{label}\"\n");
+        assert!(study.contains(&line));
+        study.replacen(&line, &format!("{line}{failing}"), 1)
+    };
+    let one = at(ISO_STUDY.to_owned(), "15 deg");
+    let scratch = iso_cases().file("s.toml", &one);
+    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let reason = "[pair]: centre distance 80 mm is too small";
+    assert!(run.stdout.contains("warning: 15 deg: no result: ") && run.stdout.contains(reason), "{}", run.stdout);
+    let csv = scratch.read("o/study.csv");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert_eq!(rows.len(), 4, "{csv}");
+    assert!(rows[2].starts_with("\"15 deg\",15,NaN,NaN,NaN,NaN,NaN,NaN,NaN,\"") && rows[2].contains(reason), "{csv}");
+    // The others are those of a study without it.
+    assert_eq!(scratch.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    let whole = iso_cases().file("s.toml", ISO_STUDY);
+    assert_eq!(whole.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    let own = whole.read("o/study.csv");
+    assert_eq!([rows[1], rows[3]], [own.lines().nth(1).unwrap(), own.lines().nth(3).unwrap()]);
+    let folders: Vec<_> =
+        std::fs::read_dir(scratch.path().join("o/cases")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(folders.len(), 2, "{folders:?}");
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let cases = &summary["cases"];
+    assert!(cases[1]["reason"].as_str().is_some_and(|r| r.contains(reason)), "{cases}");
+    assert!(
+        cases[1]["quantities"].is_null() && cases[1]["folder"].is_null() && cases[0]["reason"].is_null(),
+        "{cases}"
+    );
+    assert!(summary["correlations"][0]["by_case"][1].is_null(), "{summary}");
+    let page = scratch.read("o/report.html");
+    assert_eq!(page.matches("<svg").count(), 8);
+    assert!(page.matches("Without 15 deg: no result.").count() == 2 && page.contains("<td>no result: "), "{page}");
+    // Of a case that is drawn by itself the figure says so.
+    let drawn = iso_cases().file("s.toml", at(ISO_STUDY.to_owned(), "20 deg"));
+    assert_eq!(drawn.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert!(drawn.read("o/report.html").contains("20 deg has no result: ste_um is not drawn."));
+    let none = ["10 deg", "15 deg", "20 deg"].iter().fold(ISO_STUDY.to_owned(), |study, label| at(study, label));
+    let none = iso_cases().file("s.toml", none);
+    let run = none.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert!(run.stderr.starts_with("ale-gear: s.toml: none of 3 cases has a result; 10 deg: "), "{}", run.stderr);
+    assert_eq!((run.code, none.names().len()), (Some(2), 4), "{:?}", none.names());
 }
 
 /// Motions side by side: any number of threads writes the same bytes. The whole model of a case is timed beside it.

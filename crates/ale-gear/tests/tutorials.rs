@@ -13,7 +13,6 @@
 //! KEY of a `.json` file: names joined by dots, numbers for places in a list. Of a `.csv` file: `max:COLUMN`, `min:COLUMN`, or
 //! `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER` behind it: among the rows that have this.
 #![cfg(unix)] // the commands are a shell's
-#![allow(clippy::print_stdout, reason = "says which steps were left out")]
 
 mod markdown;
 mod quantities;
@@ -25,15 +24,29 @@ use std::path::Path;
 use markdown::Page;
 use pulldown_cmark::{Event, Tag, TagEnd};
 use quantities::Documented;
+use testing::Record;
 use util::{Run, Scratch, column, repository};
 
 /// What a page asks to be done, in its order.
 enum Step {
-    File { name: String, content: String },
-    Run { script: String, status: i32 },
-    Skip(String),
+    File {
+        name: String,
+        content: String,
+    },
+    Run {
+        script: String,
+        status: i32,
+    },
+    /// It needs this program, which is not installed; or stands for what one does that is.
+    LeftOut(String),
+    NotNeeded,
     Prints(String),
-    Value { file: String, key: String, tolerance: f64, number: f64 },
+    Value {
+        file: String,
+        key: String,
+        tolerance: f64,
+        number: f64,
+    },
 }
 
 impl Step {
@@ -42,10 +55,8 @@ impl Step {
         Some(match words {
             ["file", name] => Self::File { name: (*name).to_owned(), content },
             ["run"] => Self::Run { script: content, status: 0 },
-            ["run", "if", program] if !installed(program) => Self::Skip(format!("{program} is not installed: not run")),
-            ["run", "unless", program] if installed(program) => {
-                Self::Skip(format!("{program} is installed: not needed"))
-            }
+            ["run", "if", program] if installed(program).is_err() => Self::LeftOut((*program).to_owned()),
+            ["run", "unless", program] if installed(program).is_ok() => Self::NotNeeded,
             ["run", "if" | "unless", _] => Self::Run { script: content, status: 0 },
             ["run", "status", status] => Self::Run { script: content, status: status.parse().ok()? },
             ["prints"] => Self::Prints(content),
@@ -67,8 +78,8 @@ impl Step {
     }
 }
 
-fn installed(program: &str) -> bool {
-    std::process::Command::new(program).arg("--version").output().is_ok_and(|o| o.status.success())
+fn installed(program: &str) -> Result<(), String> {
+    testing::program(program, "--version")
 }
 
 /// The steps of a page, each with the place where it is asked for.
@@ -153,6 +164,18 @@ fn alike(line: &str, pattern: &str) -> bool {
     open || rest.is_empty()
 }
 
+/// Keeps a record of the steps that were left out, for the end of all tests; there the page counts as one test more.
+fn tell_left_out(page: &Page, steps: Vec<(String, String)>) {
+    let name = page.path.file_stem().unwrap().to_string_lossy().into_owned();
+    let conditional = page.text.contains("<!-- run if ");
+    let mut records: Vec<Record> =
+        steps.into_iter().map(|(place, program)| Record { test: place, reason: installed(&program).err() }).collect();
+    if conditional && records.is_empty() {
+        records.push(Record { test: name.clone(), reason: None });
+    }
+    testing::note(&testing::folder(), file!(), &name, &records).unwrap();
+}
+
 /// Does what a page says in a folder that looks like the top of the repository, and looks up every quantity that came out in the documents.
 fn follow(page: &str) {
     let page = Page::read(repository().join("docs/tutorials").join(page));
@@ -162,6 +185,7 @@ fn follow(page: &str) {
     }
     let mut last: Option<Run> = None;
     let mut values = 0;
+    let mut left_out = Vec::new();
     for (step, place) in steps(&page) {
         match step {
             Step::File { name, content } => std::fs::write(scratch.path().join(name), content).unwrap(),
@@ -170,7 +194,8 @@ fn follow(page: &str) {
                 assert_eq!(run.code, Some(status), "{place}: {script}{}{}", run.stdout, run.stderr);
                 last = Some(run);
             }
-            Step::Skip(why) => println!("{place}: {why}"),
+            Step::LeftOut(program) => left_out.push((place, program)),
+            Step::NotNeeded => {}
             Step::Prints(text) => {
                 let run = last.as_ref().unwrap_or_else(|| panic!("{place}: nothing was run before"));
                 let printed = run.stdout.clone() + &run.stderr;
@@ -190,6 +215,7 @@ fn follow(page: &str) {
             }
         }
     }
+    tell_left_out(&page, left_out);
     let outputs = Documented::by(&Page::read(repository().join("docs/outputs.md")));
     for folder in
         std::fs::read_dir(scratch.path().join("out")).unwrap().map(|e| e.unwrap().path()).filter(|p| p.is_dir())

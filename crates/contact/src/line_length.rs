@@ -62,6 +62,13 @@ mod tests {
         }
     }
 
+    /// A tolerance widens contact to where the gap has that size.
+    #[test]
+    fn a_tolerance_counts_as_contact() {
+        let intervals = contact_intervals(|z: f64| 0.1 * (z - 2.0).abs(), [0.0, 4.0], 41, 0.05);
+        assert!((covered(&intervals, [0.0, 4.0]) - 1.0).abs() < 1e-3, "{intervals:?}");
+    }
+
     /// Contact over the whole range, at its ends only, and nowhere.
     #[test]
     fn whole_and_empty() {

@@ -1,5 +1,7 @@
 //! Laws of the local compliance of a line contact.
 
+use std::f64::consts::PI;
+
 use contact::{EndFace, LocalBody, LocalContact, layer_constant, wedge_softening};
 
 const RADIUS: f64 = 5.0;
@@ -25,6 +27,43 @@ fn contact(distance: f64, edge_radius: f64) -> LocalContact {
         bodies: [steel(distance.max(0.0), 1.2 + 0.5 * distance.max(0.0)), steel(4.0, 2.2)],
         radius: RADIUS,
         off_line: (-distance).max(0.0),
+    }
+}
+
+/// Far from tips and ends the approach is what the layer's kernel K [c - ln(r/t)] makes of Hertz's pressure over the band, by quadrature: to a millionth.
+#[test]
+fn approach_is_the_layers_kernel_under_hertzian_pressure() {
+    let (young, poisson) = (2.06e5, 0.3);
+    let depths = [1.7, 2.2];
+    let body = |depth: f64| LocalBody {
+        young,
+        poisson,
+        layer: layer_constant(poisson),
+        depth,
+        tip_distance: f64::INFINITY,
+        tip_angle: PI,
+        tip_gradient: 0.0,
+        edge_radius: 0.0,
+        ends: [EndFace::FAR; 2],
+    };
+    let contact = LocalContact { bodies: depths.map(body), radius: RADIUS, off_line: 0.0 };
+    let softness = 2.0 * (1.0 - poisson * poisson) / (PI * young);
+    for load in [1.0, 30.0, 400.0] {
+        // Hertz, two alike bodies: a^2 = 4 q R / (pi E*), 1/E* = 2 (1 - nu^2) / E; p = 2 q / (pi a) sqrt(1 - s^2/a^2).
+        let half_width = (8.0 * load * RADIUS * (1.0 - poisson * poisson) / (PI * young)).sqrt();
+        // s = a sin(theta), theta = pi/2 x^5: smooth where the logarithm is not.
+        let n = 4000;
+        let mean_log: f64 = (0..n)
+            .map(|i| (f64::from(i) + 0.5) / f64::from(n))
+            .map(|x| {
+                let (sin, cos) = (0.5 * PI * x.powi(5)).sin_cos();
+                4.0 / PI * cos * cos * (half_width * sin).ln() * 2.5 * PI * x.powi(4) / f64::from(n)
+            })
+            .sum();
+        let wanted: f64 = depths.iter().map(|t| softness * load * (layer_constant(poisson) + t.ln() - mean_log)).sum();
+        let found = contact.under(load);
+        assert!((found.half_width / half_width - 1.0).abs() < 1e-12, "F' = {load} N/mm: {} mm wide", found.half_width);
+        assert!((found.approach / wanted - 1.0).abs() < 1e-6, "F' = {load} N/mm: {} mm, not {wanted}", found.approach);
     }
 }
 

@@ -25,11 +25,12 @@ impl Mesh {
     /// bear their tag in digits. Nodes and elements stand in ascending order of their tags.
     ///
     /// # Errors
-    /// [`MeshError::Read`] when the file cannot be opened, [`MeshError::Msh`] with section and
+    /// [`MeshError::Read`] when the file cannot be opened or is no regular file, [`MeshError::Msh`] with section and
     /// line or byte when it cannot be understood.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
+        let bytes =
+            geometry::read_regular_file(path).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
         Self::parse(&bytes, path)
     }
 

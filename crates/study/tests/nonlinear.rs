@@ -90,6 +90,28 @@ fn exponents_of_flows() {
     assert!((found.exponent + 0.05).abs() < 2e-3, "{found:?}");
 }
 
+/// Growth that is drawn anew for each stretch: the error of its mean is the deviation over the root of their number. Ten parts tell it to a quarter.
+#[test]
+fn the_error_of_an_exponent_is_that_of_a_mean() {
+    let rate = |k: usize| {
+        let mixed = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let mixed = (mixed ^ (mixed >> 31)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        ((mixed ^ (mixed >> 29)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    let mut largest = 0.0f64;
+    for from in 0..8 {
+        let plan = LyapunovPlan { stretch: 1.0, settling: 0, stretches: 4000, distance: 1e-7 };
+        let found = largest_lyapunov(&[0.0], &[1.0], &plan, |x, k| {
+            Ok::<_, Infallible>(vec![x[0] * rate(k + 4000 * from).exp()])
+        })
+        .unwrap();
+        let wanted = (1.0 / 12.0 / 4000.0f64).sqrt();
+        assert!((0.4..1.8).contains(&(found.error / wanted)), "{found:?}, wanted {wanted:e}");
+        largest = largest.max((found.exponent / wanted).abs());
+    }
+    assert!(largest < 3.5, "off by {largest} standard errors");
+}
+
 /// A state with memory: both ways differ exactly where there are two answers.
 #[test]
 fn hysteresis_is_where_both_ways_differ() {
@@ -144,6 +166,20 @@ fn sections_of_a_cosine() {
             "{point:?}"
         );
     }
+    // A sample on the surface is a crossing, and one only.
+    let touching = crossing_section(&[0.0, 1.0, 2.0, 3.0], &[-1.0, 0.0, 1.0, 2.0], &[]).unwrap();
+    assert_eq!(touching.len(), 1);
+    assert!((touching[0][0] - 1.0).abs() < 1e-9, "{touching:?}");
+    // Ends of the record count although round-off puts them beside it: 0.1, 0.4, ... 0.7 of times that are sums of tenths.
+    let tenths: Vec<f64> = (1..=7).map(|k| 0.1 * f64::from(k)).collect();
+    assert_eq!(stroboscopic_section(&tenths, &[&tenths], 0.3, 0.1).unwrap().len(), 3);
+    assert_eq!(stroboscopic_section(&tenths, &[&tenths], 0.3, 0.1 + 1e-11).unwrap().len(), 3);
+    assert_eq!(stroboscopic_section(&tenths, &[&tenths], 0.3, 0.1 - 1e-11).unwrap().len(), 3);
+    // A period that is seen less than three times is none yet.
+    let wave: Vec<Vec<f64>> = (0..8).map(|k| vec![f64::from(k % 4)]).collect();
+    assert_eq!(section_period(&wave, 1e-6, &[1.0]), None);
+    let longer: Vec<Vec<f64>> = (0..12).map(|k| vec![f64::from(k % 4)]).collect();
+    assert_eq!(section_period(&longer, 1e-6, &[1.0]), Some(4));
     let (back, short) = ([0.0, 2.0, 1.0], [0.0; 2]);
     assert!(matches!(stroboscopic_section(&back, &[&[0.0; 3]], 1.0, 0.0), Err(StudyError::NotAscending { index: 2 })));
     let dense = stroboscopic_section(&[0.0, 1.0], &[], 1e-300, 0.0);

@@ -95,6 +95,50 @@ fn sidebands_are_found_at_the_shaft_frequency() {
     }
 }
 
+/// Sidebands five bins apart, each a thousand times what stands between them: the floor is of the bins that hold no line, and of these the middle one.
+#[test]
+fn the_floor_is_what_lines_stand_out_of() {
+    let n = 4000;
+    let (carrier, spacing) = (800.0 * RATE / f64::from(n), 5.0 * RATE / f64::from(n));
+    let mut seed = 777u64;
+    let mut noise = move || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    let deviation = 1e-2;
+    let wave = |t: f64| -> f64 {
+        (-40..=40).map(|k| 0.1 * (TAU * (carrier + f64::from(k) * spacing) * t + 0.7 * f64::from(k * k)).sin()).sum()
+    };
+    let samples: Vec<f64> = record(n as usize, wave).into_iter().map(|x| x + deviation * noise()).collect();
+    let window = Window::Hann;
+    let found = spectrum(&samples, RATE, window).unwrap().sidebands(carrier, spacing, 40).unwrap();
+    assert!(found.pairs.iter().flatten().all(|side| (side.amplitude / 0.1 - 1.0).abs() < 0.02), "{found:?}");
+    // Rayleigh: the square of the median is ln 2 of the mean square, 4 sigma^2 (1/12 for the noise) times the window's bandwidth over n. Eighty bins: a tenth.
+    let mean_square = 4.0 / 12.0 * deviation * deviation * window.noise_bandwidth() / f64::from(n);
+    let wanted = (2f64.ln() * mean_square).sqrt();
+    assert!((found.floor / wanted - 1.0).abs() < 0.3, "floor {:e}, of the noise {wanted:e}", found.floor);
+}
+
+/// At half of the sampling a cosine is in one bin alone, whole; so is what the mean leaves at 0.
+#[test]
+fn the_last_bin_reads_the_whole_amplitude() {
+    let samples: Vec<f64> = (0..64).map(|k| 3.0 + if k % 2 == 0 { 0.5 } else { -0.5 }).collect();
+    let found = spectrum(&samples, RATE, Window::Rectangular).unwrap();
+    assert!((found.amplitudes[32] - 0.5).abs() < 1e-12, "{}", found.amplitudes[32]);
+    assert!(found.amplitudes[..32].iter().all(|a| *a < 1e-12), "{:?}", found.amplitudes);
+}
+
+/// The bandwidth is that of the weights: n sum w^2 / (sum w)^2, and of Hann's three halves of a bin.
+#[test]
+fn noise_bandwidth_is_that_of_the_weights() {
+    assert_eq!(Window::Rectangular.noise_bandwidth(), 1.0);
+    assert!((Window::Hann.noise_bandwidth() - 1.5).abs() < 1e-12);
+    // Harris's table 1: 2.00 bins.
+    assert!((Window::BlackmanHarris.noise_bandwidth() - 2.0044).abs() < 1e-4);
+    // ISO 18431-2: 3.77 bins.
+    assert!((Window::FlatTop.noise_bandwidth() - 3.7702).abs() < 1e-3, "{}", Window::FlatTop.noise_bandwidth());
+}
+
 /// Several lines at once, each at its place with its amplitude; ascending.
 #[test]
 fn lines_are_listed_where_they_are() {

@@ -12,6 +12,7 @@ use crate::{
         work_precision_svg, write_chart_csv,
     },
     phases::Phases,
+    room,
     scene::Scene,
 };
 
@@ -65,6 +66,7 @@ impl ChartArgs {
             ChartOptions::whole(self.limit_s)
         };
         options.motion = self.motion;
+        room::for_scene(&scene)?;
         Ok((scene, options))
     }
 

@@ -8,6 +8,7 @@ use dialoguer::{Confirm, Input, Select};
 
 use crate::error::CommandError;
 use crate::gears;
+use crate::input_text;
 use crate::rexs::read_pair;
 use crate::scene::{Kind, Scene};
 use crate::starter::Starter;
@@ -105,7 +106,7 @@ impl InitArgs {
     fn of_file(&self) -> Result<Starter, CommandError> {
         let default = Starter::default();
         let Some(file) = &self.rexs else { return Ok(default) };
-        let text = std::fs::read_to_string(file).map_err(|e| {
+        let text = input_text::read(file).map_err(|e| {
             let hint = Some("is the path right, as seen from here?".into());
             CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
         })?;

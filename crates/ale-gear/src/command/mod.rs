@@ -3,7 +3,6 @@
 mod cache_args;
 mod chart;
 mod compare;
-mod default_scene;
 mod init;
 mod mesh;
 mod overrides;
@@ -20,11 +19,11 @@ use clap::{ArgAction, Args, Parser, Subcommand};
 use clap_complete::Shell;
 
 use crate::error::CommandError;
-use crate::talk::{Loudness, set_loudness};
+use crate::talk::{Loudness, read_progress_after, set_loudness};
 
 /// Reduced finite-element contact of helical gears
 ///
-/// Without a subcommand it runs the default scene of this repository into out/default.
+/// Without a subcommand it runs the default pair, which is in the program with its meshes, into out/default.
 /// Exit status: 0 solved, 1 no result, 2 wrong input.
 #[derive(Debug, Parser)]
 #[command(name = "ale-gear", version)]
@@ -100,6 +99,7 @@ impl Cli {
             (_, 1) => Loudness::Steps,
             _ => Loudness::Details,
         });
+        read_progress_after()?;
         if threads == Some(0) {
             let hint = "leave it out to use all cores".to_owned();
             return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", Some(hint)));
@@ -108,7 +108,7 @@ impl Cli {
         // A table at the end of work is talk; what a command is made for is data.
         let told = |text: String| if quiet { String::new() } else { text };
         match self.command {
-            None => run::RunArgs::for_default_scene()?.execute(quiet),
+            None => run::RunArgs::for_default_scene().execute(quiet),
             Some(Command::Run(args)) => args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),

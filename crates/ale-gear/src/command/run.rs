@@ -11,14 +11,19 @@ use crate::output::{
     ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report, write_summary,
 };
 use crate::phases::Phases;
+use crate::room;
 use crate::run;
 use crate::scene::{Kind, Model, Run, Scene};
+use crate::talk::{self, Loudness};
 
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
 pub(super) struct RunArgs {
     /// Scene file
     scene: PathBuf,
+    /// Whether it is the scene of the program instead.
+    #[arg(skip)]
+    default_scene: bool,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
@@ -41,25 +46,35 @@ pub(super) struct RunArgs {
 }
 
 impl RunArgs {
-    /// The default scene into `out/default`.
-    pub(super) fn for_default_scene() -> Result<Self, CommandError> {
-        let out = PathBuf::from("out/default");
-        let scene = super::default_scene::find()?;
-        Ok(Self {
-            scene,
-            out,
+    /// The default scene of the program into `out/default`.
+    pub(super) fn for_default_scene() -> Self {
+        Self {
+            scene: PathBuf::new(),
+            default_scene: true,
+            out: PathBuf::from("out/default"),
             cache: CacheArgs::default(),
             overrides: Overrides::default(),
             json: false,
             vtu: false,
             resume: false,
             stop_after_cycles: None,
-        })
+        }
     }
 
     /// Every complaint about the words is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Scene, CommandError> {
-        let mut scene = self.overrides.read(&self.scene)?;
+        let mut scene = if self.default_scene {
+            talk::say(Loudness::Bars, || {
+                format!(
+                    "ale-gear: no scene given: runs the default pair, which is in the program, into {}; \
+                     `ale-gear run SCENE.toml --out DIR` runs another, `ale-gear init` writes one",
+                    self.out.display()
+                )
+            });
+            Scene::default_scene()?
+        } else {
+            self.overrides.read(&self.scene)?
+        };
         scene.output.vtu |= self.vtu;
         if scene.output.vtu && scene.analysis.model == Model::Iso {
             return Err(CommandError::input(
@@ -71,6 +86,7 @@ impl RunArgs {
             ));
         }
         self.plan_motion(&scene)?;
+        room::for_scene(&scene)?;
         Ok(scene)
     }
 

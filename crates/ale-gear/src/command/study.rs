@@ -8,8 +8,9 @@ use crate::{
     error::CommandError,
     facts::Cost,
     output::{ResultDirectory, StudyResult, study_csv, study_table, write_study_report, write_study_summary},
-    parameter_study::{CaseRun, Study, findings, run_cases},
+    parameter_study::{CaseOutcome, Findings, Study, findings, run_cases},
     phases::Phases,
+    room,
     scene::SceneError,
 };
 
@@ -35,6 +36,7 @@ impl StudyArgs {
             ),
             _ => e.into(),
         })?;
+        study.cases.iter().try_for_each(|case| room::for_scene(&case.scene))?;
         Ok(study)
     }
 
@@ -54,11 +56,15 @@ impl StudyArgs {
                 progress.say(case.label.clone());
                 progress.tick();
             })
-        })?;
-        let speed_up = against_full(&study, &mut phases, &results)?;
+        });
         let findings = findings(&study, &runs)?;
+        let mut warnings = warnings(&study, &runs, &findings);
+        let speed_up = against_full(&study, &findings, &mut phases, &results).unwrap_or_else(|said| {
+            warnings.push(said);
+            None
+        });
         results.write("study.csv", study_csv(&study, &findings).as_bytes())?;
-        let (cost, warnings) = (Cost::of(&phases), warnings(&study, &runs));
+        let cost = Cost::of(&phases);
         let of = StudyResult {
             study: &study,
             runs: &runs,
@@ -77,20 +83,31 @@ impl StudyArgs {
     }
 }
 
-/// The whole model beside one case, where the study asks for it; alone on the machine, after all cases.
+/// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says why there is none.
 fn against_full(
     study: &Study,
+    findings: &Findings,
     phases: &mut Phases,
     results: &ResultDirectory,
-) -> Result<Option<SpeedUp>, CommandError> {
+) -> Result<Option<SpeedUp>, String> {
     let Some(full) = study.full else { return Ok(None) };
-    phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, results)).map(Some)
+    let label = &study.cases[full.case].label;
+    let none = |why: &str| format!("nothing to compare every degree of freedom with: {label}: {why}");
+    if let Some(reason) = findings.reason(full.case) {
+        return Err(none(reason));
+    }
+    let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, results));
+    solved.map(Some).map_err(|e| none(&e.message))
 }
 
-/// What the cases warn of, each once, with their names.
-fn warnings(study: &Study, runs: &[CaseRun]) -> Vec<String> {
-    let of = |(case, run): (&crate::parameter_study::Case, &CaseRun)| {
-        run.warnings.iter().map(|w| format!("{}: {w}", case.label)).collect::<Vec<_>>()
-    };
-    study.cases.iter().zip(runs).flat_map(of).collect()
+/// Cases without a result first; then what the others warn of, each once, with their names.
+fn warnings(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Vec<String> {
+    let failed = (0..study.cases.len()).filter_map(|i| {
+        let reason = findings.reason(i)?;
+        Some(format!("{}: no result: {reason}; tables, charts and correlations are without it", study.cases[i].label))
+    });
+    let of_runs = findings
+        .with_result(study, runs)
+        .flat_map(|(case, run, _)| run.warnings.iter().map(|w| format!("{}: {w}", case.label)).collect::<Vec<_>>());
+    failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
 }

@@ -8,6 +8,7 @@ use crate::{
     ladder::{self, Once, SweepRequest},
     output::ResultDirectory,
     phases::Phases,
+    room,
     scene::{Kind, Scene, Setting, SweepWay},
 };
 
@@ -154,6 +155,9 @@ impl SweepArgs {
             stretches: self.lyapunov.unwrap_or(if impact { 0 } else { STRETCHES }),
             again: Some(self.again()),
         };
+        for (_, scene) in &scenes {
+            room::for_sweep(scene, (scenes.len(), request.ways.len()), (request.points, request.every(scene)))?;
+        }
         Ok((scenes, request))
     }
 

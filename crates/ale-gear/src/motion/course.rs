@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     prepare::Prepared,
     rows::Rows,
-    store::{CheckpointFolder, Stored},
+    store::{Checkpoints, Stored},
 };
 use crate::{
     error::CommandError,
@@ -76,8 +76,8 @@ pub(super) struct Finished {
 pub(super) struct Places<'a> {
     /// Folder of the rows.
     pub rows: &'a std::path::Path,
-    /// Folder of the checkpoints, if there are any.
-    pub checkpoint: Option<&'a CheckpointFolder>,
+    /// Checkpoints, if there are any.
+    pub checkpoints: Option<Checkpoints<'a>>,
     /// State to go on from.
     pub from: Option<Stored>,
     /// Stop when so many mesh cycles are done.
@@ -102,8 +102,8 @@ pub(super) fn run(
     let mut own = system.with_drive(system.options().drive.clone())?;
     let (mut rows, mut motion, mut course, mut shot);
     match places.from {
-        Some(Stored { motion: checkpoint, course: state, bytes, patterns, .. }) => {
-            rows = Rows::resume(scene, words, system, window, places.rows, (bytes, patterns))?;
+        Some(Stored { motion: checkpoint, course: state, rows: kept, patterns, .. }) => {
+            rows = Rows::resume(scene, words, system, window, places.rows, (kept, patterns))?;
             motion = Motion::resume(own, settings.clone(), checkpoint).map_err(fail)?;
             (course, shot) = (state, None);
         }
@@ -122,7 +122,7 @@ pub(super) fn run(
         }
     }
     let keep =
-        Keep { scene, words, facts_meshes: &facts.meshes, window, places: (places.checkpoint, places.stop_after) };
+        Keep { scene, words, facts_meshes: &facts.meshes, window, places: (places.checkpoints, places.stop_after) };
     let mut stopped = false;
     if let (Some((tolerance, most)), false) = (goal.settle, course.recording) {
         stopped = phases.run_steps("settle", most, |progress| {
@@ -145,20 +145,20 @@ struct Keep<'a> {
     words: &'a MotionScene,
     facts_meshes: &'a [crate::facts::MeshFacts],
     window: usize,
-    places: (Option<&'a CheckpointFolder>, Option<u64>),
+    places: (Option<Checkpoints<'a>>, Option<u64>),
 }
 
 impl Keep<'_> {
     /// Writes a checkpoint where one is due; whether the run is to stop here.
     fn after_cycle(&self, motion: &Motion, course: &CourseState, rows: &mut Rows) -> Result<bool, CommandError> {
-        let (Some(folder), stop_after) = self.places else { return Ok(false) };
+        let (Some(Checkpoints { folder, inputs }), stop_after) = self.places else { return Ok(false) };
         let every = u64::from(self.words.checkpoint_every_cycles.unwrap_or(0));
         let stop = stop_after.is_some_and(|cycles| motion.cycle() >= cycles);
         if stop || (every > 0 && motion.cycle().is_multiple_of(every)) {
-            let bytes = rows.flush()?;
+            let kept = rows.flush()?;
             if let Some(checkpoint) = motion.checkpoint() {
-                let kept = (bytes, rows.pattern().grids().clone());
-                let stored = Stored::new(self.scene, self.facts_meshes, self.window, checkpoint, course.clone(), kept);
+                let kept = (kept, rows.pattern().grids().clone());
+                let stored = Stored::new((inputs, self.facts_meshes), self.window, checkpoint, course.clone(), kept);
                 folder.write(&stored)?;
             }
         }

@@ -8,7 +8,7 @@
 //! | `pattern` | what the flanks are pressed by |
 //! | `course` | settle, write rows, checkpoints |
 //! | `rows`, `table` | files of rows, written on the way and read back at the end |
-//! | `store` | checkpoints on disk |
+//! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
 //! | `headline`, `spectra` | what is read off the rows |
@@ -19,6 +19,7 @@ mod course;
 mod doubts;
 mod elasticity;
 mod headline;
+mod inputs;
 mod options;
 mod pattern;
 mod precision;
@@ -33,8 +34,9 @@ mod write;
 use std::path::{Path, PathBuf};
 
 use course::{Finished, Places};
+use inputs::{Change, InputDigests};
 use prepare::{Inputs, Prepared, prepare};
-use store::{CheckpointFolder, Stored};
+use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
 pub(crate) use elasticity::ElasticHeadline;
@@ -105,20 +107,70 @@ pub(crate) fn solve(
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
-    let inputs = Inputs::new(scene, words, phases, cache)?;
-    let meshes: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
-    let mut from = match &progression.folder {
-        Some(folder) if progression.resume => {
-            let stored = folder.read()?;
-            stored.check(scene, &meshes)?;
-            Some(stored)
-        }
-        _ => None,
+    let stop_after = progression.stop_after;
+    let Some(folder) = &progression.folder else {
+        return through_windows(scene, words, phases, (results, cache), None, stop_after);
     };
+    if progression.resume && !folder.path().is_dir() {
+        folder.read(scene)?;
+    }
+    let alone = folder.hold()?;
+    let begin = || {
+        let inputs = InputDigests::of(scene)?;
+        let from = if progression.resume { going_on(folder, scene, &inputs)? } else { None };
+        Ok((inputs, from))
+    };
+    let solved = begin().and_then(|(inputs, from)| {
+        let checkpoints = Checkpoints { folder, inputs: &inputs };
+        through_windows(scene, words, phases, (results, cache), Some((checkpoints, from)), stop_after)
+    });
+    if solved.is_err() {
+        folder.remove_if_empty();
+    }
+    drop(alone);
+    solved
+}
+
+/// The state to go on from; `None` where an earlier run was cut short before its first checkpoint.
+fn going_on(folder: &CheckpointFolder, scene: &Scene, inputs: &InputDigests) -> Result<Option<Stored>, CommandError> {
+    if folder.is_without_state() {
+        talk::say(Loudness::Bars, || {
+            format!(
+                "ale-gear: {}: the run was cut short before its first checkpoint and begins anew",
+                folder.path().display()
+            )
+        });
+        return Ok(None);
+    }
+    let stored = folder.read(scene)?;
+    stored.check_inputs(scene, inputs)?;
+    Ok(Some(stored))
+}
+
+/// Tries window after window until one suffices, from a state where there is one.
+fn through_windows(
+    scene: &Scene,
+    words: &MotionScene,
+    phases: &mut Phases,
+    (results, cache): (&ResultDirectory, &Cache),
+    kept: Option<(Checkpoints<'_>, Option<Stored>)>,
+    stop_after: Option<u64>,
+) -> Result<Outcome, CommandError> {
+    let inputs = Inputs::new(scene, words, phases, cache)?;
+    let (checkpoints, mut from) = kept.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
+    if let Some(Checkpoints { inputs: digests, .. }) = checkpoints {
+        let meshes: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
+        if let Some(Change::File(file)) = digests.change(&InputDigests::of(scene)?) {
+            let file = scene.resolve(Path::new(&file));
+            let said = format_args!("{}: has changed while it was read", file.display());
+            return Err(CommandError::input(said, Some("run again when nobody writes to it".into())));
+        }
+        from.as_ref().map_or(Ok(()), |stored| stored.check_meshes(scene, &meshes))?;
+    }
     let mut window = from.as_ref().map(|f| f.window);
     let mut widened = Vec::new();
     loop {
-        match attempt(&inputs, phases, results, progression, window, from.take()) {
+        match attempt(&inputs, phases, results, (checkpoints, stop_after), window, from.take()) {
             Ok(Attempt::Stopped { cycles }) => return Ok(Outcome::Stopped { cycles }),
             Ok(Attempt::Motion(mut prepared, done)) => {
                 prepared.warnings.extend(widened);
@@ -154,7 +206,7 @@ pub(crate) fn rows_of(
     let inputs = Inputs::new(scene, words, phases, &cache)?;
     let mut window = None;
     loop {
-        let places = Places { rows: folder, checkpoint: None, from: None, stop_after: None };
+        let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
         let done = prepare(&inputs, phases, window)
             .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
         match done {
@@ -179,7 +231,7 @@ fn attempt<'a>(
     inputs: &Inputs<'a>,
     phases: &mut Phases,
     results: &ResultDirectory,
-    progression: &Progression,
+    (checkpoints, stop_after): (Option<Checkpoints<'_>>, Option<u64>),
     window: Option<usize>,
     from: Option<Stored>,
 ) -> Result<Attempt<'a>, Failure> {
@@ -195,8 +247,8 @@ fn attempt<'a>(
         let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
         return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));
     }
-    let rows: PathBuf = match &progression.folder {
-        Some(folder) => {
+    let rows: PathBuf = match checkpoints {
+        Some(Checkpoints { folder, .. }) => {
             if from.is_none() {
                 folder.start()?;
             }
@@ -204,13 +256,12 @@ fn attempt<'a>(
         }
         None => results.folder().to_owned(),
     };
-    let places =
-        Places { rows: &rows, checkpoint: progression.folder.as_ref(), from, stop_after: progression.stop_after };
+    let places = Places { rows: &rows, checkpoints, from, stop_after };
     let done = course::run(scene, words, &prepared, phases, places)?;
     if done.stopped {
         return Ok(Attempt::Stopped { cycles: done.motion.cycle() });
     }
-    if progression.folder.is_some() {
+    if checkpoints.is_some() {
         for file in [rows::HISTORY, rows::ENERGY_FILE] {
             results.copy(&rows.join(file), file)?;
         }

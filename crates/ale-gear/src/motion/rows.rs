@@ -3,9 +3,11 @@
 use std::{
     f64::consts::TAU,
     fs::{File, OpenOptions},
-    io::{BufWriter, Write},
+    io::{BufWriter, Read, Write},
     path::{Path, PathBuf},
 };
+
+use serde::{Deserialize, Serialize};
 
 use dynamics::{
     motion::Ledger,
@@ -158,48 +160,78 @@ pub(crate) fn column_names(scene: &Scene) -> Vec<String> {
     names(&free, std::iter::empty(), scene.output.root_stress)
 }
 
+/// What a checkpoint keeps of a file of rows.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Kept {
+    /// Length.
+    bytes: u64,
+    /// BLAKE3 of so many bytes, hexadecimal.
+    blake3: String,
+}
+
+/// The digest so far of a file of rows, when it begins with what was kept of it.
+///
+/// # Errors
+/// Exit status 2 when it does not.
+fn digested(path: &Path, kept: &Kept) -> Result<blake3::Hasher, CommandError> {
+    let mut digest = blake3::Hasher::new();
+    let read = File::open(path).and_then(|file| digest.update_reader(file.take(kept.bytes)).map(|_| ()));
+    let what = match read {
+        Err(e) => format!("cannot be read: {e}"),
+        Ok(()) if digest.count() < kept.bytes => "is shorter than its checkpoint says".into(),
+        Ok(()) if digest.finalize().to_hex().as_str() != kept.blake3 => {
+            "is not as its checkpoint left it: changed or damaged".into()
+        }
+        Ok(()) => return Ok(digest),
+    };
+    let hint = "run without `--resume` to start from the beginning".to_owned();
+    Err(CommandError::input(format_args!("{}: {what}", path.display()), Some(hint)))
+}
+
 /// A file that grows and can be taken up again.
 #[derive(Debug)]
 struct Growing {
     path: PathBuf,
     file: BufWriter<File>,
     bytes: u64,
+    digest: blake3::Hasher,
     failed: Option<std::io::Error>,
 }
 
 impl Growing {
     fn new(path: PathBuf, header: &str) -> Result<Self, CommandError> {
         let file = File::create(&path).map_err(|e| CommandError::write(&path, &e))?;
-        let mut new = Self { file: BufWriter::new(file), path, bytes: 0, failed: None };
+        let mut new = Self { file: BufWriter::new(file), path, bytes: 0, digest: blake3::Hasher::new(), failed: None };
         new.push(header);
         Ok(new)
     }
 
-    /// Cut to `bytes`, what came after a checkpoint being written anew.
-    fn resume(path: PathBuf, bytes: u64) -> Result<Self, CommandError> {
+    /// Cut to what its digest is of, what came after a checkpoint being written anew.
+    fn resume(path: PathBuf, digest: blake3::Hasher) -> Result<Self, CommandError> {
+        let bytes = digest.count();
         let open = || -> std::io::Result<File> {
             let file = OpenOptions::new().append(true).open(&path)?;
-            if file.metadata()?.len() < bytes {
-                return Err(std::io::Error::other("it is shorter than its checkpoint says"));
-            }
             file.set_len(bytes)?;
             Ok(file)
         };
         let file = open().map_err(|e| CommandError::write(&path, &e))?;
-        Ok(Self { file: BufWriter::new(file), path, bytes, failed: None })
+        Ok(Self { file: BufWriter::new(file), path, bytes, digest, failed: None })
     }
 
     /// A failure is kept for the next flush: rows come from the midst of a computation.
     fn push(&mut self, text: &str) {
         self.bytes += text.len() as u64;
+        self.digest.update(text.as_bytes());
         if let Err(e) = self.file.write_all(text.as_bytes()) {
             self.failed.get_or_insert(e);
         }
     }
 
-    fn flush(&mut self) -> Result<u64, CommandError> {
-        let failed = self.failed.take().or_else(|| self.file.flush().err());
-        failed.map_or(Ok(self.bytes), |e| Err(CommandError::write(&self.path, &e)))
+    fn flush(&mut self) -> Result<Kept, CommandError> {
+        match self.failed.take().or_else(|| self.file.flush().err()) {
+            None => Ok(Kept { bytes: self.bytes, blake3: self.digest.finalize().to_hex().to_string() }),
+            Some(e) => Err(CommandError::write(&self.path, &e)),
+        }
     }
 }
 
@@ -235,20 +267,32 @@ impl Rows {
         Ok(Self { history, energy, layout, line: String::new(), pattern })
     }
 
-    /// Files of before, cut to these lengths.
+    /// Whether both files in a folder begin with what was kept of them.
+    ///
+    /// # Errors
+    /// Exit status 2, naming the file that does not.
+    pub fn check(folder: &Path, [history, energy]: &[Kept; 2]) -> Result<(), CommandError> {
+        digested(&folder.join(HISTORY), history)?;
+        digested(&folder.join(ENERGY_FILE), energy).map(|_| ())
+    }
+
+    /// Files of before, cut to what was kept of them.
     pub fn resume(
         scene: &Scene,
         words: &MotionScene,
         system: &PairMechanism,
         window: usize,
         folder: &Path,
-        ([history, energy], patterns): ([u64; 2], [FlankPattern; 2]),
+        (kept, patterns): ([Kept; 2], [FlankPattern; 2]),
     ) -> Result<Self, CommandError> {
+        let [history, energy] = [folder.join(HISTORY), folder.join(ENERGY_FILE)];
+        // Both are looked at before either is cut.
+        let digests = (digested(&history, &kept[0])?, digested(&energy, &kept[1])?);
         Ok(Self {
             layout: Layout::new(scene, system, window),
             pattern: PatternRecord::new(scene, words, system.pair(), Some(patterns)).map_err(no_statistics)?,
-            history: Growing::resume(folder.join(HISTORY), history)?,
-            energy: Growing::resume(folder.join(ENERGY_FILE), energy)?,
+            history: Growing::resume(history, digests.0)?,
+            energy: Growing::resume(energy, digests.1)?,
             line: String::new(),
         })
     }
@@ -274,8 +318,8 @@ impl Rows {
         &self.pattern
     }
 
-    /// Writes out what is held back; the lengths of both files.
-    pub fn flush(&mut self) -> Result<[u64; 2], CommandError> {
+    /// Writes out what is held back; what a checkpoint keeps of both files.
+    pub fn flush(&mut self) -> Result<[Kept; 2], CommandError> {
         Ok([self.history.flush()?, self.energy.flush()?])
     }
 }

@@ -1,7 +1,8 @@
 //! Checkpoints on disk: what a run that was cut short goes on from.
 
 use std::{
-    fs,
+    fs::{self, File, TryLockError},
+    io::ErrorKind,
     path::{Path, PathBuf},
 };
 
@@ -9,23 +10,62 @@ use dynamics::pair_motion::Checkpoint;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
 
-use super::course::CourseState;
+use super::{
+    course::CourseState,
+    inputs::{Change, InputDigests},
+    rows::{self, Kept, Rows},
+};
 use crate::{error::CommandError, facts::MeshFacts, scene::Scene};
 
 const STATE: &str = "state.json";
+const NEW_STATE: &str = "state.json.new";
+/// Locked as long as a run uses the folder.
+const IN_USE: &str = "in_use";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
+
+/// Around the state: its own digest before it, BLAKE3 of the bytes between.
+const BEFORE_DIGEST: &str = "{\"blake3\":\"";
+const BEFORE_STATE: &str = "\",\"state\":";
+const AFTER_STATE: &str = "}\n";
+
+/// Where checkpoints go, and what they are of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Checkpoints<'a> {
+    /// The folder.
+    pub folder: &'a CheckpointFolder,
+    /// What the run is made of.
+    pub inputs: &'a InputDigests,
+}
 
 /// A folder beside the results' that keeps rows and state of a run under way.
 #[derive(Debug)]
 pub(crate) struct CheckpointFolder(PathBuf);
 
+/// Which program wrote a checkpoint.
+#[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Writer {
+    version: u32,
+    program: String,
+}
+
+/// What a checkpoint of any version has.
+#[derive(Deserialize)]
+struct Head {
+    writer: Writer,
+}
+
+impl Writer {
+    fn this() -> Self {
+        Self { version: VERSION, program: env!("CARGO_PKG_VERSION").to_owned() }
+    }
+}
+
 /// What is in it beside the rows.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Stored {
-    version: u32,
-    program: String,
-    scene: String,
+    writer: Writer,
+    inputs: InputDigests,
     meshes: String,
     /// Teeth of the window.
     pub window: usize,
@@ -33,53 +73,59 @@ pub(super) struct Stored {
     pub motion: Checkpoint,
     /// How far the analysis has come.
     pub course: CourseState,
-    /// Lengths of the files of rows.
-    pub bytes: [u64; 2],
+    /// The files of rows.
+    pub rows: [Kept; 2],
     /// What the flanks were pressed by so far.
     pub patterns: [FlankPattern; 2],
 }
 
 impl Stored {
-    /// State of a run of this scene.
+    /// State of a run of these inputs.
     pub fn new(
-        scene: &Scene,
-        meshes: &[MeshFacts],
+        (inputs, meshes): (&InputDigests, &[MeshFacts]),
         window: usize,
         motion: Checkpoint,
         course: CourseState,
-        (bytes, patterns): ([u64; 2], [FlankPattern; 2]),
+        (rows, patterns): ([Kept; 2], [FlankPattern; 2]),
     ) -> Self {
-        let program = env!("CARGO_PKG_VERSION").to_owned();
-        let (scene, meshes) = (text_of(scene), text_of_meshes(meshes));
-        Self { version: VERSION, program, scene, meshes, window, motion, course, bytes, patterns }
+        let meshes = text_of_meshes(meshes);
+        Self { writer: Writer::this(), inputs: inputs.clone(), meshes, window, motion, course, rows, patterns }
     }
 
-    /// Whether it belongs to a run of this scene on these meshes: else it must not go on.
-    pub fn check(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CommandError> {
-        let same_scene = self.scene == text_of(scene);
-        let what = match () {
-            () if self.version != VERSION || self.program != env!("CARGO_PKG_VERSION") => {
-                "another version of this program"
-            }
-            () if !same_scene => "another scene",
-            () if self.meshes != text_of_meshes(meshes) => "other meshes",
-            () => return Ok(()),
-        };
-        Err(CommandError::input(
-            format_args!("{}: the checkpoint belongs to {what}", scene.file.display()),
-            Some("run without `--resume` to start from the beginning".into()),
-        ))
+    /// Whether it belongs to a run of these inputs: else it must not go on.
+    ///
+    /// # Errors
+    /// Exit status 2, naming what is another.
+    pub fn check_inputs(&self, scene: &Scene, now: &InputDigests) -> Result<(), CommandError> {
+        match self.inputs.change(now) {
+            None => Ok(()),
+            Some(Change::Scene) => Err(foreign(scene, "another scene")),
+            Some(Change::File(path)) => Err(CommandError::input(
+                format_args!(
+                    "{}: is not the file that the checkpoint was written with",
+                    scene.resolve(Path::new(&path)).display()
+                ),
+                Some("put that one back, or run without `--resume` to start from the beginning".into()),
+            )),
+        }
+    }
+
+    /// The same of the meshes that the program made of them.
+    ///
+    /// # Errors
+    /// Exit status 2.
+    pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CommandError> {
+        if self.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(scene, "other meshes")) }
     }
 }
 
-/// The scene but for how many cycles are asked for: a run may be made longer.
-fn text_of(scene: &Scene) -> String {
-    let mut same = scene.clone();
-    same.analysis.cycles = 0;
-    if let Some(motion) = &mut same.motion {
-        motion.checkpoint_every_cycles = None;
-    }
-    same.to_toml()
+fn from_the_beginning() -> Option<String> {
+    Some("run without `--resume` to start from the beginning".into())
+}
+
+fn foreign(scene: &Scene, what: &str) -> CommandError {
+    let said = format_args!("{}: the checkpoint belongs to {what}", scene.file.display());
+    CommandError::input(said, from_the_beginning())
 }
 
 fn text_of_meshes(meshes: &[MeshFacts]) -> String {
@@ -89,7 +135,8 @@ fn text_of_meshes(meshes: &[MeshFacts]) -> String {
 impl CheckpointFolder {
     /// The folder that belongs to a result folder: `OUT.checkpoint`.
     pub fn beside(out: &Path) -> Self {
-        let mut name = out.as_os_str().to_owned();
+        // Without a slash at the end, else it would be inside.
+        let mut name = out.components().collect::<PathBuf>().into_os_string();
         name.push(".checkpoint");
         Self(PathBuf::from(name))
     }
@@ -99,44 +146,81 @@ impl CheckpointFolder {
         &self.0
     }
 
-    /// Makes it, empty.
+    /// Makes it where it is not there, and keeps other runs out as long as the file lives: two would write into each other's rows.
+    ///
+    /// # Errors
+    /// Exit status 2 when another run uses it, 1 when the system refuses.
+    pub fn hold(&self) -> Result<File, CommandError> {
+        let path = self.0.join(IN_USE);
+        let open = || {
+            fs::create_dir_all(&self.0)?;
+            File::options().create(true).truncate(false).write(true).open(&path)
+        };
+        let file = open().map_err(|e| CommandError::write(&path, &e))?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(CommandError::input(
+                format_args!("{}: another run writes its checkpoints there", self.0.display()),
+                Some("wait for its end, or give another `--out`".into()),
+            )),
+            // Not every file system has locks.
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+        }
+    }
+
+    /// Whether a run has been begun here that has not come to its first checkpoint.
+    pub fn is_without_state(&self) -> bool {
+        self.0.is_dir() && fs::symlink_metadata(self.0.join(STATE)).is_err_and(|e| e.kind() == ErrorKind::NotFound)
+    }
+
+    /// Empties it.
     pub fn start(&self) -> Result<(), CommandError> {
-        let fail = |e: std::io::Error| CommandError::write(&self.0, &e);
-        for file in [STATE, super::rows::HISTORY, super::rows::ENERGY_FILE] {
+        self.without(&[STATE, NEW_STATE, rows::HISTORY, rows::ENERGY_FILE])
+    }
+
+    fn without(&self, files: &[&str]) -> Result<(), CommandError> {
+        for file in files {
             match fs::remove_file(self.0.join(file)) {
-                Err(e) if e.kind() != std::io::ErrorKind::NotFound => return Err(fail(e)),
+                Err(e) if e.kind() != ErrorKind::NotFound => return Err(CommandError::write(&self.0, &e)),
                 _ => {}
             }
         }
-        fs::create_dir_all(&self.0).map_err(fail)
+        Ok(())
     }
 
-    /// The state that is there.
-    pub fn read(&self) -> Result<Stored, CommandError> {
+    /// The state that is there, as it was written and with the rows that belong to it.
+    ///
+    /// # Errors
+    /// Exit status 2 when there is none, when it or its rows are damaged, and when another version wrote it.
+    pub fn read(&self, scene: &Scene) -> Result<Stored, CommandError> {
         let path = self.0.join(STATE);
+        let refuse = |what: &dyn std::fmt::Display, hint: Option<String>| {
+            CommandError::input(format_args!("{}: {what}", path.display()), hint)
+        };
         let text = fs::read_to_string(&path).map_err(|e| {
-            CommandError::input(
-                format_args!("{}: cannot be read: {e}", path.display()),
-                Some(
-                    "`--resume` goes on from a run with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder"
-                        .into(),
-                ),
-            )
+            let hint = "`--resume` goes on from a run with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder";
+            refuse(&format_args!("cannot be read: {e}"), Some(hint.into()))
         })?;
-        serde_json::from_str(&text).map_err(|e| {
-            CommandError::input(
-                format_args!("{}: is no checkpoint: {e}", path.display()),
-                Some("run without `--resume` to start from the beginning".into()),
-            )
-        })
+        let damaged =
+            || refuse(&"is not as it was written: changed, damaged or of another version", from_the_beginning());
+        let state = unwrapped(&text).ok_or_else(damaged)?;
+        let Head { writer } = serde_json::from_str(state).map_err(|_| damaged())?;
+        if writer != Writer::this() {
+            return Err(foreign(scene, "another version of this program"));
+        }
+        let stored: Stored = serde_json::from_str(state)
+            .map_err(|e| refuse(&format_args!("is no checkpoint: {e}"), from_the_beginning()))?;
+        Rows::check(&self.0, &stored.rows)?;
+        Ok(stored)
     }
 
     /// Replaces the state: beside its place first, then renamed, so that a whole one is always there.
     pub fn write(&self, stored: &Stored) -> Result<(), CommandError> {
         let path = self.0.join(STATE);
-        let text = serde_json::to_string(stored)
+        let state = serde_json::to_string(stored)
             .map_err(|e| CommandError::failed(format_args!("{}: {e}", path.display()), None))?;
-        let new = self.0.join("state.json.new");
+        let digest = blake3::hash(state.as_bytes()).to_hex();
+        let text = format!("{BEFORE_DIGEST}{digest}{BEFORE_STATE}{state}{AFTER_STATE}");
+        let new = self.0.join(NEW_STATE);
         let write = || -> std::io::Result<()> {
             fs::write(&new, &text)?;
             fs::rename(&new, &path)
@@ -144,8 +228,26 @@ impl CheckpointFolder {
         write().map_err(|e| CommandError::write(&path, &e))
     }
 
-    /// Takes it away once the results are whole.
+    /// Takes it away once the results are whole; what this program did not put there stays, and the folder with it.
     pub fn remove(&self) -> Result<(), CommandError> {
-        fs::remove_dir_all(&self.0).map_err(|e| CommandError::write(&self.0, &e))
+        self.start()?;
+        self.remove_if_empty();
+        Ok(())
     }
+
+    /// Takes it away where a run has come to nothing.
+    pub fn remove_if_empty(&self) {
+        let others = fs::read_dir(&self.0).is_ok_and(|mut all| all.any(|e| e.is_ok_and(|e| e.file_name() != IN_USE)));
+        if !others {
+            // Whoever holds the file of the lock still holds it.
+            let _ = self.without(&[IN_USE]).map(|()| fs::remove_dir(&self.0));
+        }
+    }
+}
+
+/// The state in a file's text, if the digest before it is its own.
+fn unwrapped(text: &str) -> Option<&str> {
+    let (digest, rest) = text.strip_prefix(BEFORE_DIGEST)?.split_once(BEFORE_STATE)?;
+    let state = rest.strip_suffix(AFTER_STATE)?;
+    (blake3::hash(state.as_bytes()).to_hex().as_str() == digest).then_some(state)
 }

@@ -107,10 +107,7 @@ pub(super) fn rows(
     points: &[SweepPoint],
 ) -> Result<Vec<SweepRow>, StudyError> {
     let cycles = scene.analysis.cycles as usize;
-    let driver_teeth = match scene.operation.driver {
-        crate::scene::Driver::Pinion => scene.pinion.teeth,
-        crate::scene::Driver::Wheel => scene.wheel.teeth,
-    };
+    let driver_teeth = scene.driver_teeth();
     let one = |point: &SweepPoint| {
         let dte: Vec<f64> = point.transmission_error.iter().map(|e| 1e3 * e).collect();
         let of_dte = cycle_statistics(&dte, cycles)?;

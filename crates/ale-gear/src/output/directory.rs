@@ -3,18 +3,25 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{error::CommandError, partial::Partial};
+use crate::{
+    error::CommandError,
+    work_folder::{self, WorkFolder},
+};
 
-/// Files are written into a temporary folder beside the wanted one; [`ResultDirectory::finish`] renames it.
+/// Files are written into a work folder beside the wanted one; [`ResultDirectory::finish`] puts them in its place.
 /// Dropped before that, it takes its files with it.
 #[derive(Debug)]
 pub struct ResultDirectory {
     wanted: PathBuf,
-    partial: Partial,
+    work: WorkFolder,
+    /// Where files are while the result is being written.
+    growing: PathBuf,
 }
 
 impl ResultDirectory {
-    /// Makes the temporary folder.
+    /// Makes the work folder, and takes away those that killed runs into the same place have left.
+    ///
+    /// A link to a folder stays one: the folder that it leads to is replaced.
     ///
     /// # Errors
     /// Exit status 2 when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier result: nothing
@@ -23,15 +30,21 @@ impl ResultDirectory {
         let complaint = |what: String, hint: &str| {
             CommandError::input(format_args!("--out {}: {what}", wanted.display()), Some(hint.into()))
         };
-        let Some(name) = wanted.file_name() else {
+        if wanted.file_name().is_none() {
             return Err(complaint("is no name of a folder".into(), "give the name of a new folder"));
-        };
-        if wanted.exists() {
-            if !wanted.is_dir() {
+        }
+        let place = behind_links(wanted).map_err(|e| {
+            complaint(
+                format!("is a link that leads nowhere: {e}"),
+                "make the folder that it leads to, or give another name",
+            )
+        })?;
+        if place.exists() {
+            if !place.is_dir() {
                 return Err(complaint("is a file".into(), "give the name of a new folder"));
             }
             if let Some(stranger) =
-                first_stranger(wanted).map_err(|e| complaint(e.to_string(), "give another folder"))?
+                first_stranger(&place).map_err(|e| complaint(e.to_string(), "give another folder"))?
             {
                 return Err(complaint(
                     format!("holds `{stranger}`, which is no result file"),
@@ -39,20 +52,14 @@ impl ResultDirectory {
                 ));
             }
         }
-        let parent = match wanted.parent() {
-            Some(p) if !p.as_os_str().is_empty() => p.to_owned(),
-            _ => PathBuf::from("."),
-        };
-        let partial = parent.join(format!(".{}.partial-{}", name.to_string_lossy(), std::process::id()));
-        let partial = Partial::new(partial);
-        fs::create_dir_all(partial.path())
+        let work = WorkFolder::beside(&place, first_stranger)
             .map_err(|e| complaint(format!("cannot be made: {e}"), "give a folder that you may write to"))?;
-        Ok(Self { wanted: wanted.to_owned(), partial })
+        Ok(Self { wanted: wanted.to_owned(), growing: work.new_result(), work })
     }
 
     /// Path of a file while the result is being written.
     pub fn path(&self, name: &str) -> PathBuf {
-        self.partial.path().join(name)
+        self.growing.join(name)
     }
 
     /// Writes one file.
@@ -69,7 +76,7 @@ impl ResultDirectory {
 
     /// Folder of the files while the result is being written.
     pub(crate) fn folder(&self) -> &Path {
-        self.partial.path()
+        &self.growing
     }
 
     /// Takes over a file from elsewhere, as it is.
@@ -82,7 +89,7 @@ impl ResultDirectory {
     /// # Errors
     /// Exit status 1 when the system refuses.
     pub fn files(&self) -> Result<Vec<String>, CommandError> {
-        names(self.partial.path()).map_err(|e| CommandError::write(&self.wanted, &e))
+        names(&self.growing).map_err(|e| CommandError::write(&self.wanted, &e))
     }
 
     /// Puts the result where it was wanted, in place of an earlier one.
@@ -90,24 +97,16 @@ impl ResultDirectory {
     /// # Errors
     /// Exit status 1 when the system refuses; an earlier result is then still there.
     pub fn finish(self) -> Result<(), CommandError> {
-        let failed = |e: std::io::Error| CommandError::write(&self.wanted, &e);
-        let old = self.partial.path().with_extension("replaced");
-        let replaces = self.wanted.exists();
-        if replaces {
-            fs::rename(&self.wanted, &old).map_err(failed)?;
-        }
-        if let Err(e) = fs::rename(self.partial.path(), &self.wanted) {
-            if replaces {
-                // Back to where it was; the first error is the one to tell.
-                let _ = fs::rename(&old, &self.wanted);
-            }
-            return Err(failed(e));
-        }
-        self.partial.keep();
-        if replaces {
-            fs::remove_dir_all(&old).map_err(|e| CommandError::write(&old, &e))?;
-        }
-        Ok(())
+        self.work.put_in_place().map_err(|e| CommandError::write(&self.wanted, &e))
+    }
+}
+
+/// The folder itself where a path is a link to one, else the path, without a slash at its end.
+fn behind_links(wanted: &Path) -> std::io::Result<PathBuf> {
+    let plain: PathBuf = wanted.components().collect();
+    match fs::symlink_metadata(&plain) {
+        Ok(found) if found.is_symlink() => fs::canonicalize(&plain),
+        _ => Ok(plain),
     }
 }
 
@@ -182,7 +181,12 @@ fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
 fn strange_case(cases: &Path) -> std::io::Result<Option<String>> {
     for case in names(cases)? {
         let folder = cases.join(&case);
-        let stranger = if folder.is_dir() { first_stranger(&folder)? } else { Some(String::new()) };
+        let stranger = match folder.is_dir() {
+            // A case that was being written when the study was killed.
+            true if work_folder::is_work_folder(&folder) => work_folder::stranger(&folder, first_stranger)?,
+            true => first_stranger(&folder)?,
+            false => Some(String::new()),
+        };
         if let Some(name) = stranger {
             return Ok(Some(format!("{CASES}/{case}/{name}").trim_end_matches('/').to_owned()));
         }
@@ -210,6 +214,21 @@ mod tests {
             assert_eq!(fs::read(wanted.join("summary.json")).unwrap(), content);
         }
         assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 1);
+    }
+
+    /// What somebody puts into the folder while the run goes on is not lost with the earlier result.
+    #[test]
+    fn a_file_that_came_in_during_the_run_is_spared() {
+        let scratch = tempfile::tempdir().unwrap();
+        let wanted = scratch.path().join("out");
+        fs::create_dir(&wanted).unwrap();
+        let whole = ResultDirectory::create(&wanted).unwrap();
+        whole.write("summary.json", b"later").unwrap();
+        fs::write(wanted.join("thesis.tex"), "years of work").unwrap();
+        whole.finish().unwrap();
+        assert_eq!(names(&wanted).unwrap(), ["summary.json"]);
+        let aside = scratch.path().join(format!("out.replaced-{}", std::process::id()));
+        assert_eq!(fs::read_to_string(aside.join("thesis.tex")).unwrap(), "years of work");
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub(crate) fn motion_table(
     t.text("contact lost, times", c.contact_losses, "");
     t.science("energy open, over work through pair", c.ledger_residual_over_work, "");
     t.science("least force of a slice in contact", c.least_contact_force_n, "N");
-    t.science("largest force dropped", c.dropped_force_n, "N");
+    t.science("largest jump of the force at a tooth change", c.force_jump_at_tooth_change_n, "N");
     t.text("steps", c.steps, "");
     t.framed(scene, cost, warnings)
 }

@@ -43,6 +43,7 @@ impl<H: Serialize> Page<'_, H> {
             model => model_name(scene),
             version => env!("CARGO_PKG_VERSION"),
             scene => scene.to_toml(),
+            default_scene => scene.is_default_scene(),
             scene_file => scene.file.display().to_string(),
             set => &scene.set,
             vtu => scene.output.vtu,

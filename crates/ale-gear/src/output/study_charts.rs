@@ -2,7 +2,7 @@
 
 use super::charts::{Curve, line_chart};
 use crate::motion::Columns;
-use crate::parameter_study::{CaseRun, Findings, Follow, OverTime, Study, last_cycles};
+use crate::parameter_study::{CaseOutcome, Findings, Follow, OverTime, Study, last_cycles};
 
 /// A figure: a sentence above its charts.
 pub(super) struct Figure {
@@ -11,17 +11,21 @@ pub(super) struct Figure {
 }
 
 /// All figures, in the order of the study file.
-pub(super) fn figures(study: &Study, runs: &[CaseRun], findings: &Findings) -> Vec<Figure> {
+pub(super) fn figures(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Vec<Figure> {
     let follow = study.follow.iter().map(|f| following(study, runs, findings, f));
-    let over_time = study.over_time.iter().map(|o| over_time(study, runs, o));
-    let over_value = (!study.quantities.is_empty()).then(|| over_value(study, findings));
+    let over_time = study.over_time.iter().map(|o| over_time(study, runs, findings, o));
+    let over_value = (!study.quantities.is_empty()).then(|| over_value(study, runs, findings));
     follow.chain(over_time).chain(over_value).collect()
 }
 
 /// Columns of one case over mesh cycles, one under the other, and each pair of them against each other.
-fn following(study: &Study, runs: &[CaseRun], findings: &Findings, follow: &Follow) -> Figure {
+fn following(study: &Study, runs: &[CaseOutcome], findings: &Findings, follow: &Follow) -> Figure {
     let case = &study.cases[follow.case];
-    let rows = last_cycles(&case.scene, &runs[follow.case].rows, follow.cycles);
+    let (Ok(run), Ok(_)) = (&runs[follow.case], &findings.cases[follow.case]) else {
+        let text = format!("{} has no result: {} is not drawn.", case.label, follow.column);
+        return Figure { text, charts: Vec::new() };
+    };
+    let rows = last_cycles(&case.scene, &run.rows, follow.cycles);
     let cycles = mesh_cycles(&rows);
     let chart = |name: &str| {
         let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.get(name)) };
@@ -54,12 +58,10 @@ fn following(study: &Study, runs: &[CaseRun], findings: &Findings, follow: &Foll
 }
 
 /// One column of all cases over time, each from the beginning of its cycles shown.
-fn over_time(study: &Study, runs: &[CaseRun], over: &OverTime) -> Figure {
-    let curves: Vec<Curve> = study
-        .cases
-        .iter()
-        .zip(runs)
-        .map(|(case, run)| {
+fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &OverTime) -> Figure {
+    let curves: Vec<Curve> = findings
+        .with_result(study, runs)
+        .map(|(case, run, _)| {
             let rows = last_cycles(&case.scene, &run.rows, over.cycles);
             let time = rows.get("time_s");
             let begin = time.first().copied().unwrap_or(0.0);
@@ -68,20 +70,28 @@ fn over_time(study: &Study, runs: &[CaseRun], over: &OverTime) -> Figure {
         })
         .collect();
     let chart = line_chart(&format!("{} against time", over.column), "time [ms]", &over.column, &curves, false);
-    Figure { text: String::new(), charts: chart.into_iter().collect() }
+    Figure { text: left_out(study, findings), charts: chart.into_iter().collect() }
 }
 
 /// The quantities over the parameter, one chart each.
-fn over_value(study: &Study, findings: &Findings) -> Figure {
+fn over_value(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Figure {
     let charts = study.quantities.iter().enumerate().filter_map(|(k, quantity)| {
         let mut at: Vec<(f64, f64)> =
-            study.cases.iter().zip(&findings.cases).map(|(case, found)| (case.value, found.quantities[k])).collect();
+            findings.with_result(study, runs).map(|(case, _, found)| (case.value, found.quantities[k])).collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
         let name = quantity.name();
         let title = format!("{name} against {}", study.parameter);
         line_chart(&title, &study.parameter, &name, &[Curve { label: name.clone(), points: at }], false)
     });
-    Figure { text: String::new(), charts: charts.collect() }
+    Figure { text: left_out(study, findings), charts: charts.collect() }
+}
+
+/// Says which cases a figure of all is without.
+fn left_out(study: &Study, findings: &Findings) -> String {
+    match findings.without_result(study).as_slice() {
+        [] => String::new(),
+        labels => format!("Without {}: no result.", labels.join(", ")),
+    }
 }
 
 fn points(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {

@@ -3,11 +3,16 @@
 use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
-use super::{Rendered, directory::CASES, study_charts::figures, study_tables::speed_up_text};
+use super::{
+    Rendered,
+    directory::CASES,
+    study_charts::figures,
+    study_tables::{speed_up_text, step_s},
+};
 use crate::chart::SpeedUp;
 use crate::error::CommandError;
 use crate::facts::Cost;
-use crate::parameter_study::{CaseRun, Findings, Study};
+use crate::parameter_study::{CaseOutcome, Findings, Study};
 
 /// What files of a study are made of.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +20,7 @@ pub(crate) struct StudyResult<'a> {
     /// What was asked.
     pub study: &'a Study,
     /// What the cases left.
-    pub runs: &'a [CaseRun],
+    pub runs: &'a [CaseOutcome],
     /// What was read off it.
     pub findings: &'a Findings,
     /// The whole model, where it was run.
@@ -40,10 +45,17 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Ren
         .cases
         .iter()
         .enumerate()
-        .map(|(i, case)| json!({ "label": case.label, "scene": case.scene.file.display().to_string(), "folder": study.folder(i) }))
+        .map(|(i, case)| {
+            json!({
+                "label": case.label,
+                "scene": case.scene.file.display().to_string(),
+                "folder": study.folder(i),
+                "reason": findings.reason(i),
+            })
+        })
         .collect();
     let full = study.full.zip(speed_up);
-    let speed = full.map(|(f, s)| speed_up_text(s, &study.cases[f.case].label, runs[f.case].step_s()));
+    let speed = full.map(|(f, s)| speed_up_text(s, &study.cases[f.case].label, step_s(runs, f.case)));
     Rendered::new(
         "study.html",
         context! {
@@ -64,7 +76,7 @@ pub(crate) fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> Stri
     let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
     let cases: Vec<Value> = (0..study.cases.len()).map(|i| case(of, i)).collect();
     let full = study.full.zip(speed_up).map(|(full, s)| {
-        let step_s = runs[full.case].step_s();
+        let step_s = step_s(runs, full.case);
         json!({
             "case": study.cases[full.case].label,
             "at_rest": s,
@@ -94,17 +106,20 @@ pub(crate) fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> Stri
 }
 
 fn case(of: StudyResult<'_>, i: usize) -> Value {
-    let (case, run, found) = (&of.study.cases[i], &of.runs[i], &of.findings.cases[i]);
-    let quantities: Map<String, Value> =
-        of.study.quantities.iter().zip(&found.quantities).map(|(q, v)| (q.name(), json!(v))).collect();
+    let (case, reason) = (&of.study.cases[i], of.findings.reason(i));
+    let run = of.runs[i].as_ref().ok().filter(|_| reason.is_none());
+    let quantities = of.findings.cases[i].as_ref().ok().map(|found| {
+        of.study.quantities.iter().zip(&found.quantities).map(|(q, v)| (q.name(), json!(v))).collect::<Map<_, _>>()
+    });
     json!({
         "label": case.label,
         "value": case.value,
         "scene": case.scene.file.display().to_string(),
-        "folder": format!("{CASES}/{}", of.study.folder(i)),
-        "geometry": run.geometry,
+        "reason": reason,
+        "folder": of.runs[i].is_ok().then(|| format!("{CASES}/{}", of.study.folder(i))),
+        "geometry": run.map(|r| r.geometry),
         "quantities": quantities,
-        "steps": run.steps,
-        "wall_s": run.cost.wall_s,
+        "steps": run.map(|r| r.steps),
+        "wall_s": run.map(|r| r.cost.wall_s),
     })
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{StudyResult, history::push_row, table::fixed};
 use crate::chart::SpeedUp;
-use crate::parameter_study::{Findings, Study};
+use crate::parameter_study::{CaseOutcome, Findings, Study};
 
 /// A number of every case.
 struct Line {
@@ -15,7 +15,8 @@ struct Line {
 
 /// The lines of either table, in their order.
 fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
-    let ratio = |k: usize| findings.cases.iter().map(|c| Some(c.contact_ratios[k])).collect();
+    let cases = || findings.cases.iter().map(|c| c.as_ref().ok());
+    let ratio = |k: usize| cases().map(|c| Some(c?.contact_ratios[k])).collect();
     let mut all: Vec<Line> = ["eps_alpha", "eps_beta", "eps_gamma"]
         .iter()
         .enumerate()
@@ -23,22 +24,30 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
         .collect();
     all.extend(study.quantities.iter().enumerate().map(|(k, quantity)| Line {
         name: quantity.name(),
-        values: findings.cases.iter().map(|c| Some(c.quantities[k]).filter(|v| v.is_finite())).collect(),
+        values: cases().map(|c| Some(c?.quantities[k]).filter(|v| v.is_finite())).collect(),
         decimals: 3,
     }));
     all.extend(findings.followers.iter().map(|f| Line { name: f.name(), values: f.correlation.clone(), decimals: 4 }));
     all
 }
 
-/// `study.csv`: one row a case.
+/// A text as a field of CSV.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
+}
+
+/// `study.csv`: one row a case; the last column says why a case has no result, and is empty where it has one.
 pub(crate) fn study_csv(study: &Study, findings: &Findings) -> String {
     let lines = lines(study, findings);
     let names: Vec<&str> = lines.iter().map(|l| l.name.as_str()).collect();
-    let mut csv = format!("label,value,{}\n", names.join(","));
+    let mut csv = format!("label,value,{},reason\n", names.join(","));
     for (i, case) in study.cases.iter().enumerate() {
-        let _ = write!(csv, "\"{}\",", case.label.replace('"', "\"\""));
+        let _ = write!(csv, "{},", quoted(&case.label));
         let values = lines.iter().map(|l| l.values[i].unwrap_or(f64::NAN));
         push_row(&mut csv, std::iter::once(case.value).chain(values));
+        // Behind the numbers, on their line.
+        csv.pop();
+        let _ = writeln!(csv, ",{}", findings.reason(i).map(quoted).unwrap_or_default());
     }
     csv
 }
@@ -69,17 +78,23 @@ pub(crate) fn study_table(of: StudyResult<'_>) -> String {
     }
     let _ = write!(t, "  {:<label_width$}", "wall time, s");
     for run in runs {
-        let _ = write!(t, " {:>width$.2}", run.cost.wall_s);
+        let text = run.as_ref().map_or_else(|_| "-".to_owned(), |run| format!("{:.2}", run.cost.wall_s));
+        let _ = write!(t, " {text:>width$}");
     }
     t.push('\n');
     if let (Some(s), Some(full)) = (speed_up, study.full) {
-        let _ = writeln!(t, "\n{}", speed_up_text(s, &study.cases[full.case].label, runs[full.case].step_s()));
+        let _ = writeln!(t, "\n{}", speed_up_text(s, &study.cases[full.case].label, step_s(runs, full.case)));
     }
     let _ = writeln!(t, "\n  wall time {:.2} s on {} threads", cost.wall_s, cost.threads);
     for warning in warnings {
         let _ = writeln!(t, "\nwarning: {warning}");
     }
     t
+}
+
+/// Wall time of a step in time of a case, s; `None` at rest and without a result.
+pub(super) fn step_s(runs: &[CaseOutcome], case: usize) -> Option<f64> {
+    runs[case].as_ref().ok()?.step_s()
 }
 
 /// What was compared, in words.

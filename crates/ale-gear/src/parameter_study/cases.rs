@@ -47,27 +47,27 @@ impl CaseRun {
     }
 }
 
+/// A case's result, or why it has none.
+pub(crate) type CaseOutcome = Result<CaseRun, CommandError>;
+
 /// Runs a scene and writes every file of its result.
 pub(crate) type Solve<'a> = &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Cost, CommandError> + Sync);
 
-/// Runs all cases into the folder `cases` of the study's results. `done` is told of each.
+/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution takes nothing from the others.
 ///
 /// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The threads of
 /// a case are its own, so that no case waits for, or is timed with, the work of another. Results do not depend on their number.
-///
-/// # Errors
-/// The first complaint in the order of the cases.
 pub(crate) fn run_cases(
     study: &Study,
     results: &ResultDirectory,
     solve: Solve<'_>,
     done: &(dyn Fn(&Case) + Sync),
-) -> Result<Vec<CaseRun>, CommandError> {
+) -> Vec<CaseOutcome> {
     let count = study.cases.len();
     let threads = rayon::current_num_threads();
     let workers = threads.min(count).max(1);
     let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<Result<CaseRun, CommandError>>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let slots: Vec<Mutex<Option<CaseOutcome>>> = (0..count).map(|_| Mutex::new(None)).collect();
     let work = || {
         let pool = ThreadPoolBuilder::new().num_threads((threads / workers).max(1)).build();
         loop {
@@ -88,11 +88,10 @@ pub(crate) fn run_cases(
         work();
         drop(others);
     });
-    let ran = slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner));
-    ran.collect()
+    slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
 }
 
-fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> Result<CaseRun, CommandError> {
+fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> CaseOutcome {
     let case = &study.cases[i];
     let folder = results.path(CASES).join(study.folder(i));
     let own = ResultDirectory::create(&folder)?;

@@ -1,17 +1,17 @@
 //! What is read off the rows of the cases.
 
-use study::correlation;
-
-use super::{CaseRun, Quantity, Study, Take, columns};
+use super::{Case, CaseOutcome, CaseRun, Quantity, Study, Take, columns};
 use crate::{error::CommandError, motion::Columns, scene::Scene};
 
 /// Everything that tables and figures of a study are made of, but for the rows themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Findings {
-    /// Case by case, in the order of the file.
-    pub cases: Vec<CaseFindings>,
+    /// Case by case, in the order of the file: its numbers, or why it has none.
+    pub cases: Vec<Result<CaseFindings, CommandError>>,
     /// Pairs of columns of which one may follow the other.
     pub followers: Vec<Follower>,
+    /// What could not be read off rows that are there.
+    pub warnings: Vec<String>,
 }
 
 /// Numbers of one case.
@@ -30,7 +30,7 @@ pub(crate) struct Follower {
     pub column: String,
     /// The other.
     pub beside: String,
-    /// Pearson's coefficient over all rows, case by case; `None` where a column does not vary.
+    /// Pearson's coefficient over all rows, case by case; `None` where a column does not vary, and of a case without a result.
     pub correlation: Vec<Option<f64>>,
 }
 
@@ -41,40 +41,80 @@ impl Follower {
     }
 }
 
-/// Reads all numbers of a study off the rows of its cases.
+impl Findings {
+    /// Cases that have a result, with its rows.
+    pub fn with_result<'a>(
+        &'a self,
+        study: &'a Study,
+        runs: &'a [CaseOutcome],
+    ) -> impl Iterator<Item = (&'a Case, &'a CaseRun, &'a CaseFindings)> {
+        let all = study.cases.iter().zip(runs).zip(&self.cases);
+        all.filter_map(|((case, run), found)| Some((case, run.as_ref().ok()?, found.as_ref().ok()?)))
+    }
+
+    /// Why a case has no result; `None` where it has one.
+    pub fn reason(&self, case: usize) -> Option<&str> {
+        self.cases[case].as_ref().err().map(|e| e.message.as_str())
+    }
+
+    /// Labels of cases without a result.
+    pub fn without_result<'a>(&'a self, study: &'a Study) -> Vec<&'a str> {
+        let failed = study.cases.iter().zip(&self.cases).filter(|(_, found)| found.is_err());
+        failed.map(|(case, _)| case.label.as_str()).collect()
+    }
+}
+
+/// Reads all numbers of a study off the rows of its cases. A case that did not come to a result, or has not the columns, stands with its
+/// reason.
 ///
 /// # Errors
-/// Exit status 2 when a case has no such column, 1 when what shall be compared is no number.
-pub(crate) fn findings(study: &Study, runs: &[CaseRun]) -> Result<Findings, CommandError> {
-    let cases = runs.iter().enumerate().map(|(i, run)| {
-        let quantities = study.quantities.iter().map(|q| Ok(taken(q, column(study, i, run, &q.column)?)));
-        let g = &run.geometry;
-        Ok(CaseFindings {
-            contact_ratios: [g.eps_alpha, g.eps_beta, g.eps_gamma],
-            quantities: quantities.collect::<Result<_, CommandError>>()?,
-        })
-    });
-    let cases = cases.collect::<Result<_, CommandError>>()?;
-    let mut followers: Vec<Follower> = Vec::new();
+/// The first complaint, where no case has a result.
+pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, CommandError> {
+    let cases: Vec<_> = runs
+        .iter()
+        .enumerate()
+        .map(|(i, run)| run.as_ref().map_err(CommandError::clone).and_then(|run| of_case(study, i, run)))
+        .collect();
+    if let (true, Some(Err(first))) = (cases.iter().all(Result::is_err), cases.first()) {
+        let (label, message) = (&study.cases[0].label, &first.message);
+        let message = match cases.len() {
+            1 => message.clone(),
+            n => format!("{}: none of {n} cases has a result; {label}: {message}", study.file.display()),
+        };
+        return Err(CommandError { message, ..first.clone() });
+    }
+    let mut all = Findings { cases, followers: Vec::new(), warnings: Vec::new() };
     for follow in &study.follow {
         for beside in &follow.beside {
-            if followers.iter().any(|f| f.column == follow.column && f.beside == *beside) {
+            if all.followers.iter().any(|f| f.column == follow.column && f.beside == *beside) {
                 continue;
             }
-            let of = |(i, run): (usize, &CaseRun)| {
-                let (own, other) = (column(study, i, run, &follow.column)?, column(study, i, run, beside)?);
-                correlation(own, other).map_err(|e| CommandError::failed(&e, e.hint()))
-            };
-            let correlation = runs.iter().enumerate().map(of).collect::<Result<_, _>>()?;
-            followers.push(Follower { column: follow.column.clone(), beside: beside.clone(), correlation });
+            let mut correlation = Vec::with_capacity(runs.len());
+            for (i, run) in runs.iter().enumerate() {
+                let run = run.as_ref().ok().filter(|_| all.cases[i].is_ok());
+                let found = run.map(|run| study::correlation(run.rows.get(&follow.column), run.rows.get(beside)));
+                if let Some(Err(e)) = &found {
+                    let label = &study.cases[i].label;
+                    all.warnings.push(format!("{label}: no correlation of {} with {beside}: {e}", follow.column));
+                }
+                correlation.push(found.and_then(Result::ok).flatten());
+            }
+            all.followers.push(Follower { column: follow.column.clone(), beside: beside.clone(), correlation });
         }
     }
-    for over in &study.over_time {
-        for (i, run) in runs.iter().enumerate() {
-            column(study, i, run, &over.column)?;
-        }
+    Ok(all)
+}
+
+/// Numbers of one case, which must have every column that is asked for.
+fn of_case(study: &Study, i: usize, run: &CaseRun) -> Result<CaseFindings, CommandError> {
+    let quantities = study.quantities.iter().map(|q| Ok(taken(q, column(study, i, run, &q.column)?)));
+    let quantities = quantities.collect::<Result<_, CommandError>>()?;
+    let followed = study.follow.iter().flat_map(|f| std::iter::once(&f.column).chain(&f.beside));
+    for name in followed.chain(study.over_time.iter().map(|o| &o.column)) {
+        column(study, i, run, name)?;
     }
-    Ok(Findings { cases, followers })
+    let g = &run.geometry;
+    Ok(CaseFindings { contact_ratios: [g.eps_alpha, g.eps_beta, g.eps_gamma], quantities })
 }
 
 /// A column of a case; some models tell only by their rows which they have.

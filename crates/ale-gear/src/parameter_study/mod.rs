@@ -15,6 +15,6 @@ mod file;
 mod findings;
 mod raw;
 
-pub(crate) use cases::{CaseRun, run_cases};
+pub(crate) use cases::{CaseOutcome, CaseRun, run_cases};
 pub use file::{Case, Follow, FullRun, OverTime, Quantity, Study, Take};
 pub(crate) use findings::{Findings, findings, last_cycles};

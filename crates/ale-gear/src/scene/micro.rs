@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use toml::Spanned;
 
 use super::error::SceneError;
+use super::inputs::named;
 use super::raw::{Number, RawFlank, RawGear, RawMisalignment, RawModification, Word};
 use super::schema;
 use super::source::Source;
@@ -171,7 +171,7 @@ fn flank(s: &Source<'_>, raw: &RawFlank, face_width: f64) -> Checked<FlankScene>
         end_relief_upper_length_mm: length("end_relief_upper_length_mm", &raw.end_relief_upper_length_mm)?,
         end_relief_shape: shape("end_relief_shape", &raw.end_relief_shape)?,
         bias_um: number("bias_um", &raw.bias_um)?,
-        topography: raw.topography.as_ref().map(|word| file(s, "topography", word)).transpose()?,
+        topography: raw.topography.as_ref().map(|word| named(s, "topography", word)).transpose()?,
         evaluation_start_diameter_mm: number("evaluation_start_diameter_mm", &raw.evaluation_start_diameter_mm)?,
     })
 }
@@ -242,23 +242,9 @@ fn together(s: &Source<'_>, a: (&str, &Number), b: (&str, &Number)) -> Checked<(
     ))
 }
 
-/// A file that is there; the path as written.
-fn file(s: &Source<'_>, key: &str, word: &Spanned<String>) -> Checked<PathBuf> {
-    let path = PathBuf::from(word.get_ref());
-    let found = s.file.parent().map_or_else(|| path.clone(), |folder| folder.join(&path));
-    if found.is_file() {
-        return Ok(path);
-    }
-    Err(s.conflict(
-        &word.span(),
-        format!("`{key}` is \"{}\", but there is no file {}", word.get_ref(), found.display()),
-        "paths are relative to the scene file",
-    ))
-}
-
 /// Pitch errors: a list, or a file.
 pub(super) fn pitch_errors(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Vec<f64>, Option<PathBuf>)> {
-    let in_file = raw.pitch_errors_file.as_ref().map(|word| file(s, "pitch_errors_file", word)).transpose()?;
+    let in_file = raw.pitch_errors_file.as_ref().map(|word| named(s, "pitch_errors_file", word)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };
     if in_file.is_some() {
         let what = "a gear has both `pitch_errors_um` and `pitch_errors_file`";

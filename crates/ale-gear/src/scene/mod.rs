@@ -11,6 +11,7 @@ mod error;
 mod excerpt;
 mod gear;
 mod hints;
+mod inputs;
 mod keys;
 mod ladder;
 mod micro;
@@ -29,10 +30,13 @@ use std::path::{Path, PathBuf};
 use geometry::Side;
 use serde::Serialize;
 
+use crate::input_text;
+
 pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use error::{Line, Place, SceneError};
 pub use gear::{GearScene, Material, MesherScene, PairScene};
+pub(crate) use inputs::Origin;
 pub(crate) use keys::nearest;
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
@@ -65,6 +69,9 @@ pub struct Scene {
     /// Words of a command line that set keys beside the file.
     #[serde(skip)]
     pub set: Vec<String>,
+    /// Whether it stands in a file or in the program.
+    #[serde(skip)]
+    pub(crate) origin: Origin,
     /// Gear 1.
     pub pinion: GearScene,
     /// Gear 2.
@@ -126,8 +133,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let text =
-            std::fs::read_to_string(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        let text = input_text::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
         Self::parse_with(&text, file, settings)
     }
 
@@ -144,8 +150,12 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        Self::parse_from(text, file, settings, Origin::Disk)
+    }
+
+    fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
         let (all, ranges) = setting::below(text, settings);
-        let source = source::Source::scene(file, &all, settings, &ranges);
+        let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
         let scene = crate::resolution::settled(check::scene(&source, raw::read(&source)?)?);
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
@@ -158,10 +168,7 @@ impl Scene {
 
     /// The path that a path written in the scene stands for.
     pub fn resolve(&self, path: &Path) -> PathBuf {
-        match self.file.parent() {
-            Some(folder) => folder.join(path),
-            None => path.to_owned(),
-        }
+        inputs::resolved(&self.file, path)
     }
 
     /// Pinion and wheel.
@@ -174,6 +181,14 @@ impl Scene {
         match (self.operation.driver, self.operation.rotation) {
             (Driver::Pinion, Rotation::Ccw) | (Driver::Wheel, Rotation::Cw) => Side::Left,
             (Driver::Pinion, Rotation::Cw) | (Driver::Wheel, Rotation::Ccw) => Side::Right,
+        }
+    }
+
+    /// Teeth of the gear that drives.
+    pub fn driver_teeth(&self) -> u32 {
+        match self.operation.driver {
+            Driver::Pinion => self.pinion.teeth,
+            Driver::Wheel => self.wheel.teeth,
         }
     }
 

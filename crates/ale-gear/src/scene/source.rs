@@ -9,6 +9,7 @@ use toml::Spanned;
 use super::error::{Line, Place, SceneError};
 use super::excerpt::excerpt;
 use super::hints;
+use super::inputs::Origin;
 use super::keys::{self, Tables};
 use super::raw::{Number, Whole, Word};
 use super::schema::{self, Table};
@@ -24,17 +25,24 @@ pub(crate) struct Source<'a> {
     /// Where in the text.
     pub ranges: &'a [Range<usize>],
     tables: Tables,
+    /// Where files that it names are looked for.
+    pub origin: Origin,
 }
 
 impl<'a> Source<'a> {
     /// The text of a scene with what was set beside it.
     pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        Self { file, text, settings, ranges, tables: schema::tables }
+        Self { file, text, settings, ranges, tables: schema::tables, origin: Origin::Disk }
+    }
+
+    /// The same, the files that it names being there.
+    pub(super) fn standing(self, origin: Origin) -> Self {
+        Self { origin, ..self }
     }
 
     /// The text of a file with other tables.
     pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
-        Self { file, text, settings: &[], ranges: &[], tables }
+        Self { file, text, settings: &[], ranges: &[], tables, origin: Origin::Disk }
     }
 }
 

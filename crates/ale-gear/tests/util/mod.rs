@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its own part
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -46,7 +47,18 @@ impl Scratch {
     }
 
     pub fn command(&self, words: &[&str]) -> Run {
-        self.run(Command::new(env!("CARGO_BIN_EXE_ale-gear")).args(words))
+        Self::done(self.program().args(words))
+    }
+
+    /// The built program in this folder; what it says does not depend on how fast the machine is, nor on what the user has cached.
+    pub fn program(&self) -> Command {
+        self.here(Command::new(env!("CARGO_BIN_EXE_ale-gear")))
+    }
+
+    fn here(&self, mut command: Command) -> Command {
+        command.current_dir(self.path()).env("XDG_CACHE_HOME", self.1.path());
+        command.env(ale_gear::talk::PROGRESS_AFTER_S, "never");
+        command
     }
 
     /// Commands as a user types them, `ale-gear` on the path; ends at the first that fails.
@@ -54,12 +66,12 @@ impl Scratch {
         let built = Path::new(env!("CARGO_BIN_EXE_ale-gear")).parent().unwrap().to_owned();
         let others = std::env::var_os("PATH").unwrap_or_default();
         let path = std::env::join_paths(std::iter::once(built).chain(std::env::split_paths(&others))).unwrap();
-        self.run(Command::new("sh").args(["-e", "-c", script]).env("PATH", path))
+        Self::done(self.here(Command::new("sh")).args(["-e", "-c", script]).env("PATH", path))
     }
 
-    fn run(&self, command: &mut Command) -> Run {
-        // No test reads or fills the user's own cache.
-        let output = command.current_dir(self.path()).env("XDG_CACHE_HOME", self.1.path()).output().unwrap();
+    /// Runs a command to its end.
+    pub fn done(command: &mut Command) -> Run {
+        let output = command.output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }
@@ -117,4 +129,53 @@ pub fn column(csv: &str, name: &str) -> Vec<f64> {
     let mut lines = csv.lines();
     let at = lines.next().unwrap().split(',').position(|n| n == name).unwrap_or_else(|| panic!("no column {name}"));
     lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+}
+
+/// All scenes of the repository.
+pub fn scenes() -> Vec<PathBuf> {
+    let (mut folders, mut scenes) = (vec![repository().join("scenes")], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            match path.extension() {
+                _ if path.is_dir() => folders.push(path),
+                Some(e) if e == "toml" => scenes.push(path),
+                _ => {}
+            }
+        }
+    }
+    scenes.sort();
+    scenes
+}
+
+/// Sectors of five teeth: a chart of them takes a second or two a point.
+pub fn five_teeth() -> String {
+    let mesher = |gear: &str| format!("[{gear}.mesher]\nsector_teeth = 5\n");
+    let scene = ISO_SCENE.replace("model = \"iso\"", "positions_per_cycle = 8");
+    format!("name = \"small\"\n{scene}{}{}", mesher("pinion"), mesher("wheel"))
+}
+
+/// Fields of a line of CSV; quoted ones without their quotes.
+pub fn fields(line: &str) -> Vec<String> {
+    let mut inside = false;
+    let mut all = vec![String::new()];
+    for c in line.chars() {
+        match c {
+            '"' => inside = !inside,
+            ',' if !inside => all.push(String::new()),
+            _ => all.last_mut().unwrap().push(c),
+        }
+    }
+    all
+}
+
+/// Rows of a chart by the names of its columns.
+pub fn chart_rows(csv: &str) -> Vec<BTreeMap<String, String>> {
+    let header = fields(csv.lines().next().unwrap());
+    let row = |line: &str| -> BTreeMap<String, String> {
+        let row = fields(line);
+        assert_eq!(row.len(), header.len(), "{line}");
+        header.iter().cloned().zip(row).collect()
+    };
+    csv.lines().skip(1).map(row).collect()
 }

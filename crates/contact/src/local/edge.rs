@@ -179,6 +179,30 @@ mod tests {
         assert!(far.abs() < 1e-7, "{far}");
     }
 
+    /// Far round the arc the band is Hertz's for the arc's own curvature beside the mate's, 1/R + 1/r: narrower by sqrt(1 + R/r), so its approach is larger by half a logarithm of
+    /// that. On the flank the arc costs nothing.
+    #[test]
+    fn round_the_arc_the_band_is_that_of_its_curvature() {
+        for m in [0.5, 4.0, 50.0] {
+            let (far, _) = cut_off_by_arc(-1e7, m);
+            assert!((far - 0.5 * f64::ln(1.0 + m)).abs() < 1e-9, "R/r {m}: {far}");
+            assert_eq!(cut_off_by_arc(2.0, m).0, 0.0);
+        }
+    }
+
+    /// The arc touches the flank and the tip land: its centre, one radius above the tangent point, is one radius from the land as well.
+    #[test]
+    fn the_arc_is_tangent_to_flank_and_land() {
+        for degrees in [95.0f64, 118.0, 150.0] {
+            let angle = degrees.to_radians();
+            let edge = Edge { distance: 1.0, angle, arc: 0.3, radius: 5.0 };
+            // Corner at the origin, flank along +x, material above; the land leaves the corner at the edge's angle.
+            let centre = [edge.tangent_point(), edge.arc];
+            let from_land = (centre[0] * angle.sin() - centre[1] * angle.cos()).abs();
+            assert!((from_land - edge.arc).abs() < 1e-12, "{degrees} deg: {from_land} mm from the land");
+        }
+    }
+
     /// Derivatives by ln a are derivatives, sharp and rounded; to 1e-6, as at d = a the second one jumps.
     #[test]
     fn slopes_are_slopes() {

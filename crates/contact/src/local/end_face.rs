@@ -142,6 +142,30 @@ mod tests {
         assert!(softening(&EndFace::FAR, 0.3, 2.0, 0.1).0 == 0.0);
     }
 
+    /// Between the ratios and leans that were resolved the softening has no jump, and passes through their mean half-way.
+    #[test]
+    fn between_resolved_cases_it_is_straight() {
+        let at =
+            |lean_deg: f64, nu: f64| softening(&EndFace { distance: 0.3, lean: lean_deg.to_radians() }, nu, 2.0, 0.1).0;
+        for (lean, [low, high]) in [(0.0, [0.2, 0.3]), (20.0, [0.3, 0.4]), (-10.0, [0.0, 0.2])] {
+            let mean = 0.5 * (at(lean, low) + at(lean, high));
+            let between = at(lean, 0.5 * (low + high));
+            assert!((between - mean).abs() < 1e-12, "lean {lean} deg, nu {low} .. {high}: {between}, not {mean}");
+        }
+        let mean = 0.5 * (at(10.0, 0.3) + at(20.0, 0.3));
+        assert!((at(15.0, 0.3) - mean).abs() < 1e-12, "lean 15 deg: {}, not {mean}", at(15.0, 0.3));
+    }
+
+    /// The band is blunt within 0.28 of its half-width: at the very face it feels what a narrow one feels 0.28 a away.
+    #[test]
+    fn a_band_at_the_face_feels_it_from_a_part_of_its_width() {
+        let at = |distance: f64, a: f64| softening(&EndFace { distance, lean: 0.2 }, 0.3, 2.0, a).0;
+        for a in [0.05, 0.2] {
+            let (at_face, beside) = (at(0.0, a), at(0.28 * a, 1e-9));
+            assert!((at_face - beside).abs() < 1e-9, "a {a} mm: {at_face}, not {beside}");
+        }
+    }
+
     #[test]
     fn slope_is_the_derivative_by_ln_a() {
         for distance in [0.0, 0.03, 0.3, 3.0] {

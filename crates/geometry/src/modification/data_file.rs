@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::read_regular_text;
+
 /// A file of measured values that cannot be read or understood.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -83,7 +85,7 @@ impl DataFileError {
 
 /// The text of a file.
 pub(super) fn text(path: &Path) -> Result<String, DataFileError> {
-    std::fs::read_to_string(path).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
+    read_regular_text(path).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
 }
 
 /// Lines with anything on them: number from 1, words.

@@ -57,6 +57,17 @@ pub(crate) struct SweepRequest {
     pub again: Option<String>,
 }
 
+impl SweepRequest {
+    /// Mesh cycles from one point of a section to the next.
+    pub fn every(&self, scene: &Scene) -> u32 {
+        match self.once {
+            Once::MeshCycle => 1,
+            Once::PinionTurn => scene.pinion.teeth,
+            Once::WheelTurn => scene.wheel.teeth,
+        }
+    }
+}
+
 /// A value with all that its model is made of.
 struct Value {
     value: f64,
@@ -65,11 +76,7 @@ struct Value {
 
 /// The scene of one value as it is run: to the periodic state, then as many cycles as the section takes.
 fn settled(scene: &Scene, words: &MotionScene, request: &SweepRequest) -> Scene {
-    let every = match request.once {
-        Once::MeshCycle => 1,
-        Once::PinionTurn => scene.pinion.teeth,
-        Once::WheelTurn => scene.wheel.teeth,
-    };
+    let every = request.every(scene);
     let motion = MotionScene { run: Run::Steady, duration_s: None, ramp: None, sweep: None, ..words.clone() };
     let mut own = scene.clone();
     own.analysis.cycles = request.points.saturating_mul(every);

@@ -7,7 +7,7 @@ use dynamics::motion::State;
 use serde::Serialize;
 use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 
-use super::{Once, SweepRequest, free_turn::FreeTurn};
+use super::{SweepRequest, free_turn::FreeTurn};
 use crate::{
     error::CommandError,
     ladder::{Model, Recipe, complaint, course, within_bounds},
@@ -97,11 +97,7 @@ pub(super) fn run(
     let complain = |e: LumpedError| located(complaint(scene, &e));
     let course = course::run(&mut model, scene, words, frequencies, from, || ()).map_err(complain)?;
     within_bounds(&course.history).map_err(located)?;
-    let every = match request.once {
-        Once::MeshCycle => 1,
-        Once::PinionTurn => scene.pinion.teeth as usize,
-        Once::WheelTurn => scene.wheel.teeth as usize,
-    };
+    let every = request.every(scene) as usize;
     let points: Vec<f64> = course.section.get(&request.of).iter().copied().step_by(every).collect();
     let extent = course.history.extent(&request.of);
     let lyapunov = match request.stretches {

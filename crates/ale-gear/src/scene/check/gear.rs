@@ -6,7 +6,7 @@ use mesh::GroupNames;
 
 use super::Checked;
 use crate::scene::{
-    GearScene, Material, MesherScene, PairScene, micro,
+    GearScene, Material, MesherScene, PairScene, inputs, micro,
     raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
     schema,
     source::Source,
@@ -147,18 +147,7 @@ fn mesh_source(
             "a gear has both a `mesh` and a `mesher` table",
             "keep `mesh` to read a file, or the `mesher` table to have one made",
         )),
-        (Some(mesh), None) => {
-            let path = PathBuf::from(mesh.get_ref());
-            let found = s.file.parent().map_or_else(|| path.clone(), |folder| folder.join(&path));
-            if !found.is_file() {
-                return Err(s.conflict(
-                    &mesh.span(),
-                    format!("`mesh` is \"{}\", but there is no file {}", mesh.get_ref(), found.display()),
-                    "paths are relative to the scene file",
-                ));
-            }
-            Ok((Some(path), None))
-        }
+        (Some(mesh), None) => Ok((Some(inputs::named(s, "mesh", mesh)?), None)),
         (None, mesher) => {
             let none = RawMesher::default();
             Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth, pair)?)))

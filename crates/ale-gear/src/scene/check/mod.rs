@@ -42,6 +42,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         file: source.file.to_owned(),
         written: Written::new(source),
         set: Vec::new(),
+        origin: source.origin,
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,
         drive: dynamic.then(|| drive(source, &raw)).transpose()?,

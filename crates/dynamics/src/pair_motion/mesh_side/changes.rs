@@ -13,9 +13,8 @@ use crate::{ContactSet, MeshContact, StaticError, Station, line::Standing};
 pub struct Changes {
     /// How many.
     pub count: u64,
-    /// Largest force that an outgoing tooth carried when it left, N: 0, or a force was dropped.
-    pub dropped: f64,
-    /// Largest difference of the sum of normal forces before and after a change at the same place, N.
+    /// Largest difference of the sum of normal forces before and after a change at the same place, N: contact is solved anew on the new window, so a force that
+    /// was dropped shows here.
     pub jump: f64,
 }
 
@@ -110,7 +109,6 @@ impl MeshSide {
         let next = self.window.change(going, &forces)?;
         self.enter(pair, next, self.contact.contact_set().clone())?;
         self.changes.count += 1;
-        self.changes.dropped = self.changes.dropped.max(carried.abs());
         Ok(true)
     }
 

@@ -1,18 +1,14 @@
 //! Reports in a browser: they open without complaint, draw their charts and the gears, and their slider moves them.
 //!
-//! Needs Chromium or Chrome; where there is none the tests say so and pass. Pictures stay in `target/report`.
-#![allow(clippy::print_stderr, reason = "who reads a skipped test's output wants to know that it was skipped")]
-
-mod util;
+//! Pictures stay in `target/tmp/report`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use util::{Scratch, motion_scene, repository};
 
-/// Names under which the browser is known, the wish of the caller first.
-const BROWSERS: [&str; 5] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome"];
+use super::util::{ISO_SCENE, Scratch, motion_scene, repository};
+
 /// WebGL without a graphics card, and nothing fetched from anywhere.
 const FLAGS: [&str; 11] = [
     "--headless=new",
@@ -80,19 +76,6 @@ addEventListener("load", () => {
 });
 </script>"##;
 
-/// The browser, if the machine has one.
-fn browser() -> Option<PathBuf> {
-    let wished = std::env::var_os("CHROME").map(PathBuf::from).into_iter();
-    let folders: Vec<PathBuf> =
-        std::env::var_os("PATH").map(|p| std::env::split_paths(&p).collect()).unwrap_or_default();
-    let known = BROWSERS.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    let found = wished.chain(known).find(|path| path.is_file());
-    if found.is_none() {
-        eprintln!("skipped: no browser is installed (looked for {})", BROWSERS.join(", "));
-    }
-    found
-}
-
 /// Opens the report of a run in a window of some width and keeps a picture; what the page saw of itself comes back.
 fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, height]: [u32; 2]) -> Value {
     let bytes = std::fs::metadata(scratch.path().join(file)).unwrap().len();
@@ -101,7 +84,7 @@ fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, heigh
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "{name}: the report needs a network");
     let checked = scratch.path().join("checked.html");
     std::fs::write(&checked, page.replacen("</body>", &format!("{SELF_CHECK}</body>"), 1)).unwrap();
-    let pictures = repository().join("target/report");
+    let pictures = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
     std::fs::create_dir_all(&pictures).unwrap();
     let opened = Command::new(browser)
         .args(FLAGS)
@@ -117,7 +100,6 @@ fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, heigh
     // The script itself has no brace after the word.
     let seen = text.split_once("SEEN{").and_then(|(_, rest)| rest.split_once("}END"));
     let seen = format!("{{{}}}", seen.unwrap_or_else(|| panic!("{name}: the page did not finish: {said}")).0);
-    eprintln!("{name}, {width} wide: {bytes} bytes, {seen}");
     serde_json::from_str(&seen).unwrap()
 }
 
@@ -151,89 +133,81 @@ fn quantities(seen: &Value) -> Vec<String> {
 }
 
 /// The run of a scene; the browser looks at its report.
-fn report_of(name: &str, scene: &str) -> Option<Value> {
-    let browser = browser()?;
+fn report_of(browser: &Path, name: &str, scene: &str) -> Value {
     let scratch = Scratch::new().file("a.toml", scene);
     let done = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
-    let seen = look(&scratch, &browser, "o/report.html", name, DESK);
+    let seen = look(&scratch, browser, "o/report.html", name, DESK);
     check(&seen, name);
     if name == "static" {
-        check(&look(&scratch, &browser, "o/report.html", name, PHONE), "static on a phone");
+        check(&look(&scratch, browser, "o/report.html", name, PHONE), "static on a phone");
     }
-    Some(seen)
+    seen
 }
 
 fn all() -> [String; 3] {
     ["pressure", "displacement", "stress"].map(String::from)
 }
 
-#[test]
-fn a_static_report_shows_charts_pattern_and_gears_with_fields() {
+pub fn static_report(browser: PathBuf) {
     let meshes = repository().join("meshes");
     let scene = std::fs::read_to_string(repository().join("scenes/coarse.toml")).unwrap();
     let scene = scene.replace("../meshes", &meshes.display().to_string());
-    let Some(seen) = report_of("static", &scene) else { return };
+    let seen = report_of(&browser, "static", &scene);
     assert_eq!(quantities(&seen), all());
     assert_eq!(seen["charts"].as_array().unwrap().len(), 7, "five charts and two flanks");
     assert_eq!((seen["steps"].as_u64(), seen["phase"].as_str()), (Some(16), Some("phase 0.500")));
 }
 
-#[test]
-fn a_motion_is_shown_with_its_quasi_static_fields() {
-    let Some(seen) = report_of("motion", &motion_scene(4, "")) else { return };
+pub fn motion(browser: PathBuf) {
+    let seen = report_of(&browser, "motion", &motion_scene(4, ""));
     assert_eq!(quantities(&seen), all());
 }
 
-#[test]
-fn a_run_up_has_its_waterfall() {
+pub fn run_up(browser: PathBuf) {
     let ramp =
         "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 3000.0\nto_rpm = 9000.0\nduration_s = 0.04\nwaterfall_cycles = 4\n";
-    let Some(seen) = report_of("ramp", &motion_scene(0, ramp)) else { return };
+    let seen = report_of(&browser, "ramp", &motion_scene(0, ramp));
     assert_eq!(quantities(&seen), all());
 }
 
-#[test]
-fn gears_without_meshes_turn_too() {
-    let Some(seen) = report_of("iso", util::ISO_SCENE) else { return };
+pub fn without_meshes(browser: PathBuf) {
+    let seen = report_of(&browser, "iso", ISO_SCENE);
     assert!(quantities(&seen).is_empty(), "{seen}");
     assert_eq!(seen["steps"].as_u64(), Some(32));
 }
 
 /// Runs commands and looks at a page of theirs.
-fn page_of(name: &str, scratch: &Scratch, commands: &[&[&str]], file: &str) -> Option<Value> {
-    let browser = browser()?;
+fn page_of(browser: &Path, name: &str, scratch: &Scratch, commands: &[&[&str]], file: &str) -> Value {
     for words in commands {
         let done = scratch.command(words);
         assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
     }
     // One page of the three is looked at on a phone as well: style and scripts are the same.
     if name == "compare" {
-        check_charts(&look(scratch, &browser, file, name, PHONE), "compare on a phone");
+        check_charts(&look(scratch, browser, file, name, PHONE), "compare on a phone");
     }
-    Some(look(scratch, &browser, file, name, DESK))
+    look(scratch, browser, file, name, DESK)
 }
 
-#[test]
-fn a_sweep_has_its_bifurcation_diagram() {
+pub fn sweep(browser: PathBuf) {
     let scene = std::fs::read_to_string(repository().join("scenes/seeds/004.toml")).unwrap();
     let scratch = Scratch::new().file("a.toml", scene);
     let sweep = ["sweep", "a.toml", "--out", "o", "--key", "operation.speed_rpm", "--from", "800", "--to", "1000"];
     let few = ["--points", "3", "--cycles", "6", "--settle", "20", "--lyapunov", "5"];
-    let Some(seen) = page_of("sweep", &scratch, &[&[&sweep[..], &few[..]].concat()], "o/report.html") else { return };
+    let seen = page_of(&browser, "sweep", &scratch, &[&[&sweep[..], &few[..]].concat()], "o/report.html");
     check(&seen, "sweep");
     assert_eq!(seen["charts"].as_array().unwrap().len(), 5, "diagram, peak to peak, exponent, force, mean");
 }
 
-#[test]
-fn studies_and_comparisons_draw_all_cases() {
+pub fn studies(browser: PathBuf) {
     let study = "[[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 1\n[[case]]\nscene = \"a.toml\"\nlabel = \"heavy\"\nvalue = 2\nset = [\"operation.torque_nm=300\"]\n\
         [[quantity]]\ncolumn = \"ste_um\"\n[[over_time]]\ncolumn = \"contact_line_length_mm\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
-    let scratch = Scratch::new().file("a.toml", util::ISO_SCENE).file("s.toml", study);
-    let Some(seen) = page_of("study", &scratch, &[&["study", "s.toml", "--out", "o"]], "o/report.html") else { return };
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE).file("s.toml", study);
+    let seen = page_of(&browser, "study", &scratch, &[&["study", "s.toml", "--out", "o"]], "o/report.html");
     check_charts(&seen, "study");
     let cases = ["o/cases/01-light", "o/cases/02-heavy"];
     let compare = ["compare", cases[0], cases[1], "--out", "c"];
-    let Some(seen) = page_of("compare", &scratch, &[&compare], "c/compare.html") else { return };
+    let seen = page_of(&browser, "compare", &scratch, &[&compare], "c/compare.html");
     check_charts(&seen, "compare");
 }

@@ -1,0 +1,208 @@
+//! Whether memory holds the rows that a scene asks for: told before any work, with the keys that ask for them.
+//!
+//! Each count is within its range; products of counts need not be. Rows are kept until statistics, charts and files are made of them.
+
+use std::mem::size_of;
+
+use dynamics::result::{PairResult, SliceResult, StaticPosition};
+
+use crate::{
+    error::CommandError,
+    ladder, memory, motion,
+    output::history_columns,
+    scene::{MotionScene, Scene},
+};
+
+/// Taken for free where the system does not tell, MB.
+const UNKNOWN_MB: f64 = 1e6;
+/// A number in memory, and as text.
+const NUMBER: usize = size_of::<f64>();
+const TEXT: usize = 20;
+/// Columns of a model of the ladder, about: only the model knows.
+const LADDER_COLUMNS: usize = 40;
+/// Teeth of a window, about, where the contact ratio says.
+const WINDOW: usize = 3;
+/// Square matrices of all slices of a window that contact holds at a time.
+const MATRICES: f64 = 4.0;
+
+/// Numbers of something, and what each takes.
+#[derive(Debug, Clone, PartialEq)]
+struct Demand {
+    /// Of what.
+    what: &'static str,
+    /// Keys or words of a command line, and the count that each stands for.
+    factors: Vec<(String, f64)>,
+    bytes_each: f64,
+}
+
+/// Refuses a scene whose rows memory cannot hold.
+///
+/// # Errors
+/// Exit status 2 with rows, bytes and keys.
+pub(crate) fn for_scene(scene: &Scene) -> Result<(), CommandError> {
+    each(scene, &demands(scene))
+}
+
+/// The same of a scene that is run at many values of a key: `points` of a section each, with a point `every` so many mesh cycles.
+///
+/// # Errors
+/// As [`for_scene`].
+pub(crate) fn for_sweep(
+    scene: &Scene,
+    (values, ways): (usize, usize),
+    (points, every): (u32, u32),
+) -> Result<(), CommandError> {
+    let cycles = ("--cycles".to_owned(), f64::from(points));
+    let steps = scene.motion.as_ref().map_or(1.0, |m| f64::from(m.steps_per_mesh_cycle));
+    let mut rows = vec![cycles.clone(), ("motion.steps_per_mesh_cycle".to_owned(), steps)];
+    if every > 1 {
+        rows.push(("mesh cycles of a turn".to_owned(), f64::from(every)));
+    }
+    // Ways are run side by side.
+    let bytes_each = (ways.max(1) * LADDER_COLUMNS * (NUMBER + TEXT)) as f64;
+    let along = vec![("--points".to_owned(), values as f64), cycles, ("ways".to_owned(), ways as f64)];
+    let sections = Demand { what: "points of sections", factors: along, bytes_each: (NUMBER + 3 * TEXT) as f64 };
+    each(scene, &[Demand { what: "rows", factors: rows, bytes_each }, sections])
+}
+
+fn each(scene: &Scene, demands: &[Demand]) -> Result<(), CommandError> {
+    let free = 1e6 * memory::available_mb().unwrap_or(UNKNOWN_MB);
+    demands.iter().try_for_each(|demand| demand.within(scene, free))
+}
+
+/// What a scene asks for.
+fn demands(scene: &Scene) -> Vec<Demand> {
+    let count = |key: &str, n: u32| (key.to_owned(), f64::from(n));
+    let mut all = Vec::new();
+    match &scene.motion {
+        None => {
+            let analysis = scene.analysis;
+            all.push(Demand {
+                what: "positions",
+                factors: vec![
+                    count("analysis.cycles", analysis.cycles),
+                    count("analysis.positions_per_cycle", analysis.positions_per_cycle),
+                ],
+                bytes_each: position_bytes(scene) as f64,
+            });
+        }
+        Some(words) => {
+            let mut factors =
+                vec![cycles(scene, words), count("motion.steps_per_mesh_cycle", words.steps_per_mesh_cycle)];
+            let on_ladder = ladder::has(scene);
+            let columns = if on_ladder { LADDER_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
+            let mut bytes_each = columns * (NUMBER + TEXT);
+            if let Some(sweep) = &words.sweep {
+                if on_ladder {
+                    // Rows of a speed are let go before the next one; ways are run side by side.
+                    bytes_each *= sweep.ways.len();
+                } else {
+                    factors.push(count("motion.sweep.speeds", sweep.speeds));
+                    bytes_each = 2 * NUMBER * sweep.ways.len();
+                }
+            }
+            all.push(Demand { what: "rows", factors, bytes_each: bytes_each as f64 });
+        }
+    }
+    if let (Some(slices), true) = (scene.contact.slices, scene.analysis.model.is_reduced()) {
+        let window = scene.analysis.window_teeth.unwrap_or(WINDOW as u32);
+        let side = [count("contact.slices", slices), count("analysis.window_teeth", window)];
+        all.push(Demand {
+            what: "numbers of the compliance between all slices",
+            factors: [&side[..], &side[..]].concat(),
+            bytes_each: MATRICES * NUMBER as f64,
+        });
+    }
+    all
+}
+
+/// A solved position with its line of `history.csv`, bytes.
+fn position_bytes(scene: &Scene) -> usize {
+    let pairs = scene.analysis.window_teeth.map_or(WINDOW, |w| w as usize);
+    let slices = if scene.analysis.model.is_reduced() { scene.contact.slices.unwrap_or(0) as usize } else { 0 };
+    let pair = size_of::<PairResult>() + slices / WINDOW * size_of::<SliceResult>();
+    size_of::<StaticPosition>() + pairs * pair + history_columns(scene, &[]).len() * TEXT
+}
+
+/// Mesh cycles of a motion, and the key that says how many.
+fn cycles(scene: &Scene, words: &MotionScene) -> (String, f64) {
+    let driver_hz = |rpm: f64| rpm / 60.0 * f64::from(scene.driver_teeth());
+    if let Some(ramp) = words.ramp {
+        let mean = 0.5 * (ramp.from_rpm + ramp.to_rpm);
+        let parts = [
+            ("motion.ramp.before_s", ramp.before_s * driver_hz(ramp.from_rpm)),
+            ("motion.ramp.duration_s", ramp.duration_s * driver_hz(mean)),
+            ("motion.ramp.after_s", ramp.after_s * driver_hz(ramp.to_rpm)),
+        ];
+        let longest = parts.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or("motion.ramp.duration_s", |p| p.0);
+        return (longest.to_owned(), parts.iter().map(|p| p.1).sum());
+    }
+    match words.duration_s {
+        Some(seconds) => ("motion.duration_s".to_owned(), seconds * driver_hz(scene.operation.speed_rpm)),
+        None => ("analysis.cycles".to_owned(), f64::from(scene.analysis.cycles)),
+    }
+}
+
+impl Demand {
+    fn count(&self) -> f64 {
+        self.factors.iter().map(|(_, n)| n).product()
+    }
+
+    fn within(&self, scene: &Scene, free: f64) -> Result<(), CommandError> {
+        let bytes = self.count() * self.bytes_each;
+        if bytes <= free {
+            return Ok(());
+        }
+        let mut by_size: Vec<&(String, f64)> = self.factors.iter().collect();
+        by_size.sort_by(|a, b| b.1.total_cmp(&a.1));
+        by_size.dedup();
+        let keys: Vec<&str> = by_size.iter().map(|(key, _)| key.as_str()).collect();
+        let place = scene.place_of(&keys);
+        let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+        let short = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
+        let product: Vec<String> =
+            self.factors.iter().map(|(key, n)| format!("`{}` {}", short(key), plain(*n))).collect();
+        let said = format!(
+            "{at}: {} {} ({}) take about {} GB; {:.1} GB of memory are free",
+            plain(self.count()),
+            self.what,
+            product.join(" x "),
+            plain((1e-9 * bytes).ceil()),
+            1e-9 * free
+        );
+        let names: Vec<String> = keys.iter().map(|key| format!("`{}`", short(key))).collect();
+        let hint = format!(
+            "lower {}: about {} {} fit",
+            names.join(" or "),
+            plain((free / self.bytes_each).floor()),
+            self.what
+        );
+        Err(CommandError::input(said, Some(hint)).about(place.as_ref().and_then(|p| p.excerpt())))
+    }
+}
+
+/// A count as people read it.
+fn plain(n: f64) -> String {
+    if n < 1e6 { format!("{n:.0}") } else { format!("{n:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What fits is let through, and one row more is not: the law is the product of counts times what a row takes.
+    #[test]
+    fn a_demand_is_refused_where_it_begins_to_be_too_large() {
+        let scene = Scene::default_scene().unwrap();
+        let factors = vec![("analysis.cycles".to_owned(), 10.0), ("analysis.positions_per_cycle".to_owned(), 32.0)];
+        let demand = Demand { what: "positions", factors, bytes_each: 1e6 };
+        assert!(demand.within(&scene, 320e6).is_ok());
+        let refused = demand.within(&scene, 319e6).unwrap_err();
+        assert_eq!(refused.status, 2);
+        assert_eq!(
+            refused.message,
+            "default scene:32: 320 positions (`cycles` 10 x `positions_per_cycle` 32) take about 1 GB; 0.3 GB of memory are free"
+        );
+        assert_eq!(refused.hint.as_deref(), Some("lower `positions_per_cycle` or `cycles`: about 319 positions fit"));
+    }
+}

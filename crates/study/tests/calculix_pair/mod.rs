@@ -1,0 +1,60 @@
+//! Sectors of five teeth of the default pair.
+
+use fem::Material;
+use geometry::{Gear, GearData, GearPair, Side};
+use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use study::calculix::{Body, Deck};
+
+/// N mm.
+pub const TORQUE: f64 = 150e3;
+/// Teeth that may touch.
+pub const PAIRS: [[u32; 2]; 3] = [[29, 1], [0, 0], [1, 29]];
+
+/// Both gears with their meshes.
+pub struct Pair {
+    pub pair: GearPair,
+    pub gears: [GearMesh; 2],
+}
+
+pub fn pair(order: u32) -> Pair {
+    let data = GearData::default();
+    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
+    let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let options = StructuredOptions {
+        order,
+        elements_profile: 3,
+        elements_fillet: 2,
+        elements_thickness: 2,
+        elements_face: 3,
+        elements_rim: 1,
+        extent: Extent::Sector(5),
+    };
+    let gears = [&pair.pinion, &pair.wheel].map(|gear| {
+        GearMesh::from_groups(generate(gear, &options).unwrap(), &GroupNames::default(), gear.teeth()).unwrap()
+    });
+    Pair { pair, gears }
+}
+
+impl Pair {
+    /// Pair 0 in the middle of its path.
+    pub fn deck(&self) -> Deck<'_> {
+        let Self { pair, gears } = self;
+        let angle = pair.middle_angle(Side::Left);
+        let turned = [angle, pair.wheel_angle(Side::Left, angle)];
+        let body = |i: usize| Body {
+            gear: &gears[i],
+            material: &Material::STEEL,
+            angle: turned[i],
+            centre_x: [0.0, pair.centre_distance()][i],
+        };
+        Deck {
+            bodies: [body(0), body(1)],
+            driven: 1,
+            side: Side::Left,
+            pairs: &PAIRS,
+            torque: TORQUE,
+            closing: 5e-3 / pair.wheel.base_radius(),
+            penalty: 1e7,
+        }
+    }
+}
