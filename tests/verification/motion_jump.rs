@@ -8,13 +8,13 @@ use std::sync::OnceLock;
 use dynamics::{
     StaticOptions,
     motion::{Integrator, Scheme, State, StepControl},
-    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way, sweep},
+    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way},
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
 use support::{
     Case,
-    moving::{MovingPair, peak_to_peak},
+    moving::{MovingPair, peak_to_peak, swept},
 };
 
 const ROWS: usize = 24;
@@ -47,7 +47,7 @@ fn both_ways(ratios: &[f64], tolerance: f64) -> [Vec<SweepPoint>; 2] {
         steady: SteadyOptions { by: SteadyBy::Running, tolerance, most: 240, cycles: 1 },
         guess: pair.ste[0],
     };
-    let mut points = sweep(&system, &plan, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let mut points = swept(&system, &plan);
     let mut down = points.split_off(ratios.len());
     down.reverse();
     [points, down]

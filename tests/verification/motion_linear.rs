@@ -13,10 +13,10 @@ mod support;
 use dynamics::{
     StaticOptions,
     motion::Scheme,
-    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way, sweep},
+    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way},
 };
 use geometry::GearData;
-use support::moving::{MovingPair, order, peak_to_peak};
+use support::moving::{MovingPair, order, peak_to_peak, swept};
 
 const ROWS: usize = 48;
 const ZETA: f64 = 0.06;
@@ -78,7 +78,7 @@ fn a_heavily_loaded_pair_is_a_linear_oscillator() {
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-4, most: 100, cycles: 1 },
         guess: pair.ste[0],
     };
-    let points = sweep(&system, &plan, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let points = swept(&system, &plan);
     let found: Vec<Vec<f64>> =
         points.iter().map(|p| (0..=ORDERS).map(|n| size(order(&p.transmission_error, n))).collect()).collect();
     println!("| f_m / f_0 | order | DTE, nm | linear, nm | off, % |\n|---|---|---|---|---|");

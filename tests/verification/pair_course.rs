@@ -11,11 +11,11 @@ use dynamics::{
     motion::{MotionError, Scheme},
     pair_motion::{
         Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
-        SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot, sweep,
+        SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot,
     },
 };
 use nalgebra::Matrix6;
-use support::moving::{MovingPair, rows, worst};
+use support::moving::{MovingPair, rows, swept, worst};
 
 const TORQUE: f64 = 150e3;
 const ROWS: usize = 32;
@@ -195,7 +195,7 @@ fn a_sweep_is_the_same_from_either_side() {
     };
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| sweep(&system, &plan, &|_| ())).unwrap_or_else(|e| panic!("{e}"))
+        pool.install(|| swept(&system, &plan))
     };
     let points = with(1);
     assert!(points == with(2), "the number of threads shows");

@@ -3,6 +3,8 @@
 use dynamics::result::StaticHistory;
 use serde::Serialize;
 
+use crate::certificate::Certificate;
+use crate::iso_root::IsoRootStress;
 use crate::phases::{Phase, Phases};
 pub use crate::resolution::Resolution;
 use crate::view::View;
@@ -41,6 +43,12 @@ pub struct Facts {
     /// Wall time from the start of the program to the first solved position, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_result_s: Option<f64>,
+    /// Nominal root stress after ISO 6336-3, beside that of finite elements where that is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iso_root_stress: Option<IsoRootStress>,
+    /// What must hold of the result.
+    #[serde(flatten)]
+    pub certificate: Certificate,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,

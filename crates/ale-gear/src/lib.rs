@@ -12,6 +12,7 @@
 //! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
+//! | [`certificate`] | what must hold of a result before its numbers count |
 //! | [`reduce`] | reduction of a scene's gears by itself |
 //! | [`starter`] | the scene that a user begins with |
 //! | [`rexs`] | gear data from REXS files |
@@ -21,6 +22,7 @@
 //! | [`command`] | the subcommands |
 
 pub mod cache;
+pub mod certificate;
 pub mod chart;
 pub mod command;
 pub mod compare;
@@ -43,6 +45,7 @@ mod gears;
 mod geometry_fault;
 mod input_text;
 mod iso_model;
+pub mod iso_root;
 mod ladder;
 pub mod meshes;
 mod partial;

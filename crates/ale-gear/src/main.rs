@@ -5,7 +5,16 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     match ale_gear::command::Cli::of_process().execute() {
-        Ok(text) => print(&text),
+        Ok(answer) => {
+            let printed = print(&answer.text);
+            match answer.failure {
+                None => printed,
+                Some(error) => {
+                    complain(&error.text(ale_gear::talk::colours_on_stderr()));
+                    ExitCode::from(error.status)
+                }
+            }
+        }
         Err(error) => {
             complain(&error.text(ale_gear::talk::colours_on_stderr()));
             ExitCode::from(error.status)

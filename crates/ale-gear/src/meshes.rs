@@ -1,9 +1,11 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
+use std::path::Path;
+
 use geometry::{Gear, GearPair, Side, Vec3};
 use mesh::{
-    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, Mesh, MeshError, MeshReport, MshFormat, Severity, StructuredOptions,
-    SurfaceGroup, generate,
+    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, MshFormat, Severity,
+    StructuredOptions, SurfaceGroup, generate,
 };
 
 use crate::error::CommandError;
@@ -67,6 +69,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                     }
                 ));
             }
+            same_bore(scene, &file.display().to_string(), whose, &found, exact)?;
             on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
             whole_flanks(&file.display().to_string(), whose, &found, exact)?;
             let source = path.display().to_string();
@@ -80,7 +83,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
             }
             let mesh = generated_with(scene, whose, exact, &options)?;
             let failed = |e: MeshError| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint());
-            let (found, _) = GearMesh::find(mesh, exact, &mesh::GroupNames::default()).map_err(failed)?;
+            let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
             let (gear, facts) = to_compute(scene, found, "built-in mesher".to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, warnings: Vec::new() })
         }
@@ -161,6 +164,37 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, Comma
     }
     let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
     Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
+}
+
+/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
+pub(crate) fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
+    let mesh = Mesh::parse(content, file).ok()?;
+    let [low, high] = radii(&mesh, &mesh.surface(&names.bore)?.nodes());
+    Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
+}
+
+/// Least and largest distance of some nodes from the axis, mm.
+fn radii(mesh: &Mesh, nodes: &[u32]) -> [f64; 2] {
+    let radius = |&n: &u32| mesh.nodes[n as usize][0].hypot(mesh.nodes[n as usize][1]);
+    nodes.iter().map(radius).fold([f64::INFINITY, 0.0], |[low, high], r| [low.min(r), high.max(r)])
+}
+
+/// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.
+const BORE_AGREES: f64 = 1e-3;
+
+/// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia where no mesh is needed.
+fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+    let stated = exact.data().bore_diameter;
+    let [low, high] = radii(found.mesh(), found.bore_nodes()).map(|r| 2.0 * r);
+    if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
+        return Ok(());
+    }
+    let place = scene.place_of(&[&format!("{whose}.bore_diameter_mm")]);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    let own = if high - low < BORE_AGREES * high { format!("{high:.3}") } else { format!("{low:.3} to {high:.3}") };
+    let message = format!("{at}: the {whose}'s `bore_diameter_mm` is {stated}, but the bore of {file} has {own} mm");
+    let hint = "leave `bore_diameter_mm` out: the mesh's own is taken";
+    Err(CommandError::input(message, Some(hint.into())).about(place.as_ref().and_then(|p| p.excerpt())))
 }
 
 /// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,

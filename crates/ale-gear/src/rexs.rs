@@ -58,6 +58,24 @@ pub enum RexsError {
         /// Unit of the standard's data base.
         wanted: &'static str,
     },
+    /// A number of teeth that no gear has.
+    #[error("gear {gear}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
+    Teeth {
+        /// Number of its component.
+        gear: String,
+        /// As read.
+        value: f64,
+    },
+    /// A place or direction that is not three numbers.
+    #[error("gear {gear}: `{attribute}` is not three finite numbers in {wanted}")]
+    Vector {
+        /// Number of its component.
+        gear: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// Unit of the standard's data base.
+        wanted: &'static str,
+    },
     /// Two gears that are no external pair.
     #[error("the gears differ in {what}: {pinion} and {wheel}")]
     Pair {
@@ -80,7 +98,8 @@ impl RexsError {
             Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
             Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
             Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
-            Self::Value { .. } => "export with the units of the standard's data base".into(),
+            Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
+            Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
             Self::Pair { .. } => "only external pairs of one module can be run".into(),
         })
     }
@@ -119,7 +138,7 @@ fn pair(model: &Model<'_, '_>, gears: [Part<'_, '_>; 2], stage: usize, from: &St
     let helix_of = |i: usize| gears[i].number("helix_angle_reference_diameter", "deg").map(|b| b.unwrap_or(0.0));
     let helix = [helix_of(0)?, helix_of(1)?];
     alike("helix angle of opposite hand", helix[0], 0.0 - helix[1])?;
-    let teeth = both("number_of_teeth", "")?;
+    let teeth = [gears[0].teeth()?, gears[1].teeth()?];
     let widths = both("face_width", "mm")?;
     let flanks = [0, 1].map(|i| model.flank(gears[i].id));
     let of_flank = |i: usize, attribute, unit| match &flanks[i] {
@@ -130,14 +149,14 @@ fn pair(model: &Model<'_, '_>, gears: [Part<'_, '_>; 2], stage: usize, from: &St
     let [x1, x2] = shift;
     Ok(Starter {
         name: model.name(stage).unwrap_or_default(),
-        teeth: teeth.map(|z| z as u32),
+        teeth,
         module_mm: modules[0],
         helix_deg: helix[0],
         face_width_mm: widths[0].min(widths[1]),
         profile_shift: [x1?.unwrap_or(0.0), x2?.unwrap_or(0.0)],
         pressure_angle_deg: of_flank(0, "normal_pressure_angle", "deg")?,
         tip_diameter_mm: [gears[0].number("tip_diameter", "mm")?, gears[1].number("tip_diameter", "mm")?],
-        centre_distance_mm: distance(&gears),
+        centre_distance_mm: distance(&gears)?,
         ..from.clone()
     })
 }
@@ -151,14 +170,15 @@ fn alike(what: &'static str, pinion: f64, wheel: f64) -> Result<(), RexsError> {
 }
 
 /// Distance of the axes from where the gears stand, mm, where both say so in the same frame.
-fn distance(gears: &[Part<'_, '_>; 2]) -> Option<f64> {
+fn distance(gears: &[Part<'_, '_>; 2]) -> Result<Option<f64>, RexsError> {
     let frames = [0, 1].map(|i| gears[i].text("reference_component_for_position"));
-    let [a, b] = [gears[0].vector("support_vector")?, gears[1].vector("support_vector")?];
+    let places = [gears[0].vector("support_vector")?, gears[1].vector("support_vector")?];
     let axis = gears[0].vector("u_axis_vector")?;
+    let ([Some(a), Some(b)], Some(axis)) = (places, axis) else { return Ok(None) };
     let apart = [0, 1, 2].map(|k| b[k] - a[k]);
     let along: f64 = (0..3).map(|k| apart[k] * axis[k]).sum::<f64>() / axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     let square = apart.iter().map(|x| x * x).sum::<f64>() - along * along;
-    (frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| square.sqrt())
+    Ok((frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| square.sqrt()))
 }
 
 /// The file.
@@ -237,10 +257,22 @@ impl Part<'_, '_> {
         self.number(attribute, unit)?.ok_or_else(|| RexsError::Missing { gear: self.id.to_owned(), attribute })
     }
 
-    fn vector(&self, name: &str) -> Option<[f64; 3]> {
-        let array = self.attribute(name)?.children().find(|n| n.has_tag_name("array"))?;
-        let values: Vec<f64> = array.children().filter_map(|n| n.text()?.trim().parse().ok()).collect();
-        values.try_into().ok()
+    fn teeth(&self) -> Result<u32, RexsError> {
+        let value = self.needed("number_of_teeth", "")?;
+        let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
+        if whole { Ok(value as u32) } else { Err(RexsError::Teeth { gear: self.id.to_owned(), value }) }
+    }
+
+    /// Three lengths, mm.
+    fn vector(&self, attribute: &'static str) -> Result<Option<[f64; 3]>, RexsError> {
+        let Some(node) = self.attribute(attribute) else { return Ok(None) };
+        let wrong = || RexsError::Vector { gear: self.id.to_owned(), attribute, wanted: "mm" };
+        let array = node.children().find(|n| n.has_tag_name("array")).ok_or_else(wrong)?;
+        let words = array.children().filter(Node::is_element).map(|n| n.text().unwrap_or_default().trim());
+        let values: Vec<f64> = words.filter_map(|w| w.parse().ok()).filter(|v: &f64| v.is_finite()).collect();
+        let in_mm = matches!(node.attribute("unit"), None | Some("mm"));
+        let three = array.children().filter(Node::is_element).count() == 3 && in_mm;
+        values.try_into().ok().filter(|_| three).map(Some).ok_or_else(wrong)
     }
 }
 
@@ -295,6 +327,22 @@ mod tests {
         assert_eq!(said("<other/>", 1), "is no REXS file: its root is <other>, not <model>");
         let inch = MODEL.replace("unit=\"mm\">4.5", "unit=\"inch\">4.5");
         assert_eq!(said(&inch, 1), "gear 5: `normal_module` is 4.5 inch, wanted is a number in mm");
+        let broken = MODEL.replacen(">27<", ">27.9<", 1);
+        assert_eq!(said(&broken, 1), "gear 5: `number_of_teeth` is 27.9, wanted is a whole number above 0");
+        let negative = MODEL.replacen(">51<", ">-51<", 1);
+        assert_eq!(said(&negative, 1), "gear 7: `number_of_teeth` is -51, wanted is a whole number above 0");
+        for value in ["NaN", "inf", "1e999"] {
+            let attributes =
+                [(">27<", "gear 5: `number_of_teeth`"), (">0.23<", "gear 48: `addendum_modification_coefficient`")];
+            for (number, about) in attributes {
+                let told = said(&MODEL.replacen(number, &format!(">{value}<"), 1), 1);
+                assert!(told.starts_with(&format!("{about} is {value}")), "{told}");
+            }
+            let nowhere = MODEL.replacen("<c>-190</c>", &format!("<c>{value}</c>"), 1);
+            assert_eq!(said(&nowhere, 1), "gear 7: `support_vector` is not three finite numbers in mm");
+        }
+        let metres = MODEL.replacen("id=\"support_vector\" unit=\"mm\"", "id=\"support_vector\" unit=\"m\"", 1);
+        assert_eq!(said(&metres, 1), "gear 5: `support_vector` is not three finite numbers in mm");
         let none = MODEL.replacen("number_of_teeth", "teeth", 1);
         assert_eq!(said(&none, 1), "gear 5 has no `number_of_teeth`");
         assert_eq!(

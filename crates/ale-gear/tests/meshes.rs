@@ -157,3 +157,95 @@ fn a_flank_in_part_is_refused() {
     refused(&text, &with_mesh);
     refused(&mesh, &with_mesh.replace("face_width_mm = 20.0", "face_width_mm = 40.0"));
 }
+
+/// A run of a scene on a mesh of the pinion with a bore of 60 mm; `pinion` are the words on its bore.
+fn on_a_mesh(model: &str, pinion: &str) -> (Scratch, util::Run) {
+    let scratch = Scratch::new().file("a.toml", scene(1, 1));
+    let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let wheel = "[wheel.mesher]\norder = 1\nelements_profile = 2\nelements_thickness = 2\nelements_face = 2\nelements_rim = 1\n[pair]";
+    let text = ISO_SCENE
+        .replacen("bore_diameter_mm = 60.0\n", &format!("{pinion}mesh = \"p.msh\"\n"), 1)
+        .replace("[pair]", wheel)
+        .replace("model = \"iso\"", &format!("model = \"{model}\"\npositions_per_cycle = 2"));
+    let scratch = scratch.file("b.toml", text);
+    let run = scratch.ale_gear(["run", "b.toml", "--out", "out"]);
+    (scratch, run)
+}
+
+fn summary(scratch: &Scratch, folder: &str) -> serde_json::Value {
+    serde_json::from_str(&std::fs::read_to_string(scratch.path().join(folder).join("summary.json")).unwrap()).unwrap()
+}
+
+/// A bore that contradicts the mesh is refused with both values; left out, it is the mesh's, also for a model that needs no mesh.
+#[test]
+fn the_bore_is_that_of_the_mesh() {
+    let (_, wrong) = on_a_mesh("reduced", "bore_diameter_mm = 50.0\n");
+    assert_eq!(wrong.code, Some(2), "{}", wrong.stderr);
+    for word in
+        ["b.toml:4:", "the pinion's `bore_diameter_mm` is 50, but the bore of", "p.msh has 60.000 mm", "hint: leave"]
+    {
+        assert!(wrong.stderr.contains(word), "{word} is not in {}", wrong.stderr);
+    }
+    for model in ["reduced", "iso"] {
+        // The default would be 52.7 mm.
+        let (scratch, run) = on_a_mesh(model, "");
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let bore = summary(&scratch, "out")["inputs"]["pinion"]["bore_diameter_mm"].as_f64().unwrap();
+        assert!((bore - 60.0).abs() < 1e-6, "{model}: {bore}");
+    }
+    assert_eq!(on_a_mesh("reduced", "bore_diameter_mm = 60.01\n").1.code, Some(0), "a rounded value is taken");
+}
+
+/// Warnings of a run on small meshes with these words of the pinion.
+fn warnings(teeth: u32, bore: f64, sector: u32) -> (Vec<String>, f64) {
+    let text = scene(2, sector)
+        .replace("teeth = 30", &format!("teeth = {teeth}"))
+        .replacen("bore_diameter_mm = 60.0", &format!("bore_diameter_mm = {bore}"), 1)
+        .replacen("bore_diameter_mm = 60.0", &format!("bore_diameter_mm = {}", 2 * teeth), 1)
+        .replace("elements_rim = 1", "elements_rim = 2")
+        .replace("[pair]", "[wheel.mesher]\norder = 2\nelements_profile = 2\nelements_fillet = 2\nelements_thickness = 2\nelements_face = 2\nelements_rim = 2\n[pair]")
+        .replace("model = \"iso\"", "model = \"reduced\"\npositions_per_cycle = 4");
+    let scratch = Scratch::new().file("a.toml", text);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "out"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told = summary(&scratch, "out");
+    let said = told["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().to_owned()).collect();
+    (said, told["headline"]["mean_ste_um"].as_f64().unwrap())
+}
+
+/// The number before ` % larger` in a warning.
+fn per_cent(warning: &str) -> f64 {
+    let before = warning.split(" % larger").next().unwrap();
+    before.rsplit(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("no number in {warning}"))
+}
+
+/// How much softer a free-cut sector is depends on the gear: what the warning says of it is what the runs find.
+#[test]
+fn the_softness_of_a_sector_is_computed() {
+    for teeth in [20, 37] {
+        let bore = 2.0 * f64::from(teeth);
+        let (said, cut) = warnings(teeth, bore, 5);
+        let (none, whole) = warnings(teeth, bore, 0);
+        let told: Vec<&String> = said.iter().filter(|w| w.contains("free cuts")).collect();
+        assert_eq!(told.len(), 1, "{said:?}");
+        assert!(!none.iter().any(|w| w.contains("free cuts")), "{none:?}");
+        let found = 100.0 * (cut / whole - 1.0);
+        // A tenth of it, and the digits that are not printed.
+        assert!(
+            (per_cent(told[0]) - found).abs() < 0.1 * found + 0.5,
+            "{} where the runs are {found:.1} % apart",
+            told[0]
+        );
+    }
+}
+
+/// A bore close to the teeth is told with what it does; a deep one is not.
+#[test]
+fn a_bore_close_to_the_teeth_is_told() {
+    let held = |bore: f64| warnings(30, bore, 0).0.into_iter().find(|w| w.contains("held rigidly"));
+    assert_eq!(held(60.0), None);
+    let told = held(86.0).expect("a warning");
+    assert!(told.contains("the pinion's bore of 86.00 mm") && told.contains("a rim of 0.17 tooth heights"), "{told}");
+    assert!(per_cent(&told) > 20.0, "{told}");
+}

@@ -102,6 +102,27 @@ fn physical_nonsense_names_its_line() {
     );
 }
 
+/// The default root radius is never larger than the rack has room for: 25 degrees leave 0.3178. One that is stated is taken at its word.
+#[test]
+fn the_default_root_radius_fits_the_pressure_angle() {
+    let steep = ISO_SCENE.replace("[pair]\n", "[pair]\nnormal_pressure_angle_deg = 25.0\n");
+    let scratch = Scratch::new().file("a.toml", steep);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let summary = std::fs::read_to_string(scratch.path().join("o/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["inputs"]["pair"]["root_radius_coefficient"], serde_json::json!(0.3178));
+    let stated = "[pair]\nnormal_pressure_angle_deg = 25.0\nroot_radius_coefficient = 0.38\n";
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE.replace("[pair]\n", stated));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    for part in
+        ["a.toml:12: [pinion]: root radius coefficient 0.38 is too large", "12 | root_radius_coefficient = 0.38"]
+    {
+        assert!(run.stderr.contains(part), "{part} is not in {}", run.stderr);
+    }
+}
+
 /// What only another model writes is not read and ignored.
 #[test]
 fn a_ramp_without_waterfall_takes_no_word_on_it() {

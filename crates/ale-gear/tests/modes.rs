@@ -22,7 +22,7 @@ fn span(rpm: f64, motion: &str) -> String {
         .replace("torque_nm = 150.0\n", &format!("torque_nm = 150.0\nspeed_rpm = {rpm:?}\n"))
 }
 
-/// The ratio is harmonic times mesh frequency over the lowest elastic frequency; the warning comes above a quarter and names the remedy.
+/// The ratio is harmonic times mesh frequency over the lowest elastic frequency; the warning comes where what is left out may change the answer, and names the remedy and its price.
 #[test]
 fn every_run_has_its_ratio_and_only_fast_ones_a_warning() {
     let number = |e: &serde_json::Value, key: &str| e[key].as_f64().unwrap_or_else(|| panic!("no {key}: {e}"));
@@ -38,11 +38,17 @@ fn every_run_has_its_ratio_and_only_fast_ones_a_warning() {
         let wanted = number(e, "mesh_harmonic") * mesh / lowest;
         assert!((found / wanted - 1.0).abs() < 1e-12, "{found}, not {wanted}: {e}");
         assert!(text.contains("mesh harmonic over elastic frequency"), "{text}");
-        assert_eq!(warns(&summary, "`reduced+modes`"), found > 0.25, "at {found}: {}", summary["warnings"]);
-        found
+        let (change, limit) = (number(e, "change_over_peak_to_peak"), number(e, "limit_of_change"));
+        assert!((limit - 1.0 / 16.0).abs() < 1e-12, "{limit}: what one harmonic changes at a quarter");
+        let peak_to_peak = number(&summary["headline"], "peak_to_peak_dte_um");
+        assert!((number(e, "change_of_peak_to_peak_um") / (change * peak_to_peak) - 1.0).abs() < 1e-12, "{e}");
+        assert_eq!(warns(&summary, "`reduced+modes`"), change > limit, "{change}: {}", summary["warnings"]);
+        assert_eq!(warns(&summary, " steps, "), change > limit, "no price: {}", summary["warnings"]);
+        (found, change)
     };
     let (slow, fast) = (ratio(500.0), ratio(40_000.0));
-    assert!(slow < 0.25 && fast > 0.25, "{slow} and {fast} are on one side of the limit");
+    assert!(slow.0 < 0.25 && fast.0 > 0.25, "{slow:?} and {fast:?} are on one side of a quarter");
+    assert!(slow.1 < 1.0 / 16.0 && fast.1 > 1.0 / 16.0, "{slow:?} and {fast:?} are on one side of the limit");
 }
 
 /// At low speed modes follow the load at once: the transmission error is the one without them, whatever the boundary.

@@ -235,6 +235,74 @@ fn orders_are_those_of_the_methods() {
     }
 }
 
+/// A spring that stiffens as a Hertzian contact does, F = x |x|^(1/2), beside a constant one.
+struct Stiffening(DMatrix<f64>, f64);
+
+impl Mechanism for Stiffening {
+    type Error = std::convert::Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.0
+    }
+
+    fn forces(&mut self, _: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error> {
+        let root = q[0].abs().sqrt();
+        out.conservative[0] = -q[0] * (self.1 * root + 1.0);
+        if out.tangents {
+            out.stiffness[(0, 0)] = 1.5 * self.1 * root + 1.0;
+        }
+        Ok(())
+    }
+
+    fn potential(&mut self, _: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+        Ok(self.1 * q[0].abs().powf(2.5) / 2.5 + 0.5 * q[0] * q[0])
+    }
+}
+
+/// Largest |q| over a thousand steps of length `h` from q = 1, and steps taken in parts.
+fn thousand_steps(hertz: f64, scheme: Scheme, h: f64, keeping: bool) -> (f64, u64) {
+    let mut integrator = Integrator::new(scheme, StepControl::Fixed(h), dvector![1.0]);
+    if keeping {
+        integrator = integrator.keeping_stable();
+    }
+    let mut state = State::new(0.0, dvector![1.0], dvector![0.0]);
+    let mut largest = 0.0f64;
+    let mut system = Stiffening(DMatrix::identity(1, 1), hertz);
+    integrator
+        .advance(&mut system, &mut state, 1000.0 * h, |_, seen| largest = largest.max(seen.state.q[0].abs()))
+        .unwrap_or_else(|e| panic!("{scheme:?}, h = {h}: {e}"));
+    (largest, integrator.steps()[1])
+}
+
+/// x'' + x = 0 at 0.9 and 1.1 of the limit that the stability polynomial says: bounded and without bounds; watched, the longer steps are parted and bounded too.
+#[test]
+fn explicit_methods_are_stable_up_to_their_limit() {
+    let one = DMatrix::identity(1, 1);
+    for scheme in [Scheme::RungeKutta4, Scheme::DormandPrince] {
+        let limit = scheme.step_limit(&one, &one, &DMatrix::zeros(1, 1)).unwrap().step;
+        let [(within, _), (beyond, _)] = [0.9, 1.1].map(|share| thousand_steps(0.0, scheme, share * limit, false));
+        println!("{scheme:?}: limit {limit:.4}; largest |q| {within:.3} at 0.9, {beyond:.3e} at 1.1 of it");
+        // Dormand-Prince grows by 1e-4 a step just beyond its limit.
+        assert!(within <= 1.0 && beyond > 1.05, "{scheme:?}: {within}, {beyond}");
+        let [(within, none), (parted, all)] = [0.9, 1.1].map(|share| thousand_steps(0.0, scheme, share * limit, true));
+        assert_eq!((none, all), (0, 1000), "{scheme:?}: steps in parts");
+        assert!(within <= 1.0 && parted <= 1.0, "{scheme:?}: {within}, {parted}");
+    }
+}
+
+/// A contact that stiffens on the way makes steps too long that were well within the limit at rest: those are parted, and only those.
+#[test]
+fn steps_that_stiffening_makes_too_long_are_parted() {
+    let one = DMatrix::identity(1, 1);
+    let at_rest = Scheme::RungeKutta4.step_limit(&one, &one, &DMatrix::zeros(1, 1)).unwrap().step;
+    let h = 0.5 * at_rest;
+    let (free, _) = thousand_steps(40.0, Scheme::RungeKutta4, h, false);
+    let (watched, parted) = thousand_steps(40.0, Scheme::RungeKutta4, h, true);
+    println!("largest |q| {free:.2e} with steps as they are, {watched:.3} watched, {parted} of 1000 in parts");
+    assert!(free.is_nan() || free > 10.0, "{free}");
+    assert!(watched <= 1.1 && (100..1000).contains(&parted), "{watched}, {parted} in parts");
+}
+
 /// Error control: a tolerance a hundred times smaller, an error about as much smaller.
 #[test]
 fn error_control_controls_the_error() {

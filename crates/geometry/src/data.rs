@@ -53,3 +53,18 @@ impl Default for GearData {
         }
     }
 }
+
+impl GearData {
+    /// Largest coefficient rho_fP / m_n that the rack has room for: a full rounding of its tip.
+    ///
+    /// ```text
+    /// rho_fP/m_n = [pi/4 + A_s/(2 m_n) - (h_fP/m_n) tan a_n] cos a_n / (1 - sin a_n)
+    /// ```
+    /// A_s is the thinning. Zero or below where the rack ends in a point above h_fP.
+    pub fn largest_root_radius_coefficient(&self) -> f64 {
+        let (sin, cos) = self.normal_pressure_angle.sin_cos();
+        let thinning = 0.5 * self.thickness_allowance / self.normal_module;
+        let tip = std::f64::consts::FRAC_PI_4 + thinning - self.dedendum_coefficient * sin / cos;
+        tip * cos / (1.0 - sin)
+    }
+}

@@ -102,8 +102,7 @@ impl TransverseProfile {
         let rack =
             RackTip { centre: [half_rack - rho / alpha.cos(), x * m - depth], radius: rho, cos_helix: beta.cos() };
         if rack.centre[0] < 0.0 {
-            let wide = 0.25 * PI * m + 0.5 * data.thickness_allowance - data.dedendum_coefficient * m * alpha.tan();
-            let largest = wide / (1.0 / alpha.cos() - alpha.tan()) / m;
+            let largest = data.largest_root_radius_coefficient();
             return Err(GeometryError::RootRadius { coefficient: data.root_radius_coefficient, largest });
         }
         let mut profile = Self {

@@ -1,14 +1,14 @@
 //! A pair that is set in motion again and again: condensed once, with its quasi-static answer beside it.
 #![allow(dead_code, reason = "each test uses its part")]
 
-use std::sync::Arc;
+use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{
     ElasticGear, StaticOptions, StaticPosition,
     motion::Scheme,
     pair_motion::{
-        Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, Torque,
-        equivalent_mass, quasi_static_start,
+        Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
+        SweepPoint, Torque, equivalent_mass, quasi_static_start, sweep,
     },
 };
 
@@ -106,6 +106,12 @@ pub fn rows(motion: &mut Motion, cycles: u64) -> Vec<f64> {
         motion.run_cycle(Some(&mut |now, _| all.push(now.transmission_error))).unwrap_or_else(|e| panic!("{e}"));
     }
     all
+}
+
+/// A sweep with an answer at every speed.
+pub fn swept(system: &PairMechanism, plan: &SweepPlan) -> Vec<SweepPoint> {
+    let outcomes = sweep(system, plan, &|_| ControlFlow::Continue(())).unwrap_or_else(|e| panic!("{e}"));
+    outcomes.into_iter().map(|o| o.unwrap_or_else(|miss| panic!("{} rad/s: {}", miss.speed, miss.error))).collect()
 }
 
 /// Largest difference of two courses.

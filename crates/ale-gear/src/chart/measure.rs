@@ -53,6 +53,7 @@ fn own(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandErro
     let mut phases = Phases::quiet();
     let (Solved { history, facts, .. }, model) =
         run::solve_and_keep(&point.scene, &mut phases, results, &Cache::off())?;
+    run::certificate(&history.positions).verdict(&point.scene)?;
     let wall =
         |solve: bool| -> f64 { phases.rows().iter().filter(|p| (p.name == "solve") == solve).map(|p| p.wall_s).sum() };
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);

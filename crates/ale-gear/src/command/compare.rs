@@ -44,7 +44,9 @@ impl CompareArgs {
         let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
         let mut text = if self.json {
             let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
-            format!("{:#}\n", json!({ "runs": labels, "numbers": numbers, "inputs": inputs }))
+            let missed: Vec<_> = runs.iter().map(ResultFolder::missed).collect();
+            let all = json!({ "runs": labels, "certificate_missed": missed, "numbers": numbers, "inputs": inputs });
+            format!("{all:#}\n")
         } else {
             compare_table(&runs, &numbers, &inputs)
         };

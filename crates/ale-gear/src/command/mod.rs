@@ -24,7 +24,7 @@ use crate::talk::{Loudness, read_progress_after, set_loudness};
 /// Reduced finite-element contact of helical gears
 ///
 /// Without a subcommand it runs the default pair, which is in the program with its meshes, into out/default.
-/// Exit status: 0 solved, 1 no result, 2 wrong input.
+/// Exit status: 0 solved, 1 no result or one that does not hold, 2 wrong input.
 #[derive(Debug, Parser)]
 #[command(name = "ale-gear", version)]
 pub struct Cli {
@@ -81,17 +81,32 @@ enum Command {
     Mesh(mesh::MeshCommand),
 }
 
+/// What a command has to say when its work is done.
+#[derive(Debug, Default)]
+pub struct Answer {
+    /// For stdout.
+    pub text: String,
+    /// For stderr: files are written, but the result does not hold.
+    pub failure: Option<CommandError>,
+}
+
+impl From<String> for Answer {
+    fn from(text: String) -> Self {
+        Self { text, failure: None }
+    }
+}
+
 impl Cli {
     /// The command line of this process; a wrong one, and `--help`, end the process here.
     pub fn of_process() -> Self {
         Self::try_parse().unwrap_or_else(|error| with_a_way_out(error).exit())
     }
 
-    /// Does what was asked; the text is for stdout.
+    /// Does what was asked.
     ///
     /// # Errors
     /// The one message for stderr, with the exit status.
-    pub fn execute(self) -> Result<String, CommandError> {
+    pub fn execute(self) -> Result<Answer, CommandError> {
         let Everywhere { quiet, verbose, threads } = self.everywhere;
         set_loudness(match (quiet, verbose) {
             (true, _) => Loudness::Quiet,
@@ -107,9 +122,9 @@ impl Cli {
         use_threads(threads);
         // A table at the end of work is talk; what a command is made for is data.
         let told = |text: String| if quiet { String::new() } else { text };
-        match self.command {
-            None => run::RunArgs::for_default_scene().execute(quiet),
-            Some(Command::Run(args)) => args.execute(quiet),
+        let text = match self.command {
+            None => return run::RunArgs::for_default_scene().execute(quiet),
+            Some(Command::Run(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
@@ -121,7 +136,8 @@ impl Cli {
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
             Some(Command::Man) => shell::man(),
             Some(Command::Mesh(command)) => command.execute(quiet),
-        }
+        };
+        text.map(Answer::from)
     }
 }
 

@@ -20,14 +20,18 @@ impl ReportArgs {
     /// Writes the page; the text says where.
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         // Says what is wrong with a folder that is none.
-        ResultFolder::read(&self.folder)?;
+        let missed = ResultFolder::read(&self.folder)?.missed().join("; ");
         let page = report_again(&self.folder)?;
         let file = self.output.unwrap_or_else(|| self.folder.join("report.html"));
         if file.as_os_str() == "-" {
             return Ok(page);
         }
         replace(&file, &page).map_err(|e| CommandError::write(&file, &e))?;
-        Ok(if quiet { String::new() } else { format!("{}: written\n", file.display()) })
+        let mut said = format!("{}: written\n", file.display());
+        if !missed.is_empty() {
+            said.push_str(&format!("THE RESULT DOES NOT HOLD: {missed}\n"));
+        }
+        Ok(if quiet { String::new() } else { said })
     }
 }
 

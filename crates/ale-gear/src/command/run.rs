@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::{cache_args::CacheArgs, overrides::Overrides};
+use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use crate::cache::Cache;
+use crate::certificate::Written;
 use crate::error::CommandError;
 use crate::facts::{Cost, Solved};
 use crate::motion::{self, Progression};
@@ -113,7 +114,7 @@ impl RunArgs {
         Ok(())
     }
 
-    /// Runs a motion; the text is the closing table.
+    /// Runs a motion; the text is the closing table, or how to go on.
     fn move_pair(
         &self,
         scene: &Scene,
@@ -121,49 +122,54 @@ impl RunArgs {
         mut phases: Phases,
         results: ResultDirectory,
         quiet: bool,
-    ) -> Result<String, CommandError> {
+    ) -> Result<Answer, CommandError> {
         let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
         match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
-            motion::Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n")),
+            motion::Outcome::Stopped { cycles } if self.json => {
+                Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into())
+            }
             motion::Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.scene.display(),
                 self.out.display()
-            )),
+            )
+            .into()),
             motion::Outcome::Finished(written) => {
                 results.finish()?;
                 progression.done()?;
-                self.answer(&written, quiet)
+                self.answer(written, quiet)
             }
         }
     }
 
     /// What stands on stdout at the end: the summary, nothing, or the closing table.
-    fn answer(&self, table: &str, quiet: bool) -> Result<String, CommandError> {
+    fn answer(&self, written: Written, quiet: bool) -> Result<Answer, CommandError> {
+        let Written { table, verdict } = written;
         let summary = self.out.join("summary.json");
-        match (self.json, quiet) {
+        let text = match (self.json, quiet) {
             (true, _) => std::fs::read_to_string(&summary)
-                .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None)),
-            (_, true) => Ok(String::new()),
-            _ => Ok(format!("{table}\nresults: {}\n", self.out.display())),
-        }
+                .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None))?,
+            (_, true) => String::new(),
+            _ => format!("{table}\nresults: {}\n", self.out.display()),
+        };
+        Ok(Answer { text, failure: verdict.err() })
     }
 
     /// Runs the scene; the text is the closing table.
-    pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
+    pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
         if let (Some(words), false) = (&scene.motion, crate::ladder::has(&scene)) {
             return self.move_pair(&scene, words, phases, results, quiet);
         }
-        let table = write_result(&scene, &mut phases, &results, &self.cache.open())?;
+        let written = write_result(&scene, &mut phases, &results, &self.cache.open())?;
         results.finish()?;
-        self.answer(&table, quiet)
+        self.answer(written, quiet)
     }
 }
 
-/// Runs a scene of any kind from its beginning to its end and writes every file of its result; the text is the closing table.
+/// Runs a scene of any kind from its beginning to its end and writes every file of its result, also of one that does not hold.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no result comes out.
@@ -172,11 +178,11 @@ pub(super) fn write_result(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
-) -> Result<String, CommandError> {
+) -> Result<Written, CommandError> {
     match &scene.motion {
         Some(words) if crate::ladder::has(scene) => crate::ladder::solve(scene, words, phases, results, cache),
         Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
-            motion::Outcome::Finished(table) => Ok(table),
+            motion::Outcome::Finished(written) => Ok(written),
             // Nobody asked it to.
             motion::Outcome::Stopped { cycles } => {
                 Err(CommandError::failed(format_args!("{}: stopped after {cycles} cycles", scene.file.display()), None))
@@ -192,8 +198,9 @@ fn write_static(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
-) -> Result<String, CommandError> {
-    let Solved { history, facts, view } = run::solve(scene, phases, results, cache)?;
+) -> Result<Written, CommandError> {
+    let Solved { history, mut facts, view } = run::solve(scene, phases, results, cache)?;
+    facts.certificate = run::certificate(&history.positions);
     let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
 
     let picture = phases.run("write", || {
@@ -208,5 +215,6 @@ fn write_static(
     let files = results.files()?;
     let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
-    Ok(closing_table(scene, &facts, &cost, &headline, &history.warnings))
+    let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
+    Ok(Written { table, verdict: facts.certificate.verdict(scene) })
 }

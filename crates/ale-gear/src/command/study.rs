@@ -49,7 +49,7 @@ impl StudyArgs {
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let solve = |scene: &_, own: &_| {
                 let mut own_phases = Phases::quiet();
-                write_result(scene, &mut own_phases, own, &cache)?;
+                write_result(scene, &mut own_phases, own, &cache)?.verdict?;
                 Ok(Cost::of(&own_phases))
             };
             run_cases(&study, &results, &solve, &|case| {

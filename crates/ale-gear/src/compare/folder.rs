@@ -10,6 +10,8 @@ use crate::output::SUMMARY_SCHEMA;
 
 /// Files of rows that can be laid over each other, in the order in which they are looked for.
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
+/// The first column of words behind the numbers of a sweep.
+const WORDS: &str = "start";
 
 /// What a run has left in its folder.
 #[derive(Debug, Clone)]
@@ -45,6 +47,12 @@ impl ResultFolder {
     /// The folder as the user named it.
     pub fn label(&self) -> String {
         self.path.display().to_string()
+    }
+
+    /// What does not hold of it, in words; nothing where all does.
+    pub fn missed(&self) -> Vec<&str> {
+        let listed = self.summary["certificate_missed"].as_array();
+        listed.into_iter().flatten().filter_map(Value::as_str).collect()
     }
 
     /// Everything but the rows.
@@ -107,14 +115,22 @@ fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
     let Some(header) = header.strip_prefix("way,") else {
         return Some(vec![(String::new(), Columns::parse(text)?)]);
     };
+    // Behind the numbers stand words: where a speed began, whether it has an answer, and why not. A speed without one has no numbers.
+    let names: Vec<&str> = header.split(',').take_while(|name| *name != WORDS).collect();
+    let header = names.join(",");
     let mut parts: Vec<(String, String)> = Vec::new();
     for row in rows.lines() {
-        let (way, numbers) = row.split_once(',')?;
+        let (way, rest) = row.split_once(',')?;
+        let mut fields = rest.splitn(names.len() + 1, ',');
+        let numbers = fields.by_ref().take(names.len()).collect::<Vec<_>>().join(",");
+        if fields.next().is_some_and(|words| words.contains(",failed,")) {
+            continue;
+        }
         let at = parts.iter().position(|(name, _)| name == way).unwrap_or_else(|| {
             parts.push((way.to_owned(), format!("{header}\n")));
             parts.len() - 1
         });
-        parts[at].1.push_str(numbers);
+        parts[at].1.push_str(&numbers);
         parts[at].1.push('\n');
     }
     parts.into_iter().map(|(way, text)| Some((way, Columns::parse(&text)?))).collect()
@@ -129,6 +145,9 @@ mod tests {
         let parts = by_way("way,speed_rpm,a\nup,1,10\nup,2,20\ndown,2,21\n").unwrap();
         assert_eq!(parts.iter().map(|p| p.0.as_str()).collect::<Vec<_>>(), ["up", "down"]);
         assert_eq!((parts[0].1.get("a"), parts[1].1.get("speed_rpm")), (&[10.0, 20.0][..], &[2.0][..]));
+        let sweep = "way,speed_rpm,a,start,status,reason\nup,1,10,neighbour,periodic,\nup,2,NaN,quasi-static,failed,\"at 1 s, no\"\n";
+        let parts = by_way(sweep).unwrap();
+        assert_eq!((parts.len(), parts[0].1.get("a"), parts[0].1.get("status")), (1, &[10.0][..], &[][..]));
         assert_eq!(by_way("x,y\n1,NaN\n").unwrap()[0].1.get("x"), [1.0]);
         assert!(by_way("x,y\n1,word\n").is_none());
     }

@@ -63,7 +63,7 @@ pub(super) fn torques(scene: &Scene, pair: &GearPair, balanced: f64) -> [Fourier
     let load = torque(scene.load.as_ref().unwrap_or(&TorqueScene::default()), scene.operation.torque());
     let driving = match drive(scene, pair) {
         Drive::Torque { torque, .. } => series(&torque),
-        Drive::Speed(_) => FourierTorque::constant(balanced),
+        Drive::Speed(_) | Drive::Balanced(_) => FourierTorque::constant(balanced),
     };
     [driving, series(&load)]
 }

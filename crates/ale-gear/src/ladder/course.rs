@@ -1,7 +1,7 @@
 //! A run of a model: settle, write rows, keep the ledger.
 
 use dynamics::{
-    motion::{Integrator, Ledger, State, StepControl},
+    motion::{Forces, Integrator, Ledger, Mechanism, State, StepControl, StepLimit, Stiffest},
     pair_motion::Periodicity,
 };
 use lumped::LumpedError;
@@ -11,6 +11,9 @@ use crate::{
     motion::{Columns, ENERGY, energy_row, scheme},
     scene::{Analysis, MotionScene, Run, Scene},
 };
+
+/// Phases of a mesh cycle at which the longest stable step is looked for.
+const PHASES: u32 = 32;
 
 /// Rows of a run and what it took.
 #[derive(Debug)]
@@ -60,7 +63,29 @@ pub(super) fn integrator(model: &Model, words: &MotionScene, step: f64) -> Integ
         None => StepControl::Fixed(step),
         Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * step, least: 1e-7 * step, largest: step },
     };
-    Integrator::new(scheme(words), control, model.scale()).stopping_at_events(words.stop_at_events)
+    Integrator::new(scheme(words), control, model.scale()).stopping_at_events(words.stop_at_events).keeping_stable()
+}
+
+/// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the start on, its coordinates held. `None` where any step is stable.
+///
+/// # Errors
+/// [`LumpedError`] where there is nothing to start from.
+pub(super) fn stable_step(
+    model: &mut Model,
+    words: &MotionScene,
+    mesh_hz: f64,
+) -> Result<Option<StepLimit>, LumpedError> {
+    let stiffest = Stiffest::new(scheme(words), model.mass()).filter(|_| words.error_tolerance.is_none());
+    let Some(mut stiffest) = stiffest else { return Ok(None) };
+    let start = model.start()?;
+    let mut forces = Forces::zeros(start.q.len());
+    for phase in 0..PHASES {
+        forces.clear();
+        let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
+        let Ok(()) = model.forces(time, &start.q, &start.v, &mut forces);
+        stiffest.look(&forces);
+    }
+    Ok(stiffest.limit())
 }
 
 /// Length of a step of a scene, s.

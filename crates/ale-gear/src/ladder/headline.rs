@@ -5,7 +5,7 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::course::Course;
 use crate::{
-    motion::Columns,
+    motion::{Columns, PassageHeadline},
     scene::{MotionScene, Run, Scene},
 };
 
@@ -46,6 +46,8 @@ pub(crate) struct LadderHeadline {
     pub least_slice_force_n: Option<f64>,
     pub mean_wheel_speed_rpm: Option<f64>,
     pub mean_pinion_speed_rpm: Option<f64>,
+    /// The largest of a ramp, and where.
+    pub ramp: Option<PassageHeadline>,
     pub certificate: LadderCertificate,
 }
 
@@ -122,6 +124,7 @@ pub(super) fn headline(
         least_slice_force_n: there("least_slice_force_n").map(|_| rows.extent("least_slice_force_n")[0]),
         mean_wheel_speed_rpm: there("wheel_speed_rpm"),
         mean_pinion_speed_rpm: there("pinion_speed_rpm"),
+        ramp: None,
         certificate: LadderCertificate {
             ledger_residual_mj: course.ledger.residual(),
             ledger_residual_over_turnover: course.ledger.relative_residual(),

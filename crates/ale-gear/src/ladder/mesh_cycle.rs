@@ -71,7 +71,9 @@ pub(super) fn mesh_cycle(
         }
         StiffnessFrom::Iso => {
             let iso = iso_model::iso_stiffness(scene, pair).map_err(complain)?;
-            let own = MeshCycle::by_contact_lines(plane, 1e3 * iso.c_mesh * pair.face_width()).map_err(complain)?;
+            let bodies: f64 = iso_model::bodies(scene, pair).iter().sum();
+            let mean = 1.0 / (1.0 / (1e3 * iso.c_mesh * pair.face_width()) + bodies);
+            let own = MeshCycle::by_contact_lines(plane, mean).map_err(complain)?;
             Ok(Fed { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
         }
         StiffnessFrom::Reduced => {
@@ -80,6 +82,8 @@ pub(super) fn mesh_cycle(
                 return Ok(fed.clone());
             }
             let solved = run::solve(&asked, sources.phases, sources.results, sources.cache)?;
+            // Nothing is fed by what does not hold.
+            run::certificate(&solved.history.positions).verdict(scene)?;
             let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
             let driven =
                 [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == crate::scene::Driver::Wheel)];

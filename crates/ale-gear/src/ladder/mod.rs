@@ -25,15 +25,18 @@ mod settle;
 mod shafts;
 mod sweep;
 
+use std::f64::consts::TAU;
+
 use ::lumped::LumpedError;
 use study::Window;
 
 use crate::{
     cache::Cache,
+    certificate::{Certificate, Written},
     error::CommandError,
     facts::{Cost, Facts},
     gears,
-    motion::{self, Columns, ENERGY_FILE, HISTORY},
+    motion::{self, Columns, ENERGY_FILE, HISTORY, Passage},
     output::{
         LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
         write_summary,
@@ -70,7 +73,7 @@ pub(crate) fn has(scene: &Scene) -> bool {
     matches!(scene.analysis.model, Name::Lumped8 | Name::Lumped12 | Name::Shaft18 | Name::Impact)
 }
 
-/// Runs the model of a scene and writes all files of the result; the text is the closing table.
+/// Runs the model of a scene and writes all files of the result.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no motion comes out.
@@ -80,9 +83,10 @@ pub(crate) fn solve(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
-) -> Result<String, CommandError> {
+) -> Result<Written, CommandError> {
     if let Some(speeds) = &words.sweep {
-        return sweep::over_speed(scene, (words, speeds), phases, results, cache);
+        let table = sweep::over_speed(scene, (words, speeds), phases, results, cache)?;
+        return Ok(Written { table, verdict: Ok(()) });
     }
     let recipe = Recipe::gather(scene, &mut Sources::new(phases, results, cache))?;
     let made = recipe.model()?;
@@ -96,9 +100,11 @@ pub(crate) fn solve(
 pub(crate) fn steady_rows(recipe: &Recipe, made: Made, words: &MotionScene) -> Result<(Columns, u64), CommandError> {
     let Made { mut model, resonance_hz, .. } = made;
     let frequencies = [recipe.mesh_frequency_hz(words), resonance_hz];
+    refuse_unstable(recipe, words, &mut model, resonance_hz)?;
     let course = course::run(&mut model, &recipe.scene, words, frequencies, None, || ())
         .map_err(|e| complaint(&recipe.scene, &e))?;
     within_bounds(&course.history)?;
+    certificate(recipe, &course).verdict(&recipe.scene)?;
     Ok((course.history, course.warm_up + course.cycles))
 }
 
@@ -110,14 +116,16 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    fn run(&self, made: Made, phases: &mut Phases) -> Result<String, CommandError> {
+    fn run(&self, made: Made, phases: &mut Phases) -> Result<Written, CommandError> {
         let Self { recipe, words, results } = *self;
         let scene = &recipe.scene;
         let coordinates = made.coordinates();
         let Made { mut model, resonance_hz, mut warnings, shafts } = made;
         warnings.extend(gears::doubts(&recipe.pair));
+        warnings.extend(no_backlash(recipe));
         let mut facts = facts(recipe, coordinates);
         let mesh_frequency_hz = recipe.mesh_frequency_hz(words);
+        refuse_unstable(recipe, words, &mut model, resonance_hz)?;
         let campbell = phases.run("modes", || campbell::campbell(recipe, (&model, resonance_hz), shafts.as_ref()))?;
         if let Some(campbell) = &campbell {
             facts.model.extend(campbell.facts());
@@ -141,8 +149,19 @@ impl Case<'_> {
         };
         let no_statistics = |e: study::StudyError| CommandError::failed(&e, e.hint());
         let judged = course.history.last(course.judged as usize * words.steps_per_mesh_cycle as usize);
-        let headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
+        let passage = words.ramp.map(|_| {
+            let driver = (motion::speed(scene), recipe.driver_teeth());
+            let per_cycle = words.steps_per_mesh_cycle as usize;
+            Passage::of(&course.history, per_cycle, driver, known.static_normal_force, &[])
+        });
+        let passage = passage.transpose().map_err(no_statistics)?;
+        let mut headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
+        headline.ramp = passage.as_ref().and_then(Passage::headline);
+        if let Some(passage) = &passage {
+            results.write(motion::CYCLES, passage.cycles_csv().as_bytes())?;
+        }
         warnings.extend(doubts(words, &headline));
+        facts.certificate = certificate(recipe, &course);
         let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
             .map_err(no_statistics)?;
         for (name, text) in [
@@ -159,6 +178,8 @@ impl Case<'_> {
             energy: &course.energy,
             spectrum: Some(&spectrum),
             waterfall: &[],
+            ramp: passage.as_ref().map(|p| (motion::speed(scene), recipe.driver_teeth(), p)),
+            campbell: None,
             per_cycle: words.steps_per_mesh_cycle as usize,
             quasi_static: static_errors.as_deref(),
             view: None,
@@ -170,8 +191,40 @@ impl Case<'_> {
         let files = results.files()?;
         let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
         results.write("summary.json", summary.as_bytes())?;
-        Ok(ladder_table(scene, &facts, &cost, &headline, &warnings))
+        let table = ladder_table(scene, &facts, &cost, &headline, &warnings);
+        Ok(Written { table, verdict: facts.certificate.verdict(scene) })
     }
+}
+
+/// Refuses steps of given length that are too long for an explicit method.
+fn refuse_unstable(
+    recipe: &Recipe,
+    words: &MotionScene,
+    model: &mut Model,
+    resonance_hz: f64,
+) -> Result<(), CommandError> {
+    let scene = &recipe.scene;
+    let frequencies = [recipe.mesh_frequency_hz(words), resonance_hz];
+    let limit = course::stable_step(model, words, frequencies[0]).map_err(|e| complaint(scene, &e))?;
+    let Some(limit) = limit else { return Ok(()) };
+    let steps = motion::Steps { step: course::step(words, frequencies), mesh_hz: frequencies[0], resonance_hz };
+    motion::refuse_unstable(scene, &limit, &steps)
+}
+
+/// What must hold of a run: energy closes, no flank of a slice pulls.
+fn certificate(recipe: &Recipe, course: &Course) -> Certificate {
+    let (ledger, rows) = (&course.ledger, &course.history);
+    let driven = [recipe.scene.wheel.teeth, recipe.scene.pinion.teeth]
+        [usize::from(recipe.scene.operation.driver == Driver::Wheel)];
+    let turned = TAU * (course.warm_up + course.cycles) as f64 / f64::from(driven);
+    let through = recipe.scene.operation.torque().abs() * turned;
+    let mut all = vec![motion::energy_check(ledger.residual(), through, ledger.relative_residual())];
+    if !rows.get("least_slice_force_n").is_empty() {
+        let [least, _] = rows.extent("least_slice_force_n");
+        let largest = rows.extent("normal_force_n")[1].max(rows.extent("coast_normal_force_n")[1]);
+        all.push(motion::pulling_check(least, largest));
+    }
+    Certificate::new(all)
 }
 
 /// Geometry, and coordinates as degrees of freedom.
@@ -205,6 +258,24 @@ fn window(words: &MotionScene, course: &Course) -> Window {
         p.residual <= 10.0 * tolerance && course.cycles.is_multiple_of(p.period as u64)
     };
     if course.periodicity.as_ref().is_some_and(whole) { Window::Rectangular } else { Window::Hann }
+}
+
+/// A mesh without backlash where the model has one: its flanks do not part.
+fn no_backlash(recipe: &Recipe) -> Option<String> {
+    let Recipe { scene, pair, .. } = recipe;
+    let of_pair = 1e3 * pair.backlash();
+    let backlash_um = match (scene.analysis.model, &scene.mesh) {
+        (Name::Lumped8 | Name::Shaft18, Some(mesh)) => mesh.half_backlash_um.map_or(of_pair, |half| 2.0 * half),
+        (Name::Impact, _) => of_pair,
+        _ => return None,
+    };
+    let own = if scene.mesh.is_some() { "`half_backlash_um` in [mesh], or " } else { "" };
+    (backlash_um.abs() < motion::NO_BACKLASH_UM).then(|| {
+        format!(
+            "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance; give {own}`thickness_allowance_mm` \
+             in [pinion] and [wheel]"
+        )
+    })
 }
 
 /// What the certificate says that a user should hear.

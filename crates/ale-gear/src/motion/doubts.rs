@@ -1,12 +1,25 @@
 //! What a user should hear of a motion.
 
-use dynamics::pair_motion::Drive;
+use dynamics::pair_motion::{Drive, PairMechanism, stable_step};
 
-use super::{MotionHeadline, SweepHeadline, prepare, prepare::Prepared};
-use crate::scene::{MotionScene, Run, Scene};
+use super::{
+    MotionHeadline, SweepHeadline,
+    course::failure,
+    elasticity::mesh_range_hz,
+    prepare,
+    prepare::Prepared,
+    price::{Asked, Pace},
+    stable::{Steps, refuse_unstable},
+};
+use crate::run::Failure;
+use crate::scene::{Flanks, MotionScene, Run, Scene};
 
 /// More steps than this in a mesh cycle take half a minute or more.
 const SLOW: f64 = 20_000.0;
+/// More steps than this of a motion with modes take minutes: those who wait should know.
+const LONG: f64 = 100_000.0;
+/// Backlash below which there is none, um.
+pub(crate) const NO_BACKLASH_UM: f64 = 1e-3;
 /// Fewer steps than this in a period of the mesh resonance show it wrongly.
 const COARSE: f64 = 8.0;
 
@@ -28,6 +41,40 @@ pub(super) fn coarse(scene: &Scene, words: &MotionScene, prepared: &Prepared) ->
     })
 }
 
+/// Refuses steps of given length that are too long for an explicit method.
+///
+/// # Errors
+/// Exit status 1 with the limit, the step, and the number of steps that would do.
+pub(super) fn unstable(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
+    let Prepared { system, settings, quasi_static, .. } = prepared;
+    if settings.tolerance.is_some() || !settings.scheme.is_explicit() {
+        return Ok(());
+    }
+    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
+    let limit = stable_step(system, settings.scheme, guess, &settings.scale).map_err(|e| failure(scene, e))?;
+    let Some(limit) = limit else { return Ok(()) };
+    let longest = longest_cycle(scene, system);
+    let step = settings.step(longest, system.mesh_resonance_hz());
+    let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: prepare::fastest_hz(system) };
+    Ok(refuse_unstable(scene, &limit, &steps)?)
+}
+
+/// Duration of the longest mesh cycle of a run, s: the slowest one.
+fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
+    let motion = scene.motion.as_ref();
+    let slowest = motion.and_then(|m| m.sweep.as_ref()).map(|s| s.from_rpm.min(s.to_rpm));
+    let speed_rpm = slowest.unwrap_or(scene.operation.speed_rpm);
+    let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().contact.driven()];
+    let steady = 60.0 / (speed_rpm * f64::from(teeth));
+    let (pair, contact, nominal) = (system.pair(), &system.options().contact, system.nominal());
+    let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
+    // The first cycle of a run-up, the last one of a run-down.
+    let cycles = |t: f64| nominal.cycles(pair, contact, t) - nominal.start;
+    let last = cycles(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
+    let times = [0.0, 1.0, last - 1.0, last].map(|c| nominal.time_at(pair, contact, c).unwrap_or(f64::NAN));
+    (times[1] - times[0]).max(times[3] - times[2])
+}
+
 /// Steps of a mesh cycle so many that a user should know why nothing seems to go on.
 pub(super) fn slow(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<String> {
     let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
@@ -39,6 +86,39 @@ pub(super) fn slow(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> O
             "a mesh cycle lasts {:.0} periods of the fastest motion that steps have to show ({fastest:.3e} Hz), so it takes {steps:.0} steps; so slow a pair \
              has nearly the answer of `kind = \"static\"`",
             fastest / mesh
+        )
+    })
+}
+
+/// How many steps a motion with normal modes is going to take, if they are many: the highest mode says how long they are, the lowest how long it takes to settle.
+pub(super) fn long(scene: &Scene, words: &MotionScene, prepared: &Prepared) -> Option<String> {
+    scene.modes?;
+    let mesh_hz = mesh_range_hz(scene, words, None);
+    let cycles = match words.ramp {
+        Some(ramp) => (ramp.before_s + ramp.duration_s + ramp.after_s) * 0.5 * (mesh_hz[0] + mesh_hz[1]),
+        None => words.duration_s.map_or(f64::from(scene.analysis.cycles), |t| t * mesh_hz[1]),
+    };
+    let price = Asked::new(scene, words, cycles, mesh_hz).as_it_is(prepared);
+    (price.steps() > LONG).then(|| {
+        format!(
+            "with its normal modes this motion takes {}: the highest kept mode, {:.0} Hz, says how long they are, and the lowest settles slowly; fewer modes (`below_hz` in [modes]), more \
+             damping of them or a larger `periodic_tolerance` make it shorter",
+            price.said(Pace { step_s: None }),
+            prepare::fastest_hz(&prepared.system)
+        )
+    })
+}
+
+/// A pair without backlash in a motion in which flanks may part.
+pub(super) fn no_backlash(scene: &Scene, prepared: &Prepared) -> Option<String> {
+    let backlash_um = 1e3 * prepared.system.pair().backlash();
+    (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
+        let what = match scene.contact.flanks {
+            Flanks::Both => "where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
+            Flanks::Driving => "with `flanks = \"driving\"` teeth that part fly as if there were room behind them",
+        };
+        format!(
+            "the pair has no backlash: {what}; give `thickness_allowance_mm` in [pinion] and [wheel] (or a larger `centre_distance_mm` in [pair])"
         )
     })
 }
@@ -95,15 +175,30 @@ pub(super) fn of_motion(words: &MotionScene, prepared: &Prepared, headline: &Mot
     said
 }
 
-/// Speeds that have no answer that repeats itself; `speeds`: how many there are in all.
-pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Option<String> {
-    let missed = &headline.not_periodic_rpm;
-    (!missed.is_empty()).then(|| {
-        let first: Vec<String> = missed.iter().take(8).map(|n| format!("{n:.0}")).collect();
-        format!(
-            "no periodic state was found at {} of {speeds} speeds (1/min: {}): chaotic, of a longer period, or `warm_up_cycles` are too few",
+/// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.
+pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<String> {
+    let mut said = Vec::new();
+    let (missed, failed) = (&headline.not_periodic_rpm, &headline.failed);
+    if !missed.is_empty() {
+        said.push(format!(
+            "no periodic state was found at {} of {speeds} speeds ({}): chaotic, of a longer period, or `warm_up_cycles` are too few",
             missed.len(),
-            first.join(", ")
-        )
-    })
+            listed(missed.iter().copied())
+        ));
+    }
+    if let Some(first) = failed.first() {
+        said.push(format!(
+            "{} of {speeds} speeds have no solution ({}); their rows in resonance.csv say why, the first: {}",
+            failed.len(),
+            listed(failed.iter().map(|f| f.speed_rpm)),
+            first.reason
+        ));
+    }
+    said
+}
+
+/// A few speeds as text.
+fn listed(speeds_rpm: impl Iterator<Item = f64>) -> String {
+    let first: Vec<String> = speeds_rpm.take(8).map(|n| format!("{n:.0}")).collect();
+    format!("1/min: {}", first.join(", "))
 }

@@ -4,13 +4,17 @@ use std::sync::Arc;
 
 use dynamics::{
     ElasticGear,
-    pair_motion::{ElasticRatio, GearVibration, LOW_FREQUENCY_LIMIT, harmonic_that_matters},
+    pair_motion::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance},
 };
 use reduction::{GearModes, GearReducer, ModeChoice, ReductionError};
 use serde::Serialize;
 use study::mesh_harmonics;
 
-use super::{Columns, prepare::QuasiStatic};
+use super::{
+    Columns,
+    prepare::QuasiStatic,
+    price::{Asked, Pace},
+};
 use crate::{
     error::CommandError,
     phases::Phases,
@@ -27,6 +31,9 @@ pub(crate) struct ElasticHeadline {
     pub mesh_harmonic: usize,
     pub mesh_harmonic_over_elastic: f64,
     pub limit_of_quasi_static: f64,
+    pub change_of_peak_to_peak_um: f64,
+    pub change_over_peak_to_peak: f64,
+    pub limit_of_change: f64,
     pub kept_modes: Option<KeptModes>,
 }
 
@@ -42,12 +49,13 @@ pub(crate) struct KeptModes {
 #[derive(Debug, Clone)]
 pub(super) struct Elasticity {
     lowest_hz: [f64; 2],
-    harmonic: usize,
+    /// Harmonics of the quasi-static transmission error, um.
+    amplitudes_um: Vec<f64>,
     kept: Option<[GearVibration; 2]>,
 }
 
 impl Elasticity {
-    /// Lowest frequencies of both gears, the modes that the scene keeps, and the highest harmonic of the static transmission error that matters.
+    /// Lowest frequencies of both gears, the modes that the scene keeps, and the harmonics of the static transmission error.
     ///
     /// # Errors
     /// Exit status 1 when the modes are not found, 2 when the mesh cannot have them.
@@ -60,8 +68,7 @@ impl Elasticity {
         let samples = &quasi_static.transmission_error;
         // Half of the positions a cycle is as high as they can tell.
         let harmonics = mesh_harmonics(samples, 1, samples.len() / 2).map_err(super::no_statistics)?;
-        let amplitudes: Vec<f64> = harmonics.iter().map(|h| h.amplitude).collect();
-        let harmonic = harmonic_that_matters(&amplitudes);
+        let amplitudes_um = harmonics.iter().map(|h| 1e3 * h.amplitude).collect();
         let found = phases.run_steps("frequencies", 2, |progress| {
             let of = |i: usize| {
                 // Motion has reduced gears only; any other one would not vibrate.
@@ -73,7 +80,7 @@ impl Elasticity {
         })?;
         let lowest_hz = [found[0].0, found[1].0];
         let [(_, pinion), (_, wheel)] = found;
-        Ok(Self { lowest_hz, harmonic, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
+        Ok(Self { lowest_hz, amplitudes_um, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
     }
 
     /// The modes that the scene keeps.
@@ -81,14 +88,42 @@ impl Elasticity {
         self.kept.clone()
     }
 
-    /// For the results of a run whose mesh frequency is `mesh_hz` at the most.
-    pub fn headline(&self, mesh_hz: f64) -> ElasticHeadline {
+    /// Frequencies of the gears with their bores held, Hz, and what they are called: the kept modes, else the lowest of either gear.
+    pub fn frequencies_hz(&self) -> Vec<(f64, String)> {
+        let gears = ["pinion", "wheel"];
+        match &self.kept {
+            None => (0..2).map(|i| (self.lowest_hz[i], format!("{} elastic", gears[i]))).collect(),
+            Some(kept) => (0..2)
+                .flat_map(|i| {
+                    let all = kept[i].modes.frequencies_hz().into_iter().enumerate();
+                    all.map(move |(k, hz)| (hz, format!("{} mode {}", gears[i], k + 1)))
+                })
+                .collect(),
+        }
+    }
+
+    /// What the inertia of elastic deformation that is left out may change in a motion.
+    pub fn beside(&self, found: &Vibration) -> ElasticChange {
+        let bounds = match &self.kept {
+            None => self.lowest_hz,
+            Some(kept) => [0, 1].map(|i| highest(&kept[i]).unwrap_or(self.lowest_hz[i])),
+        };
+        ElasticChange::of(&self.amplitudes_um, found.mesh_hz, bounds, found.resonance)
+    }
+
+    /// For the results of a run.
+    pub fn headline(&self, found: &Vibration) -> ElasticHeadline {
+        let change = self.beside(found);
+        let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
         ElasticHeadline {
             lowest_elastic_frequency_hz: self.lowest_hz,
-            highest_mesh_frequency_hz: mesh_hz,
-            mesh_harmonic: self.harmonic,
-            mesh_harmonic_over_elastic: self.beside(mesh_hz, self.lowest_hz).largest(),
+            highest_mesh_frequency_hz: found.mesh_hz[1],
+            mesh_harmonic: change.harmonic,
+            mesh_harmonic_over_elastic: change.harmonic_hz() / lowest,
             limit_of_quasi_static: LOW_FREQUENCY_LIMIT,
+            change_of_peak_to_peak_um: change.share * found.peak_to_peak_um,
+            change_over_peak_to_peak: change.share,
+            limit_of_change: CHANGE_LIMIT,
             kept_modes: self.kept.as_ref().map(|kept| KeptModes {
                 count: kept.each_ref().map(|g| g.modes.count()),
                 highest_frequency_hz: kept.each_ref().map(highest),
@@ -96,25 +131,53 @@ impl Elasticity {
         }
     }
 
-    /// What a user should hear at this mesh frequency: what is not kept as a mode is quasi-static, in the whole gear or above its highest kept mode.
-    pub fn warning(&self, mesh_hz: f64) -> Option<String> {
-        let Some(kept) = &self.kept else { return self.beside(mesh_hz, self.lowest_hz).warning() };
-        let bounds = [0, 1].map(|i| highest(&kept[i]).unwrap_or(self.lowest_hz[i]));
-        let beside = self.beside(mesh_hz, bounds);
-        let ratio = beside.largest();
-        (ratio > LOW_FREQUENCY_LIMIT).then(|| {
-            format!(
-                "mesh harmonic {} at {:.0} Hz is {ratio:.2} of a gear's highest kept mode; what is not kept is quasi-static, which holds up to \
-                 {LOW_FREQUENCY_LIMIT}: keep more modes (`count` or `below_hz` in [modes])",
-                beside.harmonic,
-                beside.harmonic as f64 * mesh_hz
-            )
-        })
+    /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its highest kept mode. The remedy has its price, at the pace of this run.
+    pub fn warning(&self, found: &Vibration, asked: &Asked, pace: Pace) -> Option<String> {
+        let change = self.beside(found);
+        if !change.matters() {
+            return None;
+        }
+        let [pinion, wheel] = change.ratios();
+        let (gear, i) = if pinion >= wheel { ("pinion", 0) } else { ("wheel", 1) };
+        let which = match &self.kept {
+            None => format!("lowest elastic frequency, {:.0} Hz (bore held, flanks free)", self.lowest_hz[i]),
+            Some(_) => "highest kept mode".to_owned(),
+        };
+        // Modes up to twice the harmonic: what lies above is quasi-static to it, to a third.
+        let below_hz = nice(2.0 * change.harmonic_hz().max(self.lowest_hz[0].max(self.lowest_hz[1])));
+        let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
+        let remedy = match &self.kept {
+            None => format!("take the model `reduced+modes` with `below_hz = {below_hz:.0}` in [modes]"),
+            Some(_) => format!("keep more modes (`below_hz = {below_hz:.0}` in [modes])"),
+        };
+        Some(format!(
+            "mesh harmonic {} at {:.0} Hz is {:.2} of the {gear}'s {which}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {:.3} um, {:.0} % \
+             of it (told from {:.1} % on): {remedy}, {}",
+            change.harmonic,
+            change.harmonic_hz(),
+            change.largest_ratio(),
+            change.share * found.peak_to_peak_um,
+            100.0 * change.share,
+            100.0 * CHANGE_LIMIT,
+            asked.with_modes(below_hz, lowest, self.kept.is_some()).said(pace),
+        ))
     }
+}
 
-    fn beside(&self, mesh_hz: f64, elastic_hz: [f64; 2]) -> ElasticRatio {
-        ElasticRatio { mesh_hz, harmonic: self.harmonic, elastic_hz }
-    }
+/// What has been found of a motion, to be held against the elastic frequencies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vibration {
+    /// Least and highest mesh frequency, Hz.
+    pub mesh_hz: [f64; 2],
+    pub resonance: MeshResonance,
+    /// Peak to peak of the DTE, um.
+    pub peak_to_peak_um: f64,
+}
+
+/// Rounded up to two digits.
+fn nice(hz: f64) -> f64 {
+    let unit = 10f64.powf(hz.log10().floor() - 1.0);
+    (hz / unit).ceil() * unit
 }
 
 fn highest(gear: &GearVibration) -> Option<f64> {
@@ -151,18 +214,19 @@ fn complaint(scene: &Scene, i: usize, error: &ReductionError) -> CommandError {
     }
 }
 
-/// The highest mesh frequency of a run, Hz: of the given speeds, and where a torque drives of the rows as well.
-pub(super) fn highest_mesh_hz(scene: &Scene, words: &MotionScene, rows: Option<&Columns>) -> f64 {
+/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of the rows as well.
+pub(super) fn mesh_range_hz(scene: &Scene, words: &MotionScene, rows: Option<&Columns>) -> [f64; 2] {
     let (driver, column) = match scene.operation.driver {
         Driver::Pinion => (scene.pinion.teeth, "pinion_speed_rpm"),
         Driver::Wheel => (scene.wheel.teeth, "wheel_speed_rpm"),
     };
-    let by_torque = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque);
+    let by_torque = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && !d.torque.is_none());
+    let given = scene.operation.speed_rpm;
     let rpm = match (words.ramp, &words.sweep, rows.filter(|_| by_torque)) {
-        (Some(ramp), ..) => ramp.from_rpm.max(ramp.to_rpm),
-        (_, Some(sweep), _) => sweep.to_rpm,
-        (.., Some(rows)) => rows.get(column).iter().fold(scene.operation.speed_rpm, |most, n| most.max(n.abs())),
-        _ => scene.operation.speed_rpm,
+        (Some(ramp), ..) => [ramp.from_rpm.min(ramp.to_rpm), ramp.from_rpm.max(ramp.to_rpm)],
+        (_, Some(sweep), _) => [sweep.from_rpm, sweep.to_rpm],
+        (.., Some(rows)) => rows.get(column).iter().fold([given; 2], |[l, h], n| [l.min(n.abs()), h.max(n.abs())]),
+        _ => [given; 2],
     };
-    rpm * f64::from(driver) / 60.0
+    rpm.map(|n| n * f64::from(driver) / 60.0)
 }

@@ -6,7 +6,10 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
     course::Finished,
-    elasticity::{ElasticHeadline, highest_mesh_hz},
+    elasticity::{ElasticHeadline, Vibration, mesh_range_hz},
+    frequencies::CriticalSpeed,
+    inertia::InertiaHeadline,
+    passage::{Passage, PassageHeadline},
     prepare::Prepared,
     rows::GEARS,
     table::Columns,
@@ -25,6 +28,7 @@ pub(crate) struct MotionHeadline {
     pub speed_rpm: f64,
     pub mesh_frequency_hz: f64,
     pub mesh_resonance_hz: f64,
+    pub inertia: InertiaHeadline,
     pub elasticity: ElasticHeadline,
     pub rows_per_cycle: u32,
     pub cycles: u64,
@@ -54,6 +58,8 @@ pub(crate) struct MotionHeadline {
     pub max_pressure_at: Option<PressurePlace>,
     pub max_root_tension_mpa: Option<[f64; 2]>,
     pub tooth_changes: u64,
+    pub ramp: Option<PassageHeadline>,
+    pub critical_speeds: Vec<CriticalSpeed>,
     pub certificate: MotionCertificate,
 }
 
@@ -80,7 +86,7 @@ pub(crate) struct MotionCertificate {
     pub refused_steps: u64,
 }
 
-/// Headline numbers from the rows and from what was counted.
+/// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of its `passage`.
 ///
 /// # Errors
 /// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.
@@ -90,6 +96,7 @@ pub(super) fn headline(
     prepared: &Prepared,
     done: &Finished,
     rows: &Columns,
+    passage: Option<&Passage>,
 ) -> Result<MotionHeadline, StudyError> {
     let cycles = done.course.recorded;
     let dte = rows.get("dte_um");
@@ -100,7 +107,7 @@ pub(super) fn headline(
     let options = system.options();
     let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.contact.driven()]);
     let speed_rpm = match &options.drive {
-        Drive::Speed(_) if words.ramp.is_none() => scene.operation.speed_rpm,
+        Drive::Speed(_) | Drive::Balanced(_) if words.ramp.is_none() => scene.operation.speed_rpm,
         _ => rows.mean(["pinion_speed_rpm", "wheel_speed_rpm"][1 - options.contact.driven()]).abs(),
     };
     let largest = |names: &[&str]| {
@@ -115,20 +122,34 @@ pub(super) fn headline(
     let [min_force, max_force] = rows.extent("normal_force_n");
     let max_coast_force = rows.extent("coast_normal_force_n")[1];
     let static_force = prepared.quasi_static.normal_force;
+    let ramp = passage.and_then(Passage::headline);
+    let (peak_to_peak, harmonics): (f64, Vec<f64>) = match &ramp {
+        Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
+        None => {
+            let all = mesh_harmonics(dte, cycles as usize, ORDERS)?;
+            (of_dte.peak_to_peak, all.iter().map(|h| h.amplitude).collect())
+        }
+    };
+    let vibration = Vibration {
+        mesh_hz: mesh_range_hz(scene, words, Some(rows)),
+        resonance: system.mesh_resonance(),
+        peak_to_peak_um: peak_to_peak,
+    };
     Ok(MotionHeadline {
         run: words.run,
         speed_rpm,
         mesh_frequency_hz: speed_rpm * teeth / 60.0,
         mesh_resonance_hz: system.mesh_resonance_hz(),
-        elasticity: prepared.elasticity.headline(highest_mesh_hz(scene, words, Some(rows))),
+        inertia: InertiaHeadline::of(system),
+        elasticity: prepared.elasticity.headline(&vibration),
         rows_per_cycle: words.steps_per_mesh_cycle,
         cycles,
         free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
         mean_dte_um: of_dte.mean,
-        peak_to_peak_dte_um: of_dte.peak_to_peak,
+        peak_to_peak_dte_um: peak_to_peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,
-        dte_harmonics_um: mesh_harmonics(dte, cycles as usize, ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        dte_harmonics_um: harmonics,
         mean_ste_um: of_ste.mean,
         peak_to_peak_ste_um: of_ste.peak_to_peak,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
@@ -152,6 +173,8 @@ pub(super) fn headline(
             .root_stress
             .then(|| GEARS.map(|gear| rows.extent(&format!("{gear}_root_stress_max_principal_mpa"))[1])),
         tooth_changes: done.motion.system().changes().count,
+        ramp,
+        critical_speeds: Vec::new(),
         certificate: certificate(done),
     })
 }

@@ -11,21 +11,32 @@
 //! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
-//! | `headline`, `spectra` | what is read off the rows |
+//! | `stable` | steps too long for an explicit method |
+//! | `headline`, `spectra`, `inertia` | what is read off the rows; which inertia counts |
+//! | `certificate` | what must hold of a motion |
+//! | `passage` | a ramp over speed: what is largest, and where |
+//! | `frequencies` | Campbell diagram |
+//! | `price` | what a longer analysis would cost |
 //! | `doubts` | what a user should hear of them |
 //! | `write` | files of the result |
 
+mod certificate;
 mod course;
 mod doubts;
 mod elasticity;
+mod frequencies;
 mod headline;
+mod inertia;
 mod inputs;
 mod options;
+mod passage;
 mod pattern;
 mod precision;
 mod prepare;
+mod price;
 mod rows;
 mod spectra;
+mod stable;
 mod store;
 mod sweep;
 mod table;
@@ -39,17 +50,24 @@ use prepare::{Inputs, Prepared, prepare};
 use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
+pub(crate) use certificate::{energy_check, pulling_check};
+pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
+pub(crate) use frequencies::Frequencies;
 pub(crate) use headline::MotionHeadline;
-pub(crate) use options::{RPM, bearing, drive, scheme, stated_body, torque};
+pub(crate) use inertia::InertiaHeadline;
+pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque};
+pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
+pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 pub(crate) use table::Columns;
 
 use crate::{
     cache::Cache,
+    certificate::Written,
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
@@ -86,8 +104,8 @@ impl Progression {
 
 /// How a run ended.
 pub(crate) enum Outcome {
-    /// All files are written; the closing table.
-    Finished(String),
+    /// All files are written.
+    Finished(Written),
     /// The user asked to stop after so many mesh cycles.
     Stopped {
         /// Mesh cycles done.
@@ -178,7 +196,9 @@ fn through_windows(
             }
             Ok(Attempt::Sweep(mut prepared, points, sweep)) => {
                 prepared.warnings.extend(widened);
-                return write_sweep(scene, (words, sweep), phases, results, &prepared, &points).map(Outcome::Finished);
+                let table = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
+                let verdict = prepared.facts.certificate.verdict(scene);
+                return Ok(Outcome::Finished(Written { table, verdict }));
             }
             Err(Failure::Command(e)) => return Err(e),
             Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
@@ -207,8 +227,13 @@ pub(crate) fn rows_of(
     let mut window = None;
     loop {
         let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
-        let done = prepare(&inputs, phases, window)
-            .and_then(|prepared| course::run(scene, words, &prepared, phases, places).map(|_| ()));
+        let done = prepare(&inputs, phases, window).and_then(|prepared| {
+            doubts::unstable(scene, &prepared)?;
+            let done = course::run(scene, words, &prepared, phases, places)?;
+            let rows = Columns::read(&folder.join(rows::HISTORY))?;
+            let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
+            Ok(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
+        });
         match done {
             Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
             Err(Failure::Command(e)) => return Err(e),
@@ -223,7 +248,7 @@ pub(crate) fn rows_of(
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),
-    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepPoint>, &'a SweepScene),
+    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepOutcome>, &'a SweepScene),
     Stopped { cycles: u64 },
 }
 
@@ -237,15 +262,19 @@ fn attempt<'a>(
 ) -> Result<Attempt<'a>, Failure> {
     let Inputs { scene, words, .. } = *inputs;
     let mut prepared = prepare(inputs, phases, window)?;
+    doubts::unstable(scene, &prepared)?;
     prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
-    if let Some(slow) = doubts::slow(scene, words, &prepared) {
+    prepared.warnings.extend(doubts::no_backlash(scene, &prepared));
+    let slow = doubts::slow(scene, words, &prepared).or_else(|| doubts::long(scene, words, &prepared));
+    if let Some(slow) = slow {
         // Who waits should hear it before the end.
         talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
         prepared.warnings.push(slow);
     }
     if let Some(sweep) = &words.sweep {
-        let points = sweep::run(scene, (words, sweep), &prepared, phases)?;
-        return Ok(Attempt::Sweep(Box::new(prepared), points, sweep));
+        let wider = |e: &dynamics::StaticError| prepare::wider(inputs, window, e).is_some();
+        let outcomes = sweep::run(scene, (words, sweep), &prepared, &wider, phases)?;
+        return Ok(Attempt::Sweep(Box::new(prepared), outcomes, sweep));
     }
     let rows: PathBuf = match checkpoints {
         Some(Checkpoints { folder, .. }) => {

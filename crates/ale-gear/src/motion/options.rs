@@ -46,8 +46,14 @@ pub(super) fn motion_options(
         _ => MeshDamping::Ratio(0.0),
     };
     let load = torque(scene.load.as_ref().unwrap_or(&TorqueScene::default()), scene.operation.torque());
-    let drive = drive(scene, pair);
+    let drive = pair_drive(scene, pair);
     Ok(MotionOptions { contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
+}
+
+/// What drives a pair of elastic gears: as below, but a torque that the scene does not state balances the load at every instant, so that the mean speed is the given one.
+fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
+    let balances = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && d.torque.is_none());
+    if balances { Drive::Balanced(speed(scene)) } else { drive(scene, pair) }
 }
 
 /// What drives the driver: its speed, or a torque that balances the load in the mean unless the scene states another.
@@ -61,15 +67,20 @@ pub(crate) fn drive(scene: &Scene, pair: &GearPair) -> Drive {
         };
         return Drive::Torque { start, torque: torque(&drive.torque, ratio * scene.operation.torque()) };
     }
-    Drive::Speed(match scene.motion.as_ref().and_then(|m| m.ramp) {
-        None => Speed::Constant(start),
+    Drive::Speed(speed(scene))
+}
+
+/// Speed of the driver that the scene asks for, rad/s.
+pub(crate) fn speed(scene: &Scene) -> Speed {
+    match scene.motion.as_ref().and_then(|m| m.ramp) {
+        None => Speed::Constant(scene.operation.speed_rpm * RPM),
         Some(ramp) => Speed::Ramp {
             from: ramp.from_rpm * RPM,
             to: ramp.to_rpm * RPM,
             start: ramp.before_s,
             duration: ramp.duration_s,
         },
-    })
+    }
 }
 
 /// N m in N mm; `mean` where the scene states none.

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use dynamics::{
-    motion::{Integrator, MotionError, Scheme, State, StepControl},
-    pair_motion::{PairMechanism, PairMotionError, quasi_static_start},
+    motion::{Integrator, MotionError, Scheme, State, StepControl, StepLimit},
+    pair_motion::{PairMechanism, PairMotionError, quasi_static_start, stable_step},
 };
 
 use super::{
@@ -119,6 +119,8 @@ struct Bench<'a> {
     start: State,
     /// Of a mesh cycle, s.
     period: f64,
+    /// Longest stable steps of the explicit methods.
+    limits: Vec<(Scheme, StepLimit)>,
 }
 
 impl<'a> Bench<'a> {
@@ -127,7 +129,11 @@ impl<'a> Bench<'a> {
         let guess = prepared.quasi_static.transmission_error.first().copied().unwrap_or(0.0);
         let start = quasi_static_start(&mut system, 0.0, guess, &prepared.settings.scale)?;
         let speed = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
-        Ok(Self { prepared, start, period: 1.0 / speed })
+        let mut limits = Vec::new();
+        for (_, scheme) in METHODS {
+            limits.extend(stable_step(&system, scheme, guess, &prepared.settings.scale)?.map(|limit| (scheme, limit)));
+        }
+        Ok(Self { prepared, start, period: 1.0 / speed, limits })
     }
 
     /// DTE (mm) at the places of all mesh cycles, and the wall time of one, s.
@@ -148,6 +154,12 @@ impl<'a> Bench<'a> {
     }
 
     fn point(&self, (method, scheme): (&'static str, Scheme), steps: u32, reference: &[f64]) -> PrecisionPoint {
+        let step = self.period / f64::from(steps);
+        let unstable = self.limits.iter().find(|(of, limit)| *of == scheme && step > limit.step);
+        if let Some((_, limit)) = unstable {
+            let note = format!("a step of {step:.3e} s is beyond the stability limit, {:.3e} s", limit.step);
+            return PrecisionPoint { method, steps, error_um: None, cycle_s: f64::NAN, note };
+        }
         let (error_um, cycle_s, note) = match self.course(scheme, steps) {
             Ok((found, time)) => {
                 let off = found.iter().zip(reference).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -17,7 +17,7 @@ use crate::{
     elastic_gears::{ElasticGears, elastic_gears},
     error::CommandError,
     facts::Facts,
-    gears, meshes,
+    gears, iso_root, meshes,
     meshes::SceneMesh,
     phases::Phases,
     resolution::resolution,
@@ -120,19 +120,24 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     warnings.extend(said);
     warnings.extend(gears::doubts(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
-    warnings.extend(run::sector_warnings(&model));
+    warnings.extend(run::body_warnings(&model));
     let view = phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings)).map(View::quasi_static);
     let dof_before = [0, 1].map(|i| run::free_dofs(&model.gears()[i]));
-    let facts = Facts {
+    let mut facts = Facts {
         geometry: gears::geometry_facts(pair),
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: run::dof_after(&model, dof_before),
         window_teeth: Some(model.window().count() as u32),
         resolution: Some(resolution),
+        // The motion begins in it and is measured by it.
+        certificate: run::certificate(&history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(run::reduced(g)?.way().name())).collect(),
         ..Facts::default()
     };
+    if scene.output.root_stress {
+        warnings.extend(iso_root::add(&mut facts, scene, pair));
+    }
     let gears = Arc::new(model.into_gears());
     let (coast, coast_keys) = match coast {
         Some(ElasticGears { gears, keys, warnings: said }) => {

@@ -1,17 +1,25 @@
 //! Sweeps: `resonance.csv` and what is said of it.
 
-use dynamics::pair_motion::{self, SteadyOptions, SweepPlan, SweepPoint, Way};
+use std::ops::ControlFlow;
+
+use dynamics::{
+    StaticError,
+    motion::MotionError,
+    pair_motion::{self, PairMotionError, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way},
+};
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
     course::failure,
-    elasticity::{ElasticHeadline, highest_mesh_hz},
-    options::steady_by,
+    elasticity::{ElasticHeadline, Vibration},
+    frequencies::CriticalSpeed,
+    inertia::InertiaHeadline,
+    options::{RPM, steady_by},
     prepare::{Prepared, QuasiStatic},
 };
 use crate::{
-    output::push_row,
+    output::{push_row, quoted},
     phases::Phases,
     run::Failure,
     scene::{MotionScene, Scene, SweepScene, SweepWay},
@@ -19,7 +27,29 @@ use crate::{
 
 /// Mesh harmonics of a speed that are listed.
 const ORDERS: usize = 4;
-const RPM: f64 = std::f64::consts::PI / 30.0;
+
+/// How a speed of a sweep came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum SweepStatus {
+    /// The motion repeats itself.
+    Periodic,
+    /// It does not, in the cycles that it was given.
+    NotPeriodic,
+    /// There is no motion at all.
+    Failed,
+}
+
+impl SweepStatus {
+    /// As it stands in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Periodic => "periodic",
+            Self::NotPeriodic => "not-periodic",
+            Self::Failed => "failed",
+        }
+    }
+}
 
 /// One speed of a sweep; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,6 +69,20 @@ pub(crate) struct SweepRow {
     pub period_cycles: usize,
     pub periodicity: f64,
     pub warm_up_cycles: u64,
+    /// Whether it began in its own quasi-static equilibrium.
+    pub own_start: bool,
+    pub status: SweepStatus,
+    /// Why there is no motion; empty where there is one.
+    pub reason: String,
+}
+
+/// A speed without a motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub(crate) struct FailedSpeed {
+    pub way: SweepWay,
+    pub speed_rpm: f64,
+    pub reason: String,
 }
 
 /// The few numbers that a sweep is made for.
@@ -48,6 +92,7 @@ pub(crate) struct SweepHeadline {
     pub run: crate::scene::Run,
     pub mesh_resonance_hz: f64,
     pub mesh_resonance_rpm: f64,
+    pub inertia: InertiaHeadline,
     pub elasticity: ElasticHeadline,
     pub mean_ste_um: f64,
     pub peak_to_peak_ste_um: f64,
@@ -55,18 +100,29 @@ pub(crate) struct SweepHeadline {
     pub mean_static_normal_force_n: f64,
     pub largest: Vec<SweepRow>,
     pub not_periodic_rpm: Vec<f64>,
+    pub failed: Vec<FailedSpeed>,
+    pub critical_speeds: Vec<CriticalSpeed>,
 }
 
-/// Runs the sweep of a scene.
+/// The error of teeth missing beside the window, which a wider one may cure.
+fn starved(error: &PairMotionError) -> Option<&StaticError> {
+    match error {
+        MotionError::Mechanism { source: source @ StaticError::Starved { .. }, .. } => Some(source),
+        _ => None,
+    }
+}
+
+/// Runs the sweep of a scene. `wider`: whether a wider window may cure an error.
 ///
 /// # Errors
-/// [`Failure::Static`] where another window may do.
+/// [`Failure::Static`] where another window may do; else that of the first speed where none has an answer.
 pub(super) fn run(
     scene: &Scene,
     words: (&MotionScene, &SweepScene),
     prepared: &Prepared,
+    wider: &(dyn Fn(&StaticError) -> bool + Sync),
     phases: &mut Phases,
-) -> Result<Vec<SweepPoint>, Failure> {
+) -> Result<Vec<SweepOutcome>, Failure> {
     let (motion, sweep) = words;
     let speeds: Vec<f64> = sweep.all_rpm().iter().map(|n| n * RPM).collect();
     let ways = sweep.ways.iter().map(|w| match w {
@@ -87,54 +143,113 @@ pub(super) fn run(
         speeds,
     };
     let steps = (plan.speeds.len() * plan.ways.len()) as u64;
-    phases
+    let curable = |error: &PairMotionError| starved(error).is_some_and(wider);
+    let outcomes = phases
         .run_steps("sweep", steps, |progress| {
-            pair_motion::sweep(&prepared.system, &plan, &|point: &SweepPoint| {
+            pair_motion::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
                 progress.tick();
-                progress.say(format!("{:.0}/min", point.speed / RPM));
+                match outcome {
+                    Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),
+                    Err(miss) => progress.say(format!("{:.0}/min: {}", miss.speed / RPM, miss.error)),
+                }
+                match outcome {
+                    Err(miss) if curable(&miss.error) => ControlFlow::Break(()),
+                    _ => ControlFlow::Continue(()),
+                }
             })
         })
-        .map_err(|e| failure(scene, e))
+        .map_err(|e| failure(scene, e))?;
+    let mut misses = outcomes.iter().filter_map(|o| o.as_ref().err());
+    if let Some(miss) = misses.clone().find(|m| curable(&m.error)) {
+        return Err(failure(scene, miss.error.clone()));
+    }
+    match misses.next() {
+        Some(first) if outcomes.iter().all(Result::is_err) => Err(failure(scene, first.error.clone())),
+        _ => Ok(outcomes),
+    }
 }
 
-/// Rows of `resonance.csv`.
-///
-/// # Errors
-/// [`StudyError`] when a transmission error is no number.
+fn way_of(way: Way) -> SweepWay {
+    match way {
+        Way::Apart => SweepWay::Apart,
+        Way::Up => SweepWay::Up,
+        Way::Down => SweepWay::Down,
+    }
+}
+
+/// Rows of `resonance.csv`: a speed without a motion has its reason.
 pub(super) fn rows(
     scene: &Scene,
+    motion: &MotionScene,
     quasi_static: &QuasiStatic,
-    points: &[SweepPoint],
-) -> Result<Vec<SweepRow>, StudyError> {
+    outcomes: &[SweepOutcome],
+) -> Vec<SweepRow> {
+    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
+    let teeth = f64::from(scene.driver_teeth());
     let cycles = scene.analysis.cycles as usize;
-    let driver_teeth = scene.driver_teeth();
-    let one = |point: &SweepPoint| {
-        let dte: Vec<f64> = point.transmission_error.iter().map(|e| 1e3 * e).collect();
-        let of_dte = cycle_statistics(&dte, cycles)?;
-        let extreme = |f: fn(f64, f64) -> f64, start| point.normal_force.iter().copied().fold(start, f);
-        let speed_rpm = point.speed / RPM;
-        Ok(SweepRow {
-            way: match point.way {
-                Way::Apart => SweepWay::Apart,
-                Way::Up => SweepWay::Up,
-                Way::Down => SweepWay::Down,
-            },
-            speed_rpm,
-            mesh_frequency_hz: speed_rpm * f64::from(driver_teeth) / 60.0,
-            mean_dte_um: of_dte.mean,
-            peak_to_peak_dte_um: of_dte.peak_to_peak,
-            dte_harmonics_um: mesh_harmonics(&dte, cycles, ORDERS)?.iter().map(|h| h.amplitude).collect(),
-            min_normal_force_n: extreme(f64::min, f64::INFINITY),
-            max_normal_force_n: extreme(f64::max, 0.0),
-            dynamic_factor: extreme(f64::max, point.coast_force) / quasi_static.normal_force,
-            max_coast_normal_force_n: point.coast_force,
-            max_bearing_force_n: point.bearing_force,
-            period_cycles: point.periodicity.period,
-            periodicity: point.periodicity.residual,
-            warm_up_cycles: point.waited,
-        })
+    let one = |outcome: &SweepOutcome| match outcome {
+        Ok(point) => solved(point, cycles, (teeth, tolerance), quasi_static)
+            .unwrap_or_else(|e| missing((point.way, point.speed), teeth, e.to_string())),
+        Err(SweepMiss { speed, way, error }) => missing((*way, *speed), teeth, error.to_string()),
     };
-    points.iter().map(one).collect()
+    outcomes.iter().map(one).collect()
+}
+
+/// # Errors
+/// [`StudyError`] when a transmission error is no number.
+fn solved(
+    point: &SweepPoint,
+    cycles: usize,
+    (teeth, tolerance): (f64, f64),
+    quasi_static: &QuasiStatic,
+) -> Result<SweepRow, StudyError> {
+    let dte: Vec<f64> = point.transmission_error.iter().map(|e| 1e3 * e).collect();
+    let of_dte = cycle_statistics(&dte, cycles)?;
+    let extreme = |f: fn(f64, f64) -> f64, start| point.normal_force.iter().copied().fold(start, f);
+    let speed_rpm = point.speed / RPM;
+    Ok(SweepRow {
+        way: way_of(point.way),
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mean_dte_um: of_dte.mean,
+        peak_to_peak_dte_um: of_dte.peak_to_peak,
+        dte_harmonics_um: mesh_harmonics(&dte, cycles, ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        min_normal_force_n: extreme(f64::min, f64::INFINITY),
+        max_normal_force_n: extreme(f64::max, 0.0),
+        dynamic_factor: extreme(f64::max, point.coast_force) / quasi_static.normal_force,
+        max_coast_normal_force_n: point.coast_force,
+        max_bearing_force_n: point.bearing_force,
+        period_cycles: point.periodicity.period,
+        periodicity: point.periodicity.residual,
+        warm_up_cycles: point.waited,
+        own_start: point.own_start,
+        status: if point.periodicity.residual > tolerance { SweepStatus::NotPeriodic } else { SweepStatus::Periodic },
+        reason: String::new(),
+    })
+}
+
+/// A speed without a motion.
+fn missing((way, speed): (Way, f64), teeth: f64, reason: String) -> SweepRow {
+    let (speed_rpm, none) = (speed / RPM, f64::NAN);
+    SweepRow {
+        way: way_of(way),
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mean_dte_um: none,
+        peak_to_peak_dte_um: none,
+        dte_harmonics_um: vec![none; ORDERS],
+        min_normal_force_n: none,
+        max_normal_force_n: none,
+        dynamic_factor: none,
+        max_coast_normal_force_n: none,
+        max_bearing_force_n: none,
+        period_cycles: 0,
+        periodicity: none,
+        warm_up_cycles: 0,
+        own_start: true,
+        status: SweepStatus::Failed,
+        reason,
+    }
 }
 
 /// `resonance.csv`.
@@ -142,7 +257,7 @@ pub(super) fn write(rows: &[SweepRow]) -> String {
     let harmonics: Vec<String> = (1..=ORDERS).map(|h| format!("dte_harmonic_{h}_um")).collect();
     let mut csv = format!(
         "way,speed_rpm,mesh_frequency_hz,mean_dte_um,peak_to_peak_dte_um,{},min_normal_force_n,max_normal_force_n,\
-         dynamic_factor,max_coast_normal_force_n,max_bearing_force_n,period_cycles,periodicity,warm_up_cycles\n",
+         dynamic_factor,max_coast_normal_force_n,max_bearing_force_n,period_cycles,periodicity,warm_up_cycles,start,status,reason\n",
         harmonics.join(",")
     );
     for row in rows {
@@ -164,37 +279,51 @@ pub(super) fn write(rows: &[SweepRow]) -> String {
             row.warm_up_cycles as f64,
         ];
         push_row(&mut csv, first.into_iter().chain(lines).chain(last));
+        csv.pop();
+        let start = if row.own_start { "quasi-static" } else { "neighbour" };
+        csv.push_str(&format!(",{start},{},{}\n", row.status.word(), quoted(&row.reason)));
     }
     csv
 }
 
 /// What a sweep is made for: the largest answer of each way, and where no periodic state was found.
 pub(super) fn headline(
-    scene: &Scene,
     words: (&MotionScene, &SweepScene),
     prepared: &Prepared,
-    rows: &[SweepRow],
+    (rows, vibration): (&[SweepRow], &Vibration),
+    critical_speeds: Vec<CriticalSpeed>,
     teeth: u32,
 ) -> SweepHeadline {
     let (motion, sweep) = words;
+    let has_motion = |r: &&SweepRow| r.status != SweepStatus::Failed;
     let largest = sweep.ways.iter().filter_map(|way| {
-        let of_way = rows.iter().filter(|r| r.way == *way);
+        let of_way = rows.iter().filter(|r| r.way == *way).filter(has_motion);
         of_way.max_by(|a, b| a.peak_to_peak_dte_um.total_cmp(&b.peak_to_peak_dte_um)).cloned()
     });
-    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
     let ste = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e);
     let [low, high] = ste.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], e| [l.min(e), h.max(e)]);
     let resonance = prepared.system.mesh_resonance_hz();
+    let of_status = |status: SweepStatus| rows.iter().filter(move |r| r.status == status);
     SweepHeadline {
         run: motion.run,
         mesh_resonance_hz: resonance,
         mesh_resonance_rpm: 60.0 * resonance / f64::from(teeth),
-        elasticity: prepared.elasticity.headline(highest_mesh_hz(scene, motion, None)),
+        inertia: InertiaHeadline::of(&prepared.system),
+        elasticity: prepared.elasticity.headline(vibration),
         mean_ste_um: 1e3 * prepared.quasi_static.mean_error(),
         peak_to_peak_ste_um: high - low,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
         mean_static_normal_force_n: prepared.quasi_static.normal_force,
         largest: largest.collect(),
-        not_periodic_rpm: rows.iter().filter(|r| r.periodicity > tolerance).map(|r| r.speed_rpm).collect(),
+        not_periodic_rpm: of_status(SweepStatus::NotPeriodic).map(|r| r.speed_rpm).collect(),
+        failed: of_status(SweepStatus::Failed)
+            .map(|r| FailedSpeed { way: r.way, speed_rpm: r.speed_rpm, reason: r.reason.clone() })
+            .collect(),
+        critical_speeds,
     }
+}
+
+/// The largest peak to peak of all speeds, um.
+pub(super) fn largest(rows: &[SweepRow]) -> f64 {
+    rows.iter().map(|r| r.peak_to_peak_dte_um).filter(|x| x.is_finite()).fold(0.0, f64::max)
 }

@@ -1,14 +1,27 @@
 //! Files of a result.
 
-use dynamics::pair_motion::SweepPoint;
+use dynamics::pair_motion::SweepOutcome;
 use study::{StudyError, Window};
 
-use super::{Columns, MotionHeadline, course::Finished, doubts, headline, prepare::Prepared, rows, spectra, sweep};
+use super::{
+    Columns, MotionHeadline,
+    course::Finished,
+    doubts,
+    elasticity::{Vibration, mesh_range_hz},
+    frequencies::{self, Frequencies},
+    headline,
+    options::speed,
+    passage::{self, Passage},
+    prepare::Prepared,
+    price::{Asked, Pace},
+    rows, spectra, sweep,
+};
 use crate::{
+    certificate::Written,
     error::CommandError,
-    facts::Cost,
+    facts::{Cost, Facts},
     output::{
-        MotionPictures, ResultDirectory, motion_table, sweep_table, write_columnar, write_motion_report,
+        MotionPictures, ResultDirectory, SweepPictures, motion_table, sweep_table, write_columnar, write_motion_report,
         write_patterns, write_summary, write_sweep_report,
     },
     phases::Phases,
@@ -19,7 +32,7 @@ pub(super) fn no_statistics(e: StudyError) -> CommandError {
     CommandError::failed(&e, e.hint())
 }
 
-/// All files of a motion; the text is the closing table.
+/// All files of a motion.
 pub(super) fn write_motion(
     scene: &Scene,
     words: &MotionScene,
@@ -27,19 +40,44 @@ pub(super) fn write_motion(
     results: &ResultDirectory,
     prepared: &Prepared,
     done: &Finished,
-) -> Result<String, CommandError> {
+) -> Result<Written, CommandError> {
     let rows = Columns::read(&results.path(rows::HISTORY))?;
-    let headline = headline::headline(scene, words, prepared, done, &rows).map_err(no_statistics)?;
+    let per_cycle = words.steps_per_mesh_cycle as usize;
+    let teeth = scene.driver_teeth();
+    let mut waterfall = Vec::new();
+    let mut over_speed = None;
+    if let Some(ramp) = words.ramp {
+        waterfall = spectra::waterfall(&rows, per_cycle, ramp.waterfall_cycles as usize, scene.pinion.teeth)
+            .map_err(no_statistics)?;
+        let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
+        over_speed = Some(Passage::of(&rows, per_cycle, (law, teeth), force, &waterfall).map_err(no_statistics)?);
+    }
+    let mut headline =
+        headline::headline(scene, words, prepared, done, &rows, over_speed.as_ref()).map_err(no_statistics)?;
+    let facts =
+        Facts { certificate: prepared.facts.certificate.clone().and(headline.checks()), ..prepared.facts.clone() };
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
-    warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
-    let (mut spectrum, mut waterfall) = (None, Vec::new());
-    let per_cycle = words.steps_per_mesh_cycle as usize;
-    match words.ramp {
-        Some(ramp) => {
-            waterfall = spectra::waterfall(&rows, per_cycle, ramp.waterfall_cycles as usize, scene.pinion.teeth)
-                .map_err(no_statistics)?;
+    let mesh_hz = mesh_range_hz(scene, words, Some(&rows));
+    let vibration = Vibration {
+        mesh_hz,
+        resonance: prepared.system.mesh_resonance(),
+        peak_to_peak_um: headline.peak_to_peak_dte_um,
+    };
+    let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
+    let asked = Asked::new(scene, words, cycles, mesh_hz);
+    let pace = pace(phases, &["settle", "solve"], headline.certificate.steps as f64);
+    warnings.extend(prepared.elasticity.warning(&vibration, &asked, pace));
+    let (mut spectrum, mut campbell) = (None, None);
+    match &over_speed {
+        Some(passage) => {
             results.write("waterfall.csv", spectra::write_waterfall(&waterfall, per_cycle).as_bytes())?;
+            results.write(passage::CYCLES, passage.cycles_csv().as_bytes())?;
+            results.write(passage::ORDER_CUTS, passage.cuts_csv().as_bytes())?;
+            let of = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
+            results.write(frequencies::FILE, of.to_csv().as_bytes())?;
+            headline.critical_speeds = of.critical_speeds();
+            campbell = Some(of);
         }
         None => {
             let window = window(words, &headline);
@@ -56,18 +94,27 @@ pub(super) fn write_motion(
         energy: &energy,
         spectrum: spectrum.as_ref(),
         waterfall: &waterfall,
+        ramp: over_speed.as_ref().map(|passage| (speed(scene), teeth, passage)),
+        campbell: campbell.as_ref(),
         per_cycle,
         quasi_static: Some(&prepared.quasi_static.transmission_error),
         view: prepared.view.as_ref(),
     };
     let pattern = write_patterns(scene, &done.patterns, results)?;
-    let report = write_motion_report(scene, &prepared.facts, &cost, &headline, &pictures, pattern, &warnings)?;
+    let report = write_motion_report(scene, &facts, &cost, &headline, &pictures, pattern, &warnings)?;
     report.write(results)?;
     write_columnar(scene, results)?;
     let files = results.files()?;
-    let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
+    let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
-    Ok(motion_table(scene, &prepared.facts, &cost, &headline, &warnings))
+    let table = motion_table(scene, &facts, &cost, &headline, &warnings);
+    Ok(Written { table, verdict: facts.certificate.verdict(scene) })
+}
+
+/// Wall time of a step in these phases, as far as they took so many.
+fn pace(phases: &Phases, names: &[&str], steps: f64) -> Pace {
+    let wall: f64 = phases.rows().iter().filter(|p| names.contains(&p.name.as_str())).map(|p| p.wall_s).sum();
+    Pace { step_s: (steps > 0.0 && wall > 0.0).then(|| wall / steps) }
 }
 
 /// None for a record that repeats itself, where every line stands in one bin.
@@ -85,18 +132,29 @@ pub(super) fn write_sweep(
     phases: &mut Phases,
     results: &ResultDirectory,
     prepared: &Prepared,
-    points: &[SweepPoint],
+    outcomes: &[SweepOutcome],
 ) -> Result<String, CommandError> {
-    let rows = sweep::rows(scene, &prepared.quasi_static, points).map_err(no_statistics)?;
-    let driver = [scene.pinion.teeth, scene.wheel.teeth][1 - prepared.system.options().contact.driven()];
-    let headline = sweep::headline(scene, words, prepared, &rows, driver);
+    let rows = sweep::rows(scene, words.0, &prepared.quasi_static, outcomes);
+    let teeth = scene.driver_teeth();
+    let mesh_hz = mesh_range_hz(scene, words.0, None);
+    let campbell = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
+    let resonance = prepared.system.mesh_resonance();
+    let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: sweep::largest(&rows) };
+    let headline = sweep::headline(words, prepared, (&rows, &vibration), campbell.critical_speeds(), teeth);
     let mut warnings = prepared.warnings.clone();
-    warnings.extend(prepared.elasticity.warning(headline.elasticity.highest_mesh_frequency_hz));
+    let waited: u64 = rows.iter().map(|r| r.warm_up_cycles + u64::from(scene.analysis.cycles)).sum();
+    let cycles = waited as f64 / rows.len().max(1) as f64;
+    // Steps are as long as rows ask for, or the resonance, at the mean speed.
+    let own_steps = f64::from(words.0.steps_per_mesh_cycle)
+        .max(f64::from(words.0.steps_per_resonance) * headline.mesh_resonance_hz / (0.5 * (mesh_hz[0] + mesh_hz[1])));
+    let pace = pace(phases, &["sweep"], waited as f64 * own_steps);
+    warnings.extend(prepared.elasticity.warning(&vibration, &Asked::new(scene, words.0, cycles, mesh_hz), pace));
     warnings.extend(doubts::of_sweep(&headline, rows.len()));
     results.write("resonance.csv", sweep::write(&rows).as_bytes())?;
+    results.write(frequencies::FILE, campbell.to_csv().as_bytes())?;
     let cost = Cost::of(phases);
-    let report =
-        write_sweep_report(scene, &prepared.facts, &cost, &headline, (&rows, prepared.view.as_ref()), &warnings)?;
+    let pictures = SweepPictures { rows: &rows, campbell: &campbell, teeth, view: prepared.view.as_ref() };
+    let report = write_sweep_report(scene, &prepared.facts, &cost, &headline, pictures, &warnings)?;
     report.write(results)?;
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);

@@ -48,7 +48,10 @@ pub fn write_compare_report(
     let heads: Vec<_> = runs
         .iter()
         .enumerate()
-        .map(|(i, run)| context! { letter => letter(i), label => run.label(), name => name(run), model => model(run) })
+        .map(|(i, run)| {
+            let missed: Vec<String> = run.missed().into_iter().map(str::to_owned).collect();
+            context! { letter => letter(i), label => run.label(), name => name(run), model => model(run), missed => missed }
+        })
         .collect();
     let rows: Vec<_> = numbers
         .iter()

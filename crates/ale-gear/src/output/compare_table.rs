@@ -15,6 +15,9 @@ pub fn compare_table(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[Wor
     for (i, run) in runs.iter().enumerate() {
         // Writing to a String cannot fail.
         let _ = writeln!(t, "  {} {}", letter(i), run.label());
+        for words in run.missed() {
+            let _ = writeln!(t, "    DOES NOT HOLD: {words}");
+        }
     }
     let label = numbers.iter().map(|r| r.key.len()).max().unwrap_or(0);
     let _ = write!(t, "\n  {:<label$} {:>WIDTH$}", "", letter(0));

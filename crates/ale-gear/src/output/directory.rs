@@ -123,7 +123,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 30] = [
+const OURS: [&str; 32] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -137,6 +137,8 @@ const OURS: [&str; 30] = [
     "spectrum.csv",
     "section.csv",
     "waterfall.csv",
+    "cycles.csv",
+    "order_cuts.csv",
     "resonance.csv",
     "campbell.csv",
     "sweep.csv",

@@ -5,6 +5,7 @@ use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{PressurePlace, RootStressHeadline, root_stress::root_stress_headline};
+use crate::run::worse;
 use crate::scene::{Driver, Scene};
 
 /// Mesh harmonics of the transmission error that are listed.
@@ -86,11 +87,6 @@ pub fn headline(scene: &Scene, history: &StaticHistory) -> Result<Headline, Stud
         bulk_compliance_error: worst(&|p| p.certificate.bulk_compliance_error),
         iterations: positions.iter().map(|p| p.certificate.iterations).sum(),
     })
-}
-
-/// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.
-fn worse(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a >= b { a } else { b }
 }
 
 /// Share of the driver's work over the mesh cycles that friction leaves; 1 without torque.

@@ -132,6 +132,11 @@ pub(crate) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
     csv.push('\n');
 }
 
+/// A text as one field of a file with commas: in quotes where it has to be.
+pub(crate) fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
 /// The shortest text that reads back to the same number.
 pub(super) fn push_number(text: &mut String, value: f64) {
     let plain = value == 0.0 || !value.is_finite() || (1e-4..1e12).contains(&value.abs());

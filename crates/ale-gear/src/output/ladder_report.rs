@@ -2,7 +2,8 @@
 
 use super::{
     Rendered,
-    charts::{Curve, dot_chart, frequency_chart, line_chart},
+    campbell_chart::campbell_chart,
+    charts::{Curve, dot_chart, line_chart},
     motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
     motion_report::render,
 };
@@ -50,7 +51,7 @@ pub(crate) fn write_ladder_report(
         charts.extend(displacement(&pictures.motion, name, whose));
         charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
     }
-    charts.extend(pictures.campbell.and_then(campbell_chart));
+    charts.extend(pictures.campbell.and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
     render(scene, facts, cost, headline, "ladder.html", charts, warnings)
 }
 
@@ -76,22 +77,4 @@ fn portrait(rows: &Columns, section: &Columns, name: &str, whose: &str) -> Optio
     let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
     let title = format!("Phase portrait of {whose}, and its Poincare section");
     dot_chart(&title, "displacement [um]", "velocity [mm/s]", &[motion, once])
-}
-
-/// Natural frequencies over speed with the orders that may meet them.
-fn campbell_chart(of: &CampbellDiagram) -> Option<String> {
-    let d = &of.diagram;
-    let highest = d.frequencies.iter().flatten().copied().fold(0.0, f64::max);
-    let rpm = |s: f64| 60.0 * s;
-    let modes = d.frequencies.iter().enumerate().map(|(m, line)| Curve {
-        label: if m == 0 { "natural frequencies".into() } else { String::new() },
-        points: d.speeds.iter().zip(line).map(|(s, f)| (rpm(*s), *f)).collect(),
-    });
-    let last = d.speeds.last().copied().unwrap_or(0.0);
-    let orders = d.orders.iter().zip(&of.names).map(|(order, name)| {
-        // No line leaves the diagram: it would squeeze the modes together.
-        let end = last.min(1.05 * highest / order);
-        Curve { label: name.clone(), points: vec![(0.0, 0.0), (rpm(end), order * end)] }
-    });
-    frequency_chart("Campbell diagram", modes.collect(), orders.collect())
 }

@@ -103,5 +103,9 @@ pub(crate) fn ladder_sweep_table(
         t.text("two answers", bands.len(), &text.join(", "));
     }
     t.text("points at which flanks part", s.parting, "");
+    if !s.failed.is_empty() {
+        let values: Vec<f64> = s.failed.iter().map(|(_, v, _)| *v).collect();
+        t.text("points without a solution", s.failed.len(), &listed(values));
+    }
     t.framed(scene, cost, warnings)
 }

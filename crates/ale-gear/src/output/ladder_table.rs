@@ -19,6 +19,13 @@ pub(crate) fn ladder_table(
     t.number("mesh frequency", h.mesh_frequency_hz, 1, "Hz");
     t.number("mesh resonance (mean stiffness)", h.mesh_resonance_hz, 1, "Hz");
     t.errors([h.mean_dte_um, h.peak_to_peak_dte_um], [h.mean_ste_um, h.peak_to_peak_ste_um]);
+    if let Some(ramp) = &h.ramp {
+        let largest = &ramp.peak_to_peak_dte_um;
+        t.number("largest peak-to-peak DTE of the ramp", largest.value, 4, &format!("um {}", largest.place()));
+        if let Some(factor) = &ramp.dynamic_factor {
+            t.number("  dynamic factor", factor.value, 4, &factor.place());
+        }
+    }
     t.number("mean contact-line length", h.mean_contact_line_length_mm, 3, "mm");
     t.number("normal force of the mean load", h.static_normal_force_n, 1, "N");
     t.number("mean normal force", h.mean_normal_force_n, 1, "N");

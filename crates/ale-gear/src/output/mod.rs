@@ -1,5 +1,6 @@
 //! Files and the closing table: what a user gets.
 
+mod campbell_chart;
 mod chart_csv;
 mod chart_tables;
 mod charts;
@@ -55,12 +56,12 @@ pub use directory::ResultDirectory;
 pub use headline::{Headline, headline};
 pub use heat_map::contact_pattern_svg;
 pub(crate) use history::history_columns;
-pub(crate) use history::push_row;
 pub use history::write_history;
+pub(crate) use history::{push_row, quoted};
 pub(crate) use ladder_report::{LadderPictures, write_ladder_report};
 pub(crate) use ladder_sweep::{bifurcation_picture, ladder_sweep_table, write_ladder_sweep_report};
 pub(crate) use ladder_table::ladder_table;
-pub(crate) use motion_charts::MotionPictures;
+pub(crate) use motion_charts::{MotionPictures, SweepPictures};
 pub(crate) use motion_precision::{motion_precision_csv, motion_precision_svg, motion_precision_table};
 pub(crate) use motion_report::{write_motion_report, write_sweep_report};
 pub(crate) use motion_table::{motion_table, sweep_table};

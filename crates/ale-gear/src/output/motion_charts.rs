@@ -1,11 +1,14 @@
 //! Charts of a motion and of a sweep.
 
+use dynamics::pair_motion::Speed;
+
 use super::{
+    campbell_chart::campbell_chart,
     charts::{Curve, figure, line_chart, stick_chart},
     field_map::{FieldMap, Side, share},
     plot_data::{Numbers, embedded},
 };
-use crate::motion::{Columns, SPECTRA, Spectrum, SweepRow, WaterfallLine};
+use crate::motion::{Columns, Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine};
 use crate::scene::SweepWay;
 use crate::view::View;
 
@@ -13,6 +16,8 @@ use crate::view::View;
 pub(super) const SHOWN_CYCLES: usize = 4;
 /// Orders of the spectrum that are drawn.
 const SHOWN_ORDERS: f64 = 12.0;
+/// Mesh orders whose amplitudes are drawn over speed.
+const SHOWN_CUTS: usize = 4;
 /// Columns and rows of the waterfall at most.
 const CELLS: [usize; 2] = [360, 300];
 /// Decades of the waterfall's colours.
@@ -29,6 +34,10 @@ pub(crate) struct MotionPictures<'a> {
     pub spectrum: Option<&'a Spectrum>,
     /// Waterfall of a run-up; else empty.
     pub waterfall: &'a [WaterfallLine],
+    /// A run-up or run-down: speed of the driver over time, its teeth, and what was found over speed.
+    pub ramp: Option<(Speed, u32, &'a Passage)>,
+    /// Mesh orders beside the frequencies that they may meet.
+    pub campbell: Option<&'a Frequencies>,
     /// Rows in a mesh cycle.
     pub per_cycle: usize,
     /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
@@ -39,14 +48,21 @@ pub(crate) struct MotionPictures<'a> {
 
 /// All charts of a motion.
 pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
-    let steady = of.waterfall.is_empty();
+    let steady = of.ramp.is_none();
     let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
     let time = &of.rows.get("time_s")[first..];
     let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
-    let (unit, axis) = if steady { (1e3, "time [ms], last mesh cycles") } else { (1.0, "time [s]") };
+    let unit = 1e3;
+    // Of a ramp everything is drawn over the speed that it is made for.
+    let place = |t: f64| match of.ramp {
+        Some((law, ..)) => law.at(t) / RPM,
+        None => unit * (t - begin),
+    };
+    let axis = of.ramp.map_or("time [ms], last mesh cycles".to_owned(), |(_, teeth, _)| speed_axis(teeth));
+    let axis = axis.as_str();
     let points = |column: &[f64]| -> Vec<(f64, f64)> {
         let column = column.get(first..).unwrap_or_default();
-        time.iter().zip(column).map(|(t, x)| (unit * (t - begin), *x)).collect()
+        time.iter().zip(column).map(|(t, x)| (place(*t), *x)).collect()
     };
     let curve = |label: &str, name: &str| Curve { label: label.to_owned(), points: points(of.rows.get(name)) };
     let mut errors = vec![curve("DTE", "dte_um")];
@@ -63,11 +79,14 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
         .collect();
     let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
     let energy_time = of.energy.get("time_s");
+    let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
+        if steady { ("time [s]", &|t| t) } else { (axis, &place) };
     let residual = Curve {
         label: "residual".into(),
-        points: energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (*t, *x)).collect(),
+        points: energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (energy_place(*t), *x)).collect(),
     };
-    let mut all = vec![
+    let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, passage)| passage_charts(passage, &speed_axis(teeth)));
+    all.extend([
         line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
         line_chart(
             "Total contact-line length",
@@ -80,7 +99,7 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
         line_chart("Load sharing", axis, "normal force [N]", if steady { &sharing } else { &[] }, true),
         line_chart("Axial force on the wheel", axis, "force [N]", &[curve("z", "wheel_force_z_n")], false),
         line_chart("Tilting moment about y", axis, "moment [N mm]", &moments, false),
-    ];
+    ]);
     for gear in ["pinion", "wheel"] {
         let names = of.rows.names_from(&format!("{gear}_bearing_force_"));
         let curves: Vec<Curve> = names
@@ -93,8 +112,43 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
         all.extend([0, 1].map(|i| spectrum_chart(spectrum, i)));
     }
     all.push(waterfall_chart(of.waterfall, of.per_cycle));
-    all.push(line_chart("Energy that does not close", "time [s]", "residual [mJ]", &[residual], false));
+    all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
+    all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
     all.into_iter().flatten().collect()
+}
+
+/// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
+fn speed_axis(teeth: u32) -> String {
+    let hz = f64::from(teeth) / 60.0;
+    format!("speed of the driver [1/min], each {hz:.4} Hz of mesh frequency")
+}
+
+/// What a ramp is made for: peak to peak, order cuts and forces over speed.
+fn passage_charts(of: &Passage, axis: &str) -> Vec<Option<String>> {
+    let cycles = |label: &str, value: &dyn Fn(&PassageCycle) -> f64| Curve {
+        label: label.into(),
+        points: of.cycles.iter().map(|c| (c.driver_speed_rpm, value(c))).collect(),
+    };
+    let orders = of.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0).min(SHOWN_CUTS);
+    let cuts: Vec<Curve> = (0..orders)
+        .map(|n| Curve {
+            label: format!("mesh order {}", n + 1),
+            points: of.cuts.iter().map(|c| (c.driver_speed_rpm, c.amplitudes_um[n])).collect(),
+        })
+        .collect();
+    let forces = [
+        cycles("sum, largest", &|c| c.max_normal_force_n),
+        cycles("sum, least", &|c| c.min_normal_force_n),
+        cycles("one pair, largest", &|c| c.max_pair_normal_force_n.unwrap_or(f64::NAN)),
+    ];
+    let peak = [cycles("peak to peak", &|c| c.peak_to_peak_dte_um)];
+    let factor = [cycles("largest over static force", &|c| c.dynamic_factor)];
+    vec![
+        line_chart("Peak to peak of the DTE in each mesh cycle", axis, "peak to peak [um]", &peak, true),
+        line_chart("Order cuts of the DTE", axis, "amplitude [um]", &cuts, true),
+        line_chart("Dynamic factor of each mesh cycle", axis, "largest over static force", &factor, true),
+        line_chart("Normal forces of each mesh cycle", axis, "force [N]", &forces, true),
+    ]
 }
 
 /// The quasi-static error of one cycle under every cycle drawn.
@@ -121,8 +175,22 @@ fn spectrum_chart(spectrum: &Spectrum, quantity: usize) -> Option<String> {
     stick_chart(title, "mesh order", unit, Curve { label: "amplitude".into(), points })
 }
 
-/// Largest minus smallest DTE over speed, way by way, and the largest force.
-pub(super) fn sweep_charts(rows: &[SweepRow]) -> Vec<String> {
+/// What the charts of a sweep are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SweepPictures<'a> {
+    /// A row a way and speed.
+    pub rows: &'a [SweepRow],
+    /// Mesh orders beside the frequencies that they may meet.
+    pub campbell: &'a Frequencies,
+    /// Teeth of the driver.
+    pub teeth: u32,
+    /// The gears in space; `None` where a model has none.
+    pub view: Option<&'a View>,
+}
+
+/// Largest minus smallest DTE over speed, way by way, its orders, and the largest force.
+pub(super) fn sweep_charts(of: &SweepPictures<'_>) -> Vec<String> {
+    let rows = of.rows;
     let curves = |value: &dyn Fn(&SweepRow) -> f64| -> Vec<Curve> {
         [SweepWay::Apart, SweepWay::Up, SweepWay::Down]
             .into_iter()
@@ -138,11 +206,21 @@ pub(super) fn sweep_charts(rows: &[SweepRow]) -> Vec<String> {
             })
             .collect()
     };
-    let speed = "speed of the driver [1/min]";
+    let axis = speed_axis(of.teeth);
+    let speed = axis.as_str();
+    let orders = rows.iter().map(|r| r.dte_harmonics_um.len()).min().unwrap_or(0);
+    let cuts: Vec<Curve> = (0..orders)
+        .flat_map(|n| {
+            let ways = curves(&|r: &SweepRow| r.dte_harmonics_um[n]);
+            ways.into_iter().map(move |c| Curve { label: format!("mesh order {}, {}", n + 1, c.label), ..c })
+        })
+        .collect();
     [
         line_chart("Peak to peak of the DTE", speed, "peak to peak [um]", &curves(&|r| r.peak_to_peak_dte_um), true),
         line_chart("Dynamic factor", speed, "largest over static force", &curves(&|r| r.dynamic_factor), true),
+        line_chart("Order cuts of the DTE", speed, "amplitude [um]", &cuts, true),
         line_chart("Mean DTE", speed, "mean [um]", &curves(&|r| r.mean_dte_um), false),
+        campbell_chart(&of.campbell.diagram, &of.campbell.orders, &of.campbell.names),
     ]
     .into_iter()
     .flatten()

@@ -84,7 +84,8 @@ pub(crate) fn motion_precision_table(of: &Precision, command: &str) -> String {
         }
         let _ = write!(t, "\n| {method}: time |");
         for p in points() {
-            let _ = write!(t, " {:.1} |", 1e3 * p.cycle_s);
+            let time = if p.cycle_s.is_finite() { format!("{:.1}", 1e3 * p.cycle_s) } else { "-".into() };
+            let _ = write!(t, " {time} |");
         }
     }
     t.push('\n');

@@ -4,14 +4,13 @@ use serde::Serialize;
 
 use super::{
     Rendered,
-    motion_charts::{MotionPictures, motion_charts, sweep_charts},
+    motion_charts::{MotionPictures, SweepPictures, motion_charts, sweep_charts},
     page::Page,
 };
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
-use crate::motion::{MotionHeadline, SweepHeadline, SweepRow};
+use crate::motion::{MotionHeadline, SweepHeadline};
 use crate::scene::Scene;
-use crate::view::View;
 
 /// The report of one motion; `pattern` is the picture of the contact pattern.
 ///
@@ -41,10 +40,11 @@ pub(crate) fn write_sweep_report(
     facts: &Facts,
     cost: &Cost,
     headline: &SweepHeadline,
-    (rows, view): (&[SweepRow], Option<&View>),
+    pictures: SweepPictures<'_>,
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
-    let page = Page { scene, facts, cost, headline, charts: sweep_charts(rows), pattern: None, view, warnings };
+    let charts = sweep_charts(&pictures);
+    let page = Page { scene, facts, cost, headline, charts, pattern: None, view: pictures.view, warnings };
     page.render("sweep.html")
 }
 

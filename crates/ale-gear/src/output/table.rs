@@ -32,6 +32,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
             t.number(&format!("largest root von Mises, {name}"), gear.von_mises.stress_mpa, 1, "MPa");
         }
     }
+    t.iso_root_stress(facts);
     t.text("tooth changes", h.tooth_changes, "");
     t.resolution(scene, facts);
     t.science("worst torque residual", h.worst_torque_residual, "");
@@ -52,6 +53,9 @@ impl Lines {
     /// Begins with what every analysis has: the contact ratio.
     pub(super) fn new(facts: &Facts) -> Self {
         let mut lines = Self(String::new());
+        for check in facts.certificate.missed() {
+            lines.text("THE RESULT DOES NOT HOLD", "", &check.words());
+        }
         lines.text("contact ratio eps_gamma", format!("{:.4}", facts.geometry.eps_gamma), "");
         lines
     }
@@ -96,6 +100,14 @@ impl Lines {
         for (k, label) in ["mean DTE", "peak-to-peak DTE"].into_iter().enumerate() {
             self.number(label, dynamic[k], 4, "um");
             self.number("  quasi-static", quasi_static[k], 4, "um");
+        }
+    }
+
+    /// Nominal root stresses of the standard, where there are some.
+    pub(super) fn iso_root_stress(&mut self, facts: &Facts) {
+        if let Some(iso) = &facts.iso_root_stress {
+            let [pinion, wheel] = [&iso.pinion, &iso.wheel].map(|g| fixed(g.nominal_root_stress_mpa, 1));
+            self.text("nominal root stress by ISO 6336-3", format!("{pinion}, {wheel}"), "MPa (pinion, wheel)");
         }
     }
 

@@ -1,5 +1,7 @@
 //! Where a checked scene becomes a call of the solvers.
 
+mod certificate;
+mod coarse;
 mod doubts;
 mod foreseen;
 mod options;
@@ -19,10 +21,11 @@ use crate::phases::Phases;
 use crate::resolution::resolution;
 use crate::scene::{Analysis, Model, Scene};
 use crate::view::ViewRecorder;
-use crate::{gears, iso_model, meshes};
+use crate::{gears, iso_model, iso_root, meshes};
 use doubts::doubts;
 
-pub(crate) use doubts::sector_warnings;
+pub(crate) use certificate::{certificate, worse};
+pub(crate) use doubts::body_warnings;
 pub(crate) use foreseen::foreseen_s;
 pub(crate) use options::options;
 
@@ -97,12 +100,15 @@ fn solve_scene(
         resolution: Some(resolution),
         ..Facts::default()
     };
+    if scene.output.root_stress {
+        warnings.extend(iso_root::add(&mut facts, scene, &pair));
+    }
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
     facts.model.insert("cyclic_gears".into(), cyclic.into());
     let stored = model.gears().iter().filter(|g| reduced(g).is_some_and(GearReducer::is_from_record)).count();
     facts.model.insert("gears_from_cache".into(), stored.into());
     facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
-    warnings.extend(sector_warnings(&model));
+    warnings.extend(body_warnings(&model));
     warnings.extend(doubts(&history.positions, scene.pair.normal_module_mm));
     let view =
         in_space.then(|| phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings))).flatten();

@@ -49,10 +49,7 @@ impl Scene {
 
     /// The content of a file that the scene names.
     pub(crate) fn content(&self, path: &Path) -> io::Result<Cow<'static, [u8]>> {
-        match self.origin {
-            Origin::Disk => geometry::read_regular_file(&self.resolve(path)).map(Cow::Owned),
-            Origin::Program => in_program(path).map(Cow::Borrowed).ok_or(io::ErrorKind::NotFound.into()),
-        }
+        content(self.origin, &self.file, path)
     }
 
     /// Every file that the scene names, as it names them: meshes, topographies, pitch errors; pinion first, each once.
@@ -71,6 +68,14 @@ fn files_of(gear: &GearScene) -> impl Iterator<Item = &Path> {
     let flanks = [&gear.modification.drive, &gear.modification.coast];
     let topographies = flanks.into_iter().filter_map(|f| f.topography.as_deref());
     gear.mesh.as_deref().into_iter().chain(topographies).chain(gear.pitch_errors_file.as_deref())
+}
+
+/// The content of a file that the scene `scene` names.
+pub(super) fn content(origin: Origin, scene: &Path, path: &Path) -> io::Result<Cow<'static, [u8]>> {
+    match origin {
+        Origin::Disk => geometry::read_regular_file(&resolved(scene, path)).map(Cow::Owned),
+        Origin::Program => in_program(path).map(Cow::Borrowed).ok_or(io::ErrorKind::NotFound.into()),
+    }
 }
 
 /// A path in a scene as seen from here.

@@ -46,6 +46,18 @@ pub enum MotionError<E> {
         /// Least step, s.
         least: f64,
     },
+    /// An explicit method is far from stable with steps of given length.
+    #[error(
+        "at {time:.9} s: the explicit method is stable with steps of up to {longest:.3e} s here, a step is {step:.3e} s"
+    )]
+    Unstable {
+        /// Time, s.
+        time: f64,
+        /// Step, s.
+        step: f64,
+        /// Longest stable step, s.
+        longest: f64,
+    },
     /// A matrix that must be regular is not.
     #[error("at {time:.9} s: the {which} matrix is singular")]
     Singular {
@@ -77,6 +89,9 @@ impl<E> MotionError<E> {
             }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
+            }
+            Self::Unstable { .. } => {
+                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), let an `error_tolerance` choose them, or take an implicit `method`"
             }
             Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
             Self::Options(_) => "correct the integrator's options",

@@ -15,6 +15,7 @@ mod mechanism;
 mod newton;
 mod runge_kutta;
 mod scheme;
+mod stability;
 mod state;
 
 pub use error::MotionError;
@@ -23,4 +24,5 @@ pub use integrator::{Integrator, Progress};
 pub use ledger::Ledger;
 pub use mechanism::{Forces, Mechanism};
 pub use scheme::{Scheme, StepControl};
+pub use stability::{StepLimit, Stiffest};
 pub use state::State;

@@ -1,5 +1,8 @@
 //! Newton's method on one implicit step.
 //!
+//! Where whole steps do not settle, because a contact opens and closes or friction turns round in turns, they are followed along their lines to where the residual's work along them ends: a friction
+//! that changes its sign within a tenth of a mm/s is found between two steps that both jump over it, however short the time step is.
+//!
 //! The tangent is made once and kept as long as steps shrink fast with it: what such a step leaves is its own contraction times itself, so two steps tell when to stop. Where they do not
 //! shrink fast, because contact opens or closes, tangents are made anew.
 
@@ -11,8 +14,12 @@ use super::Forces;
 pub(super) const ITERATIONS: usize = 40;
 /// Last change that is round-off, relative to the motion's scale.
 const TOLERANCE: f64 = 1e-11;
-/// Iterations after which steps are shortened: a contact that opens and closes in turns settles between.
+/// Iterations after which steps are followed along their lines: what jumps to and fro settles between.
 const PATIENCE: usize = 10;
+/// Share of the work at the beginning of a line that may be left where it ends.
+const OF_LINE: f64 = 0.5;
+/// Places on a line.
+const PLACES: u32 = 12;
 /// Changes up to this many times round-off that do not fall any more are the noise of the forces themselves. Forces from a contact solver are good to some 1e-11.
 const NOISE: f64 = 1e4;
 /// What a step must leave of the one before it for the tangent to be kept.
@@ -25,14 +32,56 @@ const LEFT: f64 = 0.5;
 pub(super) struct Newton {
     factor: Option<LU<f64, Dyn, Dyn>>,
     step: DVector<f64>,
-    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before.
+    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite after a part of a step, which says nothing of what is left.
     changes: [f64; 2],
+    /// The same of the last step, also of a part.
+    last: f64,
+    /// The step that is being followed.
+    line: Option<Line>,
+    /// Whether the last step is a part of one.
+    part: bool,
+}
+
+/// A step on the way along its line: q = q_0 - share step.
+#[derive(Debug)]
+struct Line {
+    step: DVector<f64>,
+    /// Work of the residual along the step where the line begins, > 0.
+    work: f64,
+    share: f64,
+    /// Shares below which work is left, and beyond which it is against the step.
+    bracket: [f64; 2],
+    places: u32,
+}
+
+impl Line {
+    /// From the residual `rest` where the line begins; `None` where the step does not go against it.
+    fn along(step: &DVector<f64>, rest: &DVector<f64>) -> Option<Self> {
+        let work = rest.dot(step);
+        (work > 0.0).then(|| Self { step: step.clone(), work, share: 1.0, bracket: [0.0, f64::INFINITY], places: 0 })
+    }
+
+    /// What is to be taken away from the coordinates next, with the residual where they stand; `None` where the line ends.
+    fn onwards(&mut self, rest: &DVector<f64>) -> Option<DVector<f64>> {
+        let left = rest.dot(&self.step) / self.work;
+        self.bracket[usize::from(left < 0.0)] = self.share;
+        let [low, high] = self.bracket;
+        self.places += 1;
+        if left.abs() <= OF_LINE || high.is_infinite() || left.is_nan() || self.places > PLACES {
+            return None;
+        }
+        let next = 0.5 * (low + high);
+        let by = (next - self.share) * &self.step;
+        self.share = next;
+        Some(by)
+    }
 }
 
 impl Newton {
     pub fn new(forces: &mut Forces) -> Self {
         (forces.tangents, forces.rates) = (true, false);
-        Self { factor: None, step: DVector::zeros(0), changes: [f64::INFINITY; 2] }
+        let changes = [f64::INFINITY; 2];
+        Self { factor: None, step: DVector::zeros(0), changes, last: f64::INFINITY, line: None, part: false }
     }
 
     /// Has the tangent made anew at the next evaluation.
@@ -43,7 +92,7 @@ impl Newton {
     /// Makes forces ready for the next evaluation, with tangents or without.
     pub fn prepare(&mut self, forces: &mut Forces) {
         let [last, before] = self.changes;
-        if before.is_finite() && last > SLOW * before {
+        if self.line.is_some() || (before.is_finite() && last > SLOW * before) {
             self.factor = None;
         }
         forces.tangents = self.factor.is_none();
@@ -58,10 +107,15 @@ impl Newton {
         rest: &DVector<f64>,
         iteration: usize,
     ) -> Option<&DVector<f64>> {
+        if let Some(by) = self.line.as_mut().and_then(|line| line.onwards(rest)) {
+            (self.step, self.part) = (by, true);
+            return Some(&self.step);
+        }
+        (self.line, self.part) = (None, false);
         let factor = self.factor.get_or_insert_with(|| LU::new(matrix(forces)));
         self.step = factor.solve(rest).filter(|x| x.iter().all(|x| x.is_finite()))?;
         if iteration >= PATIENCE {
-            self.step *= 0.5;
+            self.line = Line::along(&self.step, rest);
         }
         Some(&self.step)
     }
@@ -69,12 +123,13 @@ impl Newton {
     /// Measures the last step, taken to `q`.
     pub fn measure(&mut self, q: &DVector<f64>, scale: &DVector<f64>) {
         let one = |i: usize| self.step[i].abs() / (TOLERANCE * scale[i]).max(8.0 * f64::EPSILON * q[i].abs());
-        self.changes = [(0..q.len()).map(one).fold(0.0, f64::max), self.changes[0]];
+        self.last = (0..q.len()).map(one).fold(0.0, f64::max);
+        self.changes = if self.part { [f64::INFINITY; 2] } else { [self.last, self.changes[0]] };
     }
 
     /// Largest change of a coordinate by the last step over what is round-off for it.
     pub fn change(&self) -> f64 {
-        self.changes[0]
+        self.last
     }
 
     /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are noise.

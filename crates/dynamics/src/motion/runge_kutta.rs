@@ -48,7 +48,24 @@ pub(super) const DORMAND_PRINCE: Table<7> = Table {
 };
 
 impl<const S: usize> Table<S> {
-    /// One step of length `h`; the ledger's entries of the step come with it.
+    /// Coefficients c_k of the stability polynomial R(z) = sum of c_k z^k, the growth of x' = lambda x in a step with z = h lambda.
+    ///
+    /// ```text
+    /// R(z) = 1 + z b' (1 - z A)^-1 1,   c_0 = 1,  c_k = b' A^(k-1) 1
+    /// ```
+    /// b are the weights of the method, A its stages.
+    pub(super) fn stability_polynomial(&self) -> Vec<f64> {
+        let mut powers = [1.0; S];
+        let mut coefficients = vec![1.0];
+        for _ in 1..S {
+            coefficients.push(self.stages[S - 1].iter().zip(&powers).map(|(b, x)| b * x).sum());
+            powers = self.stages.map(|stage| stage.iter().zip(&powers).map(|(a, x)| a * x).sum());
+        }
+        coefficients
+    }
+
+    /// One step of length `h`; the ledger's entries of the step come with it. `forces` are those of its end, with tangents where `tangents` says so.
+    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
     pub(super) fn step<M: Mechanism>(
         &self,
         system: &mut M,
@@ -57,10 +74,13 @@ impl<const S: usize> Table<S> {
         h: f64,
         forces: &mut Forces,
         book: &mut Ledger,
+        tangents: bool,
     ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
-        (forces.tangents, forces.rates) = (false, true);
         let mut rates: Vec<(DVector<f64>, DVector<f64>, [f64; 3])> = Vec::with_capacity(S);
-        for (stage, &node) in self.stages.iter().zip(&self.nodes) {
+        for (i, (stage, &node)) in self.stages.iter().zip(&self.nodes).enumerate() {
+            // The last stage has no weight in the work.
+            let last = i == S - 1;
+            (forces.tangents, forces.rates) = (last && tangents, !last);
             let time = from.time + node * h;
             let (mut q, mut v) = (from.q.clone(), from.v.clone());
             for (rate, &weight) in rates.iter().zip(stage).filter(|(_, weight)| **weight != 0.0) {

@@ -18,6 +18,13 @@ pub enum Scheme {
     RungeKutta4,
 }
 
+impl Scheme {
+    /// Whether steps beyond a limit of length let every motion grow without bounds.
+    pub fn is_explicit(&self) -> bool {
+        matches!(self, Self::DormandPrince | Self::RungeKutta4)
+    }
+}
+
 /// How long steps are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepControl {

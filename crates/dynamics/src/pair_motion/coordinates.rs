@@ -3,7 +3,7 @@
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SVector};
 
-use super::body::COORDINATES;
+use super::body::{COORDINATES, RigidBody};
 use crate::StaticOptions;
 
 /// Displacements (mm) and turns (rad) of pinion and wheel from their nominal motion, twelve in all.
@@ -64,6 +64,27 @@ impl Coordinates {
         Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
+    /// The same with the lag shared between both gears, so that it leaves the momentum of their common motion alone. Theory (45a).
+    ///
+    /// ```text
+    /// x = x_driver - x_driven,   m_driver x_driver + m_driven x_driven = 0,   m = J / r_b^2
+    /// ```
+    /// x along the line of action, forwards. Without bodies that have inertia nothing changes.
+    #[must_use]
+    pub(super) fn sharing_the_lag(mut self, pair: &GearPair, options: &StaticOptions, bodies: &[RigidBody; 2]) -> Self {
+        let driven = options.driven();
+        let turn = |g: usize| COORDINATES * (g + 1) - 1;
+        let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
+        let mass = [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]));
+        let of_driver = mass[driven] / (mass[0] + mass[1]);
+        if of_driver.is_finite() {
+            // The driver runs ahead the way the driven gear lags: one turns against the other.
+            self.map[(turn(1 - driven), self.lag)] = of_driver * options.side().sign() / base[1 - driven];
+            self.map[(turn(driven), self.lag)] *= 1.0 - of_driver;
+        }
+        self
+    }
+
     /// Number of free coordinates n.
     pub fn count(&self) -> usize {
         self.map.ncols()
@@ -118,7 +139,7 @@ impl Coordinates {
     }
 
     /// T' diag(M_1, M_2) T.
-    pub fn mass(&self, bodies: &[super::RigidBody; 2]) -> DMatrix<f64> {
+    pub fn mass(&self, bodies: &[RigidBody; 2]) -> DMatrix<f64> {
         let mut full = nalgebra::SMatrix::<f64, 12, 12>::zeros();
         for (g, body) in bodies.iter().enumerate() {
             full.fixed_view_mut::<6, 6>(6 * g, 6 * g).copy_from(&body.matrix());

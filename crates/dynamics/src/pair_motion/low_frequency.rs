@@ -10,74 +10,171 @@
 /// at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such gears is up to twice as high: as a bound it would warn too late.
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
 
-/// Share of the largest harmonic from which on a harmonic of the transmission error matters.
-const MATTERS: f64 = 0.1;
+/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at [`LOW_FREQUENCY_LIMIT`] changes far above the mesh resonance, r^2.
+pub const CHANGE_LIMIT: f64 = LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT;
 
-/// Mesh harmonics beside the lowest elastic frequencies of both gears.
+/// Damping ratio of an elastic mode that an exciting frequency meets: of a steel gear with what holds it.
+const MODE_DAMPING: f64 = 0.01;
+/// Least damping ratio of the mesh that is reckoned with.
+const MESH_DAMPING: f64 = 0.005;
+/// Mesh frequencies at which a motion that passes through many is looked at, beside those that meet a resonance.
+const PLACES: usize = 256;
+
+/// The mesh resonance: frequency of the two gears on the mean stiffness of their teeth, Hz, and its damping ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ElasticRatio {
-    /// Highest mesh frequency, Hz.
-    pub mesh_hz: f64,
-    /// Highest harmonic of it that matters, 1 the mesh frequency itself.
-    pub harmonic: usize,
-    /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz ([`reduction::LowestFrequencies::flanks_free_hz`]).
-    pub elastic_hz: [f64; 2],
+pub struct MeshResonance {
+    /// Frequency, Hz.
+    pub hz: f64,
+    /// Damping ratio.
+    pub damping: f64,
 }
 
-impl ElasticRatio {
+/// What elastic inertia that is left out may change in the transmission error. Theory (63).
+///
+/// ```text
+/// x_k = A_k / (1 - rho_k^2 D_k + 2 i zeta rho_k),   rho_k = k f_m / f_0,   D_k = 1 / (1 - r_k^2),   r_k = k f_m / f_1
+/// change(f_m) = sum_k | |x_k| - |x_k at D = 1| |,   share = max change / max sum_k |x_k at D = 1|
+/// ```
+/// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and bodies give way by D times as much as at rest, if all of their compliance is in the
+/// lowest mode. So it is a bound. Both are compared at equal places beside the resonance, which D lowers by (f_0 / f_1)^2 / 2 at the most: a percent, and less than the mean stiffness is known to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticChange {
+    /// Mesh frequency at which most may change, Hz.
+    pub mesh_hz: f64,
+    /// Mesh harmonic that has the largest part in it, 1 the mesh frequency itself.
+    pub harmonic: usize,
+    /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz ([`reduction::LowestFrequencies::flanks_free_hz`]), or the highest mode that is kept.
+    pub elastic_hz: [f64; 2],
+    /// By how much of itself the peak to peak may change.
+    pub share: f64,
+}
+
+impl ElasticChange {
+    /// `amplitudes`: of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz`: least and highest mesh frequency of the motion.
+    pub fn of(amplitudes: &[f64], mesh_hz: [f64; 2], elastic_hz: [f64; 2], resonance: MeshResonance) -> Self {
+        let lowest = elastic_hz[0].min(elastic_hz[1]);
+        let response = Response { resonance, lowest };
+        let [from, to] = mesh_hz;
+        let shift = response.shift();
+        let part = |k: usize, mesh: f64| {
+            let hz = (k + 1) as f64 * mesh;
+            let still = amplitudes[k].abs() * response.size(hz, false);
+            [still, (amplitudes[k].abs() * response.size(shift * hz, true) - still).abs()]
+        };
+        let passed = (0..=PLACES).map(|i| from + (to - from) * i as f64 / PLACES as f64);
+        let met = (1..=amplitudes.len()).flat_map(|k| [lowest / k as f64, resonance.hz / k as f64]);
+        let met = met.filter(|f| (from..to).contains(f));
+        let (mut worst, mut largest, mut most) =
+            (Self { mesh_hz: to, harmonic: 1, elastic_hz, share: 0.0 }, 0.0f64, 0.0);
+        for mesh in passed.chain(met) {
+            let parts: Vec<[f64; 2]> = (0..amplitudes.len()).map(|k| part(k, mesh)).collect();
+            largest = largest.max(parts.iter().map(|p| p[0]).sum());
+            let change: f64 = parts.iter().map(|p| p[1]).sum();
+            if change > most {
+                let first = |best: usize, k: usize| if parts[k][1] > parts[best][1] { k } else { best };
+                most = change;
+                worst.mesh_hz = mesh;
+                worst.harmonic = 1 + (0..parts.len()).fold(0, first);
+            }
+        }
+        worst.share = if largest > 0.0 { most / largest } else { 0.0 };
+        worst
+    }
+
+    /// Frequency of the harmonic, Hz.
+    pub fn harmonic_hz(&self) -> f64 {
+        self.harmonic as f64 * self.mesh_hz
+    }
+
     /// Harmonic times mesh frequency over the lowest elastic frequency, of pinion and wheel.
     pub fn ratios(&self) -> [f64; 2] {
-        self.elastic_hz.map(|f| self.harmonic as f64 * self.mesh_hz / f)
+        self.elastic_hz.map(|f| self.harmonic_hz() / f)
     }
 
     /// The larger one.
-    pub fn largest(&self) -> f64 {
+    pub fn largest_ratio(&self) -> f64 {
         self.ratios().into_iter().fold(0.0, f64::max)
     }
 
-    /// What to tell the user when elasticity is taken for quasi-static above [`LOW_FREQUENCY_LIMIT`]; `None` below.
-    pub fn warning(&self) -> Option<String> {
-        let [pinion, wheel] = self.ratios();
-        let (gear, ratio, hz) =
-            if pinion >= wheel { ("pinion", pinion, self.elastic_hz[0]) } else { ("wheel", wheel, self.elastic_hz[1]) };
-        (ratio > LOW_FREQUENCY_LIMIT).then(|| {
-            format!(
-                "mesh harmonic {} at {:.0} Hz is {ratio:.2} of the {gear}'s lowest elastic frequency, {hz:.0} Hz (bore held, flanks free); quasi-static elasticity \
-                 holds up to {LOW_FREQUENCY_LIMIT}: take the model `reduced+modes`",
-                self.harmonic,
-                self.harmonic as f64 * self.mesh_hz
-            )
-        })
+    /// Whether a user should hear of it.
+    pub fn matters(&self) -> bool {
+        self.share > CHANGE_LIMIT
     }
 }
 
-/// The highest harmonic that matters: of at least a tenth of the largest amplitude. `amplitudes`: of harmonics 1, 2, ... of the static transmission error; 1 where there are none.
-pub fn harmonic_that_matters(amplitudes: &[f64]) -> usize {
-    let largest = amplitudes.iter().fold(0.0f64, |m, a| m.max(a.abs()));
-    let last = amplitudes.iter().rposition(|a| largest > 0.0 && a.abs() >= MATTERS * largest);
-    last.map_or(1, |i| i + 1)
+/// Both gears on their teeth, with and without inertia of elastic deformation.
+struct Response {
+    resonance: MeshResonance,
+    /// f_1, Hz.
+    lowest: f64,
+}
+
+impl Response {
+    /// |1 / (1 - rho^2 D + 2 i zeta rho)|.
+    fn size(&self, hz: f64, elastic: bool) -> f64 {
+        let (rho, zeta) = (hz / self.resonance.hz, self.resonance.damping.max(MESH_DAMPING));
+        let times = if elastic { gives_way(hz / self.lowest) } else { 1.0 };
+        1.0 / (1.0 - rho * rho * times).hypot(2.0 * zeta * rho)
+    }
+
+    /// Mesh resonance with that inertia over the one without: rho^2 D = 1.
+    fn shift(&self) -> f64 {
+        1.0 / (1.0 + (self.resonance.hz / self.lowest).powi(2)).sqrt()
+    }
+}
+
+/// D = 1 / (1 - r^2), and no more either way than damping lets it.
+fn gives_way(r: f64) -> f64 {
+    let rest = 1.0 - r * r;
+    1.0 / rest.abs().max(2.0 * MODE_DAMPING).copysign(rest)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The warning comes with the first ratio above the limit, names the gear that it is about, and what to do.
+    const ELASTIC: [f64; 2] = [36_000.0, 24_000.0];
+    const LOW: MeshResonance = MeshResonance { hz: 50.0, damping: 0.05 };
+
+    /// Far above the mesh resonance one harmonic alone matters from a quarter of the lower elastic frequency on, and gets smaller by r^2.
     #[test]
-    fn warning_names_gear_and_remedy() {
-        let at = |mesh_hz: f64| ElasticRatio { mesh_hz, harmonic: 3, elastic_hz: [36_000.0, 24_000.0] };
-        assert_eq!(at(2_000.0).warning(), None, "the limit itself is allowed");
-        let said = at(2_001.0).warning().unwrap();
-        assert!(
-            said.contains("harmonic 3 at 6003 Hz is 0.25 of the wheel's") && said.contains("`reduced+modes`"),
-            "{said}"
-        );
+    fn one_harmonic_matters_from_the_limit_on() {
+        let at = |mesh_hz: f64| ElasticChange::of(&[0.0, 0.0, 1.0], [mesh_hz; 2], ELASTIC, LOW);
+        assert!(!at(1_990.0).matters() && at(2_010.0).matters(), "{:?} {:?}", at(1_990.0), at(2_010.0));
+        assert_eq!((at(2_010.0).harmonic, at(2_010.0).harmonic_hz()), (3, 6_030.0));
+        assert!((at(4_000.0).share / 0.25 - 1.0).abs() < 1e-2, "{:?}", at(4_000.0));
+        assert!(at(8_000.0).share > 0.9, "at its own frequency the gear gives way to everything: {:?}", at(8_000.0));
     }
 
+    /// Far below the mesh resonance the gears follow their teeth however they give way.
     #[test]
-    fn small_harmonics_do_not_matter() {
-        assert_eq!(harmonic_that_matters(&[2.0, -0.5, 0.21, 0.19, 0.0]), 3);
-        assert_eq!(harmonic_that_matters(&[]), 1);
-        assert_eq!(harmonic_that_matters(&[0.0, 0.0]), 1);
+    fn slow_gears_change_little() {
+        let stiff = MeshResonance { hz: 20_000.0, damping: 0.05 };
+        assert!(ElasticChange::of(&[1.0, 0.5], [500.0; 2], ELASTIC, stiff).share < 1e-4);
+    }
+
+    /// A harmonic of a thousandth of the motion may be as fast as it likes.
+    #[test]
+    fn a_small_harmonic_changes_little() {
+        let resonance = MeshResonance { hz: 4_000.0, damping: 0.05 };
+        let change = |a: &[f64]| ElasticChange::of(a, [500.0; 2], ELASTIC, resonance);
+        let mut all = [0.0; 32];
+        (all[0], all[24]) = (0.1, 0.0001);
+        assert!(change(&all[..24]).share < 0.01 && !change(&all).matters(), "{:?}", change(&all));
+        all[0] = 0.0;
+        assert!(change(&all).matters(), "the only one there is: {:?}", change(&all));
+        assert_eq!(change(&[]).share, 0.0);
+    }
+
+    /// The mesh resonance is a percent lower with elastic inertia: its peak and its flanks are the same.
+    #[test]
+    fn a_shifted_resonance_is_no_change() {
+        let resonance = MeshResonance { hz: 4_000.0, damping: 0.02 };
+        let passing = ElasticChange::of(&[1.0], [2_000.0, 5_000.0], ELASTIC, resonance);
+        assert!(!passing.matters(), "{passing:?}");
+        let on_its_flank = ElasticChange::of(&[1.0], [4_100.0; 2], ELASTIC, resonance);
+        assert!(!on_its_flank.matters(), "{on_its_flank:?}");
+        let far_above = ElasticChange::of(&[1.0], [12_000.0; 2], ELASTIC, resonance);
+        assert!(far_above.matters(), "{far_above:?}");
     }
 }

@@ -8,8 +8,11 @@ use crate::StaticOptions;
 /// How the driver is driven.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Drive {
-    /// Its angle is prescribed.
+    /// Its angle is prescribed: it counts as infinitely heavy.
     Speed(Speed),
+    /// Both gears turn against each other, and the speed of their common motion is prescribed (of the driver): the driver's torque balances the load at every
+    /// instant. Theory (45a).
+    Balanced(Speed),
     /// It starts at a speed (rad/s) and a torque (N mm, in the running sense) acts on it.
     Torque {
         /// Speed at the start, rad/s.

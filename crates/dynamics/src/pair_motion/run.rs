@@ -34,6 +34,21 @@ pub struct MotionSettings {
     pub scale: DVector<f64>,
 }
 
+impl MotionSettings {
+    /// Steps between two rows of a mesh cycle of `duration` (s), with the mesh resonance at `resonance_hz`.
+    fn steps_per_row(&self, duration: f64, resonance_hz: f64) -> usize {
+        let wanted = self.steps_per_resonance as f64 * resonance_hz * duration;
+        let steps = (wanted / self.rows.max(1) as f64).ceil();
+        // More than this is a standstill, not a motion.
+        if steps.is_finite() { (steps as usize).clamp(1, 1_000_000) } else { 1 }
+    }
+
+    /// Length of the steps in a mesh cycle of `duration` (s), s; the longest one with an error tolerance.
+    pub fn step(&self, duration: f64, resonance_hz: f64) -> f64 {
+        duration / (self.rows.max(1) * self.steps_per_row(duration, resonance_hz)) as f64
+    }
+}
+
 /// All that a motion is at the end of a mesh cycle: it goes on from here to the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
@@ -206,14 +221,6 @@ impl Motion {
         self.system.nominal().time_at(pair, contact, (self.cycle + 1) as f64)
     }
 
-    /// Steps between two rows of a cycle of `duration` (s).
-    fn steps_per_row(&self, duration: f64) -> usize {
-        let wanted = self.settings.steps_per_resonance as f64 * self.system.mesh_resonance_hz() * duration;
-        let steps = (wanted / self.settings.rows as f64).ceil();
-        // More than this is a standstill, not a motion.
-        if steps.is_finite() { (steps as usize).clamp(1, 1_000_000) } else { 1 }
-    }
-
     /// One mesh cycle of the nominal motion; `seen` gets every row.
     ///
     /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same way to the last bit.
@@ -227,7 +234,7 @@ impl Motion {
         self.system.forget();
         let begin = self.state.time;
         let rows = self.settings.rows.max(1);
-        let per_row = self.steps_per_row(end - begin);
+        let per_row = self.settings.steps_per_row(end - begin, self.system.mesh_resonance_hz());
         let row_time = |i: usize| if i == rows { end } else { begin + (end - begin) * i as f64 / rows as f64 };
         let mut swing = Swing::new(&self.state);
         let mut integrator = self.integrator((end - begin) / (rows * per_row) as f64);
@@ -279,7 +286,8 @@ impl Motion {
             None => StepControl::Fixed(h),
             Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * h, least: 1e-7 * h, largest: h },
         };
-        let integrator = Integrator::new(scheme, control, scale.clone()).stopping_at_events(stop_at_events);
+        let integrator =
+            Integrator::new(scheme, control, scale.clone()).stopping_at_events(stop_at_events).keeping_stable();
         match self.ledger {
             Some(ledger) => integrator.resumed(ledger),
             None => integrator,

@@ -32,10 +32,7 @@ pub fn quasi_static_start(
     guess: f64,
     scale: &DVector<f64>,
 ) -> Result<State, MotionError<StaticError>> {
-    let mut q = DVector::zeros(system.count());
-    let coasts = system.load_on_lag(time) < 0.0;
-    q[system.coordinates().lag()] = if coasts { -(system.pair().backlash() + guess) } else { guess };
-    let q = balance(system, time, q, scale)?;
+    let q = balance(system, time, guessed(system, time, guess), scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().contact, time);
     let mut v = DVector::zeros(q.len());
     if speed > 0.0 {
@@ -48,8 +45,16 @@ pub fn quasi_static_start(
     Ok(State::new(time, q, v))
 }
 
+/// Where the search for balance begins: the driven gear lags by `guess` (mm), or as much beyond the backlash.
+pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<f64> {
+    let mut q = DVector::zeros(system.count());
+    let coasts = system.load_on_lag(time) < 0.0;
+    q[system.coordinates().lag()] = if coasts { -(system.pair().backlash() + guess) } else { guess };
+    q
+}
+
 /// Levenberg's way: Newton where that lowers the residual, with as much added stiffness as it takes.
-fn balance(
+pub(super) fn balance(
     system: &mut PairMechanism,
     time: f64,
     mut q: DVector<f64>,

@@ -1,12 +1,17 @@
 //! The same pair at many speeds.
 
+use std::ops::ControlFlow;
+
 use rayon::prelude::*;
 
 use super::{
     Drive, Motion, MotionSettings, PairMechanism, PairMotionError, Periodicity, Speed, quasi_static_start,
     run_to_steady, shoot,
 };
-use crate::motion::{MotionError, State};
+use crate::{
+    StaticError,
+    motion::{MotionError, State},
+};
 
 /// Which way a sweep goes through its speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,6 +68,8 @@ pub struct SweepPoint {
     pub speed: f64,
     /// Which way it was come to.
     pub way: Way,
+    /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
+    pub own_start: bool,
     /// How well it repeats itself.
     pub periodicity: Periodicity,
     /// Mesh cycles waited.
@@ -77,44 +84,88 @@ pub struct SweepPoint {
     pub bearing_force: f64,
 }
 
+/// A speed without an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepMiss {
+    /// Speed of the driver, rad/s.
+    pub speed: f64,
+    /// Which way it was come to.
+    pub way: Way,
+    /// Why: of its own quasi-static start, where it was tried from there as well.
+    pub error: PairMotionError,
+}
+
+/// What a sweep finds at one speed.
+pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
+
 /// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same numbers for any number of threads.
 ///
+/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static equilibrium, and the speed behind one without an answer goes on from the
+/// last that has one. `seen` is told of each, and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
+///
 /// # Errors
-/// [`MotionError::Options`] where a torque drives; [`PairMotionError`] of the first speed, in order of ways and speeds, that fails.
+/// [`MotionError::Options`] where a torque of its own drives: the sweep says the speed.
 pub fn sweep(
     system: &PairMechanism,
     plan: &SweepPlan,
-    seen: &(dyn Fn(&SweepPoint) + Sync),
-) -> Result<Vec<SweepPoint>, PairMotionError> {
-    if !matches!(system.options().drive, Drive::Speed(_)) {
-        return Err(MotionError::Options("a sweep prescribes the speed: the driver must be driven by speed"));
+    seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
+) -> Result<Vec<SweepOutcome>, PairMotionError> {
+    if matches!(system.options().drive, Drive::Torque { .. }) {
+        return Err(MotionError::Options(
+            "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load",
+        ));
     }
     let chain = |way: Way| {
         let mut state: Option<State> = None;
-        let mut points = Vec::with_capacity(plan.speeds.len());
+        let mut outcomes = Vec::with_capacity(plan.speeds.len());
         let mut speeds = plan.speeds.clone();
         if way == Way::Down {
             speeds.reverse();
         }
         for speed in speeds {
-            let (point, end) = one(system, plan, way, speed, state.take())?;
-            seen(&point);
-            points.push(point);
-            state = Some(end);
+            let (outcome, end) = standing(system, plan, way, speed, state.as_ref());
+            state = end.or(state);
+            let goes_on = seen(&outcome);
+            outcomes.push(outcome);
+            if goes_on.is_break() {
+                break;
+            }
         }
-        Ok(points)
+        outcomes
     };
     let apart = |&speed: &f64| {
-        let (point, _) = one(system, plan, Way::Apart, speed, None)?;
-        seen(&point);
-        Ok(point)
+        let (outcome, _) = standing(system, plan, Way::Apart, speed, None);
+        let _ = seen(&outcome);
+        outcome
     };
     let of_way = |&way: &Way| match way {
-        Way::Apart => plan.speeds.par_iter().map(apart).collect::<Vec<Result<_, _>>>().into_iter().collect(),
+        Way::Apart => plan.speeds.par_iter().map(apart).collect(),
         _ => chain(way),
     };
-    let all: Vec<Result<Vec<SweepPoint>, PairMotionError>> = plan.ways.par_iter().map(of_way).collect();
-    Ok(all.into_iter().collect::<Result<Vec<_>, _>>()?.concat())
+    let all: Vec<Vec<SweepOutcome>> = plan.ways.par_iter().map(of_way).collect();
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// One speed from a state of another one, then from its own start where that does not get through; and where it ends.
+fn standing(
+    system: &PairMechanism,
+    plan: &SweepPlan,
+    way: Way,
+    speed: f64,
+    state: Option<&State>,
+) -> (SweepOutcome, Option<State>) {
+    // Teeth missing beside the window are no matter of the start.
+    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source: StaticError::Starved { .. }, .. });
+    let carried = state.map(|state| one(system, plan, way, speed, Some(state)));
+    let found = match carried {
+        Some(Ok(found)) => Ok(found),
+        Some(Err(error)) if starved(&error) => Err(error),
+        Some(Err(_)) | None => one(system, plan, way, speed, None),
+    };
+    match found {
+        Ok((point, end)) => (Ok(point), Some(end)),
+        Err(error) => (Err(SweepMiss { speed, way, error }), None),
+    }
 }
 
 fn one(
@@ -122,14 +173,17 @@ fn one(
     plan: &SweepPlan,
     way: Way,
     speed: f64,
-    state: Option<State>,
+    state: Option<&State>,
 ) -> Result<(SweepPoint, State), PairMotionError> {
     let time = 0.0;
-    let mut own = system
-        .with_drive(Drive::Speed(Speed::Constant(speed)))
-        .map_err(|source| MotionError::Mechanism { time, source })?;
+    let drive = match system.options().drive {
+        Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
+        _ => Drive::Speed(Speed::Constant(speed)),
+    };
+    let mut own = system.with_drive(drive).map_err(|source| MotionError::Mechanism { time, source })?;
+    let own_start = state.is_none();
     let state = match state {
-        Some(before) => State::new(time, before.q, before.v),
+        Some(before) => State::new(time, before.q.clone(), before.v.clone()),
         None => quasi_static_start(&mut own, time, plan.guess, &plan.settings.scale)?,
     };
     let mut motion = Motion::new(own, plan.settings.clone(), state);
@@ -141,6 +195,7 @@ fn one(
     let mut point = SweepPoint {
         speed,
         way,
+        own_start,
         periodicity,
         waited: motion.cycle(),
         transmission_error: Vec::new(),

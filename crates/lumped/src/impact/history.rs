@@ -79,7 +79,8 @@ impl ImpactMechanism {
         let held: Vec<usize> = self.coordinates().driver_turn().into_iter().collect();
         let mut start = DVector::zeros(self.coordinates().count());
         start[self.coordinates().lag()] = self.guessed_lag();
-        let Ok(found) = equilibrium(self, 0.0, &start, &held);
+        let scale = self.scale();
+        let Ok(found) = equilibrium(self, 0.0, &start, &held, &scale);
         found.ok_or(LumpedError::NoEquilibrium)
     }
 

@@ -51,7 +51,7 @@ impl ImpactMechanism {
         options.check()?;
         let running = StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
         let (speed, by_torque) = match &options.drive {
-            Drive::Speed(speed) => (*speed, false),
+            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
             Drive::Torque { start, .. } => (Speed::Constant(*start), true),
         };
         let mut free = options.free;

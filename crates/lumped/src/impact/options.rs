@@ -57,6 +57,10 @@ impl ImpactOptions {
         }
         match &self.drive {
             Drive::Speed(speed) => check_speed(speed)?,
+            Drive::Balanced(_) => {
+                let what = "rigid gears are driven by a speed or by a torque of its own";
+                return Err(LumpedError::Motion(dynamics::motion::MotionError::Options(what)));
+            }
             Drive::Torque { start, torque } => {
                 finite("speed at the start, rad/s", *start)?;
                 check_torque("driving torque, N mm", torque)?;

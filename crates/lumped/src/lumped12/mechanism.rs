@@ -202,7 +202,8 @@ impl LumpedModel for Motion12 {
     }
 
     fn quasi_static(&self, cycles: f64) -> Option<DVector<f64>> {
-        equilibrium(&mut self.standing(cycles), 0.0, &DVector::zeros(12), &[5]).unwrap_or(None)
+        let scale = self.scale();
+        equilibrium(&mut self.standing(cycles), 0.0, &DVector::zeros(12), &[5], &scale).unwrap_or(None)
     }
 
     fn scale(&self) -> DVector<f64> {

@@ -262,7 +262,8 @@ impl LumpedModel for Motion8 {
         let k = pair.cycle.stiffness.mean;
         let mut start = DVector::zeros(8);
         start[7] = (self.parameters.clearance() + e + pair.mean_force() / k) / pair.base_radii[1];
-        equilibrium(&mut standing, 0.0, &start, &[3]).unwrap_or(None)
+        let scale = self.scale();
+        equilibrium(&mut standing, 0.0, &start, &[3], &scale).unwrap_or(None)
     }
 
     fn scale(&self) -> DVector<f64> {

@@ -5,7 +5,7 @@ use study::{Bifurcation, Branch};
 
 use super::{Once, SweepPoint, SweepRequest};
 use crate::{
-    output::push_row,
+    output::{push_row, quoted},
     scene::{Scene, SweepWay},
 };
 
@@ -41,6 +41,8 @@ pub(crate) struct SweepSummary {
     pub hysteresis: Option<Vec<[f64; 2]>>,
     /// Values at which flanks part at times, of all ways.
     pub parting: usize,
+    /// Values without a motion, way, value and reason.
+    pub failed: Vec<(SweepWay, f64, String)>,
     /// Tolerance of the periodic state.
     pub periodic_tolerance: f64,
     /// Words of `ale-gear sweep` that make it again, behind the scene's file; `None` where the scene says it all.
@@ -50,7 +52,7 @@ pub(crate) struct SweepSummary {
 /// Reads it off the points.
 pub(super) fn summary(scene: &Scene, request: &SweepRequest, points: &[SweepPoint]) -> SweepSummary {
     let largest = request.ways.iter().filter_map(|way| {
-        let own = points.iter().filter(|p| p.way == *way);
+        let own = points.iter().filter(|p| p.way == *way && p.failed.is_none());
         own.max_by(|a, b| a.peak_to_peak().total_cmp(&b.peak_to_peak())).cloned()
     });
     let which = |keep: &dyn Fn(&SweepPoint) -> bool| -> Vec<(SweepWay, f64)> {
@@ -69,6 +71,7 @@ pub(super) fn summary(scene: &Scene, request: &SweepRequest, points: &[SweepPoin
         subharmonic: points.iter().filter_map(|p| Some((p.way, p.value, p.period.filter(|n| *n > 1)?))).collect(),
         // A section of a point or two tells no period.
         not_periodic: which(&|p| p.period.is_none() && p.points.len() > 2),
+        failed: points.iter().filter_map(|p| p.failed.as_ref().map(|e| (p.way, p.value, e.message.clone()))).collect(),
         chaotic: (request.stretches > 0).then(|| which(&SweepPoint::is_chaotic)),
         hysteresis: hysteresis(request, points),
         parting: points.iter().filter(|p| p.rows_apart > 0).count(),
@@ -83,11 +86,15 @@ fn hysteresis(request: &SweepRequest, points: &[SweepPoint]) -> Option<Vec<[f64;
     if !both.iter().all(|way| request.ways.contains(way)) {
         return None;
     }
-    let largest = points.iter().map(SweepPoint::peak_to_peak).fold(0.0, f64::max);
+    let largest = points.iter().map(SweepPoint::peak_to_peak).filter(|x| x.is_finite()).fold(0.0, f64::max);
     let [up, down] = both.map(|way| points.iter().filter(|p| p.way == way).collect::<Vec<_>>());
     let branch = |p: &SweepPoint, other: &SweepPoint| Branch {
         value: p.value,
-        points: if p.period.is_none() && other.period.is_none() { Vec::new() } else { p.extent.to_vec() },
+        points: if p.period.is_none() && other.period.is_none() || [p, other].iter().any(|p| p.failed.is_some()) {
+            Vec::new()
+        } else {
+            p.extent.to_vec()
+        },
     };
     let of =
         |a: &[&SweepPoint], b: &[&SweepPoint]| -> Vec<Branch> { a.iter().zip(b).map(|(p, o)| branch(p, o)).collect() };
@@ -98,6 +105,13 @@ impl SweepSummary {
     /// What a user should hear.
     pub fn doubts(&self) -> Vec<String> {
         let silent = self.chaotic.is_none();
+        let failed = self.failed.first().map(|(_, _, reason)| {
+            format!(
+                "{} of {} points have no solution; their rows in sweep.csv say why, the first: {reason}",
+                self.failed.len(),
+                self.points
+            )
+        });
         (silent && !self.not_periodic.is_empty())
             .then(|| {
                 format!(
@@ -108,6 +122,7 @@ impl SweepSummary {
                 )
             })
             .into_iter()
+            .chain(failed)
             .collect()
     }
 }
@@ -125,7 +140,7 @@ pub(super) fn sweep_csv(request: &SweepRequest, points: &[SweepPoint]) -> String
     let of = &request.of;
     let mut csv = format!(
         "way,{},mean_{of},peak_to_peak_{of},min_{of},max_{of},section_period,periodicity,warm_up_cycles,lyapunov_per_s,lyapunov_error_per_s,\
-         min_normal_force_n,max_normal_force_n,rows_without_driving_force\n",
+         min_normal_force_n,max_normal_force_n,rows_without_driving_force,status,reason\n",
         request.key
     );
     for p in points {
@@ -150,6 +165,9 @@ pub(super) fn sweep_csv(request: &SweepRequest, points: &[SweepPoint]) -> String
                 p.rows_apart as f64,
             ],
         );
+        csv.pop();
+        let reason = p.failed.as_ref().map_or(String::new(), |e| quoted(&e.message));
+        csv.push_str(&format!(",{},{reason}\n", if p.failed.is_some() { "failed" } else { "solved" }));
     }
     csv
 }

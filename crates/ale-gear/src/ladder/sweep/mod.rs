@@ -9,14 +9,14 @@ mod files;
 mod free_turn;
 mod point;
 
+use dynamics::motion::State;
 use rayon::prelude::*;
 use serde::Serialize;
-use study::Branch;
 
 pub(crate) use files::SweepSummary;
 pub(crate) use point::SweepPoint;
 
-use super::{Recipe, Sources, facts};
+use super::{Made, Recipe, Sources, facts, no_backlash};
 use crate::{
     cache::Cache,
     error::CommandError,
@@ -68,10 +68,10 @@ impl SweepRequest {
     }
 }
 
-/// A value with all that its model is made of.
+/// A value with all that its model is made of, or why there is none.
 struct Value {
     value: f64,
-    recipe: Recipe,
+    recipe: Result<Recipe, CommandError>,
 }
 
 /// The scene of one value as it is run: to the periodic state, then as many cycles as the section takes.
@@ -89,7 +89,7 @@ fn settled(scene: &Scene, words: &MotionScene, request: &SweepRequest) -> Scene 
 /// `scenes` in ascending order of the value; the first stands for what they have in common.
 ///
 /// # Errors
-/// Exit status 2 when the input is wrong, 1 when no motion comes out at some value.
+/// Exit status 2 when the input is wrong, 1 when no motion comes out at any value: one value without a motion has its reason in its row.
 pub(crate) fn sweep_key(
     scenes: &[(f64, Scene)],
     request: &SweepRequest,
@@ -101,36 +101,42 @@ pub(crate) fn sweep_key(
     let mut values = Vec::new();
     for (value, scene) in scenes {
         let Some(words) = &scene.motion else { continue };
-        let recipe = Recipe::gather(&settled(scene, words, request), &mut sources)?;
+        let recipe = Recipe::gather(&settled(scene, words, request), &mut sources);
         values.push(Value { value: *value, recipe });
     }
-    let Some(first) = values.first() else {
-        return Err(CommandError::input("a sweep over no values", Some("give `--points 2` or more".into())));
-    };
-    let made = first.recipe.model()?;
-    point::known_column(&made.model, &first.recipe.scene, &request.of)?;
-    let (facts, mut warnings) = (facts(&first.recipe, made.coordinates()), made.warnings);
+    let (first, made) = first_of(&values)?;
+    point::known_column(&made.model, &first.scene, &request.of)?;
+    let (facts, mut warnings) = (facts(first, made.coordinates()), made.warnings);
     let count = (values.len() * request.ways.len()) as u64;
     let points = phases.run_steps("sweep", count, |progress| {
         let at = |value: f64, from: Option<&_>| {
-            let there = values.iter().find(|v| v.value == value).unwrap_or(first);
-            let found = point::run(&there.recipe, value, request, from);
-            progress.tick();
-            found
+            let recipe = values.iter().find(|v| v.value == value).map(|v| v.recipe.as_ref());
+            match recipe {
+                Some(Ok(recipe)) => point::run(recipe, value, request, from),
+                Some(Err(e)) => Err(e.clone()),
+                None => point::run(first, value, request, from),
+            }
         };
-        let ways: Vec<Result<Vec<SweepPoint>, CommandError>> =
-            request.ways.par_iter().map(|&way| one_way(way, &values, at)).collect();
-        ways.into_iter().collect::<Result<Vec<_>, _>>()
-    })?;
+        let of_way = |&way: &SweepWay| one_way(way, &values, at, &|| progress.tick());
+        request.ways.par_iter().map(of_way).collect::<Vec<Vec<SweepPoint>>>()
+    });
     let points: Vec<SweepPoint> = points.into_iter().flatten().collect();
-    let summary = files::summary(&first.recipe.scene, request, &points);
+    if let Some(none) =
+        points.first().and_then(|p| p.failed.clone()).filter(|_| points.iter().all(|p| p.failed.is_some()))
+    {
+        return Err(none);
+    }
+    let summary = files::summary(&first.scene, request, &points);
     warnings.extend(summary.doubts());
+    // Who sweeps the backlash knows.
+    warnings
+        .extend(no_backlash(first).filter(|_| !request.key.contains("backlash") && !request.key.contains("thickness")));
     results.write("sweep.csv", files::sweep_csv(request, &points).as_bytes())?;
     results.write("bifurcation.csv", files::bifurcation_csv(request, &points).as_bytes())?;
     if let Some(picture) = bifurcation_picture(&request.key, &request.of, &points) {
         results.write("bifurcation.svg", picture.as_bytes())?;
     }
-    let scene = &first.recipe.scene;
+    let scene = &first.scene;
     let cost = Cost::of(phases);
     let report = write_ladder_sweep_report(scene, &facts, &cost, &summary, &points, &warnings)?;
     report.write(results)?;
@@ -139,29 +145,55 @@ pub(crate) fn sweep_key(
     Ok(ladder_sweep_table(scene, &facts, &cost, &summary, &warnings))
 }
 
-/// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state.
+/// The first value with a model: it stands for what they have in common.
+///
+/// # Errors
+/// That of the first value where none has a model.
+fn first_of(values: &[Value]) -> Result<(&Recipe, Made), CommandError> {
+    let mut error = None;
+    for value in values {
+        match value.recipe.as_ref().map_err(Clone::clone).and_then(|r| r.model().map(|m| (r, m))) {
+            Ok(first) => return Ok(first),
+            Err(e) => error = error.or(Some(e)),
+        }
+    }
+    let none = || CommandError::input("a sweep over no values", Some("give `--points 2` or more".into()));
+    Err(error.unwrap_or_else(none))
+}
+
+/// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state; a value that does not get through from
+/// there begins at rest again, and where that fails too it has its reason, and the next goes on from the last that has a motion.
 fn one_way(
     way: SweepWay,
     values: &[Value],
-    at: impl Fn(f64, Option<&dynamics::motion::State>) -> Result<point::Found, CommandError> + Sync,
-) -> Result<Vec<SweepPoint>, CommandError> {
+    at: impl Fn(f64, Option<&State>) -> Result<point::Found, CommandError> + Sync,
+    tick: &(dyn Fn() + Sync),
+) -> Vec<SweepPoint> {
     let mut along: Vec<f64> = values.iter().map(|v| v.value).collect();
-    let mut state = None;
-    let onwards = |value: f64, state: &mut Option<dynamics::motion::State>| {
-        let found = at(value, state.as_ref())?;
-        *state = Some(found.end);
-        Ok::<_, CommandError>(found.point)
-    };
-    let mut branches: Vec<Branch<SweepPoint>> = match way {
-        SweepWay::Apart => study::sweep_parallel(&along, |value| at(value, None).map(|found| found.point))?,
-        SweepWay::Up => study::sweep(&along, &mut state, onwards)?,
-        SweepWay::Down => {
-            along.reverse();
-            study::sweep(&along, &mut state, onwards)?
+    let standing = |value: f64, state: Option<&State>| {
+        let carried = state.and_then(|state| at(value, Some(state)).ok());
+        let found = carried.map_or_else(|| at(value, None), Ok);
+        tick();
+        match found {
+            Ok(point::Found { point, end }) => (SweepPoint { way, ..point }, Some(end)),
+            Err(error) => (SweepPoint::missing(way, value, error), None),
         }
     };
-    branches.sort_by(|a, b| a.value.total_cmp(&b.value));
-    Ok(branches.into_iter().map(|b| SweepPoint { way, ..b.points }).collect())
+    if way == SweepWay::Apart {
+        return along.par_iter().map(|&value| standing(value, None).0).collect();
+    }
+    if way == SweepWay::Down {
+        along.reverse();
+    }
+    let mut state = None;
+    let mut points = Vec::with_capacity(along.len());
+    for value in along {
+        let (point, end) = standing(value, state.as_ref());
+        state = end.or(state);
+        points.push(point);
+    }
+    points.sort_by(|a, b| a.value.total_cmp(&b.value));
+    points
 }
 
 /// The sweep over speed of a scene that says `run = "sweep"`.

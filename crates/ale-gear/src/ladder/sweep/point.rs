@@ -10,7 +10,7 @@ use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 use super::{SweepRequest, free_turn::FreeTurn};
 use crate::{
     error::CommandError,
-    ladder::{Model, Recipe, complaint, course, within_bounds},
+    ladder::{Model, Recipe, certificate, complaint, course, refuse_unstable, within_bounds},
     scene::{MotionScene, Scene, SweepWay},
 };
 
@@ -47,9 +47,31 @@ pub(crate) struct SweepPoint {
     pub normal_force_n: [f64; 2],
     /// Rows in which the driving flanks do not press.
     pub rows_apart: usize,
+    /// Why there is no motion at this value; `None` where there is one.
+    #[serde(skip)]
+    pub failed: Option<CommandError>,
 }
 
 impl SweepPoint {
+    /// A value without a motion: nothing is known of it but why.
+    pub fn missing(way: SweepWay, value: f64, error: CommandError) -> Self {
+        let none = f64::NAN;
+        Self {
+            way,
+            value,
+            points: Vec::new(),
+            mean: none,
+            extent: [none; 2],
+            period: None,
+            periodicity: None,
+            warm_up_cycles: 0,
+            lyapunov: None,
+            normal_force_n: [none; 2],
+            rows_apart: 0,
+            failed: Some(error),
+        }
+    }
+
     /// Exponent above zero beyond three standard errors, and a section that does not come back.
     pub fn is_chaotic(&self) -> bool {
         self.period.is_none() && self.lyapunov.is_some_and(|l| l.is_chaotic())
@@ -95,8 +117,10 @@ pub(super) fn run(
     let from = from.filter(|s| s.q.len() == count);
     let located = |e: CommandError| CommandError { message: format!("{} = {value}: {}", request.key, e.message), ..e };
     let complain = |e: LumpedError| located(complaint(scene, &e));
+    refuse_unstable(recipe, words, &mut model, made.resonance_hz).map_err(located)?;
     let course = course::run(&mut model, scene, words, frequencies, from, || ()).map_err(complain)?;
     within_bounds(&course.history).map_err(located)?;
+    certificate(recipe, &course).verdict(scene).map_err(located)?;
     let every = request.every(scene) as usize;
     let points: Vec<f64> = course.section.get(&request.of).iter().copied().step_by(every).collect();
     let extent = course.history.extent(&request.of);
@@ -117,6 +141,7 @@ pub(super) fn run(
         lyapunov,
         normal_force_n: course.history.extent("normal_force_n"),
         rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f <= 0.0).count(),
+        failed: None,
     };
     Ok(Found { point, end: course.end })
 }

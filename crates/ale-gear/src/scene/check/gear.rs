@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use geometry::GearData;
 use mesh::GroupNames;
 
 use super::Checked;
+use crate::meshes;
 use crate::scene::{
     GearScene, Material, MesherScene, PairScene, inputs, micro,
     raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
@@ -35,7 +37,7 @@ pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> 
 
 pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
     let face_width_mm = s.number_of(&schema::PAIR, "face_width_mm", &raw.face_width_mm)?;
-    Ok(PairScene {
+    let mut pair = PairScene {
         normal_module_mm: s.number_of(&schema::PAIR, "normal_module_mm", &raw.normal_module_mm)?,
         normal_pressure_angle_deg: s.number_of(
             &schema::PAIR,
@@ -51,7 +53,25 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
             None => Default::default(),
             Some(table) => micro::misalignment(s, table.get_ref(), face_width_mm)?,
         },
-    })
+    };
+    if raw.root_radius_coefficient.is_none() {
+        pair.root_radius_coefficient = fitting_root_radius(&pair);
+    }
+    Ok(pair)
+}
+
+/// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is less: 0.3178 at 25 degrees.
+/// A rack that has room for none keeps the default, and the geometry says why there is no gear.
+fn fitting_root_radius(pair: &PairScene) -> f64 {
+    let data = GearData {
+        normal_module: pair.normal_module_mm,
+        normal_pressure_angle: pair.normal_pressure_angle(),
+        dedendum_coefficient: pair.dedendum_coefficient,
+        thickness_allowance: 0.0,
+        ..GearData::default()
+    };
+    let largest = (1e4 * data.largest_root_radius_coefficient()).floor() / 1e4;
+    if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
 }
 
 /// Whether a gear states its helix angle or follows the mating one.
@@ -76,6 +96,16 @@ pub(super) fn gear(
     let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
     let (mesh, mesher) = mesh_source(s, raw, teeth, pair)?;
+    let groups = groups(s, &raw.groups)?;
+    let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
+    let bore_of_mesh = match &mesh {
+        // A mesh in another unit, or of another gear, is told where it is read.
+        Some(path) if raw.bore_diameter_mm.is_none() => {
+            let content = inputs::content(s.origin, s.file, path).ok();
+            content.and_then(|mesh| meshes::bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
+        }
+        _ => None,
+    };
     let (pitch_errors_um, pitch_errors_file) = micro::pitch_errors(s, raw, teeth)?;
     Ok(GearScene {
         teeth,
@@ -83,7 +113,7 @@ pub(super) fn gear(
         bore_diameter_mm: s.number(
             "bore_diameter_mm",
             &raw.bore_diameter_mm,
-            BORE_RATIO * reference,
+            bore_of_mesh.unwrap_or(BORE_RATIO * reference),
             1e-3,
             bore_limit,
         )?,
@@ -106,7 +136,7 @@ pub(super) fn gear(
         pitch_errors_file,
         mesh,
         mesher,
-        groups: groups(s, &raw.groups)?,
+        groups,
         material: material(s, &raw.material, shared)?,
         modification: match &raw.modification {
             None => Default::default(),

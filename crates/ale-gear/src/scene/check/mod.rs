@@ -45,7 +45,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         origin: source.origin,
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,
-        drive: dynamic.then(|| drive(source, &raw)).transpose()?,
+        drive: dynamic.then(|| drive(source, &raw, analysis.model)).transpose()?,
         load: dynamic.then(|| load(source, &raw)).transpose()?,
         analysis: Analysis { cycles, ..analysis },
         modes,

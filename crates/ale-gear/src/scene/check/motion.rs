@@ -44,8 +44,8 @@ pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<M
 }
 
 /// What drives the driver.
-pub(super) fn drive(s: &Source<'_>, raw: &RawScene) -> Checked<DriveScene> {
-    motion::drive(s, words(&raw.drive).unwrap_or(&Default::default()))
+pub(super) fn drive(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<DriveScene> {
+    motion::drive(s, words(&raw.drive).unwrap_or(&Default::default()), model)
 }
 
 /// What the torque on the driven gear is beside its mean.

@@ -156,14 +156,21 @@ fn of_run(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             "leave it out: resonance.csv has a row a speed",
         ));
     }
+    of_drive(s, raw, scene)
+}
+
+/// Shooting, ramps and sweeps say the speed: a torque that balances the load holds it, one of its own does not.
+fn of_drive(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let sweeps = scene.motion.as_ref().filter(|m| m.run != Run::Steady && m.run != Run::Span);
-    if let (Some(_), Some(drive), Some(table)) = (sweeps, &scene.drive, &raw.drive)
-        && drive.by == DriveBy::Torque
-    {
+    let (Some(_), Some(drive), Some(table)) = (sweeps, &scene.drive, &raw.drive) else { return Ok(()) };
+    // Lumped gears turn freely against each other, and their torques balance; rigid ones would lose speed to friction.
+    let own = if scene.impact.is_some() { true } else { scene.analysis.model.is_reduced() && !drive.torque.is_none() };
+    if drive.by == DriveBy::Torque && own {
+        let balances = if scene.impact.is_some() { "" } else { ", or leave the torque out: it then balances the load" };
         return Err(s.conflict(
             &table.span(),
             "shooting, ramps and sweeps give the speed of the driver, and here a torque drives it",
-            "use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`",
+            format!("use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`{balances}"),
         ));
     }
     Ok(())

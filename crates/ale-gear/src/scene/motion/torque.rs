@@ -6,13 +6,18 @@ use super::raw::{Matrix, RawDrive, RawLoad};
 use super::{DriveBy, DriveScene, TorqueScene};
 use crate::scene::raw::Number;
 use crate::scene::source::Source;
-use crate::scene::{SceneError, schema};
+use crate::scene::{Model, SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
-pub(in crate::scene) fn drive(s: &Source<'_>, raw: &RawDrive) -> Checked<DriveScene> {
-    let by = s.choice("by", &raw.by, &[("speed", DriveBy::Speed), ("torque", DriveBy::Torque)])?;
+/// What drives the driver of a model. Flanks of elastic gears turn both gears freely unless the scene holds the driver; the others prescribe its speed, or know no difference.
+pub(in crate::scene) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
+    let mut words = [("torque", DriveBy::Torque), ("speed", DriveBy::Speed)];
+    if !model.is_reduced() {
+        words.reverse();
+    }
+    let by = s.choice("by", &raw.by, &words)?;
     let torque = torque(s, [&raw.torque_nm, &raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)?;
     let first = [&raw.torque_nm, &raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg];
     let span = first.iter().find_map(|v| v.as_ref().map(Spanned::span)).or(raw.table_s_nm.as_ref().map(Spanned::span));

@@ -1,6 +1,6 @@
 //! Motion in time: bodies, bearings, torques, modes, integration, analyses.
 
-use super::{Key, Table, bare, keys, number, rows, switch, table, whole, word, words};
+use super::{Key, Table, bare, bare_word, keys, number, rows, switch, table, whole, word, words};
 
 /// `[pinion.body]`
 pub(in crate::scene) static BODY: Table = keys(
@@ -65,12 +65,16 @@ const TABLE: Key = rows("table_s_nm", 2, "in place of the others: rows of time, 
 pub(in crate::scene) static DRIVE: Table = keys(
     "what drives the driver (analyses in time)",
     &[
-        word("by", &["speed", "torque"], "the driver's speed is given, or its torque"),
+        bare_word(
+            "by",
+            &["torque", "speed"],
+            "what is given of the driver; default: its torque, with the models impact, lumped8, lumped12 and shaft18 its speed",
+        ),
         bare(
             "torque_nm",
             -1e9,
             1e9,
-            "torque of the driver in the running sense, N m; default: in balance with the load",
+            "torque of the driver in the running sense, N m; default: in balance with the load, which holds the mean speed",
         ),
         AMPLITUDE,
         FREQUENCY,

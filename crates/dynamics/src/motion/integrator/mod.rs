@@ -7,6 +7,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 use super::{
     Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
     events::{crossings, event_values},
+    stability::Guard,
 };
 
 /// What a caller sees of a motion after every step.
@@ -29,6 +30,10 @@ pub struct Integrator {
     control: StepControl,
     scale: DVector<f64>,
     stop_at_events: bool,
+    /// Where an explicit method is kept within its stability limit.
+    guard: Option<Guard>,
+    /// Time (s) of the tangents in `forces`; none where they are of another place.
+    tangents_at: Option<f64>,
     forces: Forces,
     ledger: Option<Ledger>,
     steps: u64,
@@ -39,7 +44,28 @@ impl Integrator {
     /// `scale`: what counts as a large motion of each coordinate, > 0; tolerances are relative to it.
     pub fn new(scheme: Scheme, control: StepControl, scale: DVector<f64>) -> Self {
         let forces = Forces::zeros(scale.len());
-        Self { scheme, control, scale, stop_at_events: false, forces, ledger: None, steps: 0, refused: 0 }
+        let (guard, tangents_at) = (None, None);
+        Self {
+            scheme,
+            control,
+            scale,
+            stop_at_events: false,
+            guard,
+            tangents_at,
+            forces,
+            ledger: None,
+            steps: 0,
+            refused: 0,
+        }
+    }
+
+    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its beginning tell. Theory (48a).
+    ///
+    /// Steps that an error tolerance chooses need no such care: what grows is an error that shortens them.
+    #[must_use]
+    pub fn keeping_stable(self) -> Self {
+        let guard = matches!(self.control, StepControl::Fixed(_)).then(|| Guard::new(self.scheme)).flatten();
+        Self { guard, ..self }
     }
 
     /// Ends a step at every event, so that no step runs over a kink of the forces.
@@ -59,7 +85,7 @@ impl Integrator {
         Self { ledger: Some(ledger), ..self }
     }
 
-    /// Steps taken, and steps taken back because their error was too large.
+    /// Steps taken, and steps taken back because their error was too large, or taken in parts.
     pub fn steps(&self) -> [u64; 2] {
         [self.steps, self.refused]
     }
@@ -101,7 +127,13 @@ impl Integrator {
             let mut crossed = crossings(system, &before, &to, &values, &now)?;
             let first = crossed.iter().map(|c| c.time).fold(f64::INFINITY, f64::min);
             if self.stop_at_events && first < to.time - 1e-9 * h && first > before.time + 1e-9 * h {
-                (to, book) = self.one_step(system, &mass, &before, first - before.time).map(|(s, _, b)| (s, b))?;
+                let shorter = first - before.time;
+                (to, book) = match self.control {
+                    StepControl::Fixed(_) => self.fixed_step(system, &mass, &before, shorter)?,
+                    StepControl::Adaptive { .. } => {
+                        self.one_step(system, &mass, &before, shorter).map(|(s, _, b)| (s, b))?
+                    }
+                };
                 now = event_values(system, to.time, &to.q, &to.v)?;
                 crossed.retain(|c| c.time <= first);
             }

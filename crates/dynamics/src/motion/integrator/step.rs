@@ -11,6 +11,10 @@ use crate::motion::{
 
 /// How often a step of given length may be halved that has no solution.
 const HALVINGS: u32 = 6;
+/// Into how many parts a step of given length may be taken that is too long for an explicit method.
+const PARTS: f64 = 1000.0;
+/// Share of the stability limit that parts make use of.
+const WITHIN: f64 = 0.98;
 
 impl Integrator {
     /// A step whose error is small enough, the energy with it, and the length of the next one.
@@ -22,7 +26,7 @@ impl Integrator {
         mut h: f64,
     ) -> Result<(State, Ledger, f64), MotionError<M::Error>> {
         let StepControl::Adaptive { tolerance, least, largest, .. } = self.control else {
-            let (to, book) = self.whole_step(system, mass, from, h, HALVINGS)?;
+            let (to, book) = self.fixed_step(system, mass, from, h)?;
             return Ok((to, book, h));
         };
         let order = match self.scheme {
@@ -55,6 +59,55 @@ impl Integrator {
                 }
             }
         }
+    }
+
+    /// A step of given length, in parts where an explicit method is not stable with the whole.
+    pub(super) fn fixed_step<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+    ) -> Result<(State, Ledger), MotionError<M::Error>> {
+        let longest = self.longest_stable(system, mass, from, h)?;
+        if h <= longest {
+            return self.whole_step(system, mass, from, h, HALVINGS);
+        }
+        let parts = (h / (WITHIN * longest)).ceil();
+        if parts.is_nan() || parts > PARTS {
+            return Err(MotionError::Unstable { time: from.time, step: h, longest });
+        }
+        self.refused += 1;
+        let opened = self.ledger;
+        let (mut here, mut book) = (from.clone(), opened.unwrap_or_default());
+        for i in 1..=parts as usize {
+            let until = from.time + h * (i as f64 / parts);
+            let (to, _, closed) = self.one_step(system, mass, &here, until - here.time)?;
+            (here, book) = (to, closed);
+            self.ledger = Some(book);
+        }
+        self.ledger = opened;
+        Ok((here, book))
+    }
+
+    /// Longest step with which an explicit method is stable at a state, as far as it matters for a step of length `h`; infinite where nobody asked.
+    fn longest_stable<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        mass: &Cholesky<f64, Dyn>,
+        from: &State,
+        h: f64,
+    ) -> Result<f64, MotionError<M::Error>> {
+        let Some(guard) = &mut self.guard else { return Ok(f64::INFINITY) };
+        if self.tangents_at != Some(from.time) {
+            let time = from.time;
+            self.forces.clear();
+            (self.forces.tangents, self.forces.rates) = (true, false);
+            let found = system.forces(time, &from.q, &from.v, &mut self.forces);
+            found.map_err(|source| MotionError::Mechanism { time, source })?;
+            self.tangents_at = Some(time);
+        }
+        Ok(guard.longest(mass, &self.forces, h))
     }
 
     /// A step of given length. One without a solution, where contact opens and closes within it, is taken as its two halves, so often as
@@ -103,11 +156,12 @@ impl Integrator {
         h: f64,
         mut book: Ledger,
     ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
-        let forces = &mut self.forces;
+        let (forces, watched) = (&mut self.forces, self.guard.is_some());
+        self.tangents_at = watched.then_some(from.time + h);
         let (to, error) = match self.scheme {
             Scheme::Energy => energy::step(system, from, h, &self.scale, forces, &mut book)?,
-            Scheme::DormandPrince => DORMAND_PRINCE.step(system, mass, from, h, forces, &mut book)?,
-            Scheme::RungeKutta4 => CLASSICAL.step(system, mass, from, h, forces, &mut book)?,
+            Scheme::DormandPrince => DORMAND_PRINCE.step(system, mass, from, h, forces, &mut book, watched)?,
+            Scheme::RungeKutta4 => CLASSICAL.step(system, mass, from, h, forces, &mut book, watched)?,
             Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => {
                 let coefficients = match self.scheme {
                     Scheme::GeneralisedAlpha { rho } => Coefficients::generalised_alpha(rho),

@@ -7,7 +7,7 @@ use crate::{
     StaticError,
     motion::{Forces, Mechanism},
     pair_motion::{
-        Displacement,
+        COORDINATES, Displacement,
         mesh_side::MeshSide,
         modal::{ModalBalance, Posture, expansion},
     },
@@ -53,6 +53,10 @@ impl Mechanism for PairMechanism {
         other -= self.bearing[1] * rate;
         other -= gyroscopic * rate;
         damping += gyroscopic;
+        let driver = COORDINATES * (2 - self.options.contact.driven()) - 1;
+        let balancing = self.balancing_torque(&other);
+        other[driver] += balancing;
+        out.supplied += balancing * rate[driver];
         let mut conservative = about_own_axis(normal - self.bearing[0] * d, &d);
         let mut other = about_own_axis(other, &d);
         match modal {

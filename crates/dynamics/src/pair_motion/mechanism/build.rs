@@ -9,7 +9,7 @@ use super::{Extremes, PairMechanism};
 use crate::{
     ElasticGear, StaticError,
     pair_motion::{
-        Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal, Speed,
+        Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal, RigidBody, Speed,
         mesh_side::MeshSide, modal::Modal,
     },
 };
@@ -98,11 +98,14 @@ impl PairMechanism {
         let mut free = options.free;
         let driver = 1 - options.contact.driven();
         let (speed, by_torque) = match &options.drive {
-            Drive::Speed(speed) => (*speed, false),
+            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
             Drive::Torque { start, .. } => (Speed::Constant(*start), true),
         };
         free[driver][COORDINATES - 1] = by_torque;
-        let coordinates = Coordinates::new(&pair, &options.contact, free);
+        let mut coordinates = Coordinates::new(&pair, &options.contact, free);
+        if matches!(options.drive, Drive::Balanced(_)) {
+            coordinates = coordinates.sharing_the_lag(&pair, &options.contact, &options.bodies);
+        }
         let mass = coordinates.mass(&options.bodies);
         let nominal = Nominal { speed, start: options.start_cycles };
         let both = |part: fn(&Bearing) -> nalgebra::Matrix6<f64>| {
@@ -143,10 +146,15 @@ impl PairMechanism {
     }
 }
 
+/// Inertias of both gears on their base circles, J / r_b^2, t.
+pub(super) fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
+    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
+    [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]))
+}
+
 /// Reduced mass of the pair's turns on the base circles, t: the driven gear's alone where the driver's angle is prescribed.
 pub(super) fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
-    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
-    let inertia = [0, 1].map(|i| options.bodies[i].polar_inertia / (base[i] * base[i]));
+    let inertia = masses_on_base_circles(pair, &options.bodies);
     let driver = 1 - options.contact.driven();
     let held = matches!(options.drive, Drive::Speed(_));
     equivalent_mass(inertia, held.then_some(driver))

@@ -39,12 +39,26 @@ impl PairMechanism {
         g
     }
 
-    /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed.
-    pub(super) fn drive_torque(&self, t: f64, moment: &Moment, mesh: &Displacement) -> f64 {
+    /// Torque of a driver that balances the load, about +z, N mm: no force is left along the turn of both gears in the ratio of their teeth; normal forces do no work there. Theory (45b).
+    ///
+    /// `other`: all forces but those, on the twelve coordinates. Nothing with another drive.
+    pub(super) fn balancing_torque(&self, other: &Displacement) -> f64 {
+        if !matches!(self.options.drive, Drive::Balanced(_)) {
+            return 0.0;
+        }
+        let driven = self.options.contact.driven();
+        let turn = |g: usize| other[COORDINATES * (g + 1) - 1];
+        let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()].map(f64::from);
+        teeth[1 - driven] / teeth[driven] * turn(driven) - turn(1 - driven)
+    }
+
+    /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed. `mesh`: forces of the mesh, `losses` friction and damping among them.
+    pub(super) fn drive_torque(&self, t: f64, moment: &Moment, mesh: &Displacement, losses: &Displacement) -> f64 {
         let driver = 1 - self.options.contact.driven();
         let running = moment.running_sense(driver);
         match &self.options.drive {
             Drive::Torque { torque, .. } => torque.at(t),
+            Drive::Balanced(_) => running * self.balancing_torque(&(self.external(t, moment) + losses)),
             Drive::Speed(_) => {
                 let inertia = self.options.bodies[driver].polar_inertia * moment.acceleration[driver];
                 running * (inertia - mesh[COORDINATES * (driver + 1) - 1])

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Changes, Coordinates, Displacement, Moment, MotionOptions, Nominal, SidePlace,
+    COORDINATES, Changes, Coordinates, Displacement, MeshResonance, Moment, MotionOptions, Nominal, SidePlace,
     mesh_side::MeshSide,
     modal::{Modal, Posture},
 };
@@ -21,7 +21,7 @@ use crate::{StaticError, root_stress::RootStress};
 pub use build::equivalent_mass;
 pub use extremes::Extremes;
 
-use build::equivalent_mass_of;
+use build::{equivalent_mass_of, masses_on_base_circles};
 use touching::Touching;
 
 /// A pair of gears as an integrator sees it.
@@ -117,6 +117,31 @@ impl PairMechanism {
     /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
         (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
+    }
+
+    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of the drive.
+    pub fn mesh_resonances_hz(&self) -> [f64; 2] {
+        let inertia = self.base_circle_masses();
+        let driver = 1 - self.options.contact.driven();
+        [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
+    }
+
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact lines.
+    pub fn mesh_resonance(&self) -> MeshResonance {
+        let cos = self.pair.base_helix_angle().cos();
+        let damping =
+            self.damping * self.means[1] * cos * cos / (2.0 * (self.means[0] * self.equivalent_mass()).sqrt());
+        MeshResonance { hz: self.mesh_resonance_hz(), damping }
+    }
+
+    /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
+    pub fn base_circle_masses(&self) -> [f64; 2] {
+        masses_on_base_circles(&self.pair, &self.options.bodies)
+    }
+
+    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is prescribed.
+    pub fn equivalent_mass(&self) -> f64 {
+        equivalent_mass_of(&self.pair, &self.options)
     }
 
     /// Free coordinates.

@@ -23,13 +23,16 @@ impl PairMechanism {
         let Touching { driving, coast, .. } = self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
         let poses = self.drive_side.poses(&self.pair, cycles, &d);
-        let mut mesh = driving.normal + driving.friction + self.drive_side.damping(&poses, &rate, self.damping, None).0;
+        let mut losses = driving.friction + self.drive_side.damping(&poses, &rate, self.damping, None).0;
+        let mut normal = driving.normal;
         let mut normal_forces = [self.drive_side.normal_forces(&poses, &rate, self.damping)[0], 0.0];
         if let (Some(side), Some(force)) = (&self.coast_side, &coast) {
             let poses = side.poses(&self.pair, cycles, &d);
-            mesh += force.normal + force.friction + side.damping(&poses, &rate, self.damping, None).0;
+            losses += force.friction + side.damping(&poses, &rate, self.damping, None).0;
+            normal += force.normal;
             normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
         }
+        let mesh = normal + losses;
         let contact = self.drive_side.contact();
         let slices = self.drive_side.pressed_slices();
         let max_pressure = slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure));
@@ -51,7 +54,7 @@ impl PairMechanism {
             transmission_error: q[self.coordinates.lag()],
             transmission_error_rate: v[self.coordinates.lag()],
             displacement: d,
-            drive_torque: self.drive_torque(t, &moment, &(mesh - shared)),
+            drive_torque: self.drive_torque(t, &moment, &(mesh - shared), &losses),
             load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
             pair_forces,

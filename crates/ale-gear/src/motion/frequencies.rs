@@ -1,0 +1,86 @@
+//! Campbell diagram of a reduced pair: mesh orders through its frequencies.
+
+use serde::Serialize;
+use study::{Campbell, StudyError, campbell};
+
+use super::{prepare::Prepared, table::Columns};
+
+/// Name of the file.
+pub(super) const FILE: &str = "campbell.csv";
+/// Mesh orders that may meet a frequency.
+const ORDERS: usize = 6;
+/// Speeds of the diagram, standstill among them.
+const SPEEDS: u32 = 25;
+/// The diagram ends a little beyond the highest speed of the run.
+const BEYOND: f64 = 1.05;
+
+/// Frequencies that a mesh order may meet over the speeds of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Frequencies {
+    /// Lines and where they meet; its speeds are the driver's turns a second.
+    pub diagram: Campbell,
+    /// Names of the orders.
+    pub orders: Vec<String>,
+    /// Names of the frequencies, ascending as in the diagram.
+    pub names: Vec<String>,
+}
+
+/// A mesh order that meets a frequency within the speeds of the run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub(crate) struct CriticalSpeed {
+    pub excitation: String,
+    pub meets: String,
+    pub driver_speed_rpm: f64,
+    pub frequency_hz: f64,
+}
+
+impl Frequencies {
+    /// Of a pair whose driver has so many teeth, up to its highest mesh frequency, Hz. Elastic frequencies are those with the bores held, at rest.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a frequency that is no number.
+    pub(super) fn of(prepared: &Prepared, teeth: u32, highest_mesh_hz: f64) -> Result<Self, StudyError> {
+        let mut lines = vec![(prepared.system.mesh_resonance_hz(), "mesh resonance".to_owned())];
+        lines.extend(prepared.elasticity.frequencies_hz().into_iter().filter(|(hz, _)| hz.is_finite()));
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let teeth = f64::from(teeth);
+        let last = BEYOND * highest_mesh_hz / teeth;
+        let speeds: Vec<f64> = (0..SPEEDS).map(|i| last * f64::from(i) / f64::from(SPEEDS - 1)).collect();
+        let orders: Vec<f64> = (1..=ORDERS).map(|k| k as f64 * teeth).collect();
+        let diagram = campbell(&speeds, &orders, |_| lines.iter().map(|(hz, _)| *hz).collect())?;
+        let names = lines.into_iter().map(|(_, name)| name).collect();
+        Ok(Self { diagram, orders: (1..=ORDERS).map(|k| format!("mesh order {k}")).collect(), names })
+    }
+
+    /// Where orders meet frequencies, ascending in speed.
+    pub fn critical_speeds(&self) -> Vec<CriticalSpeed> {
+        let mut all: Vec<_> = self.diagram.resonances.iter().collect();
+        all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        let one = |r: &study::Resonance| CriticalSpeed {
+            excitation: self
+                .diagram
+                .orders
+                .iter()
+                .position(|o| *o == r.order)
+                .map_or(String::new(), |i| self.orders[i].clone()),
+            meets: self.names[r.mode].clone(),
+            driver_speed_rpm: 60.0 * r.speed,
+            frequency_hz: r.frequency,
+        };
+        all.into_iter().map(one).collect()
+    }
+
+    /// `campbell.csv`: one row a speed.
+    pub fn to_csv(&self) -> String {
+        let column = |name: &String| name.replace(' ', "_") + "_hz";
+        let names = std::iter::once("speed_rpm".to_owned()).chain(self.names.iter().chain(&self.orders).map(column));
+        let mut rows = Columns::named(names);
+        for (s, &speed) in self.diagram.speeds.iter().enumerate() {
+            let modes = self.diagram.frequencies.iter().map(|m| m[s]);
+            let lines = self.diagram.orders.iter().map(|o| o * speed);
+            rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
+        }
+        rows.to_csv()
+    }
+}

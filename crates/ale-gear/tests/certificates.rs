@@ -1,0 +1,111 @@
+//! What must hold of a result: steps that an explicit method bears, and certificates with their bounds.
+
+mod util;
+
+use serde_json::Value;
+use util::{ISO_SCENE, Scratch, column, motion_scene};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+/// Three mesh cycles at 300/min by an explicit method.
+fn explicit(method: &str, steps: u32) -> String {
+    motion_scene(3, &format!("run = \"span\"\nmethod = \"{method}\"\n"))
+        .replace("steps_per_mesh_cycle = 16", &format!("steps_per_mesh_cycle = {steps}"))
+        .replace("torque_nm = 150.0", "torque_nm = 150.0\nspeed_rpm = 300.0")
+}
+
+/// The number behind a word of a hint.
+fn number_after(text: &str, word: &str) -> u32 {
+    let rest = text.split_once(word).unwrap_or_else(|| panic!("no `{word}`: {text}")).1;
+    rest.chars().take_while(char::is_ascii_digit).collect::<String>().parse().unwrap()
+}
+
+/// Steps beyond the limit are refused before the run, with a number that would do; with this number the motion is bounded, with two thirds of it it is refused as well.
+#[test]
+fn steps_beyond_the_stability_limit_are_refused() {
+    for method in ["rk4", "dormand-prince"] {
+        let scratch = Scratch::new().file("long.toml", explicit(method, 16));
+        let refused = scratch.ale_gear(["run", "long.toml", "--out", "o"]);
+        assert_eq!((refused.code, refused.stdout.as_str()), (Some(1), ""), "{method}: {}", refused.stderr);
+        assert!(refused.stderr.contains("is too long for the explicit method"), "{}", refused.stderr);
+        assert_eq!(scratch.names(), ["long.toml"], "a refused run leaves something behind");
+        let enough = number_after(&refused.stderr, "steps_per_mesh_cycle = ");
+        let scratch =
+            scratch.file("fine.toml", explicit(method, enough)).file("short.toml", explicit(method, 2 * enough / 3));
+        let fine = scratch.ale_gear(["run", "fine.toml", "--out", "fine", "--json"]);
+        assert_eq!(fine.code, Some(0), "{method}, {enough} steps: {}", fine.stderr);
+        let summary = json(&fine.stdout);
+        assert_eq!(summary["certificate"], "held");
+        let largest = column(&scratch.read("fine/history.csv"), "dte_um").into_iter().fold(0.0, f64::max);
+        let ste = summary["headline"]["mean_ste_um"].as_f64().unwrap();
+        assert!(largest < 3.0 * ste, "{method}, {enough} steps: DTE of {largest} um, STE of {ste} um");
+        let short = scratch.ale_gear(["run", "short.toml", "--out", "short"]);
+        assert_eq!(short.code, Some(1), "{method}, {} steps: {}", 2 * enough / 3, short.stderr);
+    }
+}
+
+/// With an error tolerance no limit is needed: the error shortens the steps.
+#[test]
+fn a_tolerance_needs_no_limit() {
+    let text = explicit("rk4", 16).replace("cycles = 3\n", "cycles = 1\n") + "error_tolerance = 1e-4\n";
+    let scratch = Scratch::new().file("a.toml", text);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o", "--json"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(json(&run.stdout)["certificate"], "held");
+}
+
+/// A cheaper model with light bodies on stiff bearings.
+#[test]
+fn cheaper_models_know_their_limit() {
+    let text = std::fs::read_to_string(util::repository().join("scenes/seeds/004.toml")).unwrap();
+    let text = text.replace("spectral_radius", "# spectral_radius");
+    let scratch = Scratch::new().file("a.toml", text);
+    let words =
+        ["--set", "motion.method=\"rk4\"", "--set", "motion.steps_per_resonance=0", "--set", "analysis.cycles=4"];
+    let run = |steps: &str, out: &str| {
+        let steps = format!("motion.steps_per_mesh_cycle={steps}");
+        let first = ["run", "a.toml", "--out", out, "--set", "motion.warm_up_cycles=2", "--set", &steps];
+        scratch.command(&[&first[..], &words[..]].concat())
+    };
+    let refused = run("8", "long");
+    assert_eq!(refused.code, Some(1), "{}", refused.stderr);
+    assert!(refused.stderr.contains("is too long for the explicit method"), "{}", refused.stderr);
+    let enough = number_after(&refused.stderr, "steps_per_mesh_cycle = ").to_string();
+    let fine = run(&enough, "fine");
+    assert_eq!(fine.code, Some(0), "{enough} steps: {}", fine.stderr);
+}
+
+/// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one looks.
+#[test]
+fn a_result_that_does_not_hold_says_so_everywhere() {
+    let failing = motion_scene(0, "")
+        .split("kind = \"dynamic\"")
+        .next()
+        .unwrap()
+        .replace("torque_nm = 150.0", "torque_nm = 1e-300");
+    let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("the result does not hold: torque_residual is "), "{}", run.stderr);
+    assert!(run.stderr.contains(", the bound is 1e-8"), "{}", run.stderr);
+    assert!(run.stdout.contains("THE RESULT DOES NOT HOLD"), "{}", run.stdout);
+    let summary = json(&scratch.read("o/summary.json"));
+    assert_eq!(summary["certificate"], "failed");
+    let check = &summary["certificate_checks"]["torque_residual"];
+    assert!(check["bound"] == 1e-8 && check["value"].as_f64().is_none_or(|v| v > 1e-8), "{check}");
+    assert!(scratch.read("o/report.html").contains("This result does not hold."));
+
+    let fine = scratch.ale_gear(["run", "b.toml", "--out", "p"]);
+    assert_eq!((fine.code, fine.stderr.as_str()), (Some(0), ""));
+    assert_eq!(json(&scratch.read("p/summary.json"))["certificate"], "held");
+    assert!(!scratch.read("p/report.html").contains("does not hold"));
+
+    let compared = scratch.ale_gear(["compare", "p", "o", "--out", "c"]);
+    assert!(compared.stdout.contains("DOES NOT HOLD: torque_residual"), "{}", compared.stdout);
+    assert!(scratch.read("c/compare.html").contains("<b>does not hold</b>"));
+    let again = scratch.ale_gear(["report", "o"]);
+    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: torque_residual"), "{}", again.stdout);
+    assert!(scratch.read("o/report.html").contains("This result does not hold."));
+}
