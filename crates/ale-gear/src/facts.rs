@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::certificate::Certificate;
 use crate::iso_root::IsoRootStress;
 use crate::phases::{Phase, Phases};
+pub use crate::resolution::Resolution;
 use crate::view::View;
 
 /// A solved scene.
@@ -36,6 +37,9 @@ pub struct Facts {
     pub window_teeth: Option<u32>,
     /// Contact points of the window.
     pub contact_points: Option<usize>,
+    /// How fine contact and meshes are along the face; `None` for a model without meshes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<Resolution>,
     /// Wall time from the start of the program to the first solved position, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_result_s: Option<f64>,

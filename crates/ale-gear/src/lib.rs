@@ -50,6 +50,7 @@ mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
+mod resolution;
 pub mod rexs;
 mod room;
 pub mod view;

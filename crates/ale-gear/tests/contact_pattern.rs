@@ -202,3 +202,50 @@ fn contact_lines_need_slices() {
         assert!(run.stderr.contains("`contact_lines` lists slices, and this scene has none"), "{}", run.stderr);
     }
 }
+
+/// The largest pressure of the run is that of a row of the contact lines, and the summary and every row of the history say where: height, diameter, and an edge where an edge presses.
+#[test]
+fn the_largest_pressure_says_where_it_is() {
+    let summary: serde_json::Value = serde_json::from_str(&RUN.read("o/summary.json")).unwrap();
+    let (at, most) = (&summary["headline"]["max_pressure_at"], &summary["headline"]["max_pressure_mpa"]);
+    let lines = rows("contact_lines.csv");
+    let hardest = lines.iter().find(|r| r["pressure_mpa"] == most.as_f64().unwrap()).unwrap();
+    for key in ["z_mm", "pinion_diameter_mm", "wheel_diameter_mm", "mesh_phase", "pinion_tooth"] {
+        let (said, found) = (at[key].as_f64().unwrap(), hardest[key]);
+        assert!((said / found - 1.0).abs() < 1e-12 || said == found, "{key}: {said}, {found}");
+    }
+    let history = rows("history.csv");
+    let half = 10.0;
+    for row in &history {
+        let of_row: Vec<&Row> = lines.iter().filter(|l| l["mesh_phase"] == row["mesh_phase"]).collect();
+        let hard = of_row.iter().find(|l| l["pressure_mpa"] == row["max_pressure_mpa"]).unwrap();
+        assert!((hard["z_mm"] - row["max_pressure_z_mm"]).abs() < 1e-12, "phase {}", row["mesh_phase"]);
+        let place = row["max_pressure_place"];
+        if hard["off_line_mm"] > 0.0 {
+            assert!(place >= 3.0, "an edge presses off the line of action: {place}");
+        } else if place == 2.0 {
+            assert!(hard["z_mm"].abs() > half * (1.0 - 2.0 / SLICES as f64), "an end face at z {}", hard["z_mm"]);
+        }
+    }
+    assert!(
+        history.iter().any(|r| r["max_pressure_place"] >= 3.0),
+        "twice the torque, and no tip edge presses hardest"
+    );
+}
+
+/// Ten slices are the scene's own, and the summary says so; too few of them are remarked on with the number that would do.
+#[test]
+fn few_slices_are_remarked_on() {
+    let summary: serde_json::Value = serde_json::from_str(&RUN.read("o/summary.json")).unwrap();
+    let said = &summary["resolution"];
+    assert_eq!((said["slices"].as_u64(), said["slices_chosen"].as_bool()), (Some(SLICES as u64), Some(false)));
+    let enough = said["slices_that_would_do"].as_u64().unwrap();
+    assert!(enough >= 32, "{said}");
+    let scratch = Scratch::new().file("a.toml", scene().replace(&format!("slices = {SLICES}"), "slices = 4"));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let warning = "4 slices are few for this pair: a row of springs over its gaps is off by";
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let warnings = summary["warnings"].to_string();
+    assert!(warnings.contains(warning) && warnings.contains(&format!("{enough} would do")), "{warnings}");
+}

@@ -41,6 +41,30 @@ fn defaults_are_those_of_the_documentation() {
     assert_eq!(scene.wheel.material.young_mpa, 2.06e5);
 }
 
+/// Slices and face elements follow width, micro-geometry and load where the scene does not say them, stand in the written scene, and are kept where it does.
+#[test]
+fn slices_and_face_elements_follow_the_pair() {
+    let text = |width: f64, crowning: f64, more: &str| {
+        format!(
+            "[pinion]\nteeth = 30\nhelix_angle_deg = 20\n[pinion.modification]\nlead_crowning_um = {crowning:?}\n[wheel]\nteeth = 30\n\
+             [pair]\nnormal_module_mm = 3\nface_width_mm = {width:?}\n[operation]\ntorque_nm = {:?}\n{more}",
+            7.5 * width
+        )
+    };
+    let counts = |text: &str| {
+        let scene = Scene::parse(text, Path::new("a.toml")).unwrap();
+        let again = Scene::parse(&scene.to_toml(), Path::new("a.toml")).unwrap();
+        assert_eq!(scene, again);
+        (scene.contact.slices.unwrap(), scene.pinion.mesher.unwrap().elements_face)
+    };
+    assert_eq!(counts(&text(20.0, 0.0, "")), (32, 6));
+    let wide = counts(&text(120.0, 0.0, ""));
+    assert!(wide.0 > 64 && wide.1 == 24, "40 modules wide: {wide:?}");
+    let crowned = counts(&text(45.0, 30.0, ""));
+    assert!(crowned.0 > counts(&text(45.0, 0.0, "")).0, "15 modules wide, crowned: {crowned:?}");
+    assert_eq!(counts(&text(120.0, 0.0, "[contact]\nslices = 20\n[pinion.mesher]\nelements_face = 7\n")), (20, 7));
+}
+
 /// The pinion pushes with its left flanks when it drives counter-clockwise; either change turns that round.
 #[test]
 fn driver_and_rotation_choose_the_flanks() {

@@ -244,7 +244,17 @@ impl<'a> Facing<'a> {
 ///
 /// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that it is safe,
 /// bisection otherwise.
-pub(crate) fn bracket_zero(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], [fa, fb]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn bracket_zero(f: impl FnMut(f64) -> f64, ends: [f64; 2], values: [f64; 2]) -> [f64; 2] {
+    bracket_zero_within(f, ends, values, 0.0)
+}
+
+/// The same to a bracket as wide as `within`, or to round-off.
+pub(crate) fn bracket_zero_within(
+    mut f: impl FnMut(f64) -> f64,
+    [a, b]: [f64; 2],
+    [fa, fb]: [f64; 2],
+    within: f64,
+) -> [f64; 2] {
     if fa == 0.0 {
         return [a, a];
     }
@@ -256,7 +266,7 @@ pub(crate) fn bracket_zero(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], [fa,
             return [x1, x1];
         }
         let width = x2 - x1;
-        let resolution = 2.0 * f64::EPSILON * x1.abs().max(x2.abs());
+        let resolution = (2.0 * f64::EPSILON * x1.abs().max(x2.abs())).max(0.5 * within);
         if width.abs() <= 2.0 * resolution {
             break;
         }

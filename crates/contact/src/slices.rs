@@ -80,6 +80,11 @@ pub fn slice(
 }
 
 impl SliceHint {
+    /// Near the place of a slice.
+    pub fn near(slice: &Slice) -> Self {
+        Self { roll: Some(slice.at[0][0]), ..Self::default() }
+    }
+
     /// Where a search goes on from here that was at `before` a station ago: as far again.
     #[must_use]
     pub fn beyond(&self, before: &Self) -> Self {
@@ -130,6 +135,16 @@ impl<'a> FlankPair<'a> {
                 let inside = matches!(place, Place::Inside(_));
                 look.gap + self.edge_opening(at, if inside { 0.0 } else { off_line(self.patches(), look.slope, at) })
             }
+        }
+    }
+
+    /// Whether an edge presses at a place, off the line of action.
+    pub fn is_off_line(&self, found: &SlicePlace) -> bool {
+        let SlicePlace { place, look, .. } = *found;
+        match place {
+            Place::Inside(_) | Place::OtherKink(_) => false,
+            Place::OwnEnd(_) => look.slope != 0.0,
+            Place::OtherEnd(_) => self.other_edge(&look).is_some_and(|(_, _, off)| off != 0.0),
         }
     }
 

@@ -53,7 +53,7 @@ pub struct Equilibrium {
 }
 
 /// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
-const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
+pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.

@@ -1,15 +1,13 @@
 //! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would touch.
 
-use std::cell::Cell;
-
 use ale::ToothWindow;
 use contact::{
-    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, Pose, SliceHint, contact_intervals, contact_row,
-    covered, hertz, least_gap, opening,
+    ContactPoint, ContactRow, FlankPair, FlankPatch, LinePoints, LineStation, Pose, Slice, SliceHint,
+    contact_intervals, contact_row, covered, hertz, least_gap, loaded_intervals, opening,
 };
 use geometry::GearPair;
 
-use crate::{ContactSet, Equilibrium, SliceSet, StaticOptions, Station, parts::Parts};
+use crate::{ContactSet, Equilibrium, StaticOptions, Station, parts::Parts};
 
 /// Axial stations at which the least gap of a pair is looked at.
 const LINE_SAMPLES: usize = 97;
@@ -17,8 +15,6 @@ const LINE_SAMPLES: usize = 97;
 /// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
 /// by as much within a few hundredths of a millimetre.
 const TOUCHING: f64 = 0.15;
-/// The same for slices, whose gaps close exactly: what the interpolation of the approach between stations may be off.
-const SLICE_TOUCHING: f64 = 0.01;
 /// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
 /// and only over more than an element do their forces add up to a line load.
 const BIN_ELEMENTS: f64 = 1.5;
@@ -81,8 +77,12 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
         return Vec::new();
     };
     let half = 0.5 * pair.face_width();
-    if let Some(slices) = set.slices() {
-        return slice_line(parts, e, slices, (first, second), half);
+    if set.slices().is_some() {
+        let of_rows = e.rows.iter().zip(&e.slices).zip(e.solution.openings.iter().zip(&e.solution.forces));
+        let of_pair = of_rows.filter(|((row, _), _)| row.patches == (first, second));
+        let stations = of_pair
+            .map(|((row, slice), (&o, &force))| (row.point, line_station(row.gap, o, slice, force, 0.0), *slice));
+        return slice_line(set, &e.poses, (first, second), stations, half);
     }
     let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
     let [low, high] = patch.range();
@@ -101,39 +101,39 @@ pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * e.approach(pair))
 }
 
-/// The same from slices: between stations the flanks' gap is taken anew and the approach of the stations interpolated. Between two
-/// stations that press it is closed.
-fn slice_line(parts: &Parts, e: &Equilibrium, slices: &SliceSet, pair: (usize, usize), half: f64) -> Vec<[f64; 2]> {
-    let set = parts.set;
-    let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), &e.poses);
+/// The same from slices, of any pair of patches: `opened` is what of a row's gap under load is not the undeformed flanks' own ([`LineStation`]).
+pub(crate) fn slice_line(
+    set: &ContactSet,
+    poses: &[Pose; 2],
+    pair: (usize, usize),
+    rows: impl Iterator<Item = (usize, LineStation, Slice)>,
+    half: f64,
+) -> Vec<[f64; 2]> {
+    let Some(slices) = set.slices() else { return Vec::new() };
+    let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), poses);
     let stations = slices.stations();
-    // Opening and force; a station too far from contact to be a row has none.
-    let mut solved: Vec<Option<(f64, f64)>> = vec![None; stations.len()];
-    let of_rows = e.rows.iter().zip(e.solution.openings.iter().zip(&e.solution.forces));
-    for (row, (&opening, &force)) in of_rows.filter(|(row, _)| row.patches == pair) {
-        solved[row.point] = Some((opening, force));
+    // A station too far from contact to be a row is not known.
+    let mut solved = vec![None; stations.len()];
+    let mut hints = vec![SliceHint::default(); stations.len()];
+    for (point, station, slice) in rows {
+        (solved[point], hints[point]) = (Some(station), SliceHint::near(&slice));
     }
-    let step = stations.get(1).map_or(2.0 * half, |z| z - stations[0]);
-    let hint = Cell::new(SliceHint::default());
-    let gap = |z: f64| -> Option<f64> {
-        let place = ((z - stations[0]) / step).clamp(0.0, (stations.len() - 1) as f64);
-        let (below, share) = (place.floor() as usize, place.fract());
-        let at = |i: usize| solved.get(i).copied().flatten();
-        let opening = match (at(below), at(below + 1)) {
-            (Some((_, f)), Some((_, g))) if f > 0.0 && g > 0.0 => return Some(0.0),
-            (Some((a, _)), Some((b, _))) => a + share * (b - a),
-            (Some((a, _)), None) | (None, Some((a, _))) => a,
-            (None, None) => return None,
-        };
-        let mut near = hint.get();
-        let found = flanks.place(z, &mut near)?;
-        hint.set(near);
-        Some(flanks.gap(&found) + opening)
+    let gap = |near: usize, z: f64| {
+        let found = flanks.place(z, &mut hints[near]);
+        let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
+        touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
     };
-    let samples = 2 * stations.len() + 1;
-    let inset = 1e-9 * half;
-    let range = [inset - half, half - inset];
-    contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, samples, SLICE_TOUCHING * e.approach(parts.pair))
+    loaded_intervals(stations, &solved, half, gap)
+}
+
+/// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included, which its force (N) makes. `other`: what opens it besides, mm.
+pub(crate) fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f64) -> LineStation {
+    if force > 0.0 {
+        let approach = slice.local.under(force / slice.length).approach;
+        LineStation { gap: -approach, opened: opening + other - approach }
+    } else {
+        LineStation { gap: (gap + opening).max(0.0), opened: opening + other }
+    }
 }
 
 /// A window at given poses, for a look at the pairs beside it.

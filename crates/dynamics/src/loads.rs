@@ -4,7 +4,7 @@ use contact::{ContactRow, Pose, Slice, Vec3, covered, hertz};
 use geometry::Side;
 
 use crate::{
-    Certificate, Equilibrium, PairResult, SliceResult, StaticPosition, Wrench, friction,
+    Certificate, Equilibrium, PairResult, Site, SliceResult, StaticPosition, Wrench, friction,
     line::{contact_line, line_pressure},
     parts::Parts,
 };
@@ -155,6 +155,23 @@ pub(crate) fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult
         half_width: state.half_width,
         pressure: state.pressure,
         off_line: slice.local.off_line,
+        site: site(slice, state.half_width),
+    }
+}
+
+/// What part of the flanks a slice presses with: a tip edge that is off the line of action or within the band, an end face that the slice ends at, or neither.
+fn site(slice: &Slice, half_width: f64) -> Site {
+    let [pinion, wheel] = slice.local.bodies.map(|b| b.tip_distance);
+    // The edge that presses is that of the body whose tip is nearer.
+    let tip = if pinion <= wheel { Site::PinionTipEdge } else { Site::WheelTipEdge };
+    let nearest_face =
+        slice.local.bodies.iter().flat_map(|b| b.ends).map(|end| end.distance).fold(f64::INFINITY, f64::min);
+    if slice.local.off_line > 0.0 || pinion.min(wheel) <= half_width {
+        tip
+    } else if nearest_face <= 0.5 * slice.length * (1.0 + 1e-9) {
+        Site::EndFace
+    } else {
+        Site::Flank
     }
 }
 

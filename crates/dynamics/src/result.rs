@@ -14,6 +14,25 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
+/// What part of the flanks presses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Site {
+    /// Flank against flank.
+    Flank,
+    /// A slice that ends at an end face of either gear.
+    EndFace,
+    /// The pinion's tip edge presses, off the line of action, or cuts the band off.
+    PinionTipEdge,
+    /// The wheel's tip edge.
+    WheelTipEdge,
+}
+
+impl Site {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Flank, Self::EndFace, Self::PinionTipEdge, Self::WheelTipEdge];
+}
+
 /// One loaded slice of a contact line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SliceResult {
@@ -33,6 +52,20 @@ pub struct SliceResult {
     pub pressure: f64,
     /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
     pub off_line: f64,
+    /// What part of the flanks presses here.
+    pub site: Site,
+}
+
+impl SliceResult {
+    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an order.
+    pub fn is_harder(&self, other: &Self) -> bool {
+        self.pressure > other.pressure * (1.0 + 1e-9)
+    }
+
+    /// The slice with the largest pressure, the first of those that have it but for round-off.
+    pub fn hardest<'a>(slices: impl IntoIterator<Item = &'a Self>) -> Option<&'a Self> {
+        slices.into_iter().fold(None, |best, s| if best.is_none_or(|b: &Self| s.is_harder(b)) { Some(s) } else { best })
+    }
 }
 
 /// One tooth pair of the window at one position.

@@ -91,6 +91,11 @@ impl SliceSet {
         self.length
     }
 
+    /// Whether edges may press off the line of action.
+    pub(crate) fn has_corner_contact(&self) -> bool {
+        self.corner_contact
+    }
+
     /// Whether a slice may press.
     pub(crate) fn may_touch(&self, slice: &Slice) -> bool {
         self.corner_contact || slice.local.off_line == 0.0

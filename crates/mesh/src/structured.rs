@@ -15,12 +15,14 @@
 //! circle), `cut_0` (clockwise) and `cut_1` where the gear is not whole.
 
 mod error;
+mod face_elements;
 mod outline;
 mod quality;
 mod section;
 mod sweep;
 
 pub use error::StructuredError;
+pub use face_elements::face_elements;
 
 use geometry::Gear;
 

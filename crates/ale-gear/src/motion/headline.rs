@@ -14,6 +14,7 @@ use super::{
     rows::GEARS,
     table::Columns,
 };
+use crate::output::{PLACE_COLUMNS, PressurePlace};
 use crate::scene::{MotionScene, Run, Scene};
 
 /// Mesh harmonics that are listed.
@@ -54,6 +55,7 @@ pub(crate) struct MotionHeadline {
     pub mean_wheel_tilting_moment_nmm: f64,
     pub max_bearing_force_n: f64,
     pub max_pressure_mpa: f64,
+    pub max_pressure_at: Option<PressurePlace>,
     pub max_root_tension_mpa: Option<[f64; 2]>,
     pub max_root_tension_estimated_error_percent: Option<[f64; 2]>,
     pub tooth_changes: u64,
@@ -177,6 +179,7 @@ pub(super) fn headline(
         max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
         max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
         max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
+        max_pressure_at: hardest(rows),
         tooth_changes: done.motion.system().changes().count,
         ramp,
         critical_speeds: Vec::new(),
@@ -194,6 +197,14 @@ fn root_tension(scene: &Scene, rows: &Columns) -> Option<[(f64, f64); 2]> {
         known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
     };
     scene.output.root_stress.then(|| GEARS.map(largest))
+}
+
+/// Where the pressure is largest in any row.
+fn hardest(rows: &Columns) -> Option<PressurePlace> {
+    let pressure = rows.get("max_pressure_mpa");
+    let row = (0..pressure.len()).reduce(|best, i| if pressure[i] > pressure[best] { i } else { best })?;
+    let at = |name: &str| rows.get(name).get(row).copied().unwrap_or(f64::NAN);
+    PressurePlace::of_row(PLACE_COLUMNS.map(at), at("pinion_angle_deg"), at("mesh_phase"))
 }
 
 fn certificate(done: &Finished) -> MotionCertificate {

@@ -20,6 +20,7 @@ use crate::{
     gears, iso_root, meshes,
     meshes::SceneMesh,
     phases::Phases,
+    resolution::resolution,
     run::{self, Failure},
     scene::{Flanks, MotionScene, Scene},
     view::{View, ViewRecorder},
@@ -115,6 +116,8 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         })
     })?;
     let quasi_static = QuasiStatic::of(&history);
+    let (resolution, said) = resolution(scene, pair, &contact);
+    warnings.extend(said);
     warnings.extend(gears::doubts(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(run::body_warnings(&model));
@@ -126,6 +129,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
         dof_before,
         dof_after: run::dof_after(&model, dof_before),
         window_teeth: Some(model.window().count() as u32),
+        resolution: Some(resolution),
         // The motion begins in it and is measured by it.
         certificate: run::certificate(&history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(run::reduced(g)?.way().name())).collect(),

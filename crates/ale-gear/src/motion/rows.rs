@@ -18,7 +18,7 @@ use study::FlankPattern;
 
 use crate::{
     error::CommandError,
-    output::{push_row, root_stress_columns, root_stress_row},
+    output::{PLACE_COLUMNS, base_radius_mm, place_values, push_row, root_stress_columns, root_stress_row},
     scene::{Axis, MotionScene, Scene},
 };
 
@@ -34,12 +34,15 @@ pub(crate) const WRENCH: [&str; COORDINATES] =
 const BEARING: [&str; 5] =
     ["bearing_force_x_n", "bearing_force_y_n", "bearing_force_z_n", "bearing_moment_x_nmm", "bearing_moment_y_nmm"];
 const DISPLACEMENT: [&str; 5] = ["x_um", "y_um", "z_um", "tilt_x_urad", "tilt_y_urad"];
-const TRAILING: [&str; 6] = [
+const TRAILING: [&str; 9] = [
     "normal_force_n",
     "coast_normal_force_n",
     "drive_torque_nm",
     "load_torque_nm",
     "max_pressure_mpa",
+    PLACE_COLUMNS[0],
+    PLACE_COLUMNS[1],
+    PLACE_COLUMNS[2],
     "tooth_changes",
 ];
 /// Columns of the ledger.
@@ -55,6 +58,8 @@ pub(crate) const ENERGY_FILE: &str = "energy.csv";
 #[derive(Debug, Clone)]
 struct Layout {
     pinion_pitch: f64,
+    /// Of the pinion, mm.
+    base_radius: f64,
     sense: i64,
     /// Columns of pairs run from -reach to reach.
     reach: i64,
@@ -68,6 +73,7 @@ impl Layout {
         let free = system.options().free.map(|f| [f[0], f[1], f[2], f[3], f[4]]);
         Self {
             pinion_pitch: TAU / f64::from(scene.pinion.teeth),
+            base_radius: base_radius_mm(scene, 0),
             sense: scene.operation.rotation.sign() as i64,
             reach: window as i64 / 2 + 1,
             free,
@@ -112,8 +118,9 @@ impl Layout {
             1e-3 * now.drive_torque,
             1e-3 * now.load_torque,
             now.max_pressure,
-            now.tooth_changes as f64,
         ]);
+        row.extend(place_values(self.base_radius, now.slices.iter().map(|s| &s.slice)));
+        row.push(now.tooth_changes as f64);
         if self.root_stress {
             // The stress is that of the driving flanks: no number where coast flanks press as well.
             let known = now.normal_forces[1] == 0.0;

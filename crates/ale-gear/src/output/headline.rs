@@ -4,7 +4,7 @@ use dynamics::result::{StaticHistory, StaticPosition};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{RootStressHeadline, root_stress::root_stress_headline};
+use super::{PressurePlace, RootStressHeadline, root_stress::root_stress_headline};
 use crate::run::worse;
 use crate::scene::{Driver, Scene};
 
@@ -34,6 +34,7 @@ pub struct Headline {
     pub efficiency: f64,
     pub max_pair_force_n: f64,
     pub max_pressure_mpa: f64,
+    pub max_pressure_at: Option<PressurePlace>,
     pub root_stress: Option<RootStressHeadline>,
     pub tooth_changes: u64,
     pub worst_torque_residual: f64,
@@ -76,6 +77,7 @@ pub fn headline(scene: &Scene, history: &StaticHistory) -> Result<Headline, Stud
         efficiency: efficiency(scene, positions),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
         max_pressure_mpa: worst(&|p| p.max_pressure),
+        max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),
         tooth_changes: positions.last().map_or(0, |p| p.tooth_changes),
         worst_torque_residual: worst(&|p| p.certificate.torque_residual),

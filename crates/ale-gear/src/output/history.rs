@@ -7,8 +7,10 @@ use dynamics::result::StaticHistory;
 
 use super::{
     pairs,
+    pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values},
     root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
+use crate::pattern::has_slices;
 use crate::scene::Scene;
 
 const LEADING: &[&str] = &[
@@ -24,8 +26,8 @@ const LEADING: &[&str] = &[
     "pairs_in_contact",
 ];
 const WRENCH: &[&str] = &["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
+const PRESSURE: &str = "max_pressure_mpa";
 const TRAILING: &[&str] = &[
-    "max_pressure_mpa",
     "strain_energy_nmm",
     "friction_power_loss_w",
     "tooth_changes",
@@ -68,8 +70,11 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         }
         row.extend(columns.iter().map(|&k| pairs::force(p, k, pitch)));
         let c = &p.certificate;
+        row.push(p.max_pressure);
+        if has_slices(scene) {
+            row.extend(place_values(base_radius_mm(scene, 0), p.pairs.iter().flat_map(|pair| &pair.slices)));
+        }
         row.extend([
-            p.max_pressure,
             p.strain_energy,
             1e-3 * p.friction_work * scene.pinion_speed(),
             p.tooth_changes as f64,
@@ -100,6 +105,10 @@ pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
         names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
     }
     names.extend(pairs.iter().map(|k| format!("normal_force_pair_{k}_n")));
+    names.push(PRESSURE.to_owned());
+    if has_slices(scene) {
+        names.extend(PLACE_COLUMNS.map(str::to_owned));
+    }
     names.extend(TRAILING.iter().map(|&n| n.to_owned()));
     if scene.output.root_stress {
         for gear in GEARS {

@@ -45,7 +45,7 @@ pub(crate) fn motion_table(
     if h.max_bearing_force_n > 0.0 {
         t.number("largest force of a bearing", h.max_bearing_force_n, 1, "N");
     }
-    t.number("maximum pressure", h.max_pressure_mpa, 0, "MPa");
+    t.pressure(h.max_pressure_mpa, h.max_pressure_at.as_ref());
     if let Some([pinion, wheel]) = h.root_tensions() {
         let unit = format!("MPa, within about {}, {} %", fixed(pinion.1, 1), fixed(wheel.1, 1));
         t.text("largest root tension, pinion, wheel", format!("{}, {}", fixed(pinion.0, 1), fixed(wheel.0, 1)), &unit);
@@ -53,6 +53,7 @@ pub(crate) fn motion_table(
     }
     t.cycles([c.warm_up_cycles, h.cycles], c.periodicity, c.period_cycles);
     t.text("tooth changes", h.tooth_changes, "");
+    t.resolution(scene, facts);
     t.text("contact lost, times", c.contact_losses, "");
     t.science("energy open, over work through pair", c.ledger_residual_over_work, "");
     t.science("least force of a slice in contact", c.least_contact_force_n, "N");

@@ -81,7 +81,13 @@ fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
     let mut rows = rows.map(|(label, value)| [label.to_owned(), value]);
     rows[6][0] = format!("torque on the {driven}");
     rows[7][0] = format!("speed of the {driver}");
-    rows.into()
+    let mut rows = Vec::from(rows);
+    if let Some(slices) = facts.resolution.as_ref().and_then(|r| Some((r.slices?, r.slices_chosen))) {
+        let (count, chosen) = slices;
+        let whose = if chosen { "chosen" } else { "of the scene" };
+        rows.push(["slices over the face".to_owned(), format!("{count} ({whose})")]);
+    }
+    rows
 }
 
 /// The speed of the driver, or the first and the last one.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Headline, Place};
+use super::{Headline, Place, PressurePlace};
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
 
@@ -24,7 +24,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
         t.number("mean power lost to friction", h.mean_friction_power_loss_w, 2, "W");
         t.text("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
     }
-    t.number("maximum pressure", h.max_pressure_mpa, 0, "MPa");
+    t.pressure(h.max_pressure_mpa, h.max_pressure_at.as_ref());
     if let Some(root) = &h.root_stress {
         for (name, gear) in [("pinion", &root.pinion), ("wheel", &root.wheel)] {
             let at = gear.max_principal;
@@ -34,6 +34,7 @@ pub fn closing_table(scene: &Scene, facts: &Facts, cost: &Cost, headline: &Headl
     }
     t.iso_root_stress(facts);
     t.text("tooth changes", h.tooth_changes, "");
+    t.resolution(scene, facts);
     t.science("worst torque residual", h.worst_torque_residual, "");
     t.text("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");
     t.text("DOF after reduction, pinion + wheel", sum(facts.dof_after), "");
@@ -72,6 +73,26 @@ impl Lines {
     /// A small number as power of ten, `-` when there is none.
     pub(super) fn science(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.text(label, value.into().map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}")), unit);
+    }
+
+    /// The largest pressure, and where it is.
+    pub(super) fn pressure(&mut self, pressure_mpa: f64, at: Option<&PressurePlace>) {
+        let unit = at.map_or_else(|| "MPa".to_owned(), |at| format!("MPa ({})", at.said()));
+        self.number("maximum pressure", pressure_mpa, 0, &unit);
+    }
+
+    /// Slices and elements along the face, and whether the program chose them.
+    pub(super) fn resolution(&mut self, scene: &Scene, facts: &Facts) {
+        let Some(r) = &facts.resolution else { return };
+        if let Some(slices) = r.slices {
+            self.text("slices over the face", slices, if r.slices_chosen { "(chosen)" } else { "(of the scene)" });
+        }
+        if let [Some(pinion), Some(wheel)] = r.face_elements {
+            let chosen = ["pinion.mesher.elements_face", "wheel.mesher.elements_face"]
+                .map(|key| scene.place_of(&[key]).is_none());
+            let by = if chosen == [true; 2] { "(chosen)" } else { "(of the scene)" };
+            self.text("elements along the face, pinion, wheel", format!("{pinion}, {wheel}"), by);
+        }
     }
 
     /// The transmission errors of a motion beside those of the quasi-static cycle: means, then peak to peak, um.

@@ -18,6 +18,7 @@ use crate::fields::FieldWriter;
 use crate::meshes::SceneMesh;
 use crate::output::{self, ResultDirectory};
 use crate::phases::Phases;
+use crate::resolution::resolution;
 use crate::scene::{Analysis, Model, Scene};
 use crate::view::ViewRecorder;
 use crate::{gears, iso_model, iso_root, meshes};
@@ -71,6 +72,8 @@ fn solve_scene(
     let mut warnings = gears::doubts(&pair);
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     let mut options = options(scene, &pair);
+    let (resolution, said) = resolution(scene, &pair, &options);
+    warnings.extend(said);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
     let Attempt { model, mut history, first_result_s, recorder } = loop {
         match attempt(inputs, phases, &options) {
@@ -94,6 +97,7 @@ fn solve_scene(
         window_teeth: Some(model.window().count() as u32),
         first_result_s,
         contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
+        resolution: Some(resolution),
         ..Facts::default()
     };
     if scene.output.root_stress {

@@ -156,7 +156,7 @@ impl Scene {
     fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
         let (all, ranges) = setting::below(text, settings);
         let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
-        let scene = check::scene(&source, raw::read(&source)?)?;
+        let scene = crate::resolution::settled(check::scene(&source, raw::read(&source)?)?);
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
 

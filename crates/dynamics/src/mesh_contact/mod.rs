@@ -243,6 +243,11 @@ impl MeshContact {
         gaps.extend(rows.iter().map(|r| r.gap));
     }
 
+    /// What the kept modes open a row by, mm; it is in the row's gap.
+    pub(crate) fn modal_opening(&self, row: usize) -> f64 {
+        self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.found.modal, row))
+    }
+
     /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
     pub(crate) fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
         let Self { found, gaps, levers, torque_levers, memory, solver, .. } = self;

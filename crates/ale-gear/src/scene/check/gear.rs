@@ -95,7 +95,7 @@ pub(super) fn gear(
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
     let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
-    let (mesh, mesher) = mesh_source(s, raw, teeth)?;
+    let (mesh, mesher) = mesh_source(s, raw, teeth, pair)?;
     let groups = groups(s, &raw.groups)?;
     let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
     let bore_of_mesh = match &mesh {
@@ -165,7 +165,12 @@ fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64) -> Checked<f64> {
     }
 }
 
-fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
+fn mesh_source(
+    s: &Source<'_>,
+    raw: &RawGear,
+    teeth: u32,
+    pair: &PairScene,
+) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
     match (&raw.mesh, &raw.mesher) {
         (Some(_), Some(mesher)) => Err(s.conflict(
             &mesher.span(),
@@ -175,18 +180,21 @@ fn mesh_source(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Option<Pat
         (Some(mesh), None) => Ok((Some(inputs::named(s, "mesh", mesh)?), None)),
         (None, mesher) => {
             let none = RawMesher::default();
-            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth)?)))
+            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth, pair)?)))
         }
     }
 }
 
-fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32) -> Checked<MesherScene> {
+fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32, pair: &PairScene) -> Checked<MesherScene> {
+    let order = s.whole_of(&schema::MESHER, "order", &raw.order)?;
+    let (least, most, _) = schema::MESHER.whole("elements_face");
+    let usual = mesh::face_elements(pair.face_width_mm, pair.normal_module_mm, order);
     Ok(MesherScene {
-        order: s.whole_of(&schema::MESHER, "order", &raw.order)?,
+        order,
         elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
         elements_fillet: s.whole_of(&schema::MESHER, "elements_fillet", &raw.elements_fillet)?,
         elements_thickness: s.whole_of(&schema::MESHER, "elements_thickness", &raw.elements_thickness)?,
-        elements_face: s.whole_of(&schema::MESHER, "elements_face", &raw.elements_face)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, usual, least, most)?,
         elements_rim: s.whole_of(&schema::MESHER, "elements_rim", &raw.elements_rim)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })

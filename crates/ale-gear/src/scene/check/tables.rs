@@ -9,6 +9,9 @@ use crate::scene::{
     source::Source,
 };
 
+/// Slices of a pair that asks for no more, and of models that do not ask.
+const LEAST_SLICES: u32 = 32;
+
 pub(super) fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
     Ok(Operation {
         driver: s.choice("driver", &raw.driver, &[("pinion", Driver::Pinion), ("wheel", Driver::Wheel)])?,
@@ -21,7 +24,9 @@ pub(super) fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation
 pub(super) fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<ContactScene> {
     let method = s.choice("method", &raw.method, &[("slice", Method::Slice), ("nodal", Method::Nodal)])?;
     let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
-    let slices = s.whole_of(&schema::CONTACT, "slices", &raw.slices)?;
+    let (least, most, _) = schema::CONTACT.whole("slices");
+    // Where none are said and the pair is to be cut, its own number follows once the scene is checked.
+    let slices = s.whole("slices", &raw.slices, LEAST_SLICES, least, most)?;
     let gap = s.choice("gap", &raw.gap, &[("smooth", Gap::Smooth), ("facet", Gap::Facet)])?;
     let points = s.whole_of(&schema::CONTACT, "points_per_face_edge", &raw.points_per_face_edge)?;
     Ok(ContactScene {

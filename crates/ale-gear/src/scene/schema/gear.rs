@@ -68,7 +68,12 @@ pub(in crate::scene) static MESHER: Table = keys(
         whole("elements_profile", 1, 500, 6, "elements along the active flank"),
         whole("elements_fillet", 2, 500, 6, "elements along fillet and root land"),
         whole("elements_thickness", 1, 500, 4, "elements across the tooth"),
-        whole("elements_face", 1, 2000, 6, "elements along the face width"),
+        bare_whole(
+            "elements_face",
+            1,
+            2000,
+            "elements along the face width; default: as many as it asks for, at least 6",
+        ),
         whole("elements_rim", 1, 500, 5, "elements from the root to the bore"),
         whole(
             "sector_teeth",

@@ -339,7 +339,6 @@ mod tests {
             ("elements_profile", d.elements_profile),
             ("elements_fillet", d.elements_fillet),
             ("elements_thickness", d.elements_thickness),
-            ("elements_face", d.elements_face),
             ("elements_rim", d.elements_rim),
         ];
         for (key, value) in own {

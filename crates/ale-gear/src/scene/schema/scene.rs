@@ -108,7 +108,12 @@ pub(in crate::scene) static CONTACT: Table = keys(
             &["slice", "nodal"],
             "contact unknowns: one line load an axial slice, or pressed points of the flank mesh",
         ),
-        whole("slices", 4, 1000, 32, "slices over the face width (method slice)"),
+        bare_whole(
+            "slices",
+            4,
+            1000,
+            "slices over the face width (method slice); default: as width, load and micro-geometry ask for, at least 32",
+        ),
         bare(
             "penalty_mpa_per_mm",
             1.0,

@@ -42,7 +42,7 @@ impl PairMechanism {
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
         let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
-        let contact_line_length = contact_line::length(&self.pair, contact);
+        let contact_line_length = contact_line::length(&self.pair, contact, &poses);
         let root_stress = match &self.roots {
             Some(roots) => self.drive_side.root_stress(&self.pair, &poses, roots)?,
             None => Default::default(),
