@@ -201,7 +201,7 @@ fn contact_passes_to_the_coast_flanks_when_the_torque_reverses() {
 /// A run-up writes rows with the same number in every mesh cycle, and a waterfall.
 #[test]
 fn a_run_up_has_a_waterfall() {
-    let ramp = "run = \"ramp\"\nramp = { from_rpm = 1000, to_rpm = 3000, duration_s = 0.01, waterfall_cycles = 4 }\n";
+    let ramp = "run = \"ramp\"\nramp = { from_rpm = 1000, to_rpm = 3000, duration_s = 0.01, waterfall_cycles = 4 }\n[drive]\nby = \"speed\"\n";
     let scratch = Scratch::new().file("a.toml", scene(0, ramp));
     let summary = run(&scratch, "o", &[]);
     let history = scratch.read("o/history.csv");
