@@ -17,6 +17,8 @@ pub(super) struct Fillet {
     neighbours: Vec<Vec<usize>>,
     /// Whether it is in the uppermost row: no neighbour is farther from the axis.
     uppermost: Vec<bool>,
+    /// Whether it is in the lowest row: no neighbour is nearer to the axis.
+    lowest: Vec<bool>,
     /// Whether it is below the [`FALLBACK_TANGENT`].
     below: Vec<bool>,
 }
@@ -67,11 +69,13 @@ impl<'a> Surroundings<'a> {
         };
         let neighbours: Vec<Vec<usize>> = nodes.iter().map(beside).collect();
         let farther = |node: u32, other: usize| radius(nodes[other]) > radius(node) * (1.0 + 1e-9);
+        let nearer = |node: u32, other: usize| radius(nodes[other]) < radius(node) * (1.0 - 1e-9);
         Fillet {
             tooth,
             side,
             places: (first..first + nodes.len()).collect(),
             uppermost: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| farther(n, m))).collect(),
+            lowest: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| nearer(n, m))).collect(),
             below: nodes.iter().map(|&n| radius(n) <= self.fallback).collect(),
             neighbours: neighbours.into_iter().map(|of| of.into_iter().map(|m| first + m).collect()).collect(),
         }
@@ -85,7 +89,7 @@ impl Fillet {
     }
 
     /// Place and value of the largest hill of `sign` times a measure; of the largest value below the [`FALLBACK_TANGENT`] where
-    /// there is no hill, of the largest at all where no node is below it.
+    /// there is no hill but in the lowest row, of the largest at all where no node is below it.
     ///
     /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there is the stress of contact
     /// beside it, which has no limit as the mesh is refined.
@@ -99,6 +103,9 @@ impl Fillet {
             let own = sign * value(self.places[i]);
             !self.uppermost[i] && self.neighbours[i].iter().all(|&other| sign * value(other) <= own)
         };
-        largest(&hill).or_else(|| largest(&|i| self.below[i])).or_else(|| largest(&|_| true))
+        // A hill of the lowest row alone may be one along the face only, its top in rows that the mesh does not have.
+        let inside = |&(at, _): &(usize, f64)| self.places.binary_search(&at).is_ok_and(|i| !self.lowest[i]);
+        let below = || largest(&|i| self.below[i]);
+        largest(&hill).filter(inside).or_else(below).or_else(|| largest(&|_| true))
     }
 }
