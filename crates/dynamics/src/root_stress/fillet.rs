@@ -89,7 +89,7 @@ impl Fillet {
     }
 
     /// Place and value of the largest hill of `sign` times a measure; of the largest value below the [`FALLBACK_TANGENT`] where
-    /// there is no hill but in the lowest row, of the largest at all where no node is below it.
+    /// there is no hill but in the lowest row, of the largest at all where no row but the lowest is below it.
     ///
     /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there is the stress of contact
     /// beside it, which has no limit as the mesh is refined.
@@ -105,7 +105,8 @@ impl Fillet {
         };
         // A hill of the lowest row alone may be one along the face only, its top in rows that the mesh does not have.
         let inside = |&(at, _): &(usize, f64)| self.places.binary_search(&at).is_ok_and(|i| !self.lowest[i]);
-        let below = || largest(&|i| self.below[i]);
+        let rows = (0..self.places.len()).any(|i| self.below[i] && !self.lowest[i]);
+        let below = || rows.then(|| largest(&|i| self.below[i])).flatten();
         largest(&hill).filter(inside).or_else(below).or_else(|| largest(&|_| true))
     }
 }
