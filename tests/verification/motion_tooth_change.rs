@@ -69,7 +69,12 @@ fn the_spectrum_has_mesh_harmonics_alone() {
         between.0,
         between.1 as f64 / cycles as f64
     );
-    assert_eq!(changes.count - before, cycles as u64, "a change a cycle");
+    // Changes fall on the ends of cycles, and round-off says on which side of the first and the last end.
+    assert!(
+        (changes.count - before).abs_diff(cycles as u64) <= 1,
+        "a change a cycle, not {} in {cycles}",
+        changes.count - before
+    );
     // Contact is solved anew on the new window; what was last solved on the old one may have been for its energy, to a millionth of the approach.
     let force = motion.system().extremes().largest_force;
     assert!(changes.jump < 1e-6 * force, "the force jumps by {:e} of {force} N at a change", changes.jump);

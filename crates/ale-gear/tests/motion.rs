@@ -15,7 +15,8 @@ fn run(scratch: &Scratch, out: &str, more: &[&str]) -> serde_json::Value {
 /// The defaults settle into a periodic motion whose certificate holds; rows, spectrum and ledger belong together.
 #[test]
 fn a_motion_settles_and_its_certificate_holds() {
-    let scratch = Scratch::new().file("a.toml", scene(2, ""));
+    // Three cycles: with both gears free this coarse pair comes back after so many, and the record must be whole periods.
+    let scratch = Scratch::new().file("a.toml", scene(3, ""));
     let summary = run(&scratch, "o", &[]);
     let mut names: Vec<_> =
         std::fs::read_dir(scratch.path().join("o")).unwrap().map(|e| e.unwrap().file_name()).collect();
@@ -42,14 +43,14 @@ fn a_motion_settles_and_its_certificate_holds() {
     assert!(number(certificate, "least_contact_force_n") >= 0.0, "a flank pulls: {certificate}");
     let jump = number(certificate, "force_jump_at_tooth_change_n") / number(headline, "mean_normal_force_n");
     assert!(jump < 1e-9, "the force jumps by {jump:e} of itself at a tooth change");
-    assert!(number(headline, "tooth_changes") >= 2.0);
+    assert!(number(headline, "tooth_changes") >= 3.0);
     // Mean force balances the load: the driven gear neither speeds up nor slows down.
     let history = scratch.read("o/history.csv");
     let torque = column(&history, "wheel_moment_z_nmm");
     let mean = torque.iter().sum::<f64>() / torque.len() as f64;
     // Sixteen rows a cycle at the ends of steps: their mean is not quite that over time.
     assert!((mean.abs() - 150e3).abs() < 5e-4 * 150e3, "{mean} N mm");
-    assert_eq!(torque.len(), 32);
+    assert_eq!(torque.len(), 48);
     // Whole cycles of a periodic motion: the spectrum's lines at mesh orders are the harmonics of the headline.
     let spectrum = scratch.read("o/spectrum.csv");
     let (orders, lines) = (column(&spectrum, "mesh_order"), column(&spectrum, "dte_um"));

@@ -114,6 +114,7 @@ fn the_tilting_moment_is_that_of_the_contact_lines() {
     let still = [
         ("kind = \"dynamic\"\ncycles = 8", "positions_per_cycle = 8\n[output]\ncontact_lines = true"),
         ("[motion]\nrun = \"steady\"\nsteps_per_mesh_cycle = 64\n", ""),
+        ("[drive]\nby = \"speed\"\n", ""),
     ];
     let scratch = Scratch::new().file("a.toml", scene(degrees, &still));
     done(&scratch.ale_gear(["run", "a.toml", "--out", "o"]));

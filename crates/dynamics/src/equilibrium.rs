@@ -60,6 +60,8 @@ const POSE_STEPS: usize = 40;
 const POSE_TOLERANCE: f64 = 1e-10;
 /// Deflection over the module from which on it is the load that parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
+/// Guessed deflection of steel teeth over the module from which on no material stands the load.
+const HOPELESS: f64 = 10.0;
 /// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
 const POSE_ROUND_OFF: f64 = 1e-9;
 
@@ -164,6 +166,15 @@ pub(crate) fn equilibrium(
     let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
     let mut rotation = unloaded.rotation + deflection;
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
+    let module_mm = pair.pinion.data().normal_module;
+    let overloaded = |deflection_mm: f64| {
+        let Station { cycle, phase } = station;
+        StaticError::Overloaded { cycle, phase, torque_nm: 1e-3 * options.torque, deflection_mm, module_mm }
+    };
+    // No search settles this: the numbers of the contact themselves are lost in round-off.
+    if guessed > HOPELESS * module_mm {
+        return Err(overloaded(guessed));
+    }
     // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
     let facets = if options.gap == contact::GapSource::Facet { options.surface_tolerance } else { 0.0 };
     let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
@@ -174,14 +185,11 @@ pub(crate) fn equilibrium(
         let (turn, steps) = match solver.step(parts, &poses, reach).map_err(fail)? {
             Step::Turn(turn, steps) => (turn, steps),
             Step::OutOfReach => {
-                let module_mm = pair.pinion.data().normal_module;
                 if reach > module_mm {
                     let turned = base_radius * (rotation - unloaded.rotation).abs();
                     let deflection_mm = turned.max(guessed);
                     if deflection_mm > TOO_FAR * module_mm {
-                        let Station { cycle, phase } = station;
-                        let torque_nm = 1e-3 * options.torque;
-                        return Err(StaticError::Overloaded { cycle, phase, torque_nm, deflection_mm, module_mm });
+                        return Err(overloaded(deflection_mm));
                     }
                     return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
                 }

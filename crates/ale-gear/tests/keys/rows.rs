@@ -172,7 +172,7 @@ const SCENE: &[Row] = &[
     ("contact.flanks", Reduced, "", "both"),
     ("contact.friction", Reduced, "", "0.1"),
     ("contact.corner_contact", Reduced, "operation.torque_nm=2000", "false"),
-    ("drive.by", Motion, "", "torque"),
+    ("drive.by", Motion, "", "speed"),
     ("drive.torque_nm", Motion, "drive.by=torque", "160"),
     ("analysis.kind", Reduced, "analysis.cycles=1; contact.slices=4", "dynamic"),
     ("analysis.model", Iso, "", "reduced"),

@@ -1,5 +1,7 @@
 //! Boundary of one tooth's transverse section, divided into element lengths.
 
+use std::f64::consts::FRAC_PI_4;
+
 use geometry::{Gear, TransverseProfile};
 
 use super::StructuredOptions;
@@ -32,8 +34,8 @@ impl Outline {
             .collect();
 
         let curve = FilletCurve::new(profile, gear.root_radius(), 0.5 * gear.pitch_angle());
-        let neck = curve.neck();
         let total = options.elements_fillet as usize;
+        let neck = curve.neck(total);
         let share = (total as f64 * neck / curve.length()).round() as usize;
         let throat = share.clamp(1, total - 1) * order;
         let rest = total * order - throat;
@@ -65,6 +67,9 @@ struct FilletCurve<'a> {
 const NECK: f64 = 65.0 * std::f64::consts::PI / 180.0;
 /// Fillets of large gears begin flatter than 75 deg; the neck keeps below their beginning.
 const NECK_SHARE: f64 = 0.85;
+/// With fewer elements than this along the fillet the neck stays at 45 deg (at half of the first slope of flat ones): farther up it would leave nearly
+/// the whole fillet to one element, and the tooth 0.2 % stiffer.
+const NECK_ELEMENTS: usize = 4;
 
 /// Fine enough that arc lengths are good to 1e-5; points themselves are exact.
 const SAMPLES: usize = 512;
@@ -85,13 +90,14 @@ impl<'a> FilletCurve<'a> {
     }
 
     /// Arc length at which the tangent has turned to [`NECK`] from the circumference (to [`NECK_SHARE`] of its first slope, where
-    /// the fillet begins flatter).
-    fn neck(&self) -> f64 {
+    /// the fillet begins flatter), for a fillet of so many elements.
+    fn neck(&self, elements: usize) -> f64 {
         let slope = |i| {
             let (dr, arc) = step(self.profile, i);
             dr.atan2(arc)
         };
-        let target = NECK.min(NECK_SHARE * slope(0));
+        let (angle, share) = if elements < NECK_ELEMENTS { (FRAC_PI_4, 0.5) } else { (NECK, NECK_SHARE) };
+        let target = angle.min(share * slope(0));
         let turned = (1..SAMPLES).find(|&i| slope(i) <= target).unwrap_or(SAMPLES / 2);
         self.reached[turned]
     }
