@@ -74,13 +74,14 @@ fn compare(name: &str, pair: &Loaded, counts: Counts, settled: Counts) -> [[f64;
         let from_gauss_points = 100.0 * (own[gear].from_volume / reference[gear].stress - 1.0);
         let said = 100.0 * own[gear].relative_error();
         println!(
-            "{name} z {:2} x {:+.2} bore {:5.1}: {:7.2} of {:7.2} MPa, {off:+.2} % (Gauss points {from_gauss_points:+.1} %), said {said:.1} %; \
+            "{name} z {:2} x {:+.2} bore {:5.1}: {:7.2} of {:7.2} MPa, {off:+.2} % (Gauss points {from_gauss_points:+.1} %, turn {:.1} deg), said {said:.1} %; \
              r {:.2}, z {:.2}",
             pair.gears[gear].teeth,
             pair.gears[gear].profile_shift,
             pair.gears[gear].bore_diameter,
             own[gear].stress,
             reference[gear].stress,
+            own[gear].turn.to_degrees(),
             reference[gear].radius,
             reference[gear].z,
         );
@@ -188,8 +189,11 @@ fn layers(pair: &Loaded) -> u32 {
 #[test]
 #[ignore = "hours"]
 fn twenty_random_pairs() {
+    let mut pairs: Vec<(usize, Loaded)> = random_pairs(20).into_iter().enumerate().collect();
+    // The cheapest first, so that a run that is broken off has shown most of them.
+    pairs.sort_by_key(|(_, pair)| layers(pair) * (pair.gears[0].teeth + pair.gears[1].teeth));
     let mut all = Vec::new();
-    for (number, pair) in random_pairs(20).iter().enumerate() {
+    for (number, pair) in &pairs {
         let [p, f, t, _, r] = default_counts();
         let own = [p, f, t, layers(pair), r];
         let data = &pair.gears[0];
@@ -202,6 +206,43 @@ fn twenty_random_pairs() {
         all.extend(compare(&name, pair, own, finer(own, 1.5)));
     }
     told(&all);
+}
+
+/// Root stress of a narrow pair of high helix and great shift, whose largest nodal value lies next to the flank at the end face and grows
+/// without an end: the hill in the fillet converges.
+#[test]
+#[ignore = "many minutes"]
+fn the_narrow_pair_of_high_helix_converges() {
+    let gears = [(37, 1.0, 0.58), (55, -1.0, 0.31)].map(|(teeth, hand, shift): (u32, f64, f64)| GearData {
+        teeth,
+        normal_module: 5.0,
+        helix_angle: hand * 28.99f64.to_radians(),
+        face_width: 26.7,
+        profile_shift: shift,
+        bore_diameter: if teeth == 37 { 110.0 } else { 160.0 },
+        ..GearData::default()
+    });
+    let pair = Loaded { gears, torque: 4086e3 };
+    let mut before = [f64::NAN; 2];
+    let mut moved = Vec::new();
+    for factor in [1.0, 1.34, 1.67, 2.0] {
+        let counts = finer(default_counts(), factor);
+        let now = tension(&pair, counts, 2);
+        let change = [0, 1].map(|i| 100.0 * (now[i].stress / before[i] - 1.0));
+        for i in 0..2 {
+            let StressPeak { stress, from_volume, radius, z, .. } = now[i];
+            println!(
+                "{counts:?} {}: {stress:.2} MPa ({:+.2} %, said {:.1} %; Gauss points {from_volume:.1}), r {radius:.2}, z {z:.2}",
+                ["pinion", "wheel"][i],
+                change[i],
+                100.0 * now[i].relative_error()
+            );
+        }
+        moved.push(change);
+        before = now.map(|peak| peak.stress);
+    }
+    assert!(moved[1..].iter().flatten().all(|m| m.abs() < 2.0), "{moved:?} %");
+    assert!(moved[3].iter().all(|m| m.abs() < 1.0), "{moved:?} %");
 }
 
 /// Nine in ten are within 3 %, and of the others the program says so.

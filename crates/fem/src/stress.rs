@@ -8,15 +8,16 @@
 //! Components: xx, yy, zz, xy, yz, zx, MPa.
 
 mod element;
+mod patch;
 mod surface;
 
 use faer::{Mat, MatRef};
-use mesh::{Face, FaceKind, Mesh};
+use mesh::{Face, Mesh};
 use rayon::prelude::*;
 
 use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
 use element::ElementStress;
-use surface::SurfaceStress;
+use patch::Patches;
 
 /// Stress at every node (MPa) from the displacement of every node (mm).
 ///
@@ -153,8 +154,8 @@ impl StressOperator {
 
     /// The same on free surfaces, from the displacement of `faces` alone: strains in the tangent plane, no stress across it. Theory (22c).
     ///
-    /// The mean over those of the faces that a node is on; zero at a node that is on none. Faces must be free of traction where nodes
-    /// are asked for.
+    /// By polynomials through the most accurate points of the faces about each corner; zero at a node that is on no face. Faces must be free
+    /// of traction where nodes are asked for.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.
@@ -166,25 +167,22 @@ impl StressOperator {
         nodes: &[u32],
     ) -> Result<Self, FemError> {
         let places = places(mesh, dofs, nodes)?;
-        let kernels = FaceKind::ALL.map(|kind| (kind, SurfaceStress::new(kind, material)));
+        let last = faces.iter().flat_map(|face| face.nodes()).max().map_or(0, |&n| n as usize);
+        if last >= mesh.nodes.len() && !faces.is_empty() {
+            return Err(FemError::Shape { what: "nodes", expected: mesh.nodes.len(), found: last });
+        }
+        let mut patches = Patches::new(&mesh.nodes, faces, material);
         let mut rows = vec![(Vec::new(), 0u32); nodes.len()];
-        for face in faces {
-            let at = |&n: &u32| mesh.nodes.get(n as usize).copied();
-            let Some(x) = face.nodes().iter().map(at).collect::<Option<Vec<_>>>() else {
-                let found = face.nodes().iter().max().map_or(0, |&n| n as usize);
-                return Err(FemError::Shape { what: "nodes", expected: mesh.nodes.len(), found });
-            };
-            if face.nodes().iter().all(|&n| places[n as usize].is_empty()) {
-                continue;
-            }
-            let kernel = kernels.iter().find(|(kind, _)| *kind == face.kind).map(|(_, kernel)| kernel);
-            let Some(blocks) = kernel.and_then(|kernel| kernel.blocks(&x)) else { continue };
-            for (&node, blocks) in face.nodes().iter().zip(&blocks) {
+        for (number, face) in faces.iter().enumerate() {
+            for (i, &node) in face.nodes().iter().enumerate().filter(|(_, n)| !places[**n as usize].is_empty()) {
+                let blocks = patches.at_node(number, i);
+                if blocks.is_empty() {
+                    continue;
+                }
                 for &place in &places[node as usize] {
                     let (row, touching) = &mut rows[place];
                     *touching += 1;
-                    let free = face.nodes().iter().zip(blocks);
-                    row.extend(free.filter_map(|(&other, block)| Some((dofs.position(other)?, *block))));
+                    row.extend(blocks.iter().filter_map(|&(other, block)| Some((dofs.position(other)?, block))));
                 }
             }
         }

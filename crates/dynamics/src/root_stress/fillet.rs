@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use geometry::{Gear, Side};
 use mesh::{Face, Mesh, RootFillets};
 
+use super::turn::turns;
+
 /// One fillet of a window.
 #[derive(Debug)]
 pub(super) struct Fillet {
@@ -21,6 +23,8 @@ pub(super) struct Fillet {
     lowest: Vec<bool>,
     /// Whether it is below the [`FALLBACK_TANGENT`].
     below: Vec<bool>,
+    /// Angle by which the surface turns within one face about it, rad.
+    turns: Vec<f64>,
 }
 
 /// Where stress is looked at in a fillet on which it has no hill: below this tangent, rad (25 deg).
@@ -41,6 +45,7 @@ pub(super) struct Surroundings<'a> {
     faces: &'a [Face],
     /// Faces by node.
     about: BTreeMap<u32, Vec<usize>>,
+    turns: BTreeMap<u32, f64>,
     fallback: f64,
 }
 
@@ -50,7 +55,7 @@ impl<'a> Surroundings<'a> {
         for (i, face) in found.faces().iter().enumerate() {
             face.nodes().iter().for_each(|&n| about.entry(n).or_default().push(i));
         }
-        Self { mesh, faces: found.faces(), about, fallback }
+        Self { mesh, faces: found.faces(), about, turns: turns(mesh, found.faces()), fallback }
     }
 
     /// The fillet of these nodes (ascending), which come to stand from `first` on.
@@ -77,6 +82,7 @@ impl<'a> Surroundings<'a> {
             uppermost: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| farther(n, m))).collect(),
             lowest: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| nearer(n, m))).collect(),
             below: nodes.iter().map(|&n| radius(n) <= self.fallback).collect(),
+            turns: nodes.iter().map(|n| self.turns.get(n).copied().unwrap_or_default()).collect(),
             neighbours: neighbours.into_iter().map(|of| of.into_iter().map(|m| first + m).collect()).collect(),
         }
     }
@@ -108,5 +114,10 @@ impl Fillet {
         let rows = (0..self.places.len()).any(|i| self.below[i] && !self.lowest[i]);
         let below = || rows.then(|| largest(&|i| self.below[i])).flatten();
         largest(&hill).filter(inside).or_else(below).or_else(|| largest(&|_| true))
+    }
+
+    /// Angle by which the surface turns within one face about a place, rad.
+    pub fn turn(&self, at: usize) -> f64 {
+        self.places.binary_search(&at).map_or(0.0, |i| self.turns[i])
     }
 }

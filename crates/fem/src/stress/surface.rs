@@ -9,7 +9,7 @@
 //! sigma = 2 mu eps + E nu / (1 - nu^2) tr(eps) P                            plane stress, MPa
 //! ```
 //! Evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss points, triangles of order 2: three,
-//! faces of order 1: the centre), in frames that follow the face, and carried to the nodes by the linear field through these points.
+//! faces of order 1: the centre), in frames that follow the face; [`super::patch`] carries it to the nodes.
 
 use mesh::FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6};
 
@@ -27,7 +27,10 @@ pub(super) struct SurfaceStress {
 }
 
 /// Tangent frame at a point of a face: two unit tangents and the normal.
-type Frame = [[f64; 3]; 3];
+pub(super) type Frame = [[f64; 3]; 3];
+
+/// Stress 11, 22, 12 in a tangent frame for a unit move along each axis: `[axis][component]`.
+pub(super) type Plane = [[f64; 3]; 3];
 
 impl SurfaceStress {
     pub(super) fn new(kind: FaceKind, material: &Material) -> Self {
@@ -41,27 +44,21 @@ impl SurfaceStress {
         Self { kind, moduli: [young / (2.0 * (1.0 + nu)), young * nu / (1.0 - nu * nu)], points }
     }
 
-    /// Blocks `[i][j]` (6 x 3, row-major, MPa/mm): stress at node i for a unit move of node j. `None` for a face that is
-    /// folded to a line.
-    pub(super) fn blocks(&self, x: &[[f64; 3]]) -> Option<Vec<Vec<[f64; 18]>>> {
-        let at_points: Vec<_> = self.points.iter().map(|&xi| self.at(xi, x)).collect::<Option<_>>()?;
-        let of_node = |&xi: &[f64; 2]| {
-            let (frame, _) = self.at(xi, x)?;
-            let block = |j: usize| {
-                let mut plane = [[0.0; 3]; 3];
-                for (q, (_, own)) in at_points.iter().enumerate() {
-                    let w = self.weight(q, xi);
-                    (0..3).for_each(|axis| (0..3).for_each(|k| plane[axis][k] += w * own[j][axis][k]));
-                }
-                in_space(&frame, &plane)
-            };
-            Some((0..x.len()).map(block).collect())
-        };
-        self.kind.reference_nodes().iter().map(of_node).collect()
+    /// Where strains of the face are most accurate, reference coordinates.
+    pub(super) fn points(&self) -> &'static [[f64; 2]] {
+        self.points
     }
 
-    /// Frame at `xi`, and for each node and axis the stress 11, 22, 12 in that frame for a unit move: `[node][axis][component]`.
-    fn at(&self, xi: [f64; 2], x: &[[f64; 3]]) -> Option<(Frame, Vec<[[f64; 3]; 3]>)> {
+    /// The point at `xi` of a face, mm.
+    pub(super) fn position(&self, xi: [f64; 2], x: &[[f64; 3]]) -> [f64; 3] {
+        let mut shape = [0.0; 9];
+        self.kind.shape(xi, &mut shape);
+        [0, 1, 2].map(|k| x.iter().zip(&shape).map(|(x, n)| n * x[k]).sum())
+    }
+
+    /// Frame at `xi`, the tangents in it (|a_1|, a_2 t_1, a_2 t_2, mm) and the shape functions' derivatives. `None` for a face that is
+    /// folded to a line.
+    pub(super) fn tangents(&self, xi: [f64; 2], x: &[[f64; 3]]) -> Option<(Frame, [f64; 3], [[f64; 2]; 9])> {
         let mut dn = [[0.0; 2]; 9];
         self.kind.shape_gradient(xi, &mut dn);
         let mut a = [[0.0; 3]; 2];
@@ -78,8 +75,13 @@ impl SurfaceStress {
         let length = dot(a[0], a[0]).sqrt();
         let t1 = a[0].map(|c| c / length);
         let t2 = cross(n, t1);
-        // d/d t1 and d/d t2 of the shape functions: a_1 = |a_1| t1, a_2 = (a_2.t1) t1 + (a_2.t2) t2
-        let (shear, height) = (dot(a[1], t1), dot(a[1], t2));
+        // a_1 = |a_1| t1, a_2 = (a_2.t1) t1 + (a_2.t2) t2
+        Some(([t1, t2, n], [length, dot(a[1], t1), dot(a[1], t2)], dn))
+    }
+
+    /// Frame at `xi`, and for each node and axis the stress 11, 22, 12 in that frame for a unit move: `[node][axis][component]`.
+    pub(super) fn at(&self, xi: [f64; 2], x: &[[f64; 3]]) -> Option<(Frame, Vec<Plane>)> {
+        let ([t1, t2, n], [length, shear, height], dn) = self.tangents(xi, x)?;
         let [mu, lambda] = self.moduli;
         let blocks = dn[..x.len()]
             .iter()
@@ -96,23 +98,19 @@ impl SurfaceStress {
             .collect();
         Some(([t1, t2, n], blocks))
     }
+}
 
-    /// Weight at `xi` of the value at point `q`: linear or bilinear, 1 at q and 0 at the other points.
-    fn weight(&self, q: usize, xi: [f64; 2]) -> f64 {
-        let at = self.points[q];
-        match self.kind {
-            Tri3 | Quad4 => 1.0,
-            Tri6 => {
-                let l = [1.0 - xi[0] - xi[1], xi[0], xi[1]];
-                (6.0 * l[q] - 1.0) / 3.0
-            }
-            Quad8 | Quad9 => (0..2).map(|k| 0.5 * (1.0 + xi[k] / at[k])).product(),
-        }
-    }
+/// `frame` after the smallest turn that takes its normal to `normal`, or to the opposite if that is nearer.
+pub(super) fn turned(frame: &Frame, normal: [f64; 3]) -> Frame {
+    let [t, _, n] = *frame;
+    let m = if dot(n, normal) < 0.0 { normal.map(|c| -c) } else { normal };
+    let share = dot(t, m) / (1.0 + dot(n, m));
+    let first = [0, 1, 2].map(|k| t[k] - share * (n[k] + m[k]));
+    [first, cross(m, first), m]
 }
 
 /// Stress 11, 22, 12 in a frame, by axis of the move, as a 6 x 3 block: rows xx, yy, zz, xy, yz, zx.
-fn in_space([t, s, _]: &Frame, plane: &[[f64; 3]; 3]) -> [f64; 18] {
+pub(super) fn in_space([t, s, _]: &Frame, plane: &Plane) -> [f64; 18] {
     let mut block = [0.0; 18];
     for (k, (a, b)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
         let shares = [t[a] * t[b], s[a] * s[b], t[a] * s[b] + s[a] * t[b]];
@@ -123,7 +121,7 @@ fn in_space([t, s, _]: &Frame, plane: &[[f64; 3]; 3]) -> [f64; 18] {
     block
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

@@ -1,0 +1,41 @@
+//! How far the surface turns within one face: the size of the faces of a fillet against its radius.
+
+use std::collections::BTreeMap;
+
+use mesh::{Face, Mesh};
+use nalgebra::Vector3;
+
+/// Angle between the normals at a face's corners, the largest of the faces about each node, rad; faces of a fold count as flat.
+///
+/// The normal at a corner is the mean over the faces about it, so that faces of order 1 turn, too.
+pub(super) fn turns(mesh: &Mesh, faces: &[Face]) -> BTreeMap<u32, f64> {
+    let mut normals: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
+    for face in faces {
+        for (corner, &node) in face.corners().iter().enumerate() {
+            *normals.entry(node).or_default() += normal(mesh, face, corner);
+        }
+    }
+    let mut turns = BTreeMap::new();
+    for face in faces {
+        let corners = face.corners().iter().filter_map(|node| normals.get(node));
+        let all: Vec<_> = corners.collect();
+        let pairs = all.iter().enumerate().flat_map(|(i, a)| all[..i].iter().map(|b| a.angle(b)));
+        let turn = pairs.fold(0.0f64, f64::max);
+        for &node in face.nodes() {
+            let largest = turns.entry(node).or_insert(0.0f64);
+            *largest = largest.max(turn);
+        }
+    }
+    turns
+}
+
+/// Unit normal at a corner of a face, zero where the face is folded to a line.
+fn normal(mesh: &Mesh, face: &Face, corner: usize) -> Vector3<f64> {
+    let mut gradient = [[0.0; 2]; 9];
+    face.kind.shape_gradient(face.kind.reference_nodes()[corner], &mut gradient);
+    let tangent = |k: usize| -> Vector3<f64> {
+        let terms = face.nodes().iter().zip(&gradient);
+        terms.map(|(&n, dn)| Vector3::from(mesh.nodes[n as usize]) * dn[k]).sum()
+    };
+    tangent(0).cross(&tangent(1)).try_normalize(0.0).unwrap_or_default()
+}
