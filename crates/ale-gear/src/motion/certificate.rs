@@ -1,16 +1,30 @@
 //! What must hold of a motion.
 
+use dynamics::pair_motion::SweepPoint;
+
 use super::MotionHeadline;
 use crate::certificate::{Certificate, Check};
 
 /// Energy that an integrator may add or take, over the work done.
 const ENERGY: f64 = 1e-2;
+/// What to do where a motion does not hold.
+pub(super) const MOTION_WAY_OUT: &str = ENERGY_WAY_OUT;
 const ENERGY_WAY_OUT: &str = "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or `method = \"energy\"`, which keeps energy at any step";
 /// Forces that should not be, over the largest normal force.
 const CONTACT: f64 = 1e-6;
 /// The same of a jump at a tooth change, which is the difference of two forces found from different starts: up to some 1e-6 with long steps.
 const JUMP: f64 = 1e-4;
 const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
+
+/// What must hold of one speed of a sweep: the same as of a motion alone.
+pub(super) fn checks_of_speed(point: &SweepPoint) -> Certificate {
+    let force = point.extremes.largest_force.max(point.coast_force);
+    Certificate::new([
+        energy_check(point.ledger.residual(), point.throughput, point.ledger.relative_residual()),
+        pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
+        Check { bound: JUMP, ..contact_check("force_jump", point.changes.jump, force) },
+    ])
+}
 
 impl MotionHeadline {
     /// Energy, flanks that pull, forces that tooth changes set off.
