@@ -262,8 +262,8 @@ fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
 #[test]
 fn a_case_that_does_not_hold_leaves_its_files() {
     let scene = motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().to_owned();
-    let study = "name = \"two loads\"\n[[case]]\nscene = \"a.toml\"\nlabel = \"some\"\n\
-                 [[case]]\nscene = \"a.toml\"\nlabel = \"none\"\nset = [\"operation.torque_nm=1e-20\"]\n\
+    let study = "name = \"two loads\"\n[[case]]\nscene = \"a.toml\"\nlabel = \"some\"\nvalue = 1\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"none\"\nvalue = 2\nset = [\"operation.torque_nm=1e-20\"]\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     let scratch = Scratch::new().file("a.toml", scene).file("s.toml", study);
     let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);

@@ -52,7 +52,8 @@ impl ChartArgs {
     fn plan(&self) -> Result<(Scene, ChartOptions), CommandError> {
         let mut scene = self.overrides.read(&self.scene)?;
         if !(self.limit_s > 0.0 && self.limit_s.is_finite()) {
-            return Err(CommandError::input(format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s), None));
+            let message = format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s);
+            return Err(CommandError::input(message, Some("give seconds, such as `--limit-s 240`".into())));
         }
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
