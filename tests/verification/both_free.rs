@@ -6,8 +6,8 @@ mod support;
 use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
-    StaticOptions,
-    motion::Scheme,
+    StaticError, StaticOptions,
+    motion::{Mechanism, Scheme},
     pair_motion::{
         Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
         Torque, Way, quasi_static_start, sweep,
@@ -178,4 +178,58 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
     assert!(solved == good, "a speed without an answer changed the others");
     let started: Vec<bool> = solved.iter().map(|p| p.own_start).collect();
     assert_eq!(started, [true, false, true, false, true, true]);
+}
+
+/// A step that leaps over a tooth ends in a state like any other: it is refused there, with where it happened. Teeth are half a base pitch thick on their line of action, whichever coordinates bring
+/// them together, and flanks that part have the backlash besides.
+#[test]
+fn a_step_over_a_tooth_is_refused_as_soon_as_it_is_done() {
+    let bench = bench();
+    let hz = 1000.0;
+    let system = || {
+        bench.system(hz, |o| {
+            o.drive = Drive::Torque { start: bench.speed(hz), torque: Torque::Constant(TORQUE) };
+            o.free[1][1] = true;
+        })
+    };
+    let fresh = system();
+    let named = |wanted: &str| fresh.coordinates().names().iter().position(|n| *n == wanted).unwrap();
+    let (lag, y, turn) = (fresh.coordinates().lag(), named("wheel y"), fresh.coordinates().driver_turn().unwrap());
+    let pair = &bench.case.pair;
+    let (half, backlash) = (0.5 * pair.transverse_base_pitch(), pair.backlash());
+    let towards = pair.working_pressure_angle().cos();
+    assert!(backlash > 0.01, "{backlash} mm");
+    let time = 0.3 / hz;
+    let end = |place: &[(usize, f64)]| {
+        let mut q = nalgebra::DVector::zeros(fresh.count());
+        place.iter().for_each(|&(i, x)| q[i] = x);
+        let v = nalgebra::DVector::zeros(fresh.count());
+        system().accepted(time, &q, &v)
+    };
+    for place in [
+        vec![(lag, 1.01 * half)],
+        vec![(y, -1.01 * half / towards)],
+        vec![(lag, 0.51 * half), (y, -0.5 * half / towards)],
+        vec![(lag, -backlash - 1.01 * half)],
+        vec![(lag, 1e4)],
+    ] {
+        let error = end(&place).unwrap_err();
+        let wanted: f64 = place.iter().map(|&(i, x)| if i == y { -x * towards } else { x }).sum();
+        let StaticError::PassedThrough { cycle: 0, phase, distance_mm, .. } = error else {
+            panic!("{place:?}: {error}")
+        };
+        assert!((phase - 0.3).abs() < 1e-9 && (distance_mm / wanted - 1.0).abs() < 1e-9, "{place:?}: {error}");
+        assert!(error.hint().is_some_and(|h| h.contains("smaller steps")), "{error}");
+    }
+    // Loss of contact as it happens, with the gears apart or with the way of the one taken back by the other.
+    for place in [vec![(lag, -0.9 * half)], vec![(lag, -0.9 * half - backlash)], vec![(lag, half), (y, half / towards)]]
+    {
+        end(&place).unwrap_or_else(|e| panic!("{place:?}: {e}"));
+    }
+    // Gears that turn by a million teeth in a step are not followed tooth by tooth.
+    for teeth in [4.5, -4.5, 1e6, 1e300] {
+        let error = end(&[(turn, teeth * pair.pinion.pitch_angle())]).unwrap_err();
+        assert!(matches!(error, StaticError::Leapt { window: 3, .. }), "{teeth} teeth: {error}");
+    }
+    end(&[(turn, 1.5 * pair.pinion.pitch_angle())]).unwrap_or_else(|e| panic!("{e}"));
 }

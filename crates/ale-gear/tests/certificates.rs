@@ -109,3 +109,36 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: torque_residual"), "{}", again.stdout);
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 }
+
+/// Steps so long that teeth leap over each other end the run at once, with where it happened and a way out; in a sweep the speed has that for its reason, and where no speed is left the command fails.
+#[test]
+fn teeth_that_pass_through_each_other_end_the_run_there() {
+    let long = |run: &str, rpm: u32| {
+        motion_scene(3, &format!("{run}\nmethod = \"newmark\"\n"))
+            .replace("steps_per_mesh_cycle = 16", "steps_per_mesh_cycle = 8")
+            .replace("torque_nm = 150.0", &format!("torque_nm = 150.0\nspeed_rpm = {rpm}.0"))
+    };
+    let sweep = |from: u32, to: u32| {
+        let sweep = format!("sweep = {{ from_rpm = {from}.0, to_rpm = {to}.0, speeds = 2, ways = [\"apart\"] }}");
+        long(&format!("run = \"sweep\"\nperiodic_tolerance = 1e-2\n{sweep}"), 1000)
+    };
+    let scratch = Scratch::new()
+        .file("a.toml", long("run = \"span\"", 20))
+        .file("b.toml", sweep(20, 2000))
+        .file("c.toml", sweep(20, 21));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""), "{}", run.stderr);
+    for part in [" of cycle 1: teeth have passed through each other: ", "a.toml: at 0.1", "hint: take smaller steps "] {
+        assert!(run.stderr.contains(part), "no `{part}`: {}", run.stderr);
+    }
+    assert_eq!(scratch.names(), ["a.toml", "b.toml", "c.toml"]);
+    let run = scratch.ale_gear(["run", "b.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let rows = scratch.read("o/resonance.csv");
+    let words: Vec<[bool; 2]> =
+        rows.lines().skip(1).map(|l| [",failed,", "teeth have passed"].map(|w| l.contains(w))).collect();
+    assert_eq!(words, [[true; 2], [false; 2]], "{rows}");
+    let run = scratch.ale_gear(["run", "c.toml", "--out", "p"]);
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("teeth have passed through each other"), "{}", run.stderr);
+}

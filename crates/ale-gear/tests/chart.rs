@@ -51,13 +51,16 @@ fn every_point_is_a_run_or_says_why_not() {
 fn words_of_the_chart_are_checked_before_any_work() {
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("page.md", "nothing to fill\n");
     for (words, text) in [
-        (["--limit-s", "0"], "ale-gear: `--limit-s` is 0, allowed is above 0\n"),
+        (
+            ["--limit-s", "0"],
+            "ale-gear: `--limit-s` is 0, allowed is above 0\nhint: give seconds, such as `--limit-s 240`\n",
+        ),
         (
             ["--into", "page.md"],
             "ale-gear: --into page.md: no `<!-- chart small -->`\n\
              hint: put the two lines `<!-- chart small -->` and `<!-- end -->` where the tables shall stand\n",
         ),
-        (["--threads", "0"], "ale-gear: `--threads` is 0, allowed is 1 or more\nhint: leave it out to use all cores\n"),
+        (["--threads", "0"], "ale-gear: `--threads` is 0, allowed is 1 .. 1024\nhint: leave it out to use all cores\n"),
     ] {
         let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", words[0], words[1]]);
         assert_eq!((run.stderr.as_str(), run.code), (text, Some(2)));

@@ -56,7 +56,7 @@ fn data_goes_to_stdout_and_talk_to_stderr() {
     let none = scratch.ale_gear(["run", "a.toml", "--out", "o", "-j", "0"]);
     assert_eq!(
         (none.code, none.stderr.as_str()),
-        (Some(2), "ale-gear: `--threads` is 0, allowed is 1 or more\nhint: leave it out to use all cores\n")
+        (Some(2), "ale-gear: `--threads` is 0, allowed is 1 .. 1024\nhint: leave it out to use all cores\n")
     );
 }
 
@@ -182,4 +182,24 @@ fn reduce_fills_the_cache_that_a_run_reads() {
     assert!(of_mesh.stdout.contains("coordinates of 2 teeth"), "{}", of_mesh.stdout);
     let both = scratch.ale_gear(["reduce", "a.toml", "--teeth", "30"]);
     assert_eq!(both.code, Some(2), "{}", both.stdout);
+}
+
+/// Words that cannot be obeyed are one message and a hint, before any work; so are a folder where a file is wanted, and bytes that no terminal should see.
+#[test]
+fn wrong_words_are_told_with_a_way_out() {
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE).file("a.msh", b"\x1b[2Jabc\x07 1 2 3\n");
+    std::fs::create_dir(scratch.path().join("f")).unwrap();
+    for (words, complaint) in [
+        (&["run", "a.toml", "--out", "o", "--threads", "100000"][..], "`--threads` is 100000, allowed is 1 .. 1024"),
+        (&["init", "f"], "f: is a folder"),
+        (&["init", "f", "--force"], "f: is a folder"),
+        (&["chart", "a.toml", "--out", "o", "--limit-s", "nan"], "`--limit-s` is NaN, allowed is above 0"),
+        (&["mesh", "info", "a.msh"], "found `\\u{1b}[2Jabc\\u{7}`"),
+    ] {
+        let run = scratch.command(words);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words:?}: {}", run.stderr);
+        assert!(run.stderr.contains(complaint) && run.stderr.contains("\nhint: "), "{words:?}: {}", run.stderr);
+        assert!(run.stderr.chars().all(|c| c == '\n' || !c.is_control()), "{words:?}: {:?}", run.stderr);
+    }
+    assert_eq!(scratch.names(), ["a.msh", "a.toml", "f"]);
 }

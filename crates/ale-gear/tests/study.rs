@@ -257,3 +257,23 @@ fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
     );
     assert_eq!((run.code, sweep.names().len()), (Some(2), 4));
 }
+
+/// A case whose result does not hold gives no numbers, but leaves its files, marked as failed: as a run by itself does.
+#[test]
+fn a_case_that_does_not_hold_leaves_its_files() {
+    let scene = motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().to_owned();
+    let study = "name = \"two loads\"\n[[case]]\nscene = \"a.toml\"\nlabel = \"some\"\nvalue = 1\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"none\"\nvalue = 2\nset = [\"operation.torque_nm=1e-20\"]\n\
+                 [[quantity]]\ncolumn = \"ste_um\"\n";
+    let scratch = Scratch::new().file("a.toml", scene).file("s.toml", study);
+    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let case = &summary["cases"][1];
+    assert!(case["reason"].as_str().is_some_and(|r| r.contains("does not hold: torque_residual")), "{case}");
+    assert!(case["quantities"].is_null(), "{case}");
+    let folder = case["folder"].as_str().unwrap_or_else(|| panic!("no folder: {case}"));
+    let own: serde_json::Value = serde_json::from_str(&scratch.read(&format!("o/{folder}/summary.json"))).unwrap();
+    assert_eq!(own["certificate"], "failed");
+    assert!(scratch.read("o/report.html").contains(&format!("({folder})")));
+}

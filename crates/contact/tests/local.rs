@@ -67,6 +67,32 @@ fn approach_is_the_layers_kernel_under_hertzian_pressure() {
     }
 }
 
+/// A band far narrower than its distance d from the tip edge sees a wedge whose load acts at d: K q [ln(2 t / a) + 1/2 + c + eta ln(t / d)], with a sharp edge and with a rounded one, which
+/// ends the flank nearer and leaves the corner where it was.
+#[test]
+fn well_within_the_flank_the_load_acts_where_the_band_is() {
+    let load = 1e-3;
+    let softness = 2.0 * (1.0 - 0.3 * 0.3) / (PI * 2.06e5);
+    for edge_radius in [0.0, 0.1] {
+        for distance in [0.3, 1.0, 3.0] {
+            let mut c = contact(distance, edge_radius);
+            c.bodies.iter_mut().for_each(|b| b.ends = [EndFace::FAR; 2]);
+            let found = c.under(load);
+            let of_body = |b: &LocalBody| {
+                let wedge = wedge_softening(b.tip_angle) * (b.depth / b.tip_distance).ln();
+                softness * load * ((2.0 * b.depth / found.half_width).ln() + 0.5 + b.layer + wedge)
+            };
+            let wanted: f64 = c.bodies.iter().map(of_body).sum();
+            // What is left goes with the square of the band over the distance, and with its product with the gradient at the tip.
+            assert!(
+                (found.approach / wanted - 1.0).abs() < 2e-5,
+                "{distance} mm from an edge of {edge_radius} mm: {:e} mm, not {wanted:e}",
+                found.approach
+            );
+        }
+    }
+}
+
 /// The slope is the derivative over five decades of load, on the flank, at the edge and past it.
 #[test]
 fn slope_is_derivative_of_approach() {

@@ -78,6 +78,34 @@ pub enum StaticError {
         /// Torque, N m.
         torque_nm: f64,
     },
+    /// Teeth have gone through each other.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: teeth have passed through each other: along the line of action flanks are {distance_mm:.3e} mm beyond touching (negative: apart), teeth are {thickness_mm:.3} mm thick there"
+    )]
+    PassedThrough {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative: farther apart. mm.
+        distance_mm: f64,
+        /// Half a base pitch, mm.
+        thickness_mm: f64,
+    },
+    /// The gears turn farther in a step than the window can follow.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
+    )]
+    Leapt {
+        /// Mesh cycle at the step's end.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Teeth that the window is behind.
+        teeth: f64,
+        /// Teeth of the window.
+        window: usize,
+    },
     /// No flanks face each other.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: without load no flanks touch, wherever the driven gear is turned"
@@ -103,6 +131,9 @@ pub enum StaticError {
     },
 }
 
+const SMALLER_STEPS: &str =
+    "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them";
+
 impl From<reduction::ReductionError> for StaticError {
     fn from(source: reduction::ReductionError) -> Self {
         Self::Reduction { gear: "gear", source }
@@ -125,6 +156,9 @@ impl StaticError {
                 "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
                 window + 1
             )),
+            Self::PassedThrough { distance_mm, .. } if *distance_mm < 0.0 => Some(format!("{SMALLER_STEPS}; where the torque may turn round, `flanks = \"both\"` lets the coast flanks hold")),
+            Self::PassedThrough { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m?")),
+            Self::Leapt { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m, and the inertia in kg m^2?")),
             Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
             Self::Window(e) => e.hint(),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),

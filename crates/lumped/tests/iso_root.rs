@@ -26,7 +26,10 @@ fn root(data: &GearData, pair: IsoRootPair) -> IsoRoot {
 }
 
 /// Y_Fa and Y_Sa of the basic rack (20 deg, 1, 1.25, rounding 0.38), load at the tip: the table that textbooks on machine elements print from GB/T 3480, which
-/// is ISO 6336-3. A contact ratio of 1 puts the load there. The table is read off the standard's curves: 1 %.
+/// is ISO 6336-3. A contact ratio of 1 puts the load there.
+///
+/// The table is read off the standard's curves, Y_Fa in steps of 0.01 and Y_Sa in steps of 0.005: half a step of rounding and a step of reading are 0.015 and 0.0075, or 0.75 % and 0.4 %.
+/// Off by 0.70 % (z = 100) and 0.34 % (the rack) at the most; an error of 1 % in either factor is seen.
 #[test]
 fn load_at_the_tip_gives_the_published_table() {
     let table = [
@@ -43,9 +46,9 @@ fn load_at_the_tip_gives_the_published_table() {
     ];
     for (teeth, form, stress) in table {
         let found = root(&data(teeth), ratios(1.0, 0.0));
-        assert!((found.y_form / form - 1.0).abs() < 0.01, "z = {teeth}: Y_Fa {:.4}, published {form}", found.y_form);
+        assert!((found.y_form / form - 1.0).abs() < 0.0075, "z = {teeth}: Y_Fa {:.4}, published {form}", found.y_form);
         assert!(
-            (found.y_stress / stress - 1.0).abs() < 0.01,
+            (found.y_stress / stress - 1.0).abs() < 0.004,
             "z = {teeth}: Y_Sa {:.4}, published {stress}",
             found.y_stress
         );

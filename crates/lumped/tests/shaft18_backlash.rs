@@ -61,7 +61,9 @@ impl Settled {
 }
 
 fn diagram(speeds: &[f64], half_backlash: f64) -> Vec<Branch> {
-    let all = study::sweep_parallel(speeds, |speed| Settled::new(speed, half_backlash, 240)?.points(48)).unwrap();
+    let points = |speed| Settled::new(speed, half_backlash, 240)?.points(48);
+    let all: Vec<Branch> =
+        speeds.iter().map(|&value| Branch { value, points: points(value).unwrap_or_else(|e| panic!("{e}")) }).collect();
     for branch in &all {
         let [low, high] = branch.extent().unwrap();
         let points = branch.distinct(0.05);

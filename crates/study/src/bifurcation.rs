@@ -1,15 +1,14 @@
 //! Bifurcation diagrams: what a motion settles to over a parameter.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// What a motion settled to at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Branch<P = Vec<f64>> {
+pub struct Branch {
     /// Value of the parameter.
     pub value: f64,
-    /// Points of the section there, in their order in time; or whatever else the caller's run says of the motion.
-    pub points: P,
+    /// Points of the section there, in their order in time.
+    pub points: Vec<f64>,
 }
 
 /// Both directions of a sweep, each in ascending order of the parameter.
@@ -22,20 +21,17 @@ pub struct Bifurcation {
 }
 
 /// One way along `values` in their order, the state carried from each to the next.
-///
-/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of its section.
-///
-/// # Errors
-/// The first of `run`.
-pub fn sweep<S, P, E>(
+fn sweep<S, E>(
     values: &[f64],
     state: &mut S,
-    mut run: impl FnMut(f64, &mut S) -> Result<P, E>,
-) -> Result<Vec<Branch<P>>, E> {
+    mut run: impl FnMut(f64, &mut S) -> Result<Vec<f64>, E>,
+) -> Result<Vec<Branch>, E> {
     values.iter().map(|&value| run(value, state).map(|points| Branch { value, points })).collect()
 }
 
 /// Up along `values` and down again, the state carried all the way: where both answers differ there is hysteresis.
+///
+/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of its section.
 ///
 /// # Errors
 /// The first of `run`.
@@ -51,32 +47,6 @@ pub fn sweep_both_ways<S, E>(
     let mut backward = sweep(&ascending, state, &mut run)?;
     backward.reverse();
     Ok(Bifurcation { forward, backward })
-}
-
-/// Every value from its own start, on all threads: no state is carried, so that the answer does not depend on the number of threads. It shows one branch where several are.
-///
-/// # Errors
-/// That of the first value, in the order of `values`, that fails.
-pub fn sweep_parallel<P: Send, E: Send>(
-    values: &[f64],
-    run: impl Fn(f64) -> Result<P, E> + Sync,
-) -> Result<Vec<Branch<P>>, E> {
-    let all: Vec<Result<Branch<P>, E>> =
-        values.par_iter().map(|&value| run(value).map(|points| Branch { value, points })).collect();
-    all.into_iter().collect()
-}
-
-/// Several independent sweeps at once, each carrying its own state (both ways, or several starts), on all threads; results in the order of `starts`.
-///
-/// # Errors
-/// That of the first start that fails.
-pub fn sweeps_parallel<S: Send, P: Send, E: Send>(
-    starts: Vec<(Vec<f64>, S)>,
-    run: impl Fn(f64, &mut S) -> Result<P, E> + Sync,
-) -> Result<Vec<Vec<Branch<P>>>, E> {
-    let all: Vec<Result<Vec<Branch<P>>, E>> =
-        starts.into_par_iter().map(|(values, mut state)| sweep(&values, &mut state, &run)).collect();
-    all.into_iter().collect()
 }
 
 impl Branch {

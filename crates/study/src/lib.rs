@@ -21,7 +21,7 @@ mod spectrum;
 mod transform;
 mod work_precision;
 
-pub use bifurcation::{Bifurcation, Branch, sweep, sweep_both_ways, sweep_parallel, sweeps_parallel};
+pub use bifurcation::{Bifurcation, Branch, sweep_both_ways};
 pub use campbell::{Campbell, Resonance, campbell};
 pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};

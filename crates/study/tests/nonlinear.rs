@@ -3,8 +3,8 @@
 use std::{convert::Infallible, f64::consts::TAU};
 
 use study::{
-    Branch, LyapunovPlan, StudyError, campbell, crossing_section, iterated_section, largest_lyapunov, phase_portrait,
-    section_period, stroboscopic_section, sweep, sweep_both_ways, sweep_parallel, sweeps_parallel,
+    LyapunovPlan, StudyError, campbell, crossing_section, iterated_section, largest_lyapunov, phase_portrait,
+    section_period, stroboscopic_section, sweep_both_ways,
 };
 
 fn logistic(r: f64, x: f64) -> f64 {
@@ -31,7 +31,8 @@ fn logistic_map_doubles_where_it_must() {
         })
     };
     let values = [2.8, 2.95, 3.2, 3.4, 3.5, 3.835];
-    let found = sweep(&values, &mut 0.3, run).unwrap();
+    let both = sweep_both_ways(&values, &mut 0.3, run).unwrap();
+    let found = &both.forward;
     for (branch, period) in found.iter().zip([1, 1, 2, 2, 4, 3]) {
         assert_eq!(branch.distinct(1e-6), period, "r = {}", branch.value);
         let points: Vec<Vec<f64>> = branch.points.iter().map(|&x| vec![x]).collect();
@@ -42,9 +43,8 @@ fn logistic_map_doubles_where_it_must() {
     let [low, high] = found[2].extent().unwrap();
     let root = f64::sqrt(0.2 * 4.2);
     assert!((high - (4.2 + root) / 6.4).abs() < 1e-9 && (low - (4.2 - root) / 6.4).abs() < 1e-9);
-    // Without a state to carry, on all threads: the same points.
-    let apart = sweep_parallel(&values, |r| run(r, &mut 0.3)).unwrap();
-    for (a, b) in found.iter().zip(&apart) {
+    // From where the way up ended the way down finds the same points.
+    for (a, b) in found.iter().zip(&both.backward) {
         let [a, b] = [a, b].map(|x| x.extent().unwrap());
         assert!((a[0] - b[0]).abs() < 1e-6 && (a[1] - b[1]).abs() < 1e-6);
     }
@@ -132,16 +132,9 @@ fn hysteresis_is_where_both_ways_differ() {
     assert_eq!(bands.len(), 1);
     assert!((bands[0][0] - 0.4).abs() < 1e-12 && (bands[0][1] - 0.6).abs() < 1e-12, "{bands:?}");
     assert!(both.backward.windows(2).all(|w| w[0].value < w[1].value));
-    // The same as two sweeps side by side.
-    let mut down = values.clone();
-    down.reverse();
-    let pair = sweeps_parallel(vec![(values, 0.0), (down, 1.0)], run).unwrap();
-    let mut backward: Vec<Branch> = pair[1].clone();
-    backward.reverse();
-    assert_eq!((&pair[0], &backward), (&both.forward, &both.backward));
     // The first failure is handed on.
-    let failed = sweep_parallel(&[1.0, 2.0, 3.0], |v| if v > 1.5 { Err::<Vec<f64>, f64>(v) } else { Ok(vec![]) });
-    assert_eq!(failed, Err(2.0));
+    let fails = |v: f64, _: &mut ()| if v > 1.5 { Err::<Vec<f64>, f64>(v) } else { Ok(vec![]) };
+    assert_eq!(sweep_both_ways(&[1.0, 2.0, 3.0], &mut (), fails), Err(2.0));
 }
 
 /// A cosine once a period is one point, every half period two; interpolated between samples that do not fall there.

@@ -11,6 +11,7 @@ use crate::{
         ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
         work_precision_svg, write_chart_csv,
     },
+    partial::Partial,
     phases::Phases,
     room,
     scene::Scene,
@@ -51,7 +52,8 @@ impl ChartArgs {
     fn plan(&self) -> Result<(Scene, ChartOptions), CommandError> {
         let mut scene = self.overrides.read(&self.scene)?;
         if !(self.limit_s > 0.0 && self.limit_s.is_finite()) {
-            return Err(CommandError::input(format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s), None));
+            let message = format_args!("`--limit-s` is {}, allowed is above 0", self.limit_s);
+            return Err(CommandError::input(message, Some("give seconds, such as `--limit-s 240`".into())));
         }
         if let Some(file) = &self.into {
             between(file, &scene.name)?;
@@ -159,7 +161,49 @@ fn between(file: &Path, name: &str) -> Result<Place, CommandError> {
 fn put_into(file: &Path, name: &str, tables: &str) -> Result<(), CommandError> {
     let Place { text, start, end } = between(file, name)?;
     let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
-    // Beside it first: a file that is half written would be lost.
-    let new = file.with_extension("new");
-    std::fs::write(&new, whole).and_then(|()| std::fs::rename(&new, file)).map_err(|e| CommandError::write(file, &e))
+    replace(file, whole.as_bytes()).map_err(|e| CommandError::write(file, &e))
+}
+
+/// Writes a file beside it first: one that is half written would be lost. A link stays, and what it leads to is replaced, with the permissions it had.
+fn replace(file: &Path, content: &[u8]) -> std::io::Result<()> {
+    let target = std::fs::canonicalize(file)?;
+    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let new = Partial::new(target.with_file_name(format!(".{name}.partial-{}", std::process::id())));
+    std::fs::write(new.path(), content)?;
+    std::fs::set_permissions(new.path(), std::fs::metadata(&target)?.permissions())?;
+    std::fs::rename(new.path(), &target)?;
+    new.keep();
+    Ok(())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    use super::*;
+
+    /// Through a link to a file, and through one to its folder; a file that stands beside it under a like name is nobody's.
+    #[test]
+    fn tables_go_where_a_link_leads_to() {
+        let scratch = tempfile::tempdir().unwrap();
+        let (book, page) = (scratch.path().join("book"), scratch.path().join("book/page.md"));
+        std::fs::create_dir(&book).unwrap();
+        std::fs::write(&page, "# A\n<!-- chart a -->\nold\n<!-- end -->\nrest\n").unwrap();
+        std::fs::set_permissions(&page, std::fs::Permissions::from_mode(0o640)).unwrap();
+        std::fs::write(book.join("page.new"), "mine").unwrap();
+        let (link, folder) = (scratch.path().join("link.md"), scratch.path().join("docs"));
+        symlink("book/page.md", &link).unwrap();
+        symlink("book", &folder).unwrap();
+        for (file, table) in [(link.clone(), "first"), (folder.join("page.md"), "second")] {
+            put_into(&file, "a", table).unwrap();
+            let wanted = format!("# A\n<!-- chart a -->\n\n{table}\n\n<!-- end -->\nrest\n");
+            assert_eq!(std::fs::read_to_string(&page).unwrap(), wanted);
+        }
+        for path in [&link, &folder] {
+            assert!(std::fs::symlink_metadata(path).unwrap().is_symlink(), "{} is a link no more", path.display());
+        }
+        assert_eq!(std::fs::metadata(&page).unwrap().permissions().mode() & 0o777, 0o640);
+        assert_eq!(std::fs::read_to_string(book.join("page.new")).unwrap(), "mine");
+        assert_eq!(std::fs::read_dir(&book).unwrap().count(), 2);
+    }
 }

@@ -122,8 +122,17 @@ fn there(file: &Path) -> CommandError {
     )
 }
 
+fn is_folder(file: &Path) -> CommandError {
+    let hint = "give the name of a file in it, such as `scene.toml`".into();
+    CommandError::input(format_args!("{}: is a folder", file.display()), Some(hint))
+}
+
 fn absent(file: &Path) -> Result<(), CommandError> {
-    if file.exists() { Err(there(file)) } else { Ok(()) }
+    match file.exists() {
+        true if file.is_dir() => Err(is_folder(file)),
+        true => Err(there(file)),
+        false => Ok(()),
+    }
 }
 
 fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError> {
@@ -137,6 +146,7 @@ fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError>
     let written = options.open(file).and_then(|mut f| f.write_all(text.as_bytes()));
     written.map_err(|e| match e.kind() {
         std::io::ErrorKind::AlreadyExists => there(file),
+        std::io::ErrorKind::IsADirectory => is_folder(file),
         std::io::ErrorKind::NotFound => CommandError::input(
             format_args!("{}: cannot be written: {e}", file.display()),
             Some("is the folder there?".into()),

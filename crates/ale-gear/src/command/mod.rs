@@ -115,9 +115,10 @@ impl Cli {
             _ => Loudness::Details,
         });
         read_progress_after()?;
-        if threads == Some(0) {
+        if let Some(n) = threads.filter(|n| !(1..=MOST_THREADS).contains(n)) {
             let hint = "leave it out to use all cores".to_owned();
-            return Err(CommandError::input("`--threads` is 0, allowed is 1 or more", Some(hint)));
+            let message = format_args!("`--threads` is {n}, allowed is 1 .. {MOST_THREADS}");
+            return Err(CommandError::input(message, Some(hint)));
         }
         use_threads(threads);
         // A table at the end of work is talk; what a command is made for is data.
@@ -151,6 +152,9 @@ fn with_a_way_out(mut error: clap::Error) -> clap::Error {
     error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     error
 }
+
+/// More than any machine has cores for; a hundred thousand only make the system busy with starting them.
+const MOST_THREADS: usize = 1024;
 
 /// Threads of the whole process, all cores where nothing is said.
 fn use_threads(threads: Option<usize>) {

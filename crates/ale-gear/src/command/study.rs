@@ -49,8 +49,8 @@ impl StudyArgs {
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let solve = |scene: &_, own: &_| {
                 let mut own_phases = Phases::quiet();
-                write_result(scene, &mut own_phases, own, &cache)?.verdict?;
-                Ok(Cost::of(&own_phases))
+                let verdict = write_result(scene, &mut own_phases, own, &cache)?.verdict;
+                Ok(verdict.map(|()| Cost::of(&own_phases)))
             };
             run_cases(&study, &results, &solve, &|case| {
                 progress.say(case.label.clone());

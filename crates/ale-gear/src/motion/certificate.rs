@@ -1,16 +1,30 @@
 //! What must hold of a motion.
 
+use dynamics::pair_motion::SweepPoint;
+
 use super::MotionHeadline;
 use crate::certificate::{Certificate, Check};
 
 /// Energy that an integrator may add or take, over the work done.
 const ENERGY: f64 = 1e-2;
+/// What to do where a motion does not hold.
+pub(super) const MOTION_WAY_OUT: &str = ENERGY_WAY_OUT;
 const ENERGY_WAY_OUT: &str = "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or `method = \"energy\"`, which keeps energy at any step";
 /// Forces that should not be, over the largest normal force.
 const CONTACT: f64 = 1e-6;
 /// The same of a jump at a tooth change, which is the difference of two forces found from different starts: up to some 1e-6 with long steps.
 const JUMP: f64 = 1e-4;
 const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
+
+/// What must hold of one speed of a sweep: the same as of a motion alone.
+pub(super) fn checks_of_speed(point: &SweepPoint) -> Certificate {
+    let force = point.extremes.largest_force.max(point.coast_force);
+    Certificate::new([
+        energy_check(point.ledger.residual(), point.throughput, point.ledger.relative_residual()),
+        pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
+        Check { bound: JUMP, ..contact_check("force_jump", point.changes.jump, force) },
+    ])
+}
 
 impl MotionHeadline {
     /// Energy, flanks that pull, forces that tooth changes set off.
@@ -47,4 +61,50 @@ fn contact_check(name: &'static str, force_n: f64, largest_n: f64) -> Check {
 /// A share; nothing is no share of anything.
 fn over(value: f64, scale: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value / scale }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{
+        motion::Ledger,
+        pair_motion::{Changes, Extremes, Periodicity, Way},
+    };
+
+    use super::*;
+
+    /// A speed whose energy closes, without a flank that pulls or a force that jumps.
+    fn sound() -> SweepPoint {
+        SweepPoint {
+            speed: 100.0,
+            way: Way::Apart,
+            own_start: true,
+            periodicity: Periodicity { period: 1, residual: 0.0 },
+            waited: 10,
+            transmission_error: vec![5e-3; 4],
+            normal_force: vec![100.0; 4],
+            coast_force: 0.0,
+            bearing_force: 0.0,
+            ledger: Ledger { kinetic: 1.0, supplied: 1.0, turnover: 1.0, ..Ledger::default() },
+            throughput: 50.0,
+            extremes: Extremes { least_force: Some(1.0), largest_force: 100.0, ..Extremes::default() },
+            changes: Changes { count: 10, jump: 1e-5 },
+        }
+    }
+
+    /// Each measure of a speed alone makes it a failed one: energy out of nothing, a flank that pulls, a change that drops a force, and what is no number.
+    #[test]
+    fn a_speed_is_held_to_what_a_motion_is_held_to() {
+        let missed = |change: fn(&mut SweepPoint)| {
+            let mut point = sound();
+            change(&mut point);
+            checks_of_speed(&point).missed().map(|check| check.name).collect::<Vec<_>>()
+        };
+        assert_eq!(missed(|_| ()), [""; 0]);
+        // 0.6 mJ of 50 mJ that go through the pair, and of 1 mJ that changed its motion.
+        assert_eq!(missed(|p| p.ledger.kinetic = 1.6), ["energy_residual"]);
+        assert_eq!(missed(|p| p.ledger.kinetic = 1.4), [""; 0]);
+        assert_eq!(missed(|p| p.ledger.kinetic = f64::NAN), ["energy_residual"]);
+        assert_eq!(missed(|p| p.extremes.least_force = Some(-0.01)), ["pulling_force"]);
+        assert_eq!(missed(|p| p.changes.jump = 0.02), ["force_jump"]);
+    }
 }

@@ -196,9 +196,8 @@ fn through_windows(
             }
             Ok(Attempt::Sweep(mut prepared, points, sweep)) => {
                 prepared.warnings.extend(widened);
-                let table = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
-                let verdict = prepared.facts.certificate.verdict(scene);
-                return Ok(Outcome::Finished(Written { table, verdict }));
+                let written = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
+                return Ok(Outcome::Finished(written));
             }
             Err(Failure::Command(e)) => return Err(e),
             Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {

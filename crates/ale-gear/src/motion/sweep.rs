@@ -11,6 +11,7 @@ use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
+    certificate::{MOTION_WAY_OUT, checks_of_speed},
     course::failure,
     elasticity::{ElasticHeadline, Vibration},
     frequencies::CriticalSpeed,
@@ -19,6 +20,7 @@ use super::{
     prepare::{Prepared, QuasiStatic},
 };
 use crate::{
+    error::CommandError,
     output::{push_row, quoted},
     phases::Phases,
     run::Failure,
@@ -188,8 +190,14 @@ pub(super) fn rows(
     let teeth = f64::from(scene.driver_teeth());
     let cycles = scene.analysis.cycles as usize;
     let one = |outcome: &SweepOutcome| match outcome {
-        Ok(point) => solved(point, cycles, (teeth, tolerance), quasi_static)
-            .unwrap_or_else(|e| missing((point.way, point.speed), teeth, e.to_string())),
+        Ok(point) => match checks_of_speed(point).missed().next() {
+            Some(check) => {
+                let reason = format!("the result does not hold: {}", check.words());
+                missing((point.way, point.speed), teeth, reason)
+            }
+            None => solved(point, cycles, (teeth, tolerance), quasi_static)
+                .unwrap_or_else(|e| missing((point.way, point.speed), teeth, e.to_string())),
+        },
         Err(SweepMiss { speed, way, error }) => missing((*way, *speed), teeth, error.to_string()),
     };
     outcomes.iter().map(one).collect()
@@ -226,6 +234,22 @@ fn solved(
         status: if point.periodicity.residual > tolerance { SweepStatus::NotPeriodic } else { SweepStatus::Periodic },
         reason: String::new(),
     })
+}
+
+/// Status 1 where not one speed has a motion that holds.
+///
+/// # Errors
+/// Exit status 1 with the reason of the first.
+pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), CommandError> {
+    let failed = |row: &SweepRow| row.status == SweepStatus::Failed;
+    match rows.first() {
+        Some(first) if rows.iter().all(failed) => {
+            let place = scene.file.display();
+            let message = format!("{place}: no speed has a result, at {:.0}/min: {}", first.speed_rpm, first.reason);
+            Err(CommandError::failed(message, Some(MOTION_WAY_OUT.into())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A speed without a motion.

@@ -134,7 +134,7 @@ pub(super) fn write_sweep(
     results: &ResultDirectory,
     prepared: &Prepared,
     outcomes: &[SweepOutcome],
-) -> Result<String, CommandError> {
+) -> Result<Written, CommandError> {
     let rows = sweep::rows(scene, words.0, &prepared.quasi_static, outcomes);
     let teeth = scene.driver_teeth();
     let mesh_hz = mesh_range_hz(scene, words.0, None);
@@ -160,5 +160,7 @@ pub(super) fn write_sweep(
     let files = results.files()?;
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
-    Ok(sweep_table(scene, &prepared.facts, &cost, &headline, &warnings))
+    let table = sweep_table(scene, &prepared.facts, &cost, &headline, &warnings);
+    let verdict = prepared.facts.certificate.verdict(scene).and_then(|()| sweep::verdict(scene, &rows));
+    Ok(Written { table, verdict })
 }

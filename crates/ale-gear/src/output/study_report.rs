@@ -49,7 +49,7 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Ren
             json!({
                 "label": case.label,
                 "scene": case.scene.file.display().to_string(),
-                "folder": study.folder(i),
+                "folder": has_folder(&runs[i]).then(|| study.folder(i)),
                 "reason": findings.reason(i),
             })
         })
@@ -105,6 +105,11 @@ pub(crate) fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> Stri
     text
 }
 
+/// Whether a case left files.
+fn has_folder(run: &CaseOutcome) -> bool {
+    run.as_ref().map_or_else(|miss| miss.has_folder, |_| true)
+}
+
 fn case(of: StudyResult<'_>, i: usize) -> Value {
     let (case, reason) = (&of.study.cases[i], of.findings.reason(i));
     let run = of.runs[i].as_ref().ok().filter(|_| reason.is_none());
@@ -116,7 +121,7 @@ fn case(of: StudyResult<'_>, i: usize) -> Value {
         "value": case.value,
         "scene": case.scene.file.display().to_string(),
         "reason": reason,
-        "folder": of.runs[i].is_ok().then(|| format!("{CASES}/{}", of.study.folder(i))),
+        "folder": has_folder(&of.runs[i]).then(|| format!("{CASES}/{}", of.study.folder(i))),
         "geometry": run.map(|r| r.geometry),
         "quantities": quantities,
         "steps": run.map(|r| r.steps),

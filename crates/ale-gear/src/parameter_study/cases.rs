@@ -47,13 +47,30 @@ impl CaseRun {
     }
 }
 
+/// A case without a result.
+#[derive(Debug, Clone)]
+pub(crate) struct CaseMiss {
+    /// Why.
+    pub error: CommandError,
+    /// Whether its files are there to be looked at: those of a result that does not hold.
+    pub has_folder: bool,
+}
+
+impl From<CommandError> for CaseMiss {
+    fn from(error: CommandError) -> Self {
+        Self { error, has_folder: false }
+    }
+}
+
 /// A case's result, or why it has none.
-pub(crate) type CaseOutcome = Result<CaseRun, CommandError>;
+pub(crate) type CaseOutcome = Result<CaseRun, CaseMiss>;
 
-/// Runs a scene and writes every file of its result.
-pub(crate) type Solve<'a> = &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Cost, CommandError> + Sync);
+/// Runs a scene and writes every file of its result; inside, whether it holds.
+pub(crate) type Solve<'a> =
+    &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<Cost, CommandError>, CommandError> + Sync);
 
-/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution takes nothing from the others.
+/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution takes nothing from the others; one whose result does not hold leaves its
+/// files, marked as such, as a run by itself does.
 ///
 /// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The threads of
 /// a case are its own, so that no case waits for, or is timed with, the work of another. Results do not depend on their number.
@@ -95,8 +112,9 @@ fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> 
     let case = &study.cases[i];
     let folder = results.path(CASES).join(study.folder(i));
     let own = ResultDirectory::create(&folder)?;
-    let cost = solve(&case.scene, &own)?;
+    let solved = solve(&case.scene, &own)?;
     own.finish()?;
+    let cost = solved.map_err(|error| CaseMiss { error, has_folder: true })?;
     let rows = Columns::read(&folder.join(HISTORY))?;
     let summary = summary(&folder)?;
     let warnings = summary["warnings"].as_array().map_or(&[][..], |list| list);

@@ -73,7 +73,7 @@ pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, 
     let cases: Vec<_> = runs
         .iter()
         .enumerate()
-        .map(|(i, run)| run.as_ref().map_err(CommandError::clone).and_then(|run| of_case(study, i, run)))
+        .map(|(i, run)| run.as_ref().map_err(|miss| miss.error.clone()).and_then(|run| of_case(study, i, run)))
         .collect();
     if let (true, Some(Err(first))) = (cases.iter().all(Result::is_err), cases.first()) {
         let (label, message) = (&study.cases[0].label, &first.message);

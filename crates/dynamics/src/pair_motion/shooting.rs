@@ -12,7 +12,10 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{Motion, PairMotionError, Place, steady::difference};
-use crate::motion::{MotionError, State};
+use crate::{
+    StaticError,
+    motion::{MotionError, State},
+};
 
 /// Differences of coordinates over their scales.
 const STEP: f64 = 1e-4;
@@ -76,7 +79,14 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         let mut share = 1.0;
         for halving in 0..=HALVINGS {
             let next = moved(&here, &(share * &step));
-            let there = search.map(motion, &next)?;
+            let there = match search.map(motion, &next) {
+                // Too far: not even a motion.
+                Err(MotionError::Mechanism { source: StaticError::PassedThrough { .. }, .. }) if halving < HALVINGS => {
+                    share *= 0.5;
+                    continue;
+                }
+                other => other?,
+            };
             if there.residual < shot.residual || halving == HALVINGS {
                 (here, end) = (next, there);
                 break;

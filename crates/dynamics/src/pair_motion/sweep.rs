@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use super::{
-    Drive, Motion, MotionSettings, PairMechanism, PairMotionError, Periodicity, Speed, quasi_static_start,
-    run_to_steady, shoot,
+    Changes, Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Periodicity, Speed,
+    quasi_static_start, run_to_steady, shoot,
 };
 use crate::{
     StaticError,
-    motion::{MotionError, State},
+    motion::{Ledger, MotionError, State},
 };
 
 /// Which way a sweep goes through its speeds.
@@ -82,6 +82,14 @@ pub struct SweepPoint {
     pub coast_force: f64,
     /// Largest force of a bearing, N; 0 without bearings.
     pub bearing_force: f64,
+    /// Energy from the start of this speed on, its settling included.
+    pub ledger: Ledger,
+    /// Work that went through the pair in the same time, N mm.
+    pub throughput: f64,
+    /// Extremes over the same time.
+    pub extremes: Extremes,
+    /// Tooth changes in the same time.
+    pub changes: Changes,
 }
 
 /// A speed without an answer.
@@ -202,8 +210,12 @@ fn one(
         normal_force: Vec::new(),
         coast_force: 0.0,
         bearing_force: 0.0,
+        ledger: Ledger::default(),
+        throughput: 0.0,
+        extremes: Extremes::default(),
+        changes: Changes::default(),
     };
-    let mut row = |now: &super::Instant, _: &crate::motion::Ledger| {
+    let mut row = |now: &super::Instant, _: &Ledger| {
         point.transmission_error.push(now.transmission_error);
         point.normal_force.push(now.normal_forces[0]);
         point.coast_force = point.coast_force.max(now.normal_forces[1]);
@@ -214,6 +226,9 @@ fn one(
     for _ in 0..cycles {
         motion.run_cycle(Some(&mut row))?;
     }
+    point.ledger = motion.ledger().copied().unwrap_or_default();
+    point.throughput = motion.counts().throughput;
+    (point.extremes, point.changes) = (*motion.system().extremes(), motion.system().changes());
     let end = motion.state().clone();
     Ok((point, end))
 }

@@ -56,7 +56,8 @@ impl<'a> Cursor<'a> {
             rest if self.binary && !rest[0].is_ascii_graphic() => format!("byte 0x{:02x}", rest[0]),
             rest => {
                 let word = rest.split(u8::is_ascii_whitespace).next().unwrap_or_default();
-                format!("`{}`", String::from_utf8_lossy(&word[..word.len().min(40)]))
+                // Control characters would speak to the terminal.
+                format!("`{}`", String::from_utf8_lossy(&word[..word.len().min(40)]).escape_debug())
             }
         };
         self.error(MshProblem::Syntax { expected: expected.to_owned(), found })

@@ -133,7 +133,11 @@ impl Mechanism for PairMechanism {
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
         let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        self.check_passage(t, &at.d)?;
         let turned = self.turned_cycles(t, &at.d);
+        for side in std::iter::once(&self.drive_side).chain(&self.coast_side) {
+            side.check_pace(turned)?;
+        }
         // Several teeth may be due after a long step.
         loop {
             let before = self.contact(t, &at, false)?;

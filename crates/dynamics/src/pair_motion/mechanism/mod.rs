@@ -5,6 +5,7 @@ mod build;
 mod external;
 mod extremes;
 mod observe;
+mod passage;
 mod touching;
 
 use geometry::GearPair;

@@ -85,6 +85,21 @@ impl MeshSide {
         }
     }
 
+    /// Refuses gears that have turned past the whole window since it moved last: it follows tooth by tooth, and what happened in between nobody has seen.
+    ///
+    /// # Errors
+    /// [`StaticError::Leapt`].
+    pub fn check_pace(&self, cycles: f64) -> Result<(), StaticError> {
+        let (station, window) = (Station::at_cycles(cycles + self.ahead), self.window.count());
+        let due = ToothWindow::nominal_first(station.centre(&self.options), window);
+        // Running numbers as floats: a turn that is no number is far from any of them.
+        let teeth = (due as f64 - self.window.first() as f64).abs();
+        if teeth <= window as f64 && cycles.is_finite() {
+            return Ok(());
+        }
+        Err(StaticError::Leapt { cycle: station.cycle, phase: station.phase, teeth, window })
+    }
+
     /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last evaluation; `cycles` are those that
     /// the gears have turned.
     ///
