@@ -58,19 +58,38 @@ fn cycle(pair: &GearPair, slices: usize) -> [f64; 3] {
     [mean(&errors), most, mean(&lengths)]
 }
 
+/// The slices that the springs ask for against 800: mean within 0.1 %, peak to peak within 3 %, length (of whole slices) within 2 %. How far 32 slices are off in the peak to peak, per cent.
+fn judge(width: f64, crowning: f64) -> f64 {
+    let pair = pair(width, crowning);
+    let needed = slices_needed(&pair, &StaticOptions::new(LINE_LOAD * pair.face_width(), &pair)).count;
+    let finest = cycle(&pair, 800);
+    let off = |slices: usize| {
+        let found = cycle(&pair, slices);
+        [0, 1, 2].map(|i| 100.0 * (found[i] / finest[i] - 1.0))
+    };
+    let (of_32, of_needed) = (off(32), off(needed));
+    println!(
+        "b/m {width}, crowning {crowning} um: {finest:.4?} um, um, mm; 32 slices {of_32:+.2?} %, {needed} slices {of_needed:+.2?} %"
+    );
+    let within = of_needed.iter().zip([0.1, 3.0, 2.0]).all(|(off, most)| off.abs() < most);
+    assert!(within, "b/m {width}, crowning {crowning} um, {needed} slices: off by {of_needed:?} %");
+    of_32[1]
+}
+
+/// A narrow pair is as good with 32 slices as with more; in a wide one they come and go by more than the pair itself moves.
 #[test]
-fn rigid_flanks_ask_for_slices_as_well() {
+fn rigid_flanks_ask_for_slices_as_elastic_ones_do() {
+    assert!(judge(5.0, 30.0).abs() < 1.0);
+    let wide = judge(40.0, 200.0);
+    assert!(wide > 50.0, "32 slices are off by {wide} %: the rule is not asked for anything");
+}
+
+#[test]
+#[ignore = "a minute: a table for docs/validation.md"]
+fn rigid_flanks_of_all_widths() {
     for width in [5.0, 15.0, 40.0] {
         for crowning in [0.0, 30.0, 200.0] {
-            let pair = pair(width, crowning);
-            let needed = slices_needed(&pair, &StaticOptions::new(LINE_LOAD * pair.face_width(), &pair)).count;
-            let finest = cycle(&pair, 800);
-            println!("b/m {width}, crowning {crowning} um: {finest:.4?} um, um, mm; needed {needed}");
-            for slices in [32, 48, 64, 96, 128, needed] {
-                let found = cycle(&pair, slices);
-                let off: Vec<f64> = (0..3).map(|i| 100.0 * (found[i] / finest[i] - 1.0)).collect();
-                println!("  {slices}: {off:.3?} %");
-            }
+            judge(width, crowning);
         }
     }
 }
