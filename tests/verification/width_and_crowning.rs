@@ -288,26 +288,26 @@ fn defaults_against_the_finest(number: usize) {
 }
 
 #[test]
-#[ignore = "a minute: a table for docs/validation.md"]
+#[ignore = "two minutes: a table for docs/validation.md"]
 fn defaults_of_narrow_pairs() {
     defaults_against_the_finest(0);
 }
 
 #[test]
-#[ignore = "two minutes: a table for docs/validation.md"]
+#[ignore = "four minutes: a table for docs/validation.md"]
 fn defaults_of_medium_pairs() {
     defaults_against_the_finest(1);
 }
 
 #[test]
-#[ignore = "six minutes: a table for docs/validation.md"]
+#[ignore = "ten minutes: a table for docs/validation.md"]
 fn defaults_of_wide_pairs() {
     defaults_against_the_finest(2);
 }
 
 /// The finest answers have settled: more slices, and more elements along the face, move them by less than a third of what the defaults may be off by.
 #[test]
-#[ignore = "six minutes: the proof of the tables in docs/validation.md"]
+#[ignore = "a quarter of an hour: the proof of the tables in docs/validation.md"]
 fn the_finest_have_settled() {
     let of = |width: f64, flank: [f64; 2], faces: [u32; 2], slices: [usize; 2]| {
         let mut fine = Reduced::new(2, width, SECTION, faces[0]);
