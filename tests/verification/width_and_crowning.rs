@@ -307,7 +307,7 @@ fn defaults_of_wide_pairs() {
 
 /// The finest answers have settled: more slices, and more elements along the face, move them by less than a third of what the defaults may be off by.
 #[test]
-#[ignore = "a quarter of an hour: the proof of the tables in docs/validation.md"]
+#[ignore = "twenty minutes: the proof of the tables in docs/validation.md"]
 fn the_finest_have_settled() {
     let of = |width: f64, flank: [f64; 2], faces: [u32; 2], slices: [usize; 2]| {
         let mut fine = Reduced::new(2, width, SECTION, faces[0]);
