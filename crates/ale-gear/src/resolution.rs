@@ -27,17 +27,17 @@ pub struct Resolution {
     pub slices_that_would_do: Option<usize>,
     /// What a row of springs over the same gaps loses with these slices, per cent: of its mean approach, of the peak to peak, of the largest line load.
     pub slice_error_percent: Option<[f64; 3]>,
-    /// Elements along the face of pinion and wheel; `None` for a mesh that was read.
+    /// Elements along the face of pinion and wheel; `None` for a mesh that was read, and for rigid gears.
     pub face_elements: [Option<u32>; 2],
-    /// Elements that the program would choose.
-    pub face_elements_that_would_do: [u32; 2],
+    /// Elements that the program would choose; `None` for rigid gears.
+    pub face_elements_that_would_do: [Option<u32>; 2],
 }
 
 /// Whether a model cuts contact into slices, or is fed by one that does.
 fn is_sliced(scene: &Scene) -> bool {
     let model = scene.analysis.model;
     let feeds = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
-    (model.is_reduced() || model == Model::Full || feeds) && scene.contact.slices.is_some()
+    (model.is_reduced() || matches!(model, Model::Full | Model::Impact) || feeds) && scene.contact.slices.is_some()
 }
 
 /// The scene with the slices that it asks for, unless it says how many.
@@ -59,10 +59,11 @@ pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions
     let errors = needed.map(|needed| {
         if needed.count == options.slices { needed.errors } else { slice_errors(pair, options, options.slices) }
     });
-    let face_elements = scene.gears().map(|gear| gear.mesher.map(|m| m.elements_face));
+    let elastic = scene.analysis.model != Model::Impact;
+    let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
     let would_do = scene.gears().map(|gear| {
         let order = gear.mesher.map_or(2, |m| m.order);
-        mesh::face_elements(scene.pair.face_width_mm, scene.pair.normal_module_mm, order)
+        elastic.then(|| mesh::face_elements(scene.pair.face_width_mm, scene.pair.normal_module_mm, order))
     });
     let mut said = Vec::new();
     if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen)
@@ -72,11 +73,12 @@ pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions
         said.push(too_few_slices(options.slices, needed.count, &errors));
     }
     for (i, whose) in ["pinion", "wheel"].into_iter().enumerate() {
-        if let Some(few) = face_elements[i].filter(|few| FEW * few < would_do[i]) {
+        if let (Some(few), Some(enough)) = (face_elements[i], would_do[i])
+            && FEW * few < enough
+        {
             said.push(format!(
-                "{few} elements along the face of the {whose} are few for its width: {} would do (`elements_face` in [{whose}.mesher]; \
-                 left out, the program chooses)",
-                would_do[i]
+                "{few} elements along the face of the {whose} are few for its width: {enough} would do (`elements_face` in [{whose}.mesher]; \
+                 left out, the program chooses)"
             ));
         }
     }

@@ -83,6 +83,23 @@ fn seed_001_has_its_normal_force_and_speed() {
     assert!(headline(&summary, "least_slice_force_n") >= 0.0, "a flank pulls");
 }
 
+/// Rigid gears without a number of slices have as many as their width asks for, and the summary says so; a number of the scene is kept.
+#[test]
+fn slices_of_rigid_gears_follow_the_width() {
+    let resolution = |slices: &str, width: &str| {
+        let changes = [("slices = 33", slices), ("face_width_mm = 350.0", width), ("run = \"ramp\"", "run = \"span\"")];
+        let text = seed("001", &changes);
+        let (before, _) = text.split_once("[motion.ramp]").unwrap();
+        let (_, summary) = run(before.replace("model = \"impact\"", "model = \"impact\"\ncycles = 1"));
+        summary["resolution"].clone()
+    };
+    let wide = resolution("", "face_width_mm = 1000.0");
+    assert!(wide["slices"].as_u64() > Some(32) && wide["slices_chosen"] == true, "{wide}");
+    assert!(wide["face_elements_that_would_do"].as_array().is_some_and(|all| all.iter().all(Value::is_null)), "{wide}");
+    let stated = resolution("slices = 33", "face_width_mm = 350.0");
+    assert_eq!((stated["slices"].as_u64(), &stated["slices_chosen"]), (Some(33), &Value::Bool(false)), "{stated}");
+}
+
 /// Seed 002: torques balance, so the mean force on the line of action is the load's; 18 coordinates; the gears' turn against nothing is the one frequency at 0; twelve elastic ones within 8 % of the
 /// continuum's; critical speeds lie where an order meets a line of the Campbell diagram.
 #[test]

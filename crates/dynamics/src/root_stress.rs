@@ -84,7 +84,8 @@ impl StressPeak {
     /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and what both can share:
     /// 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
     pub fn relative_error(&self) -> f64 {
-        let off = ERROR_SHARE * (self.stress - self.from_volume).abs() + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
+        let off = ERROR_SHARE * (self.stress - self.from_volume).abs()
+            + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
         if off > 0.0 { off / self.stress.abs() } else { 0.0 }
     }
 }

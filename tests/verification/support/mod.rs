@@ -126,6 +126,18 @@ pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
 
 /// Any pair on quadratic meshes of the built-in mesher; `wheel` bears its own helix angle, `counts` as in [`generated`].
 pub fn quadratic(
+    data: [GearData; 2],
+    centre_distance: Option<f64>,
+    torque: f64,
+    counts: [u32; 5],
+    extent: mesh::Extent,
+) -> Case {
+    of_order(2, data, centre_distance, torque, counts, extent)
+}
+
+/// The same on meshes of order 1 or 2.
+pub fn of_order(
+    order: u32,
     [pinion, wheel]: [GearData; 2],
     centre_distance: Option<f64>,
     torque: f64,
@@ -133,7 +145,7 @@ pub fn quadratic(
     extent: mesh::Extent,
 ) -> Case {
     let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), centre_distance).unwrap();
-    let meshes = meshes(&pair, 2, counts, extent);
+    let meshes = meshes(&pair, order, counts, extent);
     Case { pair, meshes, elements: ElementOptions::default(), torque }
 }
 

@@ -34,7 +34,7 @@ use crate::{
     cache::Cache,
     certificate::{Certificate, Written},
     error::CommandError,
-    facts::{Cost, Facts},
+    facts::{Cost, Facts, Resolution},
     gears,
     motion::{self, Columns, ENERGY_FILE, HISTORY, Passage},
     output::{
@@ -42,6 +42,8 @@ use crate::{
         write_summary,
     },
     phases::Phases,
+    resolution::resolution,
+    run,
     scene::{Driver, Model as Name, MotionScene, Run, Scene},
 };
 use course::Course;
@@ -124,6 +126,10 @@ impl Case<'_> {
         warnings.extend(gears::doubts(&recipe.pair));
         warnings.extend(no_backlash(recipe));
         let mut facts = facts(recipe, coordinates);
+        if let Some((resolution, said)) = cut(recipe) {
+            facts.resolution = Some(resolution);
+            warnings.extend(said);
+        }
         let mesh_frequency_hz = recipe.mesh_frequency_hz(words);
         refuse_unstable(recipe, words, &mut model, resonance_hz)?;
         let campbell = phases.run("modes", || campbell::campbell(recipe, (&model, resonance_hz), shafts.as_ref()))?;
@@ -231,6 +237,12 @@ fn certificate(recipe: &Recipe, course: &Course) -> Certificate {
 fn facts(recipe: &Recipe, coordinates: usize) -> Facts {
     let dof_after = [coordinates.div_ceil(2), coordinates / 2];
     Facts { geometry: gears::geometry_facts(&recipe.pair), dof_after, ..Facts::default() }
+}
+
+/// How rigid gears are cut, with what a user should hear of it; other models are not.
+fn cut(recipe: &Recipe) -> Option<(Resolution, Vec<String>)> {
+    let Recipe { scene, pair, .. } = recipe;
+    (scene.analysis.model == Name::Impact).then(|| resolution(scene, pair, &run::options(scene, pair)))
 }
 
 /// Rows that hold numbers only.

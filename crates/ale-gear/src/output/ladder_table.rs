@@ -16,6 +16,7 @@ pub(crate) fn ladder_table(
     let mut t = Lines::new(facts);
     let (h, c) = (headline, &headline.certificate);
     t.text("coordinates", h.coordinates, "");
+    t.resolution(scene, facts);
     t.number("mesh frequency", h.mesh_frequency_hz, 1, "Hz");
     t.number("mesh resonance (mean stiffness)", h.mesh_resonance_hz, 1, "Hz");
     t.errors([h.mean_dte_um, h.peak_to_peak_dte_um], [h.mean_ste_um, h.peak_to_peak_ste_um]);
