@@ -180,9 +180,9 @@ fn random_pairs(count: usize) -> Vec<Loaded> {
     pairs
 }
 
-/// Layers along the face that are no longer than about one and a half modules.
+/// Layers along the face that the program chooses.
 fn layers(pair: &Loaded) -> u32 {
-    ((pair.gears[0].face_width / (1.5 * pair.gears[0].normal_module)).ceil() as u32).max(default_counts()[3])
+    mesh::face_elements(pair.gears[0].face_width, pair.gears[0].normal_module, 2, true)
 }
 
 /// Twenty random pairs, default counts (along the face: [`layers`]) against meshes 1.5 times finer in every direction.
@@ -226,7 +226,8 @@ fn the_narrow_pair_of_high_helix_converges() {
     let mut before = [f64::NAN; 2];
     let mut moved = Vec::new();
     for factor in [1.0, 1.34, 1.67, 2.0] {
-        let counts = finer(default_counts(), factor);
+        let [p, f, t, _, r] = default_counts();
+        let counts = finer([p, f, t, layers(&pair), r], factor);
         let now = tension(&pair, counts, 2);
         let change = [0, 1].map(|i| 100.0 * (now[i].stress / before[i] - 1.0));
         for i in 0..2 {

@@ -154,8 +154,8 @@ impl StressOperator {
 
     /// The same on free surfaces, from the displacement of `faces` alone: strains in the tangent plane, no stress across it. Theory (22c).
     ///
-    /// By polynomials through the most accurate points of the faces about each corner; zero at a node that is on no face. Faces must be free
-    /// of traction where nodes are asked for.
+    /// By polynomials through the most accurate points of the faces about each corner, (22d); zero at a node that is on no face. Faces
+    /// must be free of traction where nodes are asked for.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.

@@ -188,7 +188,7 @@ fn mesh_source(
 fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32, pair: &PairScene) -> Checked<MesherScene> {
     let order = s.whole_of(&schema::MESHER, "order", &raw.order)?;
     let (least, most, _) = schema::MESHER.whole("elements_face");
-    let usual = mesh::face_elements(pair.face_width_mm, pair.normal_module_mm, order);
+    let usual = mesh::face_elements(pair.face_width_mm, pair.normal_module_mm, order, false);
     Ok(MesherScene {
         order,
         elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
