@@ -35,7 +35,7 @@ fn root_stress_is_written_when_asked_for() {
     let columns = history(&scratch, "o");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     let root = &summary["headline"]["root_stress"];
-    assert!(root["averaging"].as_str().unwrap().contains("averaged over the faces of a node"), "{root}");
+    assert!(root["averaging"].as_str().unwrap().contains("polynomials through the most accurate points"), "{root}");
     assert!(root["definition"].as_str().unwrap().contains("20 deg tangent"), "{root}");
     for gear in ["pinion", "wheel"] {
         for (measure, sign) in [("max_principal", 1.0), ("min_principal", -1.0), ("von_mises", 1.0)] {

@@ -121,7 +121,7 @@ enum StressMap {
 }
 
 impl StressMap {
-    fn new(parts: &Parts, i: usize, nodes: &[u32], faces: Option<&[Face]>) -> Result<Self, ReductionError> {
+    fn new(parts: &Parts, i: usize, nodes: &[u32], faces: Option<&[Vec<Face>]>) -> Result<Self, ReductionError> {
         let operator = |mesh: &Mesh, material: &Material, elements: &ElementOptions, dofs: &DofMap| {
             Ok(Self::Operator(match faces {
                 None => StressOperator::new(mesh, material, elements, dofs, nodes)?,

@@ -152,10 +152,11 @@ impl StressOperator {
         Ok(Self { rows, free_count: dofs.free_count() })
     }
 
-    /// The same on free surfaces, from the displacement of `faces` alone: strains in the tangent plane, no stress across it. Theory (22c).
+    /// The same on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress across it.
+    /// Theory (22c), (22d).
     ///
-    /// By polynomials through the most accurate points of the faces about each corner, (22d); zero at a node that is on no face. Faces
-    /// must be free of traction where nodes are asked for.
+    /// By polynomials through the most accurate points of the faces about each corner, which do not reach from one surface into another;
+    /// the mean over those of the faces that a node is on, zero at a node that is on none. Faces must be free of traction where nodes are asked for.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.
@@ -163,26 +164,28 @@ impl StressOperator {
         mesh: &Mesh,
         material: &Material,
         dofs: &DofMap,
-        faces: &[Face],
+        surfaces: &[Vec<Face>],
         nodes: &[u32],
     ) -> Result<Self, FemError> {
         let places = places(mesh, dofs, nodes)?;
-        let last = faces.iter().flat_map(|face| face.nodes()).max().map_or(0, |&n| n as usize);
-        if last >= mesh.nodes.len() && !faces.is_empty() {
+        let last = surfaces.iter().flatten().flat_map(Face::nodes).max().map_or(0, |&n| n as usize);
+        if last >= mesh.nodes.len() && last > 0 {
             return Err(FemError::Shape { what: "nodes", expected: mesh.nodes.len(), found: last });
         }
-        let mut patches = Patches::new(&mesh.nodes, faces, material);
         let mut rows = vec![(Vec::new(), 0u32); nodes.len()];
-        for (number, face) in faces.iter().enumerate() {
-            for (i, &node) in face.nodes().iter().enumerate().filter(|(_, n)| !places[**n as usize].is_empty()) {
-                let blocks = patches.at_node(number, i);
-                if blocks.is_empty() {
-                    continue;
-                }
-                for &place in &places[node as usize] {
-                    let (row, touching) = &mut rows[place];
-                    *touching += 1;
-                    row.extend(blocks.iter().filter_map(|&(other, block)| Some((dofs.position(other)?, block))));
+        let each = surfaces.iter().map(|faces| (Patches::new(&mesh.nodes, faces, material), faces));
+        for (mut patches, faces) in each {
+            for (number, face) in faces.iter().enumerate() {
+                for (i, &node) in face.nodes().iter().enumerate().filter(|(_, n)| !places[**n as usize].is_empty()) {
+                    let blocks = patches.at_node(number, i);
+                    if blocks.is_empty() {
+                        continue;
+                    }
+                    for &place in &places[node as usize] {
+                        let (row, touching) = &mut rows[place];
+                        *touching += 1;
+                        row.extend(blocks.iter().filter_map(|&(other, block)| Some((dofs.position(other)?, block))));
+                    }
                 }
             }
         }

@@ -15,7 +15,7 @@ const STEEL: Material = Material::STEEL;
 /// Stress at `nodes` of a field given at every node.
 fn surface_stress(mesh: &Mesh, faces: &[Face], nodes: &[u32], u: &[[f64; 3]]) -> Vec<[f64; 6]> {
     let dofs = DofMap::new(mesh.nodes.len(), &[]);
-    let operator = StressOperator::on_surface(mesh, &STEEL, &dofs, faces, nodes).unwrap();
+    let operator = StressOperator::on_surface(mesh, &STEEL, &dofs, &[faces.to_vec()], nodes).unwrap();
     let stress = operator.apply(Mat::from_fn(3 * u.len(), 1, |i, _| u[i / 3][i % 3]).as_ref()).unwrap();
     (0..nodes.len()).map(|i| [0, 1, 2, 3, 4, 5].map(|k| stress[(6 * i + k, 0)])).collect()
 }
@@ -190,7 +190,7 @@ fn nodes_and_faces_must_exist() {
     let mesh = box_mesh(ElementKind::Hex8, [1, 1, 1], |c| c);
     let dofs = DofMap::new(8, &[]);
     let (faces, _) = faces_where(&mesh, |x| x[2] == 0.0);
-    let of = |faces: &[Face], nodes: &[u32]| StressOperator::on_surface(&mesh, &STEEL, &dofs, faces, nodes);
+    let of = |faces: &[Face], nodes: &[u32]| StressOperator::on_surface(&mesh, &STEEL, &dofs, &[faces.to_vec()], nodes);
     assert!(matches!(of(&faces, &[8]), Err(FemError::Shape { .. })));
     assert!(matches!(of(&[Face::new(mesh::FaceKind::Tri3, &[0, 1, 99])], &[0]), Err(FemError::Shape { .. })));
     let off = nodes_where(&mesh, |x| x[2] == 1.0);

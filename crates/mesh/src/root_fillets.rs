@@ -31,7 +31,7 @@ const MIDDLE_PITCHES: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootFillets {
     nodes: BTreeMap<(u32, Side), Vec<u32>>,
-    faces: Vec<Face>,
+    faces: [Vec<Face>; 2],
 }
 
 impl RootFillets {
@@ -78,9 +78,17 @@ impl RootFillets {
 
         let mut nodes: BTreeMap<(u32, Side), Vec<u32>> = BTreeMap::new();
         let teeth = i64::from(gear.teeth());
+        let place_of = |[x, y, z]: [f64; 3]| (y.atan2(x) - gear.twist() * z) / gear.pitch_angle();
+        let of_left = |face: &Face| {
+            let mut sum = [0.0; 3];
+            face.corners().iter().for_each(|&n| (0..3).for_each(|k| sum[k] += body.nodes[n as usize][k]));
+            let place = place_of(sum.map(|c| c / face.corners().len() as f64));
+            place > place.round()
+        };
+        let (left, right): (Vec<Face>, Vec<Face>) = faces.into_iter().partition(of_left);
+        let faces = [right, left];
         for node in surface {
-            let [x, y, z] = body.nodes[node as usize];
-            let place = (y.atan2(x) - gear.twist() * z) / gear.pitch_angle();
+            let place = place_of(body.nodes[node as usize]);
             let tooth = place.round();
             let mut put = |tooth: i64, side| {
                 nodes.entry((tooth.rem_euclid(teeth) as u32, side)).or_default().push(node);
@@ -98,8 +106,9 @@ impl RootFillets {
         Self { nodes, faces }
     }
 
-    /// Every free face with a node of a fillet on it, those that go on above the upper end included.
-    pub fn faces(&self) -> &[Face] {
+    /// Every free face with a node of a fillet on it, those that go on above the upper end included: those of right fillets, then those of
+    /// left ones, which meet in the middle of a tooth space. A sector may be cut there: what goes by surfaces finds the same on a whole mesh.
+    pub fn faces(&self) -> &[Vec<Face>; 2] {
         &self.faces
     }
 

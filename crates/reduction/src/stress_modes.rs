@@ -13,7 +13,7 @@ pub(crate) enum StressRecovery<'a> {
     /// From these free faces alone, the mean over the faces of a node ([`fem::StressOperator::on_surface`]): nodes on them.
     ///
     /// On a cyclic gear the faces must be whole orbits, or all that are about the nodes.
-    Surface(&'a [Face]),
+    Surface(&'a [Vec<Face>]),
 }
 
 /// Stress at some nodes of a gear as a linear map of a window's boundary coordinates.
@@ -88,7 +88,7 @@ impl GearReducer {
         &self,
         window: &Window,
         nodes: &[u32],
-        faces: &[Face],
+        faces: &[Vec<Face>],
     ) -> Result<StressModes, ReductionError> {
         let modes = self.stress_of(window, nodes, StressRecovery::Surface(faces))?;
         Ok(StressModes { nodes: nodes.to_vec(), modes })

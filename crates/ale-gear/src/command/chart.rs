@@ -196,7 +196,7 @@ mod tests {
         symlink("book", &folder).unwrap();
         for (file, table) in [(link.clone(), "first"), (folder.join("page.md"), "second")] {
             put_into(&file, "a", table).unwrap();
-            let wanted = format!("# A\n<!-- chart a -->\n\n{table}\n\n<!-- end -->\nrest\n");
+            let wanted = format!("# A\n<!-- chart a -->\n\n{table}\n<!-- end -->\nrest\n");
             assert_eq!(std::fs::read_to_string(&page).unwrap(), wanted);
         }
         for path in [&link, &folder] {

@@ -42,7 +42,7 @@ pub(super) fn fallback_radius(gear: &Gear) -> f64 {
 /// Neighbours of the fillets' nodes.
 pub(super) struct Surroundings<'a> {
     mesh: &'a Mesh,
-    faces: &'a [Face],
+    faces: Vec<Face>,
     /// Faces by node.
     about: BTreeMap<u32, Vec<usize>>,
     turns: BTreeMap<u32, f64>,
@@ -52,10 +52,11 @@ pub(super) struct Surroundings<'a> {
 impl<'a> Surroundings<'a> {
     pub fn new(found: &'a RootFillets, mesh: &'a Mesh, fallback: f64) -> Self {
         let mut about: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for (i, face) in found.faces().iter().enumerate() {
+        let faces = found.faces().concat();
+        for (i, face) in faces.iter().enumerate() {
             face.nodes().iter().for_each(|&n| about.entry(n).or_default().push(i));
         }
-        Self { mesh, faces: found.faces(), about, turns: turns(mesh, found.faces()), fallback }
+        Self { mesh, faces, about, turns: turns(mesh, found.faces()), fallback }
     }
 
     /// The fillet of these nodes (ascending), which come to stand from `first` on.

@@ -7,15 +7,20 @@ use nalgebra::Vector3;
 
 /// Angle between the normals at a face's corners, the largest of the faces about each node, rad; faces of a fold count as flat.
 ///
-/// The normal at a corner is the mean over the faces about it, so that faces of order 1 turn, too.
-pub(super) fn turns(mesh: &Mesh, faces: &[Face]) -> BTreeMap<u32, f64> {
+/// The normal at a corner is the mean over the faces of its surface about it, so that faces of order 1 turn, too.
+pub(super) fn turns(mesh: &Mesh, surfaces: &[Vec<Face>]) -> BTreeMap<u32, f64> {
+    let mut turns = BTreeMap::new();
+    surfaces.iter().for_each(|faces| add(mesh, faces, &mut turns));
+    turns
+}
+
+fn add(mesh: &Mesh, faces: &[Face], turns: &mut BTreeMap<u32, f64>) {
     let mut normals: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
     for face in faces {
         for (corner, &node) in face.corners().iter().enumerate() {
             *normals.entry(node).or_default() += normal(mesh, face, corner);
         }
     }
-    let mut turns = BTreeMap::new();
     for face in faces {
         let corners = face.corners().iter().filter_map(|node| normals.get(node));
         let all: Vec<_> = corners.collect();
@@ -26,7 +31,6 @@ pub(super) fn turns(mesh: &Mesh, faces: &[Face]) -> BTreeMap<u32, f64> {
             *largest = largest.max(turn);
         }
     }
-    turns
 }
 
 /// Unit normal at a corner of a face, zero where the face is folded to a line.

@@ -116,13 +116,13 @@ impl CyclicGear {
     pub(crate) fn stress(&self, nodes: &[u32], recovery: StressRecovery) -> Result<Mat<f64>, ReductionError> {
         let faces = match recovery {
             StressRecovery::Volume => None,
-            StressRecovery::Surface(faces) => Some(self.own_faces(faces)),
+            StressRecovery::Surface(faces) => Some(faces.iter().map(|faces| self.own_faces(faces)).collect::<Vec<_>>()),
         };
         let touching = match &faces {
             None => self.sector.elements_about(),
             Some(faces) => {
                 let mut count = vec![0; self.part.mesh.nodes.len()];
-                faces.iter().flat_map(Face::nodes).for_each(|&n| count[n as usize] += 1);
+                faces.iter().flatten().flat_map(Face::nodes).for_each(|&n| count[n as usize] += 1);
                 count
             }
         };
