@@ -50,7 +50,7 @@ pub struct StressPeak {
     pub stress: f64,
     /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs print.
     pub from_volume: f64,
-    /// Angle by which the surface turns within one face about the node, rad: the size of the faces over the radius of the fillet.
+    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces over their radius.
     pub turn: f64,
     /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
     pub node: u64,
@@ -269,7 +269,7 @@ impl WindowRoots {
             Some(StressPeak {
                 stress,
                 from_volume: fillet.largest(|at| measure(&volume[at]), sign)?,
-                turn: fillet.turn(at),
+                turn: fillet.turn,
                 node: mesh.node_tags[own as usize],
                 radius: x.hypot(y),
                 z,

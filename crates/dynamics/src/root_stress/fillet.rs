@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use geometry::{Gear, Side};
 use mesh::{Face, Mesh, RootFillets};
 
-use super::turn::turns;
+use super::turn::largest_turn;
 
 /// One fillet of a window.
 #[derive(Debug)]
@@ -23,8 +23,8 @@ pub(super) struct Fillet {
     lowest: Vec<bool>,
     /// Whether it is below the [`FALLBACK_TANGENT`].
     below: Vec<bool>,
-    /// Angle by which the surface turns within one face about it, rad.
-    turns: Vec<f64>,
+    /// Angle by which the surface of the gear's fillets turns within one face, rad.
+    pub turn: f64,
 }
 
 /// Where stress is looked at in a fillet on which it has no hill: below this tangent, rad (25 deg).
@@ -45,7 +45,7 @@ pub(super) struct Surroundings<'a> {
     faces: Vec<Face>,
     /// Faces by node.
     about: BTreeMap<u32, Vec<usize>>,
-    turns: BTreeMap<u32, f64>,
+    turn: f64,
     fallback: f64,
 }
 
@@ -56,7 +56,7 @@ impl<'a> Surroundings<'a> {
         for (i, face) in faces.iter().enumerate() {
             face.nodes().iter().for_each(|&n| about.entry(n).or_default().push(i));
         }
-        Self { mesh, faces, about, turns: turns(mesh, found.faces()), fallback }
+        Self { mesh, faces, about, turn: largest_turn(mesh, found.faces()), fallback }
     }
 
     /// The fillet of these nodes (ascending), which come to stand from `first` on.
@@ -83,7 +83,7 @@ impl<'a> Surroundings<'a> {
             uppermost: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| farther(n, m))).collect(),
             lowest: nodes.iter().zip(&neighbours).map(|(&n, of)| !of.iter().any(|&m| nearer(n, m))).collect(),
             below: nodes.iter().map(|&n| radius(n) <= self.fallback).collect(),
-            turns: nodes.iter().map(|n| self.turns.get(n).copied().unwrap_or_default()).collect(),
+            turn: self.turn,
             neighbours: neighbours.into_iter().map(|of| of.into_iter().map(|m| first + m).collect()).collect(),
         }
     }
@@ -115,10 +115,5 @@ impl Fillet {
         let rows = (0..self.places.len()).any(|i| self.below[i] && !self.lowest[i]);
         let below = || rows.then(|| largest(&|i| self.below[i])).flatten();
         largest(&hill).filter(inside).or_else(below).or_else(|| largest(&|_| true))
-    }
-
-    /// Angle by which the surface turns within one face about a place, rad.
-    pub fn turn(&self, at: usize) -> f64 {
-        self.places.binary_search(&at).map_or(0.0, |i| self.turns[i])
     }
 }

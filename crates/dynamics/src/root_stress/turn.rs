@@ -5,32 +5,26 @@ use std::collections::BTreeMap;
 use mesh::{Face, Mesh};
 use nalgebra::Vector3;
 
-/// Angle between the normals at a face's corners, the largest of the faces about each node, rad; faces of a fold count as flat.
+/// Largest angle between the normals at a face's corners, over all faces of some surfaces, rad; faces of a fold count as flat.
 ///
 /// The normal at a corner is the mean over the faces of its surface about it, so that faces of order 1 turn, too.
-pub(super) fn turns(mesh: &Mesh, surfaces: &[Vec<Face>]) -> BTreeMap<u32, f64> {
-    let mut turns = BTreeMap::new();
-    surfaces.iter().for_each(|faces| add(mesh, faces, &mut turns));
-    turns
+pub(super) fn largest_turn(mesh: &Mesh, surfaces: &[Vec<Face>]) -> f64 {
+    surfaces.iter().map(|faces| turn(mesh, faces)).fold(0.0, f64::max)
 }
 
-fn add(mesh: &Mesh, faces: &[Face], turns: &mut BTreeMap<u32, f64>) {
+fn turn(mesh: &Mesh, faces: &[Face]) -> f64 {
     let mut normals: BTreeMap<u32, Vector3<f64>> = BTreeMap::new();
     for face in faces {
         for (corner, &node) in face.corners().iter().enumerate() {
             *normals.entry(node).or_default() += normal(mesh, face, corner);
         }
     }
-    for face in faces {
-        let corners = face.corners().iter().filter_map(|node| normals.get(node));
-        let all: Vec<_> = corners.collect();
+    let of_face = |face: &Face| {
+        let all: Vec<_> = face.corners().iter().filter_map(|node| normals.get(node)).collect();
         let pairs = all.iter().enumerate().flat_map(|(i, a)| all[..i].iter().map(|b| a.angle(b)));
-        let turn = pairs.fold(0.0f64, f64::max);
-        for &node in face.nodes() {
-            let largest = turns.entry(node).or_insert(0.0f64);
-            *largest = largest.max(turn);
-        }
-    }
+        pairs.fold(0.0, f64::max)
+    };
+    faces.iter().map(of_face).fold(0.0, f64::max)
 }
 
 /// Unit normal at a corner of a face, zero where the face is folded to a line.
