@@ -54,6 +54,22 @@ struct Chart {
 }
 
 impl Chart {
+    /// Normal to the mean of the faces' normals, so that nothing but the direction of the axes depends on which face comes first.
+    fn new(origin: [f64; 3], faces: &[(Frame, [f64; 3])]) -> Option<Self> {
+        let &(first, [length, shear, height]) = faces.first()?;
+        let mut sum = [0.0; 3];
+        for (frame, _) in faces {
+            let sign = if dot(frame[2], first[2]) < 0.0 { -1.0 } else { 1.0 };
+            (0..3).for_each(|k| sum[k] += sign * frame[2][k]);
+        }
+        let size = dot(sum, sum).sqrt();
+        // Nearer than a right angle to the first: nothing can be turned onto its opposite.
+        let frame = (size > 0.0).then(|| turned(&first, sum.map(|c| c / size)))?;
+        let a = [first[0].map(|c| length * c), [0, 1, 2].map(|k| shear * first[0][k] + height * first[1][k])];
+        let second = dot(a[1], frame[1]);
+        (second != 0.0).then_some(Self { origin, frame, axes: [dot(a[0], frame[0]), dot(a[1], frame[0]), second] })
+    }
+
     /// alpha, beta of a point, in half edges.
     fn of(&self, x: [f64; 3]) -> [f64; 2] {
         let d = [0, 1, 2].map(|k| x[k] - self.origin[k]);
@@ -157,16 +173,19 @@ impl<'a> Patches<'a> {
         self.fits.get(&corner).is_some_and(|fit| fit.whole)
     }
 
+    /// Frame and tangents of a face at one of its corners.
+    fn tangents(&self, face: usize, corner: u32) -> Option<(Frame, [f64; 3])> {
+        let kind = self.faces[face].kind;
+        let own = self.faces[face].corners().iter().position(|c| *c == corner)?;
+        let found = self.kernel(kind).tangents(kind.reference_nodes()[own], &self.coordinates(face));
+        found.map(|(frame, axes, _)| (frame, axes))
+    }
+
     fn fit(&self, corner: u32) -> Option<Fit> {
         let faces = self.about.get(&corner)?;
         let order = faces.iter().map(|&f| self.faces[f].kind.order()).max()?;
-        let chart = faces.iter().find_map(|&face| {
-            let kind = self.faces[face].kind;
-            let own = self.faces[face].corners().iter().position(|c| *c == corner)?;
-            let x = self.coordinates(face);
-            let (frame, axes, _) = self.kernel(kind).tangents(kind.reference_nodes()[own], &x)?;
-            Some(Chart { origin: self.positions[corner as usize], frame, axes })
-        })?;
+        let tangents: Vec<(Frame, [f64; 3])> = faces.iter().filter_map(|&face| self.tangents(face, corner)).collect();
+        let chart = Chart::new(self.positions[corner as usize], &tangents)?;
         // By point: its row of terms, the nodes it depends on and its stress in the corner's frame.
         let mut rows = Vec::new();
         let mut points = Vec::new();
