@@ -8,11 +8,11 @@ use std::{f64::consts::TAU, time::Instant};
 
 use dynamics::{
     Station,
-    motion::{Integrator, Scheme, StepControl},
     pair_motion::{
         Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
     },
 };
+use integrate::{Integrator, Scheme, StepControl};
 use nalgebra::Matrix6;
 use support::{default_data, quadratic};
 

@@ -7,12 +7,12 @@ use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
     StaticError, StaticOptions,
-    motion::{Mechanism, Scheme},
     pair_motion::{
         Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
         Torque, Way, quasi_static_start, sweep,
     },
 };
+use integrate::{Mechanism, Scheme};
 use support::moving::{MovingPair, peak_to_peak, rows, swept, worst};
 
 const ROWS: usize = 32;

@@ -6,10 +6,10 @@ mod support;
 use ale::Sense;
 use dynamics::{
     Driver, Station,
-    motion::{Integrator, Scheme, State, StepControl},
     pair_motion::{PairMechanism, RigidBody, equivalent_mass},
 };
 use fem::ElementOptions;
+use integrate::{Integrator, Scheme, State, StepControl};
 use lumped::{
     LumpedPair, MeshCycle, Operation, RunPlan,
     lumped8::{Lumped8, MeshLaw, Support8},

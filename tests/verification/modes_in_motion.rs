@@ -7,7 +7,6 @@ use std::sync::{Arc, OnceLock};
 
 use dynamics::{
     Bulk, ElasticGear, StaticOptions, Station,
-    motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl},
     pair_motion::{
         Bearing, CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, Motion, MotionOptions,
         MotionSettings, PairMechanism, RigidBody, quasi_static_start, run_to_steady, shoot,
@@ -15,6 +14,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use geometry::{Gear, GearData, GearPair};
+use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use mesh::{GearMesh, GroupNames};
 use nalgebra::{DMatrix, DVector};
 use reduction::{GearModes, GearReducer, ModeChoice};

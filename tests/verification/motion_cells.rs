@@ -4,12 +4,9 @@ mod support;
 
 use std::sync::OnceLock;
 
-use dynamics::{
-    StaticOptions,
-    motion::{Forces, Mechanism},
-    pair_motion::PairMechanism,
-};
+use dynamics::{StaticOptions, pair_motion::PairMechanism};
 use fem::ElementOptions;
+use integrate::{Forces, Mechanism};
 use nalgebra::DVector;
 use support::{Case, moving::MovingPair};
 

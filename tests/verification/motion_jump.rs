@@ -7,10 +7,10 @@ use std::sync::OnceLock;
 
 use dynamics::{
     StaticOptions,
-    motion::{Integrator, Scheme, State, StepControl},
     pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way},
 };
 use fem::ElementOptions;
+use integrate::{Integrator, Scheme, State, StepControl};
 use nalgebra::DVector;
 use support::{
     Case,
@@ -114,7 +114,7 @@ fn free_vibration(steps: usize) {
     let at = |q: f64| DVector::from_element(1, q);
     // What swings: the energy above that of the balance.
     let above = {
-        use dynamics::motion::Mechanism;
+        use integrate::Mechanism;
         system.potential(0.0, &begin).unwrap() - system.potential(0.0, &at(balance)).unwrap() - 1.2 * balance * force
     };
     let mut state = State::new(0.0, begin, at(0.0));

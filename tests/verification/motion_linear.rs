@@ -12,10 +12,10 @@ mod support;
 
 use dynamics::{
     StaticOptions,
-    motion::Scheme,
     pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way},
 };
 use geometry::GearData;
+use integrate::Scheme;
 use support::moving::{MovingPair, order, peak_to_peak, swept};
 
 const ROWS: usize = 48;

@@ -7,10 +7,10 @@ use std::sync::OnceLock;
 
 use dynamics::{
     StaticOptions,
-    motion::{Integrator, MotionError, Scheme, State, StepControl},
     pair_motion::{PairMechanism, quasi_static_start, stable_step},
 };
 use fem::ElementOptions;
+use integrate::{Integrator, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
 use support::{Case, moving::MovingPair};
 

@@ -8,10 +8,10 @@ use std::sync::{Arc, OnceLock};
 use ale::{Sense, ToothWindow};
 use dynamics::{
     StaticError, StaticOptions,
-    motion::{Forces, Integrator, Mechanism, Scheme, StepControl},
     pair_motion::{MeshDamping, MotionOptions, PairMechanism, quasi_static_start, run_to_steady},
 };
 use fem::ElementOptions;
+use integrate::{Forces, Integrator, Mechanism, Scheme, StepControl};
 use nalgebra::{DMatrix, DVector};
 use support::{
     Case,

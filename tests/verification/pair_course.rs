@@ -8,12 +8,12 @@ use std::sync::OnceLock;
 use ale::Sense;
 use dynamics::{
     Driver, StaticError, StaticOptions,
-    motion::{MotionError, Scheme},
     pair_motion::{
         Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
         SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot,
     },
 };
+use integrate::{MotionError, Scheme};
 use nalgebra::Matrix6;
 use support::moving::{MovingPair, rows, swept, worst};
 

@@ -5,10 +5,10 @@ mod support;
 
 use dynamics::{
     StaticOptions, Station,
-    motion::{Integrator, Scheme, State, StepControl},
     pair_motion::{MotionOptions, PairMechanism, RigidBody, equivalent_mass},
 };
 use fem::ElementOptions;
+use integrate::{Integrator, Scheme, State, StepControl};
 use nalgebra::DVector;
 use support::{Case, moving::at_speed};
 

@@ -9,12 +9,12 @@ mod pair;
 
 use dynamics::{
     StaticModel, StaticOptions, Station,
-    motion::{Integrator, Scheme, StepControl},
     pair_motion::{
         Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
     },
 };
 use fem::{Material, mass_properties};
+use integrate::{Integrator, Scheme, StepControl};
 
 const TORQUE_NMM: f64 = 150e3;
 

@@ -16,7 +16,6 @@ mod line;
 mod loads;
 mod mesh_contact;
 mod modal_flanks;
-pub mod motion;
 mod options;
 pub mod pair_motion;
 mod parts;

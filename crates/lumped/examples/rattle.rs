@@ -6,8 +6,9 @@
 use std::{error::Error, f64::consts::TAU};
 
 use ale::Sense;
-use dynamics::{Driver, motion::Scheme, pair_motion::RigidBody};
+use dynamics::{Driver, pair_motion::RigidBody};
 use geometry::{Gear, GearData, GearPair};
+use integrate::Scheme;
 use lumped::{
     Fourier, LumpedPair, MeshCycle, Operation, RunPlan,
     lumped8::{Lumped8, MeshLaw, Support8},

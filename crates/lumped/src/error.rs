@@ -124,7 +124,7 @@ pub enum LumpedError {
     NoEquilibrium,
     /// The integrator stopped.
     #[error(transparent)]
-    Motion(#[from] dynamics::motion::MotionError<std::convert::Infallible>),
+    Motion(#[from] integrate::MotionError<std::convert::Infallible>),
 }
 
 impl LumpedError {

@@ -2,11 +2,9 @@
 
 use std::convert::Infallible;
 
-use dynamics::{
-    Wrench,
-    motion::{Mechanism, MotionError, Scheme, State, StepControl},
-};
+use dynamics::Wrench;
 use geometry::Vec3;
+use integrate::{Mechanism, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::motion::{Forces, Mechanism};
+use integrate::{Forces, Mechanism};
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, LU};
 
 /// Eigenvalues whose imaginary part is below this share of the largest eigenvalue are real: round-off of the matrix.

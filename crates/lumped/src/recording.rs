@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use dynamics::motion::{Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
+use integrate::{Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
 
 /// What is to be run, and which rows are kept of it.

@@ -1,6 +1,6 @@
 //! Where a mechanism stands still under its forces.
 
-use dynamics::motion::{Forces, Mechanism};
+use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 const ITERATIONS: usize = 60;

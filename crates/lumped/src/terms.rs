@@ -1,6 +1,6 @@
 //! Terms that the equations of every lumped model have.
 
-use dynamics::motion::Forces;
+use integrate::Forces;
 
 /// A spring and a damper from coordinate `i` to the nominal motion.
 pub(crate) fn add_support(out: &mut Forces, i: usize, [stiffness, damping]: [f64; 2], [q, v]: [f64; 2]) {

@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use ale::Sense;
 use dynamics::Driver;
-use dynamics::motion::{Forces, Mechanism, Scheme, StepControl};
 use dynamics::pair_motion::{Drive, Speed, Torque};
+use integrate::{Forces, Mechanism, Scheme, StepControl};
 use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness};
 use lumped::{Recorded, Recording};
 use nalgebra::{DVector, Matrix6, SVector};

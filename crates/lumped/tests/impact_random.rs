@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use ale::Sense;
 use dynamics::Driver;
-use dynamics::motion::{Forces, Mechanism, Scheme, StepControl};
 use dynamics::pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
+use integrate::{Forces, Mechanism, Scheme, StepControl};
 use lumped::Recording;
 use lumped::impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness};
 use nalgebra::{Matrix6, SVector};

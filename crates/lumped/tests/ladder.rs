@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{bodies_004, gears_004, operation, relative};
-use dynamics::motion::{Mechanism, Scheme};
+use integrate::{Mechanism, Scheme};
 use lumped::{
     LumpedError, LumpedModel, LumpedPair, MeshClock, MeshCycle, RunPlan,
     lumped8::{Lumped8, MeshLaw, Support8},

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use ale::Sense;
 use common::{pair_004, relative, seed_003};
-use dynamics::motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
+use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
     FourierTorque, HistoryRow, LineSharing, LumpedError, LumpedModel, MeshClock, RunPlan,
     lumped12::{Lumped12, Motion12, Support12},

@@ -6,7 +6,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{relative, seed_004};
-use dynamics::motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
+use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
     Fourier, FourierTorque, LumpedError, LumpedModel, MeshClock, RunPlan,
     lumped8::{Lumped8, MeshLaw, Support8},
@@ -302,7 +302,7 @@ fn chaos_and_order_have_exponents_of_their_sign() {
     }
 }
 
-type Trouble = dynamics::motion::MotionError<std::convert::Infallible>;
+type Trouble = integrate::MotionError<std::convert::Infallible>;
 
 /// The pair's own backlash, whichever way the law takes it: j / 2 along the transverse line of action.
 #[test]

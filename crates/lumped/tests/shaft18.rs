@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::motion::{Integrator, Mechanism, Scheme, State, StepControl};
 use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
+use integrate::{Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::shaft18::{
     Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
@@ -249,7 +249,7 @@ fn mesh_damping_is_the_ratio_asked_for() {
     assert_eq!(model.count(), 2);
     let modes = model.modes().unwrap();
     let (omega, shape) = (modes.frequencies[1], modes.shape(1));
-    let mut out = dynamics::motion::Forces::zeros(2);
+    let mut out = integrate::Forces::zeros(2);
     let Ok(()) = model.forces(0.0, &DVector::zeros(2), &DVector::zeros(2), &mut out);
     // Bearings hold nothing in turning: what damps the mode is the mesh.
     let ratio = shape.dot(&(&out.damping * &shape)) / (2.0 * omega);

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::motion::{Scheme, State, StepControl};
+use integrate::{Scheme, State, StepControl};
 use lumped::shaft18::ShaftMechanism;
 use lumped::{LumpedError, Recording};
 use nalgebra::DVector;

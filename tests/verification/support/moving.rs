@@ -5,12 +5,12 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{
     ElasticGear, StaticOptions, StaticPosition,
-    motion::Scheme,
     pair_motion::{
         Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
         SweepPoint, Torque, equivalent_mass, quasi_static_start, sweep,
     },
 };
+use integrate::Scheme;
 
 use super::Case;
 

@@ -1,9 +1,7 @@
 //! A run of a model: settle, write rows, keep the ledger.
 
-use dynamics::{
-    motion::{Forces, Integrator, Ledger, Mechanism, State, StepControl, StepLimit, Stiffest},
-    pair_motion::Periodicity,
-};
+use integrate::Periodicity;
+use integrate::{Forces, Integrator, Ledger, Mechanism, State, StepControl, StepLimit, Stiffest};
 use lumped::LumpedError;
 
 use super::{model::Model, settle::Returns};

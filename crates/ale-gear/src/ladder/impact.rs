@@ -1,10 +1,8 @@
 //! Rigid gears on their true flanks.
 
-use dynamics::{
-    motion::{Mechanism, State},
-    pair_motion::{COORDINATES, Torque},
-};
+use dynamics::pair_motion::{COORDINATES, Torque};
 use geometry::GearPair;
+use integrate::{Mechanism, State};
 use lumped::{
     LumpedError,
     impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness},

@@ -1,8 +1,9 @@
 //! The models with eight and twelve coordinates.
 
 use ale::Sense;
-use dynamics::{motion::State, pair_motion::RigidBody};
+use dynamics::pair_motion::RigidBody;
 use geometry::GearPair;
+use integrate::State;
 use lumped::{
     HistoryRow, LineSharing, LumpedError, LumpedModel, LumpedPair, MeshClock, MeshFrame, Operation, PlaneOfAction,
     lumped8::{Lumped8, MeshLaw, Motion8},

@@ -266,9 +266,8 @@ fn static_normal_force(recipe: &Recipe) -> f64 {
 /// None for a record of whole periods, where every line stands in one bin.
 fn window(words: &MotionScene, course: &Course) -> Window {
     let tolerance = words.periodic_tolerance.unwrap_or(1e-6);
-    let whole = |p: &dynamics::pair_motion::Periodicity| {
-        p.residual <= 10.0 * tolerance && course.cycles.is_multiple_of(p.period as u64)
-    };
+    let whole =
+        |p: &integrate::Periodicity| p.residual <= 10.0 * tolerance && course.cycles.is_multiple_of(p.period as u64);
     if course.periodicity.as_ref().is_some_and(whole) { Window::Rectangular } else { Window::Hann }
 }
 

@@ -5,7 +5,7 @@ use std::{
     ops::{Deref, DerefMut},
 };
 
-use dynamics::motion::{Forces, Mechanism, State};
+use integrate::{Forces, Mechanism, State};
 use lumped::LumpedError;
 use nalgebra::{DMatrix, DVector};
 

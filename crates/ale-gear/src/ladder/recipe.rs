@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use ::lumped::shaft18::{ShaftMechanism, ShaftSystem};
-use dynamics::motion::Mechanism;
 use geometry::GearPair;
+use integrate::Mechanism;
 
 use super::{
     complaint, impact, lumped,

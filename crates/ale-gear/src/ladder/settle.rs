@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use dynamics::pair_motion::{LONGEST_PERIOD, Periodicity};
+use integrate::{LONGEST_PERIOD, Periodicity};
 
 /// Difference after one cycle, over the peak to peak, below which a motion dies out to period one rather than having a longer period.
 const SUBHARMONIC: f64 = 0.01;

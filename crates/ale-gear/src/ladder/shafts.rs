@@ -1,7 +1,8 @@
 //! Two lumped shafts with the mesh of the pair between them.
 
-use dynamics::{motion::State, pair_motion::RigidBody};
+use dynamics::pair_motion::RigidBody;
 use geometry::GearPair;
+use integrate::State;
 use lumped::{
     LumpedError, MeshCycle, MeshFrame, PlaneOfAction,
     shaft18::{

@@ -65,10 +65,9 @@ fn over(value: f64, scale: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{
-        motion::Ledger,
-        pair_motion::{Changes, Extremes, Periodicity, Way},
-    };
+    use dynamics::pair_motion::{Changes, Extremes, Way};
+    use integrate::Ledger;
+    use integrate::Periodicity;
 
     use super::*;
 

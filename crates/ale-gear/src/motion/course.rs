@@ -1,8 +1,7 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
-use dynamics::pair_motion::{
-    Motion, PairMechanism, PairMotionError, Periodicity, Returns, SHOTS, Shot, Swing, quasi_static_start, shoot,
-};
+use dynamics::pair_motion::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
+use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -26,7 +25,7 @@ pub(super) struct CourseState {
     /// Mesh cycles written.
     pub recorded: u64,
     /// States at the beginnings of the last cycles.
-    pub returns: Returns,
+    pub returns: Recurrence,
     /// How nearly the last cycle repeated an earlier one.
     pub periodicity: Option<Periodicity>,
 }
@@ -65,7 +64,7 @@ impl Goal {
 pub(super) struct Finished {
     pub motion: Motion,
     pub course: CourseState,
-    pub shot: Option<Shot>,
+    pub shot: Option<ShootingResult>,
     /// Whether it stopped where the user asked it to, before its end.
     pub stopped: bool,
     /// What the flanks were pressed by in the cycles of rows.
@@ -117,7 +116,7 @@ pub(super) fn run(
             if let (Run::Shooting, Some((tolerance, _))) = (words.run, goal.settle) {
                 shot = Some(phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOTS)).map_err(fail)?);
             }
-            let returns = Returns::from(motion.state());
+            let returns = Recurrence::from(motion.state());
             course = CourseState { recording: goal.settle.is_none(), recorded: 0, returns, periodicity: None };
         }
     }
@@ -216,7 +215,7 @@ fn record(
     Ok(false)
 }
 
-fn judge(course: &mut CourseState, motion: &Motion, swing: &Swing, tolerance: f64) -> Periodicity {
+fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance: f64) -> Periodicity {
     let free = motion.system().coordinates().driver_turn();
     let found = course.returns.judge(motion.state(), swing, &motion.returning(), free, tolerance);
     course.periodicity = Some(found);

@@ -1,10 +1,10 @@
 //! What a scene asks of motion, in the solvers' words and units.
 
-use dynamics::{
-    motion::Scheme,
-    pair_motion::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque},
+use dynamics::pair_motion::{
+    Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque,
 };
 use geometry::GearPair;
+use integrate::Scheme;
 use nalgebra::Matrix6;
 
 use crate::{

@@ -2,10 +2,8 @@
 
 use std::time::Instant;
 
-use dynamics::{
-    motion::{Integrator, MotionError, Scheme, State, StepControl, StepLimit},
-    pair_motion::{PairMechanism, PairMotionError, quasi_static_start, stable_step},
-};
+use dynamics::pair_motion::{PairMechanism, PairMotionError, quasi_static_start, stable_step};
+use integrate::{Integrator, MotionError, Scheme, State, StepControl, StepLimit};
 
 use super::{
     course::failure,

@@ -9,10 +9,8 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use dynamics::{
-    motion::Ledger,
-    pair_motion::{COORDINATES, Instant, PairMechanism},
-};
+use dynamics::pair_motion::{COORDINATES, Instant, PairMechanism};
+use integrate::Ledger;
 
 use study::FlankPattern;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::motion::StepLimit;
+use integrate::StepLimit;
 
 use crate::{error::CommandError, scene::Scene};
 

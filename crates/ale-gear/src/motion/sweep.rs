@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use dynamics::{
     StaticError,
-    motion::MotionError,
     pair_motion::{self, PairMotionError, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way},
 };
+use integrate::MotionError;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 

@@ -6,10 +6,8 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::{Instant, PairMechanism, Place};
-use crate::{
-    StaticError,
-    motion::{Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl},
-};
+use crate::StaticError;
+use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 
 /// Why a pair's motion could not go on.
 pub type PairMotionError = MotionError<StaticError>;
@@ -77,32 +75,6 @@ pub struct Counts {
     pub coast_contacts: u64,
     /// Work that the load took from the driven gear in its nominal motion, N mm: what goes through the pair.
     pub throughput: f64,
-}
-
-/// Least and largest coordinates and velocities of a mesh cycle.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Swing {
-    low: [DVector<f64>; 2],
-    high: [DVector<f64>; 2],
-}
-
-impl Swing {
-    fn new(state: &State) -> Self {
-        let both = [state.q.clone(), state.v.clone()];
-        Self { low: both.clone(), high: both }
-    }
-
-    fn widen(&mut self, state: &State) {
-        for (i, x) in [&state.q, &state.v].into_iter().enumerate() {
-            self.low[i] = self.low[i].inf(x);
-            self.high[i] = self.high[i].sup(x);
-        }
-    }
-
-    /// Peak to peak of coordinates and velocities.
-    pub fn peak_to_peak(&self) -> [DVector<f64>; 2] {
-        [0, 1].map(|i| &self.high[i] - &self.low[i])
-    }
 }
 
 /// A motion under way.
@@ -188,7 +160,7 @@ impl Motion {
 
     /// Whether the integrator carries an acceleration of its own from step to step.
     pub(super) fn carries_acceleration(&self) -> bool {
-        matches!(self.settings.scheme, Scheme::GeneralisedAlpha { .. })
+        self.settings.scheme.carries_acceleration()
     }
 
     /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
@@ -227,7 +199,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
-    pub fn run_cycle(&mut self, mut seen: Option<Seen<'_>>) -> Result<Swing, PairMotionError> {
+    pub fn run_cycle(&mut self, mut seen: Option<Seen<'_>>) -> Result<Envelope, PairMotionError> {
         let Some(end) = self.end_of_cycle() else {
             return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
         };
@@ -236,7 +208,7 @@ impl Motion {
         let rows = self.settings.rows.max(1);
         let per_row = self.settings.steps_per_row(end - begin, self.system.mesh_resonance_hz());
         let row_time = |i: usize| if i == rows { end } else { begin + (end - begin) * i as f64 / rows as f64 };
-        let mut swing = Swing::new(&self.state);
+        let mut envelope = Envelope::new(&self.state);
         let mut integrator = self.integrator((end - begin) / (rows * per_row) as f64);
         let equal = self.settings.tolerance.is_none() && !self.settings.stop_at_events;
         let mut failed = None;
@@ -248,11 +220,11 @@ impl Motion {
             integrator.advance(system, state, until, |system, progress| {
                 steps += 1;
                 counts.steps += 1;
-                swing.widen(progress.state);
+                envelope.widen(progress.state);
                 for crossing in progress.crossings {
                     match (crossing.event, crossing.direction) {
-                        (0, crate::motion::Direction::Down) => counts.losses += 1,
-                        (1, crate::motion::Direction::Up) => counts.coast_contacts += 1,
+                        (0, integrate::Direction::Down) => counts.losses += 1,
+                        (1, integrate::Direction::Up) => counts.coast_contacts += 1,
                         _ => {}
                     }
                 }
@@ -277,7 +249,7 @@ impl Motion {
         counts.throughput += throughput(system, begin, end);
         self.ledger = integrator.ledger().copied();
         self.cycle += 1;
-        Ok(swing)
+        Ok(envelope)
     }
 
     fn integrator(&self, h: f64) -> Integrator {

@@ -11,11 +11,10 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::{Motion, PairMotionError, Place, steady::difference};
-use crate::{
-    StaticError,
-    motion::{MotionError, State},
-};
+use super::{Motion, PairMotionError, Place};
+use crate::StaticError;
+use integrate::difference;
+use integrate::{MotionError, State};
 
 /// Differences of coordinates over their scales.
 const STEP: f64 = 1e-4;
@@ -24,7 +23,7 @@ const HALVINGS: usize = 5;
 
 /// What shooting has found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shot {
+pub struct ShootingResult {
     /// Largest difference of a coordinate or velocity over a period, over its peak to peak.
     pub residual: f64,
     /// Newton steps.
@@ -42,7 +41,7 @@ pub struct Shot {
 /// # Errors
 /// [`MotionError::NoPeriod`] where a torque drives, since speed and place of the driver are free then, and with modes of a gear that is not known by sectors; [`PairMotionError`]
 /// of the integration.
-pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<Shot, PairMotionError> {
+pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<ShootingResult, PairMotionError> {
     if motion.system().coordinates().driver_turn().is_some() {
         return Err(MotionError::NoPeriod(
             "a driver that a torque turns has no period of its own: shooting needs a given speed",
@@ -65,7 +64,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
     motion.rewind(&search.start, here.clone())?;
     here.averaged = motion.state().a.clone();
     let mut end = search.map(motion, &here)?;
-    let mut shot = Shot { residual: end.residual, iterations: 0, periods: 0, multiplier: f64::NAN };
+    let mut shot = ShootingResult { residual: end.residual, iterations: 0, periods: 0, multiplier: f64::NAN };
     while shot.residual > tolerance && shot.iterations < most {
         let monodromy = search.monodromy(motion, &here, &end)?;
         shot.multiplier = largest_eigenvalue(&monodromy);
@@ -148,10 +147,10 @@ impl Search {
         motion.rewind(&self.start, from.clone())?;
         let mut size: Option<[DVector<f64>; 2]> = None;
         for _ in 0..self.period {
-            let swing = motion.run_cycle(None)?.peak_to_peak();
+            let envelope = motion.run_cycle(None)?.peak_to_peak();
             size = Some(match size {
-                None => swing,
-                Some(before) => [0, 1].map(|i| before[i].sup(&swing[i])),
+                None => envelope,
+                Some(before) => [0, 1].map(|i| before[i].sup(&envelope[i])),
             });
         }
         let mut state = motion.state().clone();

@@ -6,7 +6,7 @@ use super::{
     PairMechanism, PairMotionError,
     start::{balance, guessed},
 };
-use crate::motion::{Forces, Mechanism, MotionError, Scheme, StepLimit, Stiffest};
+use integrate::{Forces, Mechanism, MotionError, Scheme, StepLimit, Stiffest};
 
 /// Phases of the mesh cycle that are looked at.
 const PHASES: u32 = 16;

@@ -3,10 +3,8 @@
 use nalgebra::DVector;
 
 use super::PairMechanism;
-use crate::{
-    StaticError,
-    motion::{Forces, Mechanism, MotionError, State},
-};
+use crate::StaticError;
+use integrate::{Forces, Mechanism, MotionError, State};
 
 /// Steps of the search for equilibrium before giving up.
 const STEPS: usize = 200;

@@ -5,13 +5,12 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use super::{
-    Changes, Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Periodicity, Speed,
-    quasi_static_start, run_to_steady, shoot,
+    Changes, Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, quasi_static_start,
+    run_to_steady, shoot,
 };
-use crate::{
-    StaticError,
-    motion::{Ledger, MotionError, State},
-};
+use crate::StaticError;
+use integrate::Periodicity;
+use integrate::{Ledger, MotionError, State};
 
 /// Which way a sweep goes through its speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

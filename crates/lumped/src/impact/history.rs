@@ -1,6 +1,7 @@
 //! A motion of rigid gears as rows of results.
 
-use dynamics::{motion::State, pair_motion::Displacement};
+use dynamics::pair_motion::Displacement;
+use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 

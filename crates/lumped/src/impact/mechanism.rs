@@ -5,10 +5,10 @@ use std::convert::Infallible;
 use contact::Pose;
 use dynamics::{
     StaticOptions, Station,
-    motion::{Forces, Mechanism},
     pair_motion::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed},
 };
 use geometry::GearPair;
+use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{

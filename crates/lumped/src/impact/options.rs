@@ -59,7 +59,7 @@ impl ImpactOptions {
             Drive::Speed(speed) => check_speed(speed)?,
             Drive::Balanced(_) => {
                 let what = "rigid gears are driven by a speed or by a torque of its own";
-                return Err(LumpedError::Motion(dynamics::motion::MotionError::Options(what)));
+                return Err(LumpedError::Motion(integrate::MotionError::Options(what)));
             }
             Drive::Torque { start, torque } => {
                 finite("speed at the start, rad/s", *start)?;

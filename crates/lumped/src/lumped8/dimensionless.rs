@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use dynamics::motion::{Forces, Mechanism, State};
+use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
 use super::{Equations18, Lumped8, MeshLaw};

@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use dynamics::motion::{Forces, Mechanism};
 use geometry::Vec3;
+use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
 use super::{

@@ -1,7 +1,7 @@
 //! Mesh force from the relative displacement of the flanks, transverse and axial.
 
-use dynamics::motion::Forces;
 use geometry::GearPair;
+use integrate::Forces;
 use serde::{Deserialize, Serialize};
 
 use crate::DeadZone;

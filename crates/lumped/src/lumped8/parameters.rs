@@ -1,6 +1,6 @@
 //! What the model is made from.
 
-use dynamics::motion::State;
+use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! A motion of shafts as rows of results.
 
-use dynamics::motion::{Integrator, Scheme, State, StepControl};
+use integrate::{Integrator, Scheme, State, StepControl};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 

@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use dynamics::motion::{Forces, Mechanism};
 use fem::{Modes, beam::BeamTheory, natural_modes};
+use integrate::{Forces, Mechanism};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::{LumpedShaft, Mesh, MeshLine, RunOut, ShaftSystem};

@@ -1,7 +1,7 @@
 //! The motion that nothing holds: gears that turn on together.
 
 use ::lumped::{LumpedError, modes::linearised};
-use dynamics::motion::Mechanism;
+use integrate::Mechanism;
 use nalgebra::{Cholesky, DMatrix, DVector, SVD};
 
 use crate::ladder::Model;

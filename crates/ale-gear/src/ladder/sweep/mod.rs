@@ -9,7 +9,7 @@ mod files;
 mod free_turn;
 mod point;
 
-use dynamics::motion::State;
+use integrate::State;
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use ::lumped::LumpedError;
-use dynamics::motion::State;
+use integrate::State;
 use serde::Serialize;
 use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 

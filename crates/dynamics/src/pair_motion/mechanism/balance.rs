@@ -5,13 +5,13 @@ use nalgebra::{DMatrix, DVector};
 use super::{PairMechanism, Touching, external::about_own_axis};
 use crate::{
     StaticError,
-    motion::{Forces, Mechanism},
     pair_motion::{
         COORDINATES, Displacement,
         mesh_side::MeshSide,
         modal::{ModalBalance, Posture, expansion},
     },
 };
+use integrate::{Forces, Mechanism};
 
 impl Mechanism for PairMechanism {
     type Error = StaticError;
@@ -107,7 +107,7 @@ impl Mechanism for PairMechanism {
         Ok(contact + self.energy_besides(&at))
     }
 
-    fn potential_aside(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
+    fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
         let at = self.posture(t, q);
         Ok(self.contact_energy(t, &at)? + self.energy_besides(&at))
     }

@@ -55,7 +55,7 @@ pub struct PairMechanism {
     roots: Option<RootStress>,
 }
 
-/// Where both windows stand and what has been gathered: with a [`crate::motion::State`] all that a motion is.
+/// Where both windows stand and what has been gathered: with a [`integrate::State`] all that a motion is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// Driving flanks.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dynamics::motion::{Direction, Forces, Integrator, Mechanism, Scheme, State, StepControl};
+use integrate::{Direction, Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use nalgebra::{DMatrix, DVector, dvector};
 
 /// x'' + 2 zeta x' + k(tau) f(x) = F_m + F_ah W^2 cos(W tau), f the dead zone of half-width 1, k = 1 + parametric cos(W tau).

@@ -3,11 +3,7 @@
 use nalgebra::{Cholesky, DVector, Dyn};
 
 use super::Integrator;
-use crate::motion::{
-    Ledger, Mechanism, MotionError, Scheme, State, StepControl, energy,
-    generalised_alpha::Coefficients,
-    runge_kutta::{CLASSICAL, DORMAND_PRINCE},
-};
+use crate::{Ledger, Mechanism, MotionError, State, StepControl, stepper::Step};
 
 /// How often a step of given length may be halved that has no solution.
 const HALVINGS: u32 = 6;
@@ -29,11 +25,7 @@ impl Integrator {
             let (to, book) = self.fixed_step(system, mass, from, h)?;
             return Ok((to, book, h));
         };
-        let order = match self.scheme {
-            Scheme::DormandPrince => 5.0,
-            Scheme::RungeKutta4 => 4.0,
-            Scheme::Energy | Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => 3.0,
-        };
+        let order = self.scheme.error_order();
         loop {
             let tried = self.one_step(system, mass, from, h);
             let factor = match &tried {
@@ -134,7 +126,7 @@ impl Integrator {
         }
     }
 
-    /// One step by the scheme: where it ends, its local error, and the books closed behind it.
+    /// One step by the scheme: where it ends, its local error, and the ledger closed behind it.
     pub(super) fn one_step<M: Mechanism>(
         &mut self,
         system: &mut M,
@@ -143,58 +135,13 @@ impl Integrator {
         h: f64,
     ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
         let before = self.ledger.unwrap_or_default();
-        let (to, error, mut book) = self.open_step(system, mass, from, h, before)?;
-        book.close_step(&before, system.mass(), &to.v);
-        Ok((to, error, book))
-    }
-
-    fn open_step<M: Mechanism>(
-        &mut self,
-        system: &mut M,
-        mass: &Cholesky<f64, Dyn>,
-        from: &State,
-        h: f64,
-        mut book: Ledger,
-    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
-        let (forces, watched) = (&mut self.forces, self.guard.is_some());
-        self.tangents_at = watched.then_some(from.time + h);
-        let (to, error) = match self.scheme {
-            Scheme::Energy => energy::step(system, from, h, &self.scale, forces, &mut book)?,
-            Scheme::DormandPrince => DORMAND_PRINCE.step(system, mass, from, h, forces, &mut book, watched)?,
-            Scheme::RungeKutta4 => CLASSICAL.step(system, mass, from, h, forces, &mut book, watched)?,
-            Scheme::GeneralisedAlpha { .. } | Scheme::Newmark => {
-                let coefficients = match self.scheme {
-                    Scheme::GeneralisedAlpha { rho } => Coefficients::generalised_alpha(rho),
-                    _ => Coefficients::newmark(0.25, 0.5),
-                };
-                return self.booked_by_trapezoid(system, coefficients, from, h, book);
-            }
-        };
-        Ok((to, error, book))
-    }
-
-    /// A step of the generalised-alpha family; work is integrated by the trapezoidal rule.
-    fn booked_by_trapezoid<M: Mechanism>(
-        &mut self,
-        system: &mut M,
-        coefficients: Coefficients,
-        from: &State,
-        h: f64,
-        mut book: Ledger,
-    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
-        let (mut to, error) = coefficients.step(system, from, h, &self.scale, &mut self.forces)?;
-        to.powers = self.forces.powers();
-        let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
-        book.supplied += work[0];
-        book.dissipated += work[1];
-        let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
-        let mut aside = |time: f64, q| system.potential_aside(time, q).map_err(fail(time));
-        let known = book.potential;
-        // What V changes by with the coordinates held, at either end of the step. Where the step ends comes last: a system may keep it.
-        let [moved, still] = [aside(from.time, &to.q)?, aside(to.time, &from.q)?];
-        book.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
-        let held = [still - known, book.potential - moved];
-        book.parametric += 0.5 * (held[0] + held[1]);
-        Ok((to, error, book))
+        let mut ledger = before;
+        let tangents = self.guard.is_some();
+        self.tangents_at = tangents.then_some(from.time + h);
+        let Self { scheme, scale, forces, .. } = self;
+        let step = Step { system: &mut *system, mass, from, h, scale, forces, ledger: &mut ledger, tangents };
+        let (to, error) = scheme.step(step)?;
+        ledger.close_step(&before, system.mass(), &to.v);
+        Ok((to, error, ledger))
     }
 }

@@ -11,9 +11,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{
+use crate::{
     Forces, Ledger, Mechanism, MotionError, State,
     newton::{ITERATIONS, Newton},
+    stepper::{Step, Stepped, Stepper},
 };
 
 /// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
@@ -21,19 +22,24 @@ const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// A way shorter than this over the motion's scale has no work that V could tell from noise: a search that starts elsewhere finds another last digit.
 const NO_WAY: f64 = 1e-9;
 
-/// One step of length `h`; the ledger's entries of the step come with it. The potential in `book` is that of `from`.
-pub(super) fn step<M: Mechanism>(
-    system: &mut M,
-    from: &State,
-    h: f64,
-    scale: &DVector<f64>,
-    forces: &mut Forces,
-    book: &mut Ledger,
-) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
-    // The change of c with the end of the step is left out as long as that settles: V's noise over a small way would be in it.
-    match iterate(system, from, h, scale, forces, book, false) {
-        Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, book, true),
-        done => done,
+/// The method; it has no parameters.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DiscreteGradient;
+
+impl Stepper for DiscreteGradient {
+    fn error_order(&self) -> f64 {
+        3.0
+    }
+
+    /// The forces that are left are those of the middle of the step.
+    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
+        let Step { system, from, h, scale, forces, ledger, .. } = step;
+        // The change of c with the end of the step is left out as long as that settles: the noise of V over a small way would
+        // be in it.
+        match iterate(system, from, h, scale, forces, ledger, false) {
+            Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, ledger, true),
+            done => done,
+        }
     }
 }
 
@@ -46,7 +52,7 @@ fn iterate<M: Mechanism>(
     forces: &mut Forces,
     book: &mut Ledger,
     exact: bool,
-) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+) -> Stepped<M> {
     let (middle, end) = (from.time + 0.5 * h, from.time + h);
     let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
     let before = system.potential(middle, &from.q).map_err(fail(middle))?;

@@ -4,7 +4,7 @@ mod step;
 
 use nalgebra::{Cholesky, DVector, Dyn};
 
-use super::{
+use crate::{
     Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
     events::{crossings, event_values},
     stability::Guard,

@@ -3,13 +3,18 @@
 //! Work of the forces is integrated along as further unknowns. The last stage of a table stands at the end of the step, with the weights of the
 //! method itself: it gives the accelerations there, and the estimate of the error a value to compare with.
 
-use nalgebra::{Cholesky, DVector, Dyn};
+use nalgebra::DVector;
 
-use super::{Forces, Ledger, Mechanism, MotionError, State};
+use crate::{
+    Mechanism, MotionError,
+    stepper::{Step, Stepped, Stepper},
+};
 
 /// A method with `S` stages, the last of them at the end of the step.
 #[derive(Debug)]
-pub(super) struct Table<const S: usize> {
+pub(crate) struct Table<const S: usize> {
+    /// Order of the method.
+    order: f64,
     nodes: [f64; S],
     stages: [[f64; S]; S],
     /// What the weights differ by from those of the method one order lower.
@@ -20,7 +25,8 @@ pub(super) struct Table<const S: usize> {
 ///
 /// Its weight 1/6 of the fourth stage may be shared with the value at the end of the step in any proportion without loss of the third order: with a
 /// tenth there, the difference is h (k_4 - k_5) / 10.
-pub(super) const CLASSICAL: Table<5> = Table {
+pub(crate) const CLASSICAL: Table<5> = Table {
+    order: 4.0,
     nodes: [0.0, 0.5, 0.5, 1.0, 1.0],
     stages: [
         [0.0; 5],
@@ -33,7 +39,8 @@ pub(super) const CLASSICAL: Table<5> = Table {
 };
 
 /// Dormand-Prince 5(4) (J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19).
-pub(super) const DORMAND_PRINCE: Table<7> = Table {
+pub(crate) const DORMAND_PRINCE: Table<7> = Table {
+    order: 5.0,
     nodes: [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0],
     stages: [
         [0.0; 7],
@@ -47,35 +54,29 @@ pub(super) const DORMAND_PRINCE: Table<7> = Table {
     difference: [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0],
 };
 
-impl<const S: usize> Table<S> {
-    /// Coefficients c_k of the stability polynomial R(z) = sum of c_k z^k, the growth of x' = lambda x in a step with z = h lambda.
+impl<const S: usize> Stepper for &Table<S> {
+    fn error_order(&self) -> f64 {
+        self.order
+    }
+
+    /// R(z) = sum of c_k z^k, the growth of x' = lambda x in a step with z = h lambda.
     ///
     /// ```text
     /// R(z) = 1 + z b' (1 - z A)^-1 1,   c_0 = 1,  c_k = b' A^(k-1) 1
     /// ```
     /// b are the weights of the method, A its stages.
-    pub(super) fn stability_polynomial(&self) -> Vec<f64> {
+    fn stability_polynomial(&self) -> Option<Vec<f64>> {
         let mut powers = [1.0; S];
         let mut coefficients = vec![1.0];
         for _ in 1..S {
             coefficients.push(self.stages[S - 1].iter().zip(&powers).map(|(b, x)| b * x).sum());
             powers = self.stages.map(|stage| stage.iter().zip(&powers).map(|(a, x)| a * x).sum());
         }
-        coefficients
+        Some(coefficients)
     }
 
-    /// One step of length `h`; the ledger's entries of the step come with it. `forces` are those of its end, with tangents where `tangents` says so.
-    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
-    pub(super) fn step<M: Mechanism>(
-        &self,
-        system: &mut M,
-        mass: &Cholesky<f64, Dyn>,
-        from: &State,
-        h: f64,
-        forces: &mut Forces,
-        book: &mut Ledger,
-        tangents: bool,
-    ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
+        let Step { system, mass, from, h, forces, ledger, tangents, .. } = step;
         let mut rates: Vec<(DVector<f64>, DVector<f64>, [f64; 3])> = Vec::with_capacity(S);
         for (i, (stage, &node)) in self.stages.iter().zip(&self.nodes).enumerate() {
             // The last stage has no weight in the work.
@@ -102,15 +103,15 @@ impl<const S: usize> Table<S> {
             to.v.axpy(h * weight, a, 1.0);
             error.axpy(h * self.difference[i], v, 1.0);
             error.axpy(h * h * self.difference[i], a, 1.0);
-            book.supplied += h * weight * powers[0];
-            book.parametric += h * weight * powers[1];
-            book.dissipated += h * weight * powers[2];
+            ledger.supplied += h * weight * powers[0];
+            ledger.parametric += h * weight * powers[1];
+            ledger.dissipated += h * weight * powers[2];
         }
         to.a.copy_from(&rates[S - 1].1);
         to.averaged.copy_from(&to.a);
         to.last_step = h;
         let time = to.time;
-        book.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
+        ledger.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
         Ok((to, error))
     }
 }

@@ -8,10 +8,10 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use super::Forces;
+use crate::Forces;
 
 /// Iterations before giving up; two or three do.
-pub(super) const ITERATIONS: usize = 40;
+pub(crate) const ITERATIONS: usize = 40;
 /// Last change that is round-off, relative to the motion's scale.
 const TOLERANCE: f64 = 1e-11;
 /// Iterations after which steps are followed along their lines: what jumps to and fro settles between.
@@ -29,7 +29,7 @@ const LEFT: f64 = 0.5;
 
 /// The iteration of one step.
 #[derive(Debug)]
-pub(super) struct Newton {
+pub(crate) struct Newton {
     factor: Option<LU<f64, Dyn, Dyn>>,
     step: DVector<f64>,
     /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite after a part of a step, which says nothing of what is left.

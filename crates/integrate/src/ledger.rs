@@ -46,7 +46,7 @@ impl Ledger {
     }
 
     /// Entries of the step from `before` on are complete: kinetic energy and turnover.
-    pub(super) fn close_step(&mut self, before: &Self, mass: &DMatrix<f64>, v: &DVector<f64>) {
+    pub(crate) fn close_step(&mut self, before: &Self, mass: &DMatrix<f64>, v: &DVector<f64>) {
         self.kinetic = kinetic(mass, v);
         self.turnover += (self.supplied - before.supplied).abs()
             + (self.parametric - before.parametric).abs()

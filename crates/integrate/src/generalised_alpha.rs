@@ -10,14 +10,15 @@
 
 use nalgebra::DVector;
 
-use super::{
+use crate::{
     Forces, Mechanism, MotionError, State,
     newton::{ITERATIONS, Newton},
+    stepper::{Step, Stepped, Stepper},
 };
 
 /// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Coefficients {
+pub(crate) struct Coefficients {
     a_m: f64,
     a_f: f64,
     beta: f64,
@@ -26,19 +27,20 @@ pub(super) struct Coefficients {
 
 impl Coefficients {
     /// With the spectral radius `rho` at infinite frequency, 0 .. 1: second order, and the least damping of low frequencies for that.
-    pub(super) fn generalised_alpha(rho: f64) -> Self {
+    pub(crate) fn generalised_alpha(rho: f64) -> Self {
         let (a_m, a_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let gamma = 0.5 + a_f - a_m;
         Self { a_m, a_f, beta: 0.25 * (gamma + 0.5).powi(2), gamma }
     }
 
     /// Newmark's constant average acceleration (beta 1/4, gamma 1/2) and its relatives.
-    pub(super) fn newmark(beta: f64, gamma: f64) -> Self {
+    pub(crate) fn newmark(beta: f64, gamma: f64) -> Self {
         Self { a_m: 0.0, a_f: 0.0, beta, gamma }
     }
 
-    /// One step of length `h` from `from`: the state at its end, and the local error of its coordinates. `forces` are those of the end.
-    pub(super) fn step<M: Mechanism>(
+    /// The state at the end of a step of length `h` from `from`, and the local error of its coordinates. `forces` are those
+    /// of the end.
+    fn solve<M: Mechanism>(
         &self,
         system: &mut M,
         from: &State,
@@ -76,5 +78,35 @@ impl Coefficients {
         }
         let change = newton.change();
         Err(MotionError::NotConverged { time: from.time, step: h, iterations: ITERATIONS, change })
+    }
+}
+
+impl Stepper for Coefficients {
+    fn error_order(&self) -> f64 {
+        3.0
+    }
+
+    /// Newmark's methods have a_m = a_f = 0: their averaged acceleration is the true one.
+    fn carries_acceleration(&self) -> bool {
+        (self.a_m, self.a_f) != (0.0, 0.0)
+    }
+
+    /// Work of drives, loads and dampers is integrated by the trapezoidal rule.
+    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
+        let Step { system, from, h, scale, forces, ledger, .. } = step;
+        let (mut to, error) = self.solve(system, from, h, scale, forces)?;
+        to.powers = forces.powers();
+        let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
+        ledger.supplied += work[0];
+        ledger.dissipated += work[1];
+        let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
+        let mut off_path = |time: f64, q| system.potential_off_path(time, q).map_err(fail(time));
+        let known = ledger.potential;
+        // What V changes by with the coordinates held, at either end. The end of the step comes last: a system may keep it.
+        let [moved, still] = [off_path(from.time, &to.q)?, off_path(to.time, &from.q)?];
+        ledger.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
+        let held = [still - known, ledger.potential - moved];
+        ledger.parametric += 0.5 * (held[0] + held[1]);
+        Ok((to, error))
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::{Mechanism, MotionError, State};
+use crate::{Mechanism, MotionError, State};
 
 /// Which way an event function went through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub struct Crossing {
 }
 
 /// Coordinates and velocities within a step, by the cubic through both ends with their velocities.
-pub(super) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
+pub(crate) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
     let h = to.time - from.time;
     let (s, r) = (share, 1.0 - share);
     let q = (r * r * (1.0 + 2.0 * s)) * &from.q + (s * s * (1.0 + 2.0 * r)) * &to.q + (h * s * r * r) * &from.v
@@ -37,7 +37,7 @@ pub(super) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DV
 }
 
 /// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and false position in turns.
-pub(super) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
+pub(crate) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
     let ([mut low, mut high], [mut at_low, mut at_high]) = ([0.0, 1.0], ends);
     for i in 0..60 {
         let slope = at_high - at_low;
@@ -61,7 +61,7 @@ pub(super) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, 
 }
 
 /// Values of all events of a system at a state.
-pub(super) fn event_values<M: Mechanism>(
+pub(crate) fn event_values<M: Mechanism>(
     system: &mut M,
     time: f64,
     q: &DVector<f64>,
@@ -76,7 +76,7 @@ pub(super) fn event_values<M: Mechanism>(
 }
 
 /// Events within a step between values `before` and `after`, in the order of time.
-pub(super) fn crossings<M: Mechanism>(
+pub(crate) fn crossings<M: Mechanism>(
     system: &mut M,
     from: &State,
     to: &State,

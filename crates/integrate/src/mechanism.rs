@@ -24,11 +24,12 @@ pub trait Mechanism {
     /// The system's own.
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
 
-    /// Potential energy beside the way of the motion, for the ledger alone: a system need not keep anything of it, and may know it to twelve digits only.
+    /// Potential energy at a place that the motion does not pass through, for the ledger alone. A system need not remember
+    /// anything of it, and may know it to twelve digits only.
     ///
     /// # Errors
     /// The system's own.
-    fn potential_aside(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+    fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
         self.potential(t, q)
     }
 
@@ -109,7 +110,7 @@ impl Forces {
     }
 
     /// Powers supplied and dissipated.
-    pub(super) fn powers(&self) -> [f64; 2] {
+    pub(crate) fn powers(&self) -> [f64; 2] {
         [self.supplied, self.dissipated]
     }
 

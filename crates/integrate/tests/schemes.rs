@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use dynamics::motion::{Direction, Forces, Integrator, Ledger, Mechanism, Scheme, State, StepControl};
+use integrate::{Direction, Forces, Integrator, Ledger, Mechanism, Scheme, State, StepControl};
 use nalgebra::{DMatrix, DVector, Matrix3, dvector};
 
 /// q'' + k(t) q = 0 for every coordinate, k(t) = k (1 + swing cos t); the event is q_0 = 0.

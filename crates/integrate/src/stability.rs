@@ -8,10 +8,7 @@
 
 use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 
-use super::{
-    Forces, Scheme,
-    runge_kutta::{CLASSICAL, DORMAND_PRINCE},
-};
+use crate::{Forces, Scheme};
 
 /// Growth in a step that counts as none.
 const NONE: f64 = 1e-9;
@@ -32,15 +29,6 @@ pub struct StepLimit {
 }
 
 impl Scheme {
-    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any step.
-    pub fn stability_polynomial(&self) -> Option<Vec<f64>> {
-        match self {
-            Self::RungeKutta4 => Some(CLASSICAL.stability_polynomial()),
-            Self::DormandPrince => Some(DORMAND_PRINCE.stability_polynomial()),
-            Self::GeneralisedAlpha { .. } | Self::Newmark | Self::Energy => None,
-        }
-    }
-
     /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M symmetric positive definite.
     ///
     /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where nothing moves by itself, and for matrices that hold no
@@ -153,7 +141,7 @@ impl Stiffest {
 
 /// Watches the tangents of a motion under way: into how many parts a step has to be taken.
 #[derive(Debug, Clone)]
-pub(super) struct Guard {
+pub(crate) struct Guard {
     polynomial: Vec<f64>,
     /// No eigenvalue below this over the step is unstable, in whatever direction it lies.
     safe: f64,

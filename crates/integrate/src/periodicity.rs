@@ -1,0 +1,121 @@
+//! Whether a motion repeats itself.
+
+use std::collections::VecDeque;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use crate::State;
+
+/// Longest period that is looked for, periods.
+pub const LONGEST_PERIOD: usize = 8;
+/// A longer period must do this much better than a shorter one: what dies away in beats is nearer to itself after some cycles than after one.
+const CLEARLY: f64 = 0.03;
+/// Peak to peak below which a coordinate counts as still, over its scale.
+const STILL: f64 = 1e-6;
+
+/// Least and largest coordinates and velocities over some time, such as a period.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Envelope {
+    low: [DVector<f64>; 2],
+    high: [DVector<f64>; 2],
+}
+
+impl Envelope {
+    /// Of one state.
+    pub fn new(state: &State) -> Self {
+        let both = [state.q.clone(), state.v.clone()];
+        Self { low: both.clone(), high: both }
+    }
+
+    /// Takes in a further state.
+    pub fn widen(&mut self, state: &State) {
+        for (i, x) in [&state.q, &state.v].into_iter().enumerate() {
+            self.low[i] = self.low[i].inf(x);
+            self.high[i] = self.high[i].sup(x);
+        }
+    }
+
+    /// Peak to peak of coordinates and velocities.
+    pub fn peak_to_peak(&self) -> [DVector<f64>; 2] {
+        [0, 1].map(|i| &self.high[i] - &self.low[i])
+    }
+}
+
+/// How nearly a motion repeats itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Periodicity {
+    /// Periods after which it does best: 1, or more where a subharmonic answer has been found.
+    pub period: usize,
+    /// Largest difference of a coordinate or a velocity after that many cycles, over its peak to peak in a period.
+    pub residual: f64,
+}
+
+/// States at the beginnings of the last periods.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Recurrence {
+    starts: VecDeque<[DVector<f64>; 2]>,
+}
+
+impl Recurrence {
+    /// From a state on.
+    pub fn from(state: &State) -> Self {
+        Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
+    }
+
+    /// Takes the state at the end of a period. The shortest period wins that is within `tolerance`, else the best one; a longer one only where it does clearly better.
+    ///
+    /// `scale`: sizes of the coordinates that are looked at, from the first on. The coordinate `free` has no place to return to
+    /// (a driver that a torque turns): only its velocity is looked at.
+    pub fn judge(
+        &mut self,
+        state: &State,
+        envelope: &Envelope,
+        scale: &DVector<f64>,
+        free: Option<usize>,
+        tolerance: f64,
+    ) -> Periodicity {
+        let now = [state.q.clone(), state.v.clone()];
+        let size = envelope.peak_to_peak();
+        let mut best = Periodicity { period: 1, residual: f64::INFINITY };
+        for (i, before) in self.starts.iter().rev().enumerate() {
+            let residual = difference([&now, before], &size, scale, free);
+            if i == 0 || residual < CLEARLY * best.residual {
+                best = Periodicity { period: i + 1, residual };
+            }
+            if best.residual <= tolerance {
+                break;
+            }
+        }
+        if self.starts.len() == LONGEST_PERIOD {
+            self.starts.pop_front();
+        }
+        self.starts.push_back(now);
+        best
+    }
+}
+
+/// Largest difference of two states over peak to peak values; for what is still, over its scale.
+pub fn difference(
+    [now, before]: [&[DVector<f64>; 2]; 2],
+    size: &[DVector<f64>; 2],
+    scale: &DVector<f64>,
+    free: Option<usize>,
+) -> f64 {
+    let mut worst = 0.0f64;
+    for k in 0..scale.len() {
+        // A velocity is still when it belongs to a coordinate that is.
+        let rate = if size[0][k] > 0.0 { size[1][k] / size[0][k] } else { 0.0 };
+        let least = [STILL * scale[k], STILL * scale[k] * rate];
+        for part in 0..2 {
+            if part == 0 && free == Some(k) {
+                continue;
+            }
+            let off = (now[part][k] - before[part][k]).abs();
+            if off > 0.0 {
+                worst = worst.max(off / size[part][k].max(least[part]).max(f64::MIN_POSITIVE));
+            }
+        }
+    }
+    worst
+}

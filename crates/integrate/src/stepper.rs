@@ -1,0 +1,53 @@
+//! What every method of integration says of itself, and the one thing it does: a step.
+
+use nalgebra::{Cholesky, DVector, Dyn};
+
+use crate::{Forces, Ledger, Mechanism, MotionError, State};
+
+/// A step to be taken.
+#[derive(Debug)]
+pub(crate) struct Step<'a, M> {
+    /// What moves.
+    pub system: &'a mut M,
+    /// Factor of its mass matrix.
+    pub mass: &'a Cholesky<f64, Dyn>,
+    /// State at the beginning.
+    pub from: &'a State,
+    /// Length of the step, s.
+    pub h: f64,
+    /// What counts as a large motion of each coordinate.
+    pub scale: &'a DVector<f64>,
+    /// Forces of the last evaluation: at the end of the step, unless the method says otherwise.
+    pub forces: &'a mut Forces,
+    /// Energy up to the beginning; the step enters its work and the potential energy at its end.
+    pub ledger: &'a mut Ledger,
+    /// Whether `forces` must hold the tangents at the end of the step.
+    pub tangents: bool,
+}
+
+/// State at the end of a step, and the local error of its coordinates.
+pub(crate) type Stepped<M> = Result<(State, DVector<f64>), MotionError<<M as Mechanism>::Error>>;
+
+/// A method of integration.
+///
+/// A new one is a file with this trait, and a row in `scheme.rs`.
+pub(crate) trait Stepper {
+    /// The local error that a step reports falls as its length to this power.
+    fn error_order(&self) -> f64;
+
+    /// Whether [`State::averaged`] is a state of its own that goes from step to step.
+    fn carries_acceleration(&self) -> bool {
+        false
+    }
+
+    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any step.
+    fn stability_polynomial(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// [`MotionError::NotConverged`] where an implicit method finds no solution, and the system's own.
+    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M>;
+}
