@@ -6,9 +6,10 @@ mod support;
 
 use std::time::{Duration, Instant};
 
-use contact::Pose;
+use ale::Station;
+use contact::{Bulk, MeshContact, Pose};
 use divan::{Bencher, black_box};
-use dynamics::{Bulk, MeshContact, StaticModel, StaticOptions, Station};
+use ltca::{StaticModel, StaticOptions};
 use support::{default_data, quadratic};
 
 /// Positions of the mesh cycle whose contact is solved in turn.
@@ -38,7 +39,7 @@ fn contact(model: &mut StaticModel) -> (MeshContact, Vec<[Pose; 2]>) {
             model.last().unwrap().poses
         })
         .collect();
-    (MeshContact::new(model.pair(), model.contact_set().clone(), model.options()).unwrap(), poses)
+    (MeshContact::new(model.pair(), model.contact_set().clone(), &model.options().contact).unwrap(), poses)
 }
 
 fn median(mut times: Vec<Duration>) -> f64 {
@@ -117,7 +118,7 @@ fn contact_solve(bencher: Bencher) {
 /// The same from the mesh's matrices, without tables.
 #[divan::bench]
 fn contact_solve_exact(bencher: Bencher) {
-    solves(bencher, |o| StaticOptions { bulk: Bulk::Exact, ..o });
+    solves(bencher, |o| o.clone().with_contact(|c| c.bulk = Bulk::Exact));
 }
 
 #[divan::bench]

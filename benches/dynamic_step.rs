@@ -6,11 +6,9 @@ mod support;
 
 use std::{f64::consts::TAU, time::Instant};
 
+use ale::Station;
 use dynamics::{
-    Station,
-    pair_motion::{
-        Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
-    },
+    Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
 };
 use integrate::{Integrator, Scheme, StepControl};
 use nalgebra::Matrix6;
@@ -58,7 +56,7 @@ fn run(free: [bool; 6], scheme: Scheme) -> [(f64, f64); 2] {
     let bearing = Bearing { stiffness, damping: 1e-6 * stiffness };
     let speed = SPEED_RPM * TAU / 60.0;
     let options = MotionOptions {
-        contact: contact.clone(),
+        statics: contact.clone(),
         bodies,
         bearings: [bearing; 2],
         free: [free; 2],

@@ -9,10 +9,10 @@ mod support;
 
 use std::time::Instant;
 
-use contact::Law;
-use dynamics::{ElasticGear, StaticModel, StaticOptions, flank_grids};
+use contact::{Law, flank_grids};
+use ltca::{StaticModel, StaticOptions};
 use mesh::Extent;
-use reduction::{GearReducer, ReductionOptions};
+use reduction::{ElasticGear, GearReducer, ReductionOptions};
 use support::{Case, default_data, quadratic, steel, summary};
 
 /// Positions of a mesh cycle for slices, and for points, which take long.
@@ -33,8 +33,8 @@ fn gears(case: &Case, options: &StaticOptions, on_grid: bool) -> [ElasticGear; 2
     let first = StaticModel::first_teeth(&case.pair, options).unwrap();
     [0, 1].map(|i| {
         let o = ReductionOptions {
-            sides: options.sides(),
-            window: StaticModel::window_teeth(&case.pair, options),
+            sides: options.contact.sides(),
+            window: options.window_teeth(&case.pair),
             first: first[i],
             elements: case.elements,
         };
@@ -44,9 +44,9 @@ fn gears(case: &Case, options: &StaticOptions, on_grid: bool) -> [ElasticGear; 2
         let mesh = case.meshes[i].clone();
         let reducer = if on_grid {
             GearReducer::on_grids(mesh, steel(), o, false, |mesh| {
-                flank_grids(mesh, geometry, &teeth, &sides, GRID, options.surface_tolerance)
+                flank_grids(mesh, geometry, &teeth, &sides, GRID, options.contact.surface_tolerance)
             })
-            .unwrap_or_else(|e: dynamics::StaticError| panic!("{e}"))
+            .unwrap_or_else(|e: contact::ContactError| panic!("{e}"))
         } else {
             GearReducer::new(mesh, steel(), o).unwrap_or_else(|e| panic!("{e}"))
         };
@@ -106,8 +106,7 @@ fn main() {
         table("slices", if quick { &MESHES[..3] } else { &MESHES }, POSITIONS[0], Case::slice_options);
     }
     table("points, exact contact", &MESHES[..3], POSITIONS[1], Case::options);
-    table("points, penalty 1e6 MPa/mm", &MESHES[..3], POSITIONS[1], |case| StaticOptions {
-        law: Law::Penalty(1e6),
-        ..case.options()
+    table("points, penalty 1e6 MPa/mm", &MESHES[..3], POSITIONS[1], |case| {
+        case.options().with_contact(|c| c.law = Law::Penalty(1e6))
     });
 }

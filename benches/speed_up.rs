@@ -6,7 +6,7 @@ mod support;
 
 use std::time::Instant;
 
-use dynamics::Station;
+use ale::Station;
 use geometry::GearData;
 use mesh::Extent;
 use study::power_law;

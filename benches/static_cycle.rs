@@ -3,10 +3,11 @@
 #[path = "../tests/verification/support/mod.rs"]
 mod support;
 
+use ale::Station;
 use divan::{Bencher, black_box};
-use dynamics::{ElasticGear, Station};
 use fem::ElementOptions;
 use mesh::Mesh;
+use reduction::ElasticGear;
 use support::{Case, meshes_folder};
 
 fn main() {

@@ -2,9 +2,9 @@
 
 mod support;
 
-use ale::Sense;
-use dynamics::{Driver, Method, StaticError, StaticOptions};
-use geometry::GearModifications;
+use contact::Method;
+use geometry::{Driver, GearModifications, Sense};
+use ltca::{StaticError, StaticOptions};
 use support::{Case, generated, modified};
 
 const SENSES: [(Driver, Sense); 4] = [
@@ -24,9 +24,13 @@ fn coast_flanks_that_stay_apart_change_nothing() {
     let case = small();
     for method in [Method::Slice, Method::Nodal] {
         for (driver, sense) in SENSES {
-            let options = StaticOptions { driver, sense, method, ..case.slice_options() };
+            let options = case.slice_options().with_contact(|c| {
+                c.driver = driver;
+                c.sense = sense;
+                c.method = method
+            });
             let [one, both] = [false, true].map(|both_flanks| {
-                let mut model = case.reduced(StaticOptions { both_flanks, ..options.clone() });
+                let mut model = case.reduced(options.clone().with_contact(|c| c.both_flanks = both_flanks));
                 model.run(2, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{method:?} {driver:?} {sense:?}: {e}"))
             });
             for (a, b) in one.positions.iter().zip(&both.positions) {
@@ -46,13 +50,13 @@ fn a_wedged_tooth_is_pressed_from_both_sides() {
     let none = vec![0.0; case.pair.wheel.teeth() as usize];
     let mut wedged = GearModifications { pitch_errors: none, ..Default::default() };
     let normal_sum = |case: &Case, both_flanks: bool| {
-        let options = StaticOptions { both_flanks, ..case.slice_options() };
+        let options = case.slice_options().with_contact(|c| c.both_flanks = both_flanks);
         let history = case.reduced(options).run(4, 4, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
         for p in &history.positions {
             let off = p.certificate.torque_residual;
             assert!(off < 1e-8, "pinion at {} rad: torque residual {off:e}", p.pinion_angle);
         }
-        let sum = |p: &dynamics::StaticPosition| p.pairs.iter().map(|q| q.normal_force).sum::<f64>();
+        let sum = |p: &ltca::StaticPosition| p.pairs.iter().map(|q| q.normal_force).sum::<f64>();
         history.positions.iter().map(sum).fold(0.0, f64::max)
     };
     // Either sign: one of the tooth's neighbours closes.

@@ -6,13 +6,11 @@ mod support;
 use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
-    StaticError, StaticOptions,
-    pair_motion::{
-        Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
-        Torque, Way, quasi_static_start, sweep,
-    },
+    Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
+    Torque, Way, quasi_static_start, sweep,
 };
 use integrate::{Mechanism, Scheme};
+use ltca::{StaticError, StaticOptions};
 use support::moving::{MovingPair, peak_to_peak, rows, swept, worst};
 
 const ROWS: usize = 32;

@@ -8,8 +8,8 @@
 mod support;
 
 use contact::{GapSource, Law};
-use dynamics::{StaticHistory, StaticModel};
 use fem::{ElementOptions, IncompatibleModes, Integration};
+use ltca::{StaticHistory, StaticModel};
 use support::{Case, summary};
 
 /// STE [um] and forces (N) of pairs -1, 0, +1 at s = 0, 1/8 .. 7/8.
@@ -49,9 +49,9 @@ const Q_COARSE_C3D20R: Reference = Reference {
 fn run(mesh: &str, elements: ElementOptions, gap: GapSource) -> StaticHistory {
     let case = Case::reference(mesh, elements);
     let mut options = case.options();
-    options.law = Law::Penalty(1e7);
-    options.gap = gap;
-    options.points_per_face_edge = 8;
+    options.contact.law = Law::Penalty(1e7);
+    options.contact.gap = gap;
+    options.contact.points_per_face_edge = 8;
     let mut model: StaticModel = case.reduced(options);
     model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}"))
 }

@@ -5,8 +5,8 @@ mod support;
 
 use std::time::Instant;
 
-use dynamics::{StaticError, StaticModel};
 use geometry::GearData;
+use ltca::StaticError;
 use mesh::Extent;
 use support::{Case, quadratic};
 
@@ -55,7 +55,7 @@ fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -
         match model.run(positions, 3, |_, _, _| ()) {
             Ok(history) => break history,
             Err(StaticError::Starved { .. }) if options.window.is_none() => {
-                options.window = Some(StaticModel::window_teeth(&case.pair, &options) + 1);
+                options.window = Some(options.window_teeth(&case.pair) + 1);
                 started = Instant::now();
                 model = case.reduced(options.clone());
                 reduced = started.elapsed().as_secs_f64();
@@ -74,7 +74,7 @@ fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -
     println!(
         "{name}: eps_gamma {eps:.3}, window {}, up to {most} pairs loaded, {changes} tooth changes; STE {mean:.3} um, p-p {swing:.4}, largest \
          step {step:.4}, cycles equal within {drift:.1e}; reduction {reduced:.1} s, {:.0} ms a position",
-        StaticModel::window_teeth(&case.pair, model.options()),
+        model.options().window_teeth(&case.pair),
         1e3 * each
     );
     assert!(changes >= 2, "{name}: {changes} tooth changes");

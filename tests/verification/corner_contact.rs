@@ -3,8 +3,8 @@
 
 mod support;
 
-use dynamics::{StaticModel, StaticOptions, StaticPosition};
 use geometry::GearPair;
+use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::Extent;
 use support::{Case, default_data, quadratic};
 
@@ -57,7 +57,7 @@ fn load_comes_in_at_the_edge() {
         let at_start = ahead.iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let share = at_start.map_or(0.0, |(_, f, p)| f / p.pairs.iter().map(|q| q.normal_force).sum::<f64>());
         let gears = model.into_gears();
-        let off = StaticOptions { corner_contact: false, ..on };
+        let off = on.clone().with_contact(|c| c.corner_contact = false);
         let mut model = StaticModel::new(case.pair.clone(), gears, off).unwrap();
         let cut = [32, 128].map(|n| largest_step(&cycle(&mut model, n)));
         println!(

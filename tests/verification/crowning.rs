@@ -3,8 +3,8 @@
 
 mod support;
 
-use dynamics::StaticModel;
 use geometry::{FlankModification, GearModifications};
+use ltca::StaticModel;
 use mesh::Extent;
 use support::{default_data, modified, quadratic};
 
@@ -13,7 +13,7 @@ fn crowned_flanks_end_their_pressure_before_the_edge() {
     let case = quadratic(default_data(20.0), None, 150e3, [3, 2, 2, 4, 1], Extent::Sector(5));
     let options = case.slice_options();
     let mut gears = case.reduced_gears(&options);
-    let outermost = 0.5 * case.pair.face_width() * (1.0 - 1.0 / options.slices as f64);
+    let outermost = 0.5 * case.pair.face_width() * (1.0 - 1.0 / options.contact.slices as f64);
     let mut spans = Vec::new();
     for crowning in [0.0, 0.03, 0.06, 0.12] {
         let crowned = GearModifications::both(FlankModification { lead_crowning: crowning, ..Default::default() });

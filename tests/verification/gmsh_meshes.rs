@@ -3,15 +3,16 @@
 
 mod support;
 
-use ale::Sense;
-use dynamics::{ElasticGear, StaticHistory, StaticOptions};
 use fem::ElementOptions;
+use geometry::Sense;
+use ltca::StaticHistory;
 use mesh::{GearMesh, GroupNames, Mesh};
+use reduction::ElasticGear;
 use support::{Case, meshes_folder, steel, summary};
 
 fn run(pinion: &str, wheel: &str) -> (StaticHistory, bool) {
     let case = Case::read(pinion, wheel, ElementOptions::default());
-    let mut model = case.reduced(StaticOptions { sense: Sense::Ccw, ..case.options() });
+    let mut model = case.reduced(case.options().with_contact(|c| c.sense = Sense::Ccw));
     let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
     (model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{pinion}: {e}")), cyclic)
 }

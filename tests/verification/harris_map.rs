@@ -6,9 +6,11 @@
 
 mod support;
 
-use dynamics::{StaticModel, StaticOptions};
-use geometry::modification::{ProfilePlace, Relief, ReliefShape};
-use geometry::{FlankModification, GearModifications, GearPair};
+use geometry::{
+    FlankModification, GearModifications, GearPair,
+    modification::{ProfilePlace, Relief, ReliefShape},
+};
+use ltca::{StaticModel, StaticOptions};
 use mesh::Extent;
 use support::{default_data, modified, quadratic, summary};
 

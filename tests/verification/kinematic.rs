@@ -5,10 +5,13 @@
 //! micrometre, and half a micrometre in the middle of a relief of 30 um. The search finds the true place.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use ale::Sense;
-use dynamics::{Driver, Misalignment, Offset, StaticOptions, Station, kinematic_transmission_error};
-use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
-use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, Side};
+use ale::Station;
+use contact::{Misalignment, Offset};
+use geometry::{
+    Driver, FlankModification, Gear, GearData, GearModifications, GearPair, Sense, Side,
+    modification::{EndRelief, ProfilePlace, Relief, ReliefShape},
+};
+use ltca::{StaticOptions, kinematic_transmission_error};
 use nalgebra::{Rotation3, Vector3};
 
 fn pair(beta_deg: f64, modifications: [GearModifications; 2]) -> GearPair {
@@ -56,13 +59,13 @@ fn stations(count: usize) -> impl Iterator<Item = Station> {
 /// little beside the nominal line. That term is the only one of second order; `second_order` leaves it out or in.
 fn closed_form(pair: &GearPair, options: &StaticOptions, station: Station, second_order: bool) -> f64 {
     let side = options.side();
-    let sign = options.sense.sign();
+    let sign = options.contact.sense.sign();
     let theta = pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * pair.pinion.pitch_angle();
     let middle = -sign * station.cycle;
     let (rb1, rb2) = (pair.pinion.base_radius(), pair.wheel.base_radius());
     let cos_b = pair.base_helix_angle().cos();
     let centres = [Vector3::zeros(), Vector3::x() * pair.centre_distance()];
-    let tilts = options.offsets.map(|o| Vector3::new(o.tilt_x, o.tilt_y, 0.0));
+    let tilts = options.contact.offsets.map(|o| Vector3::new(o.tilt_x, o.tilt_y, 0.0));
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), theta);
     let length = pair.tangent_length();
     let mut least = f64::INFINITY;
@@ -101,7 +104,7 @@ fn closed_form(pair: &GearPair, options: &StaticOptions, station: Station, secon
 fn deviations(pair: &GearPair, options: &StaticOptions, count: usize) -> [f64; 3] {
     let (mut worst, mut low, mut high) = ([0.0f64; 2], f64::INFINITY, f64::NEG_INFINITY);
     for station in stations(count) {
-        let te = kinematic_transmission_error(pair, options, station).unwrap();
+        let te = kinematic_transmission_error(pair, &options.contact, station).unwrap();
         for (k, w) in worst.iter_mut().enumerate() {
             *w = w.max(1e3 * (te - closed_form(pair, options, station, k == 1)).abs());
         }
@@ -257,7 +260,7 @@ fn real_depths_touch_where_turning_says() {
         let options = options(&pair);
         let (mut worst, mut first) = (0.0f64, 0.0f64);
         for station in stations(32) {
-            let te = kinematic_transmission_error(&pair, &options, station).unwrap();
+            let te = kinematic_transmission_error(&pair, &options.contact, station).unwrap();
             worst = worst.max(1e3 * (te - by_turning(&pair, &options, station)).abs());
             first = first.max(1e3 * (te - closed_form(&pair, &options, station, false)).abs());
         }
@@ -277,7 +280,7 @@ fn corners_touch_where_turning_says() {
     let options = options(&pair);
     for i in 0..64 {
         let station = Station { cycle: i / 16, phase: (i % 16) as f64 / 16.0 };
-        let te = kinematic_transmission_error(&pair, &options, station).unwrap();
+        let te = kinematic_transmission_error(&pair, &options.contact, station).unwrap();
         let off = 1e3 * (te - by_turning(&pair, &options, station)).abs();
         assert!(off < 1e-3, "{station:?}: off by {off} um of {te} mm");
     }
@@ -294,7 +297,10 @@ fn either_driver_and_sense() {
     let pair = pair(12.0, [gear(left1, right1), gear(left2, right2)]);
     for driver in [Driver::Pinion, Driver::Wheel] {
         for sense in [Sense::Ccw, Sense::Cw] {
-            let options = StaticOptions { driver, sense, ..options(&pair) };
+            let options = options(&pair).with_contact(|c| {
+                c.driver = driver;
+                c.sense = sense
+            });
             let [first, _, span] = deviations(&pair, &options, 16);
             assert!(first < 1e-3, "{driver:?} {sense:?}: off by {first} um of {span} um");
         }
@@ -318,7 +324,7 @@ fn misaligned_flanks_touch_where_the_tilt_says() {
         for m in cases {
             let wheel = m.wheel_offset(&pair, Side::Left);
             let pinion = Offset { tilt_x: 0.3 * wheel.tilt_x, tilt_y: -0.2 * wheel.tilt_y, ..Offset::default() };
-            let options = StaticOptions { offsets: [pinion, wheel], ..options(&pair) };
+            let options = options(&pair).with_contact(|c| c.offsets = [pinion, wheel]);
             let [first, _, span] = deviations(&pair, &options, 16);
             println!("beta {beta}, {m:?}: peak to peak {span:.4} um, off by {first:.6} um");
             assert!(first < 1e-3, "beta {beta}, {m:?}: off by {first} um of {span} um");
@@ -327,7 +333,7 @@ fn misaligned_flanks_touch_where_the_tilt_says() {
 }
 
 fn largest_te(pair: &GearPair, options: &StaticOptions) -> f64 {
-    let te = |s| kinematic_transmission_error(pair, options, s).unwrap().abs();
+    let te = |s| kinematic_transmission_error(pair, &options.contact, s).unwrap().abs();
     stations(16).map(te).fold(0.0, f64::max)
 }
 
@@ -347,7 +353,7 @@ fn parallel_axes_have_no_transmission_error() {
         Offset { x: 0.1, y: -0.1, z: -0.4, ..Offset::default() },
     ] {
         for offsets in [[Offset::default(), offset], [offset, Offset::default()]] {
-            let options = StaticOptions { offsets, ..options(&pair) };
+            let options = options(&pair).with_contact(|c| c.offsets = offsets);
             let te = largest_te(&pair, &options);
             assert!(te < 1e-11, "{offsets:?}: {te:e} mm");
         }
@@ -360,10 +366,10 @@ fn an_axial_shift_of_a_spur_gear_changes_nothing() {
     let flanks = flanks(0.0, 0.5, 20e-3, ReliefShape::Linear, &FlankModification::default());
     let pair = pair(0.0, flanks.map(GearModifications::both));
     let shifted =
-        StaticOptions { offsets: [Offset::default(), Offset { z: 2.0, ..Offset::default() }], ..options(&pair) };
+        options(&pair).with_contact(|c| c.offsets = [Offset::default(), Offset { z: 2.0, ..Offset::default() }]);
     for station in stations(16) {
         let te = |o| kinematic_transmission_error(&pair, o, station).unwrap();
-        let (here, there) = (te(&options(&pair)), te(&shifted));
+        let (here, there) = (te(&options(&pair).contact), te(&shifted.contact));
         assert!((here - there).abs() < 1e-11, "{station:?}: {here} and {there}");
     }
 }
@@ -377,13 +383,16 @@ fn lead_slope_and_misalignment_cancel() {
         ground[gear] = GearModifications::both(FlankModification { lead_slope: slope, ..FlankModification::default() });
         let pair = pair(0.0, ground);
         for (driver, sense) in [(Driver::Pinion, Sense::Ccw), (Driver::Wheel, Sense::Ccw)] {
-            let options = StaticOptions { driver, sense, ..options(&pair) };
+            let options = options(&pair).with_contact(|c| {
+                c.driver = driver;
+                c.sense = sense
+            });
             let m = Misalignment { in_plane_of_action: -slope, ..Misalignment::default() };
             let offsets = [Offset::default(), m.wheel_offset(&pair, options.side())];
             // Half the slope stands above the nominal flank at one end: that end touches first.
             let alone = largest_te(&pair, &options);
             assert!((alone - 0.5 * slope).abs() < 1e-6, "gear {gear}: {alone} mm");
-            let both = largest_te(&pair, &StaticOptions { offsets, ..options.clone() });
+            let both = largest_te(&pair, &options.clone().with_contact(|c| c.offsets = offsets));
             // To first order of the tilt: its square times the radius is 13 nm.
             assert!(both < 2e-5, "gear {gear}, {driver:?}: {both:e} mm of {slope} mm are left");
         }
@@ -398,8 +407,11 @@ fn the_mirror_image_has_the_same_transmission_error() {
         let flanks = flanks(beta, 0.7, 10e-3, ReliefShape::Parabolic, &rest);
         let pair = pair(beta, flanks.map(GearModifications::both));
         let wheel = Offset { x: 0.02, y: mirror * 0.03, z: 0.1, tilt_x: mirror * 2e-4, tilt_y: 1e-4 };
-        let options = StaticOptions { sense, offsets: [Offset::default(), wheel], ..options(&pair) };
-        stations(16).map(|s| kinematic_transmission_error(&pair, &options, s).unwrap()).collect::<Vec<_>>()
+        let options = options(&pair).with_contact(|c| {
+            c.sense = sense;
+            c.offsets = [Offset::default(), wheel]
+        });
+        stations(16).map(|s| kinematic_transmission_error(&pair, &options.contact, s).unwrap()).collect::<Vec<_>>()
     };
     for (a, b) in run(18.0, Sense::Ccw, 1.0).into_iter().zip(run(-18.0, Sense::Cw, -1.0)) {
         assert!((a - b).abs() < 1e-10, "{a} and {b}");
@@ -418,9 +430,9 @@ fn impossible_offsets_are_refused() {
         Offset { tilt_x: 0.1, ..Offset::default() },
         Offset { tilt_y: f64::INFINITY, ..Offset::default() },
     ] {
-        let options = StaticOptions { offsets: [offset, Offset::default()], ..options(&pair) };
+        let options = options(&pair).with_contact(|c| c.offsets = [offset, Offset::default()]);
         let station = Station { cycle: 0, phase: 0.3 };
-        let error = kinematic_transmission_error(&pair, &options, station).unwrap_err();
+        let error = kinematic_transmission_error(&pair, &options.contact, station).unwrap_err();
         assert!(error.hint().is_some(), "{error}");
     }
 }

@@ -3,12 +3,10 @@
 
 mod support;
 
-use ale::Sense;
-use dynamics::{
-    Driver, Station,
-    pair_motion::{PairMechanism, RigidBody, equivalent_mass},
-};
+use ale::Station;
+use dynamics::{PairMechanism, RigidBody, equivalent_mass};
 use fem::ElementOptions;
+use geometry::{Driver, Sense};
 use integrate::{Integrator, Scheme, State, StepControl};
 use lumped::{
     LumpedPair, MeshCycle, Operation, RunPlan,
@@ -71,7 +69,7 @@ fn fed_models_follow_the_reduced_one() {
     let all: Vec<_> = (0..FED)
         .map(|i| model.solve(Station { cycle: 0, phase: i as f64 / FED as f64 }).unwrap_or_else(|e| panic!("{e}")))
         .collect();
-    let column = |f: fn(&dynamics::StaticPosition) -> f64| all.iter().map(f).collect::<Vec<f64>>();
+    let column = |f: fn(&ltca::StaticPosition) -> f64| all.iter().map(f).collect::<Vec<f64>>();
     let stiffness = column(|p| p.tangent_stiffness);
     let length = column(|p| p.contact_line_length);
     let ste = column(|p| p.transmission_error);

@@ -3,11 +3,10 @@
 
 mod support;
 
-use ale::Sense;
 use contact::Law;
-use dynamics::{Driver, StaticError, StaticOptions};
 use fem::{ElementOptions, IncompatibleModes};
-use geometry::{Gear, GearData, GearPair};
+use geometry::{Driver, Gear, GearData, GearPair, Sense};
+use ltca::{StaticError, StaticOptions};
 use support::{Case, generated};
 
 /// A pair of helix angle `beta` on small meshes of the built-in mesher.
@@ -46,7 +45,10 @@ fn forces_are_in_equilibrium() {
         (Driver::Wheel, Sense::Cw),
     ] {
         let case = small_case(20.0);
-        let options = StaticOptions { driver, sense, torque: 20e3, ..case.options() };
+        let options = StaticOptions { torque: 20e3, ..case.options() }.with_contact(|c| {
+            c.driver = driver;
+            c.sense = sense
+        });
         let driven = options.driven();
         let base_radius = [&case.pair.pinion, &case.pair.wheel][driven].base_radius();
         let mut model = case.reduced(options);
@@ -88,7 +90,10 @@ fn forces_are_in_equilibrium() {
 fn reduced_equals_full() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
     for law in [Law::Penalty(1e7), Law::Exact] {
-        let options = StaticOptions { law, points_per_face_edge: 4, ..case.options() };
+        let options = case.options().with_contact(|c| {
+            c.law = law;
+            c.points_per_face_edge = 4
+        });
         let reduced = case.reduced(options.clone()).run(8, 1, |_, _, _| ()).unwrap();
         let full = case.full(options).run(8, 1, |_, _, _| ()).unwrap();
         let mut worst = [0.0f64; 2];
@@ -110,7 +115,7 @@ fn mirror_image_has_the_mirrored_answer() {
     let right = small_case(20.0);
     let left = small_case(-20.0);
     let run = |case: &Case, sense| {
-        let options = StaticOptions { sense, ..case.options() };
+        let options = case.options().with_contact(|c| c.sense = sense);
         case.reduced(options).run(4, 1, |_, _, _| ()).unwrap()
     };
     for (a, b) in run(&right, Sense::Ccw).positions.iter().zip(&run(&left, Sense::Cw).positions) {
@@ -195,7 +200,10 @@ fn plain_hex8_locks() {
 fn coast_flanks_stay_out_of_it() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
     let run = |both_flanks: bool| {
-        let options = StaticOptions { both_flanks, points_per_face_edge: 4, ..case.options() };
+        let options = case.options().with_contact(|c| {
+            c.both_flanks = both_flanks;
+            c.points_per_face_edge = 4
+        });
         case.reduced(options).run(8, 2, |_, _, _| ()).unwrap()
     };
     for (a, b) in run(false).positions.iter().zip(&run(true).positions) {
@@ -209,13 +217,13 @@ fn coast_flanks_stay_out_of_it() {
 #[test]
 fn any_torque_is_solved() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
-    let starved = StaticOptions { torque: 1e7, points_per_face_edge: 4, ..case.options() };
+    let starved = StaticOptions { torque: 1e7, ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
     let error = case.reduced(starved).run(4, 1, |_, _, _| ()).unwrap_err();
     assert!(matches!(error, StaticError::Starved { .. }), "{error}");
     for (torque, window) in
         [(0.0, None), (1e-9, None), (1e-3, None), (1.0, None), (1e3, None), (1e6, None), (1e7, Some(5))]
     {
-        let options = StaticOptions { torque, window, points_per_face_edge: 4, ..case.options() };
+        let options = StaticOptions { torque, window, ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
         let history = case.reduced(options).run(4, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{torque} N mm: {e}"));
         for p in &history.positions {
             assert!(p.certificate.torque_residual < 1e-8, "{torque} N mm: {:?}", p.certificate);

@@ -5,19 +5,19 @@ mod support;
 
 use std::sync::{Arc, OnceLock};
 
+use ale::Station;
+use contact::Bulk;
 use dynamics::{
-    Bulk, ElasticGear, StaticOptions, Station,
-    pair_motion::{
-        Bearing, CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, Motion, MotionOptions,
-        MotionSettings, PairMechanism, RigidBody, quasi_static_start, run_to_steady, shoot,
-    },
+    Bearing, CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, Motion, MotionOptions, MotionSettings,
+    PairMechanism, RigidBody, quasi_static_start, run_to_steady, shoot,
 };
 use fem::ElementOptions;
 use geometry::{Gear, GearData, GearPair};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
+use ltca::StaticOptions;
 use mesh::{GearMesh, GroupNames};
 use nalgebra::{DMatrix, DVector};
-use reduction::{GearModes, GearReducer, ModeChoice};
+use reduction::{ElasticGear, GearModes, GearReducer, ModeChoice};
 use support::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
@@ -134,11 +134,11 @@ fn modes_change_nothing_at_rest() {
     let bampton = |reducer: &GearReducer| reducer.craig_bampton_modes(ModeChoice::Count(12), 2).unwrap();
     for (name, contact, own) in [
         ("tables", plain.clone(), true),
-        ("matrices", StaticOptions { bulk: Bulk::Exact, ..plain.clone() }, true),
-        ("friction", StaticOptions { friction: 0.06, ..plain.clone() }, true),
+        ("matrices", plain.clone().with_contact(|c| c.bulk = Bulk::Exact), true),
+        ("friction", plain.clone().with_contact(|c| c.friction = 0.06), true),
         ("Craig-Bampton", plain, false),
     ] {
-        let options = MotionOptions { contact, ..pair.options(1e-6, 0.05) };
+        let options = MotionOptions { statics: contact, ..pair.options(1e-6, 0.05) };
         let systems = if own { pair.both(&options, own_modes(12)) } else { pair.both(&options, bampton) };
         let [(a, torque_a), (b, torque_b)] = systems.map(|mut system| {
             let s = scale(&system);
@@ -264,7 +264,7 @@ fn response(system: &mut PairMechanism, state: &State, hz: f64) -> f64 {
     let n = system.count();
     let still = DVector::zeros(n);
     let mut forces = Forces::zeros(n);
-    let h = 1e-4 / system.nominal().cycles_per_second(system.pair(), &system.options().contact, 0.0);
+    let h = 1e-4 / system.nominal().cycles_per_second(system.pair(), &system.options().statics, 0.0);
     let mut at = |t: f64| {
         forces.clear();
         system.forces(t, &state.q, &still, &mut forces).unwrap();

@@ -3,10 +3,13 @@
 
 mod support;
 
-use ale::Sense;
-use dynamics::{Method, Misalignment, Offset, StaticHistory, StaticOptions, Station, kinematic_transmission_error};
-use geometry::modification::{ProfilePlace, Relief, ReliefShape};
-use geometry::{FlankModification, GearModifications, GearPair};
+use ale::Station;
+use contact::{Method, Misalignment, Offset};
+use geometry::{
+    FlankModification, GearModifications, GearPair, Sense,
+    modification::{ProfilePlace, Relief, ReliefShape},
+};
+use ltca::{StaticHistory, StaticOptions, kinematic_transmission_error};
 use support::{Case, generated};
 
 const SMALL: [u32; 5] = [2, 2, 2, 4, 1];
@@ -36,11 +39,12 @@ fn run(case: &Case, options: StaticOptions, positions: usize, cycles: usize) -> 
 }
 
 fn methods(case: &Case) -> [StaticOptions; 2] {
-    [Method::Nodal, Method::Slice].map(|method| StaticOptions {
-        method,
-        slices: 20,
-        points_per_face_edge: 4,
-        ..case.options()
+    [Method::Nodal, Method::Slice].map(|method| {
+        case.options().with_contact(|c| {
+            c.method = method;
+            c.slices = 20;
+            c.points_per_face_edge = 4
+        })
     })
 }
 
@@ -52,7 +56,7 @@ fn unmodified_is_bit_for_bit_the_nominal_pair() {
     for options in methods(&nominal) {
         let offsets = [Misalignment::default().wheel_offset(&nominal.pair, options.side()), Offset::default()];
         let a = run(&nominal, options.clone(), 4, 1);
-        let b = run(&same, StaticOptions { offsets, ..options }, 4, 1);
+        let b = run(&same, options.clone().with_contact(|c| c.offsets = offsets), 4, 1);
         assert_eq!(format!("{a:?}"), format!("{b:?}"));
         assert!(a.positions.iter().all(|p| p.kinematic_transmission_error == 0.0));
     }
@@ -70,10 +74,12 @@ fn the_loaded_error_tends_to_the_kinematic_one() {
     let m = Misalignment { in_plane_of_action: 0.006, deviation: -0.002, ..Misalignment::default() };
     for options in methods(&case) {
         let offsets = [Offset::default(), m.wheel_offset(&case.pair, options.side())];
-        let at_load = |torque: f64| run(&case, StaticOptions { torque, offsets, ..options.clone() }, 4, 2);
+        let at_load = |torque: f64| {
+            run(&case, StaticOptions { torque, ..options.clone() }.with_contact(|c| c.offsets = offsets), 4, 2)
+        };
         let (unloaded, feather, loaded) = (at_load(0.0), at_load(1e-3), at_load(150e3));
         for ((zero, little), full) in unloaded.positions.iter().zip(&feather.positions).zip(&loaded.positions) {
-            let at = format!("{:?}, angle {:.4}", options.method, zero.pinion_angle);
+            let at = format!("{:?}, angle {:.4}", options.contact.method, zero.pinion_angle);
             let kinematic = zero.transmission_error;
             assert_eq!(kinematic, zero.kinematic_transmission_error);
             assert_eq!(kinematic, full.kinematic_transmission_error);
@@ -98,7 +104,11 @@ fn pitch_errors_stay_with_their_teeth() {
     let pitch = |amount| GearModifications { pitch_errors: scatter(amount), ..GearModifications::default() };
     let case = ground(case, [pitch(0.004), pitch(-0.003)]);
     for sense in [Sense::Ccw, Sense::Cw] {
-        let options = StaticOptions { sense, points_per_face_edge: 4, method: Method::Nodal, ..case.options() };
+        let options = case.options().with_contact(|c| {
+            c.sense = sense;
+            c.points_per_face_edge = 4;
+            c.method = Method::Nodal
+        });
         let reduced = run(&case, options.clone(), 2, 6);
         let full = case.full(options).run(2, 6, |_, _, _| ()).unwrap();
         assert!(reduced.positions.last().unwrap().tooth_changes >= 4);
@@ -134,9 +144,9 @@ fn lead_slope_and_misalignment_cancel_under_load() {
         let m = Misalignment { in_plane_of_action: -slope, ..Misalignment::default() };
         let offsets = [Offset::default(), m.wheel_offset(&plain.pair, options.side())];
         let (a, b) = (run(&plain, options.clone(), 4, 1), run(&sloped, options.clone(), 4, 1));
-        let c = run(&sloped, StaticOptions { offsets, ..options.clone() }, 4, 1);
+        let c = run(&sloped, options.clone().with_contact(|c| c.offsets = offsets), 4, 1);
         for ((a, b), c) in a.positions.iter().zip(&b.positions).zip(&c.positions) {
-            let at = format!("{:?}, phase {}", options.method, a.mesh_phase);
+            let at = format!("{:?}, phase {}", options.contact.method, a.mesh_phase);
             assert!(
                 b.secant_stiffness < 0.97 * a.secant_stiffness,
                 "{at}: {} {}",
@@ -158,10 +168,10 @@ fn a_common_shift_changes_nothing() {
     let case = ground(case, [GearModifications::both(flank.clone()), GearModifications::both(flank)]);
     for options in methods(&case) {
         let moved = Offset { x: -0.3, y: 0.5, z: 3.0, ..Offset::default() };
-        let shifted = StaticOptions { offsets: [moved, moved], ..options.clone() };
+        let shifted = options.clone().with_contact(|c| c.offsets = [moved, moved]);
         let aside = [Offset::default(), Offset { z: 2.0, ..Offset::default() }];
-        let narrower = run(&case, StaticOptions { offsets: aside, ..options.clone() }, 4, 1);
-        let at = format!("{:?}", options.method);
+        let narrower = run(&case, options.clone().with_contact(|c| c.offsets = aside), 4, 1);
+        let at = format!("{:?}", options.contact.method);
         let (here, there) = (run(&case, options.clone(), 4, 1), run(&case, shifted, 4, 1));
         for ((a, b), c) in here.positions.iter().zip(&there.positions).zip(&narrower.positions) {
             let off = a.transmission_error / b.transmission_error - 1.0;
@@ -182,7 +192,10 @@ fn the_mirror_image_is_loaded_alike() {
         let case = ground(generated(beta, SMALL), [gears(), gears()]);
         let wheel = Offset { x: 0.02, y: 0.01 * mirror, z: 0.1, tilt_x: 3e-4 * mirror, tilt_y: -2e-4 };
         methods(&case).map(|o| {
-            let options = StaticOptions { sense, offsets: [Offset::default(), wheel], ..o };
+            let options = o.clone().with_contact(|c| {
+                c.sense = sense;
+                c.offsets = [Offset::default(), wheel]
+            });
             run(&case, options, 4, 1)
         })
     };
@@ -203,6 +216,6 @@ fn the_unloaded_model_is_the_kinematic_one() {
     let options = StaticOptions { torque: 0.0, ..case.options() };
     for p in &run(&case, options.clone(), 8, 1).positions {
         let station = Station { cycle: 0, phase: p.mesh_phase };
-        assert_eq!(p.transmission_error, kinematic_transmission_error(&case.pair, &options, station).unwrap());
+        assert_eq!(p.transmission_error, kinematic_transmission_error(&case.pair, &options.contact, station).unwrap());
     }
 }

@@ -4,7 +4,7 @@ mod support;
 
 use std::sync::OnceLock;
 
-use dynamics::{StaticOptions, pair_motion::PairMechanism};
+use dynamics::PairMechanism;
 use fem::ElementOptions;
 use integrate::{Forces, Mechanism};
 use nalgebra::DVector;
@@ -14,7 +14,7 @@ fn pair() -> &'static MovingPair {
     static PAIR: OnceLock<MovingPair> = OnceLock::new();
     PAIR.get_or_init(|| {
         let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
-        let contact = StaticOptions { slices: 12, ..case.slice_options() };
+        let contact = case.slice_options().with_contact(|c| c.slices = 12);
         MovingPair::new(case, contact, 8)
     })
 }

@@ -5,12 +5,10 @@ mod support;
 
 use std::sync::OnceLock;
 
-use dynamics::{
-    StaticOptions,
-    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way},
-};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way};
 use fem::ElementOptions;
 use integrate::{Integrator, Scheme, State, StepControl};
+use ltca::StaticOptions;
 use nalgebra::DVector;
 use support::{
     Case,
@@ -26,7 +24,7 @@ fn light_pair() -> &'static MovingPair {
     static PAIR: OnceLock<MovingPair> = OnceLock::new();
     PAIR.get_or_init(|| {
         let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
-        let contact = StaticOptions { torque: TORQUE, slices: 8, ..case.slice_options() };
+        let contact = StaticOptions { torque: TORQUE, ..case.slice_options() }.with_contact(|c| c.slices = 8);
         MovingPair::new(case, contact, 16)
     })
 }

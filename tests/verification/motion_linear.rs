@@ -10,12 +10,10 @@
 
 mod support;
 
-use dynamics::{
-    StaticOptions,
-    pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way},
-};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way};
 use geometry::GearData;
 use integrate::Scheme;
+use ltca::StaticOptions;
 use support::moving::{MovingPair, order, peak_to_peak, swept};
 
 const ROWS: usize = 48;
@@ -28,7 +26,7 @@ fn steady_pair() -> MovingPair {
     let GearData { normal_module, face_width, .. } = GearData::default();
     let beta = (std::f64::consts::PI * normal_module / face_width).asin();
     let case = support::generated(beta.to_degrees(), [2, 2, 2, 4, 1]);
-    let contact = StaticOptions { torque: 300e3, slices: 16, ..case.slice_options() };
+    let contact = StaticOptions { torque: 300e3, ..case.slice_options() }.with_contact(|c| c.slices = 16);
     MovingPair::new(case, contact, ROWS)
 }
 

@@ -5,10 +5,7 @@ mod support;
 
 use std::sync::OnceLock;
 
-use dynamics::{
-    StaticOptions,
-    pair_motion::{PairMechanism, quasi_static_start, stable_step},
-};
+use dynamics::{PairMechanism, quasi_static_start, stable_step};
 use fem::ElementOptions;
 use integrate::{Integrator, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
@@ -29,7 +26,7 @@ fn pair() -> &'static MovingPair {
     static PAIR: OnceLock<MovingPair> = OnceLock::new();
     PAIR.get_or_init(|| {
         let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
-        let contact = StaticOptions { slices: 8, ..case.slice_options() };
+        let contact = case.slice_options().with_contact(|c| c.slices = 8);
         MovingPair::new(case, contact, 8)
     })
 }
@@ -42,7 +39,7 @@ fn course(
     until: f64,
     steps: usize,
     places: usize,
-) -> Result<Vec<f64>, MotionError<dynamics::StaticError>> {
+) -> Result<Vec<f64>, MotionError<ltca::StaticError>> {
     let scale = DVector::from_element(1, pair().ste[0]);
     let mut integrator = Integrator::new(scheme, StepControl::Fixed(until / steps as f64), scale);
     let (mut all, mut done) = (Vec::new(), 0);
@@ -153,7 +150,7 @@ fn orders_of_a_pair_that_turns() {
 }
 
 /// Largest and smallest lag (mm) in the last four of eight cycles at a tenth of the resonance, in `steps` steps a cycle.
-fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<dynamics::StaticError>> {
+fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<ltca::StaticError>> {
     let pair = pair();
     let frequency = 0.1 * pair.resonance_hz();
     let mut system = pair.system(frequency, |_| ());

@@ -5,13 +5,12 @@ mod support;
 
 use std::sync::{Arc, OnceLock};
 
-use ale::{Sense, ToothWindow};
-use dynamics::{
-    StaticError, StaticOptions,
-    pair_motion::{MeshDamping, MotionOptions, PairMechanism, quasi_static_start, run_to_steady},
-};
+use ale::ToothWindow;
+use dynamics::{MeshDamping, MotionOptions, PairMechanism, quasi_static_start, run_to_steady};
 use fem::ElementOptions;
+use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Scheme, StepControl};
+use ltca::{StaticError, StaticOptions};
 use nalgebra::{DMatrix, DVector};
 use support::{
     Case,
@@ -24,7 +23,7 @@ const SPEED_RATIO: f64 = 0.4;
 
 fn coarse(change: impl FnOnce(StaticOptions) -> StaticOptions) -> MovingPair {
     let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
-    let contact = change(StaticOptions { slices: 8, ..case.slice_options() });
+    let contact = change(case.slice_options().with_contact(|c| c.slices = 8));
     MovingPair::new(case, contact, 8)
 }
 
@@ -44,7 +43,7 @@ fn between_changes(options: &mut MotionOptions) {
 }
 
 /// A motion at [`SPEED_RATIO`], run until it repeats itself to round-off.
-fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> dynamics::pair_motion::Motion {
+fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> dynamics::Motion {
     let system = pair.system(SPEED_RATIO * resonance, change);
     let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
     let mut motion = pair.motion(system, settings);
@@ -229,7 +228,7 @@ fn ten_thousand_cycles_leave_the_orbit_alone() {
 #[test]
 fn either_sense_moves_alike() {
     let pair = pair();
-    let other = coarse(|o| StaticOptions { sense: Sense::Cw, ..o });
+    let other = coarse(|o| o.clone().with_contact(|c| c.sense = Sense::Cw));
     let course = |of: &MovingPair| rows(&mut steady(of, pair.resonance_hz(), little_damping), 1);
     let [a, b] = [course(pair), course(&other)];
     let off = worst(&a, &b) / peak_to_peak(&a);

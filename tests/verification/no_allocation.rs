@@ -3,10 +3,13 @@
 
 mod support;
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    cell::Cell,
+};
 
-use dynamics::{MeshContact, StaticOptions, Station};
+use ale::Station;
+use contact::MeshContact;
 use nalgebra::{UnitQuaternion, Vector3};
 use support::generated;
 
@@ -40,7 +43,7 @@ static COUNTING: Counting = Counting;
 fn a_step_allocates_nothing() {
     let case = generated(20.0, [3, 2, 2, 6, 1]);
     for friction in [0.0, 0.06] {
-        let options = StaticOptions { friction, ..case.slice_options() };
+        let options = case.slice_options().with_contact(|c| c.friction = friction);
         let mut model = case.reduced(options);
         let steps: Vec<_> = (0..24)
             .map(|i| {
@@ -48,7 +51,7 @@ fn a_step_allocates_nothing() {
                 model.last().unwrap().poses
             })
             .collect();
-        let mut mesh = MeshContact::new(model.pair(), model.contact_set().clone(), model.options()).unwrap();
+        let mut mesh = MeshContact::new(model.pair(), model.contact_set().clone(), &model.options().contact).unwrap();
         // The first one fills what the linear algebra keeps for itself.
         mesh.evaluate(&steps[0]).unwrap();
         let before = TAKEN.get();

@@ -3,11 +3,15 @@
 
 mod support;
 
-use contact::Pose;
-use dynamics::{Bulk, ElasticGear, MeshContact, Misalignment, Offset, StaticModel, StaticOptions, Station};
-use geometry::modification::{ProfilePlace, Relief, ReliefShape};
-use geometry::{FlankModification, GearModifications};
+use ale::Station;
+use contact::{Bulk, MeshContact, Misalignment, Offset, Pose};
+use geometry::{
+    FlankModification, GearModifications,
+    modification::{ProfilePlace, Relief, ReliefShape},
+};
+use ltca::{StaticModel, StaticOptions};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use reduction::ElasticGear;
 use support::{Case, default_data, generated, modified, quadratic};
 
 fn gears(case: &Case, options: &StaticOptions) -> StaticModel {
@@ -39,13 +43,13 @@ fn tables_change_nothing_that_matters() {
     let cases: [(&str, &Case, StaticOptions); 6] = [
         ("hex8", &small(), plain(&small())),
         ("hex20", &hex20, plain(&hex20)),
-        ("friction", &small(), StaticOptions { friction: 0.08, ..plain(&small()) }),
+        ("friction", &small(), plain(&small()).with_contact(|c| c.friction = 0.08)),
         ("relief and crowning", &relieved, plain(&relieved)),
-        ("tilted", &small(), StaticOptions { offsets: tilt(&small()), ..plain(&small()) }),
-        ("shifted", &small(), StaticOptions { offsets: shifted, ..plain(&small()) }),
+        ("tilted", &small(), plain(&small()).with_contact(|c| c.offsets = tilt(&small()))),
+        ("shifted", &small(), plain(&small()).with_contact(|c| c.offsets = shifted)),
     ];
     for (name, case, options) in cases {
-        let mut model = gears(case, &StaticOptions { bulk: Bulk::Exact, ..options.clone() });
+        let mut model = gears(case, &options.clone().with_contact(|c| c.bulk = Bulk::Exact));
         let exact = model.run(12, 1, |_, _, _| ()).unwrap().positions;
         let mut model = StaticModel::new(case.pair.clone(), model.into_gears(), options).unwrap();
         let tables = model.run(12, 1, |_, _, _| ()).unwrap().positions;
@@ -64,7 +68,7 @@ fn solved(options: impl Fn(&Case) -> StaticOptions) -> (StaticModel, MeshContact
     let case = small();
     let mut model = gears(&case, &options(&case));
     model.solve(Station { cycle: 0, phase: 0.3 }).unwrap();
-    let mesh = MeshContact::new(model.pair(), model.contact_set().clone(), model.options()).unwrap();
+    let mesh = MeshContact::new(model.pair(), model.contact_set().clone(), &model.options().contact).unwrap();
     (model, mesh)
 }
 
@@ -72,7 +76,7 @@ fn solved(options: impl Fn(&Case) -> StaticOptions) -> (StaticModel, MeshContact
 #[test]
 fn forces_are_those_of_the_static_pose() {
     for friction in [0.0, 0.06] {
-        let (model, mut mesh) = solved(|case| StaticOptions { friction, ..case.slice_options() });
+        let (model, mut mesh) = solved(|case| case.slice_options().with_contact(|c| c.friction = friction));
         let e = model.last().unwrap();
         let force = mesh.evaluate(&e.poses).unwrap().clone();
         let torque = force.wrench[1].moment[2].abs();
@@ -102,7 +106,7 @@ fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
     poses
 }
 
-fn flat(wrench: &[dynamics::Wrench; 2]) -> [f64; 12] {
+fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
     let mut f = [0.0; 12];
     for (k, v) in wrench.iter().flat_map(|w| w.force.into_iter().chain(w.moment)).enumerate() {
         f[k] = v;
@@ -115,7 +119,7 @@ fn flat(wrench: &[dynamics::Wrench; 2]) -> [f64; 12] {
 #[test]
 fn tangent_is_derivative_of_forces() {
     for friction in [0.0, 0.06] {
-        let (model, mut mesh) = solved(|case| StaticOptions { friction, ..case.slice_options() });
+        let (model, mut mesh) = solved(|case| case.slice_options().with_contact(|c| c.friction = friction));
         let poses = model.last().unwrap().poses;
         let tangent = mesh.evaluate(&poses).unwrap().tangent;
         let radius = model.pair().pinion.base_radius();
@@ -173,7 +177,7 @@ fn apart_nothing_presses() {
 /// Energy is what the forces do: its derivative by the turn of the wheel is the moment.
 #[test]
 fn moment_is_the_slope_of_the_energy() {
-    let (model, mut mesh) = solved(|case| StaticOptions { bulk: Bulk::Exact, ..case.slice_options() });
+    let (model, mut mesh) = solved(|case| case.slice_options().with_contact(|c| c.bulk = Bulk::Exact));
     let poses = model.last().unwrap().poses;
     let moment = mesh.evaluate(&poses).unwrap().wrench[1].moment[2];
     let h = 2e-7;

@@ -5,15 +5,13 @@ mod support;
 
 use std::sync::OnceLock;
 
-use ale::Sense;
 use dynamics::{
-    Driver, StaticError, StaticOptions,
-    pair_motion::{
-        Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
-        SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot,
-    },
+    Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
+    SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot,
 };
+use geometry::{Driver, Sense};
 use integrate::{MotionError, Scheme};
+use ltca::StaticError;
 use nalgebra::Matrix6;
 use support::moving::{MovingPair, rows, swept, worst};
 
@@ -23,7 +21,10 @@ const ROWS: usize = 32;
 /// The default pair on tiny meshes: the same for all tests of a sense and a driver.
 fn tiny(driver: Driver, sense: Sense) -> MovingPair {
     let case = support::generated(20.0, [2, 2, 2, 2, 1]);
-    let contact = StaticOptions { driver, sense, ..case.slice_options() };
+    let contact = case.slice_options().with_contact(|c| {
+        c.driver = driver;
+        c.sense = sense
+    });
     MovingPair::new(case, contact, 8)
 }
 
@@ -115,7 +116,7 @@ fn energy_closes_with_bearings_and_friction() {
     let system = bench.system(900.0, |o| {
         o.bearings = [bearing(2e5, 5e7), bearing(3e5, 8e7)];
         o.free = [[true, true, true, true, true, false]; 2];
-        o.contact.friction = 0.04;
+        o.statics.contact.friction = 0.04;
     });
     assert_eq!(system.coordinates().count(), 11);
     let mut motion = motion(bench, system, Scheme::Energy);

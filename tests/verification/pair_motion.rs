@@ -3,12 +3,11 @@
 
 mod support;
 
-use dynamics::{
-    StaticOptions, Station,
-    pair_motion::{MotionOptions, PairMechanism, RigidBody, equivalent_mass},
-};
+use ale::Station;
+use dynamics::{MotionOptions, PairMechanism, RigidBody, equivalent_mass};
 use fem::ElementOptions;
 use integrate::{Integrator, Scheme, State, StepControl};
+use ltca::StaticOptions;
 use nalgebra::DVector;
 use support::{Case, moving::at_speed};
 
@@ -31,7 +30,7 @@ fn statics(case: &Case, contact: &StaticOptions, n: usize) -> (Vec<f64>, [f64; 2
     let all: Vec<_> = (0..n)
         .map(|i| model.solve(Station { cycle: 0, phase: i as f64 / n as f64 }).unwrap_or_else(|e| panic!("{e}")))
         .collect();
-    let mean = |f: fn(&dynamics::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / n as f64;
+    let mean = |f: fn(&ltca::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / n as f64;
     let means = [mean(|p| p.tangent_stiffness), mean(|p| p.contact_line_length)];
     (all.iter().map(|p| p.transmission_error).collect(), means)
 }

@@ -7,8 +7,8 @@
 
 mod support;
 
-use dynamics::StaticOptions;
 use geometry::{Gear, Side};
+use ltca::StaticOptions;
 use mesh::{Extent, GearMesh, GroupNames};
 use support::{Case, default_data, quadratic, summary};
 

@@ -3,9 +3,10 @@
 
 mod support;
 
+use ale::Station;
 use contact::hertz;
-use dynamics::{StaticModel, Station};
 use geometry::{GearData, GearModifications, GearPair};
+use ltca::StaticModel;
 use mesh::Extent;
 use support::{Case, modified, quadratic};
 
@@ -144,7 +145,7 @@ fn pressure_of_the_fzg_h701_gears() {
     println!("H701: eps_alpha {:.3}", case.pair.transverse_contact_ratio());
     let mut model = case.reduced(case.slice_options());
     let history = model.run(16, 1, |_, _, _| ()).unwrap();
-    let mean_of = |f: &dyn Fn(&dynamics::StaticPosition) -> f64| history.positions.iter().map(f).sum::<f64>() / 16.0;
+    let mean_of = |f: &dyn Fn(&ltca::StaticPosition) -> f64| history.positions.iter().map(f).sum::<f64>() / 16.0;
     let force = mean_of(&|p| p.pairs.iter().map(|q| q.normal_force).sum());
     let length = mean_of(&|p| p.contact_line_length);
     let geometric = mean_of(&|p| p.geometric_line_length);

@@ -3,11 +3,11 @@
 
 mod support;
 
-use ale::Sense;
+use ale::Station;
 use contact::{GapSource, Law};
-use dynamics::{FilletStress, StaticOptions, StaticPosition, Station};
 use fem::{ElementOptions, IncompatibleModes, Integration};
-use geometry::Side;
+use geometry::{Sense, Side};
+use ltca::{FilletStress, StaticOptions, StaticPosition};
 use mesh::{GearMesh, GroupNames, Mesh, RootFillets};
 use reduction::{GearReducer, ReductionOptions};
 use support::{Case, default_pair, generated, meshes_folder, steel};
@@ -143,8 +143,11 @@ const CONTACT_C3D8I: [[f64; 2]; 8] = [
 
 fn under_contact(mesh: &str, elements: ElementOptions, gap: GapSource) -> Vec<StaticPosition> {
     let case = Case::reference(mesh, elements);
-    let options =
-        StaticOptions { law: Law::Penalty(1e7), gap, points_per_face_edge: 8, root_stress: true, ..case.options() };
+    let options = StaticOptions { root_stress: true, ..case.options() }.with_contact(|c| {
+        c.law = Law::Penalty(1e7);
+        c.gap = gap;
+        c.points_per_face_edge = 8
+    });
     case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{mesh}: {e}")).positions
 }
 
@@ -199,7 +202,10 @@ fn root_stress_goes_on_across_tooth_changes() {
         }
         // The moved node is 1e-5 mm off.
         let tolerance = if cyclic { 1e-9 } else { 1e-5 };
-        let options = StaticOptions { sense, points_per_face_edge: 4, root_stress: true, ..case.options() };
+        let options = StaticOptions { root_stress: true, ..case.options() }.with_contact(|c| {
+            c.sense = sense;
+            c.points_per_face_edge = 4
+        });
         let mut model = case.reduced(options);
         let mut first: Vec<StaticPosition> = Vec::new();
         let mut changes = 0;
@@ -265,7 +271,7 @@ fn nudged(gear: GearMesh) -> GearMesh {
 #[test]
 fn full_model_has_the_same_root_stress() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
-    let options = StaticOptions { points_per_face_edge: 4, root_stress: true, ..case.options() };
+    let options = StaticOptions { root_stress: true, ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
     let reduced = case.reduced(options.clone()).run(4, 1, |_, _, _| ()).unwrap();
     let full = case.full(options).run(4, 1, |_, _, _| ()).unwrap();
     let mut worst = 0.0f64;
@@ -290,7 +296,8 @@ fn full_model_has_the_same_root_stress() {
 fn tension_is_below_the_loaded_flank() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
     let run = |root_stress, torque| {
-        let options = StaticOptions { points_per_face_edge: 4, root_stress, torque, ..case.options() };
+        let options =
+            StaticOptions { root_stress, torque, ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
         let side = options.side();
         (case.reduced(options).run(2, 1, |_, _, _| ()).unwrap().positions, side)
     };

@@ -9,10 +9,11 @@ mod support;
 
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path, process::Command};
 
-use dynamics::{ElasticGear, StaticModel, StaticOptions, StressPeak};
 use fem::assemble_stiffness;
 use geometry::GearData;
+use ltca::{StaticModel, StaticOptions, StressPeak};
 use mesh::{ElementKind, Extent, Mesh, StructuredOptions};
+use reduction::ElasticGear;
 use support::{Case, quadratic, steel};
 
 /// Gmsh's nodes of a hex20 in CalculiX's order.
@@ -33,7 +34,7 @@ fn case(gears: &[GearData; 2], torque: f64, factor: f64) -> (Case, StaticOptions
 /// The pinion's largest root tension at the first of two positions, and the model that stands there.
 fn pinion(case: &Case, options: StaticOptions) -> (StressPeak, StaticModel) {
     let mut model = case.reduced(options);
-    let position = model.solve(dynamics::Station { cycle: 0, phase: 0.0 }).unwrap();
+    let position = model.solve(ale::Station { cycle: 0, phase: 0.0 }).unwrap();
     let peaks = position.root_stress[0].iter().map(|f| f.max_principal);
     (peaks.reduce(|best, now| if now.stress > best.stress { now } else { best }).unwrap(), model)
 }
@@ -42,7 +43,7 @@ fn pinion(case: &Case, options: StaticOptions) -> (StressPeak, StaticModel) {
 fn forces(case: &Case, model: &StaticModel) -> Vec<(u32, [f64; 3])> {
     let ElasticGear::Reduced(gear) = &model.gears()[0] else { panic!("the pinion is not reduced") };
     let set = model.contact_set();
-    let boundary = &set.displacements(model.last().unwrap())[0];
+    let boundary = &model.last().unwrap().displacements_on(set)[0];
     let field = gear.expand(&set.windows().unwrap()[0], boundary).unwrap();
     let (mesh, dofs) = (gear.gear().mesh(), gear.dofs());
     let stiffness = assemble_stiffness(mesh, &steel(), dofs, &case.elements).unwrap();

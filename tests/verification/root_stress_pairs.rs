@@ -9,8 +9,8 @@ mod support;
 
 use std::f64::consts::PI;
 
-use dynamics::StressPeak;
 use geometry::{Gear, GearData, GearPair};
+use ltca::StressPeak;
 use mesh::{Extent, StructuredOptions};
 use random::Random;
 use support::quadratic;
@@ -41,7 +41,7 @@ struct Loaded {
 fn tension(pair: &Loaded, counts: Counts, positions: usize) -> [StressPeak; 2] {
     let mut case = quadratic(pair.gears.clone(), None, pair.torque, counts, Extent::Periodic);
     case.meshes = case.meshes.map(|sector| sector.whole().unwrap());
-    let options = dynamics::StaticOptions { root_stress: true, ..case.slice_options() };
+    let options = ltca::StaticOptions { root_stress: true, ..case.slice_options() };
     let positions = case.reduced(options).run(positions, 1, |_, _, _| ()).unwrap().positions;
     [0, 1].map(|gear| {
         let peaks = positions.iter().flat_map(|p| p.root_stress[gear].iter().map(|f| f.max_principal));

@@ -6,8 +6,9 @@
 
 mod support;
 
-use dynamics::{Bulk, StaticHistory, StaticOptions};
+use contact::Bulk;
 use fem::ElementOptions;
+use ltca::{StaticHistory, StaticOptions};
 use support::{Case, summary};
 
 const STE_UM: [f64; 8] = [10.21, 10.40, 10.87, 11.18, 11.05, 11.16, 10.86, 10.38];
@@ -81,7 +82,7 @@ fn hex8_comes_near_them() {
 #[test]
 fn reduced_equals_full() {
     let case = support::generated(20.0, [2, 2, 2, 4, 1]);
-    let options = StaticOptions { bulk: Bulk::Exact, ..case.slice_options() };
+    let options = case.slice_options().with_contact(|c| c.bulk = Bulk::Exact);
     let [a, b] = [case.reduced(options.clone()), case.full(options)].map(|mut m| m.run(8, 1, |_, _, _| ()).unwrap());
     for (a, b) in a.positions.iter().zip(&b.positions) {
         let off = (a.transmission_error / b.transmission_error - 1.0).abs();
@@ -99,7 +100,10 @@ fn reduced_equals_full() {
 fn friction_takes_power() {
     let case = support::generated(20.0, [2, 2, 2, 4, 1]);
     let run = |friction: f64| {
-        case.reduced(StaticOptions { friction, ..case.slice_options() }).run(16, 1, |_, _, _| ()).unwrap().positions
+        case.reduced(case.slice_options().with_contact(|c| c.friction = friction))
+            .run(16, 1, |_, _, _| ())
+            .unwrap()
+            .positions
     };
     let (with, without) = (run(0.08), run(0.0));
     for (a, b) in with.iter().zip(&without) {

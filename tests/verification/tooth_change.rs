@@ -3,9 +3,11 @@
 
 mod support;
 
-use ale::{AleError, Sense, ToothWindow, carry_coordinates};
-use dynamics::{ElasticGear, StaticError, StaticOptions, Station};
+use ale::{AleError, Station, ToothWindow, carry_coordinates};
+use geometry::Sense;
+use ltca::{StaticError, StaticOptions};
 use mesh::GearMesh;
+use reduction::ElasticGear;
 use support::{Case, generated};
 
 /// Two turns' worth would do for a law; the run is three full turns, in either sense, across tooth z-1 to 0.
@@ -13,7 +15,10 @@ use support::{Case, generated};
 fn three_turns_end_where_they_began() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
     for sense in [Sense::Ccw, Sense::Cw] {
-        let options = StaticOptions { sense, points_per_face_edge: 4, ..case.options() };
+        let options = case.options().with_contact(|c| {
+            c.sense = sense;
+            c.points_per_face_edge = 4
+        });
         let mut model = case.reduced(options);
         let stations = 4;
         let (mut worst, mut changes) = ([0.0f64; 3], 0);
@@ -49,7 +54,7 @@ fn three_turns_end_where_they_began() {
 }
 
 fn coordinates_before_and_after(case: &Case) -> ([Vec<f64>; 2], [f64; 2], f64) {
-    let mut model = case.reduced(StaticOptions { points_per_face_edge: 4, ..case.options() });
+    let mut model = case.reduced(case.options().with_contact(|c| c.points_per_face_edge = 4));
     // Phase 1/8: the pair ahead has left the path, so the window may move on to the next one.
     let station = Station { cycle: 0, phase: 0.0 };
     let before = model.solve(station).unwrap();
@@ -101,7 +106,7 @@ fn general_windows_equal_cyclic_ones() {
     let mut general = generated(20.0, [2, 2, 2, 4, 1]);
     general.meshes = general.meshes.map(nudged);
     let run = |case: &Case| {
-        let mut model = case.reduced(StaticOptions { points_per_face_edge: 4, ..case.options() });
+        let mut model = case.reduced(case.options().with_contact(|c| c.points_per_face_edge = 4));
         let history = model.run(4, 3, |_, _, _| ()).unwrap();
         let cyclic = model.gears().iter().all(|g| matches!(g, ElasticGear::Reduced(r) if r.is_cyclic()));
         (history, cyclic)
@@ -119,7 +124,7 @@ fn general_windows_equal_cyclic_ones() {
 #[test]
 fn a_loaded_tooth_stays() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
-    let mut model = case.reduced(StaticOptions { points_per_face_edge: 4, ..case.options() });
+    let mut model = case.reduced(case.options().with_contact(|c| c.points_per_face_edge = 4));
     let station = Station { cycle: 0, phase: 0.5 };
     let position = model.solve(station).unwrap();
     let refused = model.change(&position, station).unwrap_err();
@@ -133,7 +138,7 @@ fn a_loaded_tooth_stays() {
 #[test]
 fn a_starved_window_is_an_error() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);
-    let options = StaticOptions { window: Some(2), points_per_face_edge: 4, ..case.options() };
+    let options = StaticOptions { window: Some(2), ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
     let refused = case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_err();
     println!("{refused}");
     assert!(matches!(refused, StaticError::Starved { window: 2, .. }), "{refused}");

@@ -5,9 +5,11 @@
 
 mod support;
 
-use dynamics::{ElasticGear, Misalignment, SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
+use contact::Misalignment;
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
+use ltca::{SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
 use mesh::Extent;
+use reduction::ElasticGear;
 use support::{Case, default_data, modified, of_order, quadratic, summary};
 
 /// Face width in modules.
@@ -48,7 +50,7 @@ fn flank_case(plain: &GearPair, base: &StaticOptions, [crowning, misaligned]: [f
     let pair = modified(plain, [crowned, Default::default()]);
     let tilt = Misalignment { in_plane_of_action: 1e-3 * misaligned, ..Default::default() };
     let mut options = base.clone();
-    options.offsets[1] = tilt.wheel_offset(&pair, options.side());
+    options.contact.offsets[1] = tilt.wheel_offset(&pair, options.side());
     (pair, options)
 }
 
@@ -66,7 +68,7 @@ fn answer(pair: &GearPair, gears: [ElasticGear; 2], options: &StaticOptions) -> 
 
 fn options(case: &Case) -> StaticOptions {
     let options = case.slice_options();
-    let window = StaticModel::window_teeth(&case.pair, &options) + 1;
+    let window = options.window_teeth(&case.pair) + 1;
     StaticOptions { window: Some(window), ..options }
 }
 
@@ -112,7 +114,7 @@ fn lengths_do_not_ripple_with_the_slices() {
     let base = case.slice_options();
     let mut gears = Some(case.reduced_gears(&base));
     let mut lengths = |slices: usize| {
-        let options = StaticOptions { slices, ..base.clone() };
+        let options = base.clone().with_contact(|c| c.slices = slices);
         let mut model = StaticModel::new(case.pair.clone(), gears.take().unwrap(), options).unwrap();
         let positions = model.run(32, 1, |_, _, _| ()).unwrap().positions;
         gears = Some(model.into_gears());
@@ -150,7 +152,7 @@ fn short_lines_have_their_length() {
         let (pair, options) = flank_case(&case.pair, &base, [crowning, 0.0]);
         let chosen = slices_needed(&pair, &options).count;
         let [finest, found, few] = [512, chosen, 32].map(|slices| {
-            let options = StaticOptions { slices, ..options.clone() };
+            let options = options.clone().with_contact(|c| c.slices = slices);
             let mut model = StaticModel::new(pair.clone(), gears.take().unwrap(), options).unwrap();
             let positions = model.run(8, 1, |_, _, _| ()).unwrap().positions;
             gears = Some(model.into_gears());
@@ -177,7 +179,8 @@ fn slices_alone() {
         for flank in FLANKS {
             let (pair, options) = flank_case(&case.pair, &base, flank);
             let mut of = |slices: usize| {
-                let (found, back) = answer(&pair, gears.take().unwrap(), &StaticOptions { slices, ..options.clone() });
+                let (found, back) =
+                    answer(&pair, gears.take().unwrap(), &options.clone().with_contact(|c| c.slices = slices));
                 gears = Some(back);
                 found
             };
@@ -205,7 +208,8 @@ fn face_elements_alone() {
             let mut gears = Some(case.reduced_gears(&base));
             for (k, flank) in FLANKS.into_iter().enumerate() {
                 let (pair, options) = flank_case(&case.pair, &base, flank);
-                let (found, back) = answer(&pair, gears.take().unwrap(), &StaticOptions { slices, ..options });
+                let (found, back) =
+                    answer(&pair, gears.take().unwrap(), &options.clone().with_contact(|c| c.slices = slices));
                 gears = Some(back);
                 if face == counts[4] {
                     println!("b/m {width}, {flank:?}, {face} face elements: {found:.4?}");
@@ -245,7 +249,8 @@ impl Reduced {
 
     fn answer(&mut self, flank: [f64; 2], slices: usize) -> Answer {
         let (pair, options) = flank_case(&self.pair, &self.base, flank);
-        let (found, back) = answer(&pair, self.gears.take().unwrap(), &StaticOptions { slices, ..options });
+        let (found, back) =
+            answer(&pair, self.gears.take().unwrap(), &options.clone().with_contact(|c| c.slices = slices));
         self.gears = Some(back);
         found
     }

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use dynamics::{ElasticGear, FullGear, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
-use reduction::{GearReducer, RecordKey, ReductionOptions, record_key};
+use ltca::{StaticModel, StaticOptions};
+use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
 
 use crate::{
     cache::Cache,
@@ -56,10 +56,10 @@ pub(crate) fn elastic_gears(
     cache: &Cache,
 ) -> Result<ElasticGears, CommandError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| complaint(scene, &e))?;
-    let window = StaticModel::window_teeth(pair, options);
+    let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
-        let options = ReductionOptions { sides: options.sides(), window, first: first[i], elements };
+        let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
         one(scene, pair, options, meshes, cache, i)
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));

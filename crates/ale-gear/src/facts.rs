@@ -1,13 +1,15 @@
 //! What the writers need to know of a run beside its scene and its history.
 
-use dynamics::result::StaticHistory;
+use ltca::StaticHistory;
 use serde::Serialize;
 
-use crate::certificate::Certificate;
-use crate::iso_root::IsoRootStress;
-use crate::phases::{Phase, Phases};
 pub use crate::resolution::Resolution;
 use crate::view::View;
+use crate::{
+    certificate::Certificate,
+    iso_root::IsoRootStress,
+    phases::{Phase, Phases},
+};
 
 /// A solved scene.
 #[derive(Debug, Clone)]

@@ -1,14 +1,16 @@
 //! ParaView files of a run: displacement, contact pressure and stress on both gears, where they stand.
 
-use std::f64::consts::PI;
-use std::io::BufWriter;
+use std::{f64::consts::PI, io::BufWriter};
 
-use dynamics::{ElasticGear, Equilibrium, StaticModel, StaticPosition};
+use ltca::{Equilibrium, StaticModel, StaticPosition};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use reduction::ElasticGear;
 
-use crate::error::CommandError;
-use crate::output::{Encoding, Field, PvdEntry, ResultDirectory, write_pvd, write_vtu};
-use crate::scene::{FieldName, Scene};
+use crate::{
+    error::CommandError,
+    output::{Encoding, Field, PvdEntry, ResultDirectory, write_pvd, write_vtu},
+    scene::{FieldName, Scene},
+};
 
 /// Writes the files of the positions that the scene asks for.
 #[derive(Debug)]
@@ -109,7 +111,8 @@ impl<'a> GearState<'a> {
         let Some(e) = model.last() else {
             // Without torque nothing is deformed, and the gears stand as the geometry says.
             let (pair, options) = (model.pair(), model.options());
-            let turned = pair.middle_angle(options.side()) + options.sense.sign() as f64 * position.pinion_angle;
+            let turned =
+                pair.middle_angle(options.side()) + options.contact.sense.sign() as f64 * position.pinion_angle;
             let angle = if part == 0 { turned } else { pair.wheel_angle(options.side(), turned) };
             return Ok(Self {
                 displacement: vec![[0.0; 3]; count],
@@ -119,7 +122,7 @@ impl<'a> GearState<'a> {
                 elements: &PLAIN,
             });
         };
-        let boundary = &model.contact_set().displacements(e)[part];
+        let boundary = &e.displacements_on(model.contact_set())[part];
         let (displacement, nodes, frame, elements) = match (elastic, model.contact_set().windows()) {
             (ElasticGear::Reduced(r), Some(windows)) => {
                 let window = &windows[part];

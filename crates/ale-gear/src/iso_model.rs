@@ -2,15 +2,20 @@
 
 use std::f64::consts::PI;
 
-use dynamics::result::{Certificate, PairResult, StaticHistory, StaticPosition, Wrench};
+use contact::Wrench;
 use geometry::{ContactLine, GearPair, Vec3};
-use lumped::LumpedError;
-use lumped::iso::{IsoPair, IsoStiffness, body_compliance, mean_transmission_error_um, stiffness};
+use ltca::{Certificate, PairResult, StaticHistory, StaticPosition};
+use lumped::{
+    LumpedError,
+    iso::{IsoPair, IsoStiffness, body_compliance, mean_transmission_error_um, stiffness},
+};
 
-use crate::error::CommandError;
-use crate::facts::{Facts, Solved};
-use crate::scene::{Driver, Scene};
-use crate::{gears, iso_root};
+use crate::{
+    error::CommandError,
+    facts::{Facts, Solved},
+    gears, iso_root,
+    scene::{Driver, Scene},
+};
 
 /// Solves the scene in closed form.
 ///

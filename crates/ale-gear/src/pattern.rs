@@ -2,12 +2,15 @@
 
 use std::f64::consts::PI;
 
-use dynamics::result::{SliceResult, StaticHistory, StaticPosition};
+use contact::SliceResult;
 use geometry::{Flank, GearPair, Side};
+use ltca::{StaticHistory, StaticPosition};
 use study::{FlankPattern, StudyError, Touch};
 
-use crate::output::pair_in_cycle;
-use crate::scene::{Method, Model, Scene};
+use crate::{
+    output::pair_in_cycle,
+    scene::{Method, Model, Scene},
+};
 
 /// Steps of the pattern along the profile: less than the half-width of a usual band each.
 const PROFILE_STEPS: usize = 40;

@@ -1,19 +1,21 @@
 //! Reduction of a scene's gears by itself: into the cache, and what it took.
 
-use dynamics::{ElasticGear, StaticModel};
 use fem::{ElementOptions, Material};
 use geometry::Side;
+use ltca::StaticModel;
 use mesh::GearMesh;
-use reduction::{GearReducer, ReductionOptions, Window};
+use reduction::{ElasticGear, GearReducer, ReductionOptions, Window};
 use serde::Serialize;
 
-use crate::cache::Cache;
-use crate::elastic_gears::{ElasticGears, elastic_gears};
-use crate::error::CommandError;
-use crate::phases::Phases;
-use crate::run::{self, complaint};
-use crate::scene::Scene;
-use crate::{gears, meshes};
+use crate::{
+    cache::Cache,
+    elastic_gears::{ElasticGears, elastic_gears},
+    error::CommandError,
+    gears, meshes,
+    phases::Phases,
+    run::{self, complaint},
+    scene::Scene,
+};
 
 /// What the reduction of one gear came to.
 #[derive(Debug, Clone, Serialize)]

@@ -1,7 +1,8 @@
 //! How many slices and face elements a scene has: chosen where it says nothing, judged where it does.
 
-use dynamics::{Method, SpringErrors, StaticOptions, slice_errors, slices_needed};
+use contact::Method;
 use geometry::GearPair;
+use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
 use serde::Serialize;
 
 use crate::{
@@ -66,11 +67,15 @@ pub(crate) fn settled(mut scene: Scene) -> Scene {
 
 /// How fine the contact is of a pair that is computed with `options`, and what a user should hear of it.
 pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<String>) {
-    let sliced = options.method == Method::Slice;
+    let sliced = options.contact.method == Method::Slice;
     let slices_chosen = sliced && scene.place_of(&[SLICES]).is_none();
     let needed = sliced.then(|| slices_needed(pair, options));
     let errors = needed.map(|needed| {
-        if needed.count == options.slices { needed.errors } else { slice_errors(pair, options, options.slices) }
+        if needed.count == options.contact.slices {
+            needed.errors
+        } else {
+            slice_errors(pair, options, options.contact.slices)
+        }
     });
     let elastic = scene.analysis.model != Model::Impact;
     let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
@@ -80,10 +85,10 @@ pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions
     });
     let mut said = Vec::new();
     if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen)
-        && options.slices < needed.count
+        && options.contact.slices < needed.count
         && errors.exceed(COARSE)
     {
-        said.push(too_few_slices(options.slices, needed.count, &errors));
+        said.push(too_few_slices(options.contact.slices, needed.count, &errors));
     }
     for (i, whose) in ["pinion", "wheel"].into_iter().enumerate() {
         if let (Some(few), Some(enough)) = (face_elements[i], would_do[i])
@@ -96,7 +101,7 @@ pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions
         }
     }
     let resolution = Resolution {
-        slices: sliced.then_some(options.slices),
+        slices: sliced.then_some(options.contact.slices),
         slices_chosen,
         slices_that_would_do: needed.map(|n| n.count),
         slice_error_percent: errors.map(|e| [e.mean, e.swing, e.peak].map(|x| 100.0 * x)),

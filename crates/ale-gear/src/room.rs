@@ -4,7 +4,8 @@
 
 use std::mem::size_of;
 
-use dynamics::result::{PairResult, SliceResult, StaticPosition};
+use contact::SliceResult;
+use ltca::{PairResult, StaticPosition};
 
 use crate::{
     error::CommandError,

@@ -3,7 +3,8 @@
 //! `cargo run -p ale --example tooth_window`
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use ale::{AleError, Sense, ToothWindow, teeth_needed};
+use ale::{AleError, ToothWindow, teeth_needed};
+use geometry::Sense;
 
 fn main() -> Result<(), AleError> {
     let count = teeth_needed(2.17);

@@ -6,8 +6,10 @@
 
 mod carry;
 mod error;
+mod station;
 mod window;
 
 pub use carry::carry_coordinates;
 pub use error::AleError;
-pub use window::{Sense, ToothWindow, teeth_needed};
+pub use station::Station;
+pub use window::{ToothWindow, teeth_needed};

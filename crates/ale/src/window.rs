@@ -1,26 +1,8 @@
 //! The window of tooth pairs. Theory (14).
 
+use geometry::Sense;
+
 use crate::AleError;
-
-/// Sense in which the pinion turns, seen from +z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Sense {
-    /// Counter-clockwise: pair numbers fall as new pairs come in.
-    Ccw,
-    /// Clockwise: pair numbers rise.
-    Cw,
-}
-
-impl Sense {
-    /// +1 for counter-clockwise, -1 for clockwise.
-    pub fn sign(self) -> i64 {
-        match self {
-            Self::Ccw => 1,
-            Self::Cw => -1,
-        }
-    }
-}
 
 /// Teeth a pair of total contact ratio eps_gamma needs in its window: floor(eps_gamma) + 1, at least 3.
 pub fn teeth_needed(total_contact_ratio: f64) -> usize {

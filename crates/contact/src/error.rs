@@ -46,9 +46,47 @@ pub enum ContactError {
         /// Points in the system.
         points: usize,
     },
-    /// The caller's elastic model failed.
+    /// The stiffness of a whole gear cannot be factored or solved with.
     #[error("the elastic model failed: {0}")]
-    Elastic(String),
+    Stiffness(#[from] fem::FemError),
+    /// Contact is solved on two reduced gears or on two whole ones.
+    #[error("one gear is reduced, the other is not")]
+    MixedGears,
+    /// Forces at given poses come from slices on reduced gears.
+    #[error("forces at given poses need slice contact on reduced gears")]
+    NotSliced,
+    /// A gear has no matrices for the window.
+    #[error("{gear}: {source}")]
+    Reduction {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: reduction::ReductionError,
+    },
+    /// The flanks of a gear's mesh are not those of its geometry.
+    #[error("{gear}: {source}")]
+    Flank {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: Box<ContactError>,
+    },
+    /// A value out of its range.
+    #[error("{name} = {value} is out of range: {expected}")]
+    OutOfRange {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The permitted range.
+        expected: &'static str,
+    },
+}
+
+impl From<reduction::ReductionError> for ContactError {
+    fn from(source: reduction::ReductionError) -> Self {
+        Self::Reduction { gear: "gear", source }
+    }
 }
 
 impl ContactError {
@@ -64,7 +102,11 @@ impl ContactError {
             Self::NotConverged { .. } => "try a finite penalty (contact.penalty_mpa_per_mm) or other points_per_face_edge".into(),
             Self::NoLever { .. } => "the contact normals point at the axis: check the flank groups".into(),
             Self::NotPositiveDefinite { .. } => "the mesh compliance is damaged: run `ale-gear mesh check`".into(),
-            Self::Elastic(_) => return None,
+            Self::Reduction { source, .. } => return source.hint(),
+            Self::Flank { source, .. } => return source.hint(),
+            Self::NotSliced => "use `contact.method = \"slice\"`".into(),
+            Self::OutOfRange { name, expected, .. } => format!("give {name} {expected}"),
+            Self::Stiffness(_) | Self::MixedGears => return None,
         })
     }
 }

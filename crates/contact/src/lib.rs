@@ -11,46 +11,47 @@
 //! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
-mod bulk_grid;
-mod bulk_table;
-mod candidates;
-mod closest_point;
 pub mod complementarity;
-mod condensed;
+mod compliance;
 mod error;
-pub mod hertz;
-mod least_gap;
-mod line_length;
-mod loaded_line;
+mod flank;
+mod friction;
+mod line;
 mod local;
-mod patch;
-mod points;
-mod pressure;
-mod profile_search;
-mod rigid;
-mod slices;
-mod surface;
-mod tooth_layer;
+mod nodal;
+mod options;
+mod pose;
+mod result;
+mod set;
+mod slice;
 
-pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
-pub use candidates::{Candidates, FacePair};
-pub use closest_point::{ContactRow, GapSource, LinePoints, Scene, Support, closest_points, contact_row, line_points};
 pub use complementarity::{
     Balance, DenseProblem, DenseSolver, Equality, HeldSolution, Law, LinearContact, Problem, Solution,
 };
-pub use condensed::{Condensed, opening};
+pub use compliance::{
+    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePlace, TableWork, opening,
+};
 pub use error::ContactError;
-pub use least_gap::{SurfacePair, least_gap};
-pub use line_length::{contact_intervals, covered};
-pub use loaded_line::{LineStation, loaded_intervals};
+pub use flank::{
+    Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, Surface, contact_points, flank_grids,
+};
+pub use friction::{Friction, friction_work};
+pub use line::{
+    Beside, LineStation, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
+    nodal_contact_line, nodal_pressures, slice_line,
+};
 pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
-pub use patch::{FacePoint, FlankPatch};
-pub use points::{ContactPoint, contact_points};
-pub use pressure::nodal_pressures;
-pub use rigid::{NearestPlace, RigidFlanks};
-pub use slices::{FlankPair, Slice, SliceFlank, SliceHint, SlicePlace, slice};
-pub use surface::{Cylinder, Foot, Surface};
-pub use tooth_layer::ToothLayer;
+pub use nodal::{
+    ContactRow, GapSource, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
+};
+pub use options::{Bulk, ContactOptions, Method};
+pub use pose::{Misalignment, Offset, check_offsets, frames, gear_centre, gear_pose, reference_angle};
+pub use result::{Site, SliceResult, Wrench, local_energy, slice_result, wrenches};
+pub use set::ContactSet;
+pub use slice::{
+    ContactWork, FlankPair, MeshContact, MeshForce, NearestPlace, RigidFlanks, Slice, SliceFlank, SliceHint,
+    SlicePlace, SliceSet, ToothLayer, Want, slice,
+};
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

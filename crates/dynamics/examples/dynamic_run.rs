@@ -7,14 +7,13 @@ use std::{error::Error, f64::consts::TAU};
 
 mod pair;
 
+use ale::Station;
 use dynamics::{
-    StaticModel, StaticOptions, Station,
-    pair_motion::{
-        Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
-    },
+    Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
 };
 use fem::{Material, mass_properties};
 use integrate::{Integrator, Scheme, StepControl};
+use ltca::{StaticModel, StaticOptions};
 
 const TORQUE_NMM: f64 = 150e3;
 
@@ -28,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [mass_properties(meshes[0].mesh(), &Material::STEEL)?, mass_properties(meshes[1].mesh(), &Material::STEEL)?];
     let speed = 6000.0 * TAU / 60.0; // of the pinion, rad/s
     let options = MotionOptions {
-        contact,
+        statics: contact,
         bodies: masses.map(|m| RigidBody::of_tensor(m.mass_t, m.inertia_about_tmm2([0.0; 3]))),
         bearings: [Bearing::default(); 2],
         free: [[false; 6]; 2], // axes held: the turn of the wheel alone moves

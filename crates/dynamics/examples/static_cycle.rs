@@ -7,7 +7,7 @@ use std::error::Error;
 
 mod pair;
 
-use dynamics::{StaticModel, StaticOptions};
+use ltca::{StaticModel, StaticOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (pair, meshes) = pair::coarse()?;

@@ -1,44 +1,36 @@
-//! How do the bodies move?
-//!
-//! Quasi-static analysis: the driver stands at a given angle, the driven gear turns until the contact forces balance its
-//! torque. Station by station over mesh cycles, with tooth changes in between.
+//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between them.
 
-mod contact_set;
-mod cycle;
-mod elastic;
-mod equilibrium;
-mod error;
-mod flank_grid;
-mod friction;
-mod full;
-mod kinematic;
-mod line;
-mod loads;
-mod mesh_contact;
-mod modal_flanks;
+mod body;
+mod contact_line;
+mod coordinates;
+mod drive;
+mod instant;
+mod low_frequency;
+mod mechanism;
+mod mesh_side;
+mod modal;
+mod nominal;
 mod options;
-pub mod pair_motion;
-mod parts;
-mod pose;
-mod pose_solver;
-pub mod result;
-mod root_stress;
-mod slice_count;
-mod slice_set;
-mod statics;
-mod walk;
+mod run;
+mod shooting;
+mod stable_step;
+mod start;
+mod steady;
+mod sweep;
 
-pub use contact_set::ContactSet;
-pub use elastic::{ElasticGear, FullGear};
-pub use equilibrium::{Equilibrium, Station};
-pub use error::StaticError;
-pub use flank_grid::flank_grids;
-pub use kinematic::kinematic_transmission_error;
-pub use mesh_contact::{ContactWork, MeshContact, MeshForce};
-pub use options::{Bulk, Driver, Method, StaticOptions};
-pub use pose::{Misalignment, Offset};
-pub use result::{Certificate, PairResult, Site, SliceResult, StaticHistory, StaticPosition, Wrench};
-pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StressPeak};
-pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};
-pub use slice_set::SliceSet;
-pub use statics::{Change, StaticModel};
+pub use body::{Bearing, COORDINATES, RigidBody};
+pub use coordinates::{Coordinates, Displacement};
+pub use drive::{Speed, Torque};
+pub use instant::{Instant, PressedSlice};
+pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
+pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
+pub use mesh_side::{Changes, SidePlace};
+pub use modal::GearVibration;
+pub use nominal::{Moment, Nominal};
+pub use options::{Drive, MeshDamping, MotionOptions};
+pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Seen};
+pub use shooting::{ShootingResult, shoot};
+pub use stable_step::stable_step;
+pub use start::quasi_static_start;
+pub use steady::run_to_steady;
+pub use sweep::{SHOTS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way, sweep};

@@ -18,6 +18,7 @@ mod interference;
 pub mod modification;
 mod pair;
 mod profile;
+mod rotation;
 
 pub use contact_lines::ContactLine;
 pub use data::GearData;
@@ -28,6 +29,7 @@ pub use input_file::{read_regular_file, read_regular_text, regular};
 pub use modification::{FlankModification, GearModifications, ModifiedFlank};
 pub use pair::GearPair;
 pub use profile::TransverseProfile;
+pub use rotation::{Driver, Sense};
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

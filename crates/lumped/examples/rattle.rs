@@ -5,9 +5,8 @@
 
 use std::{error::Error, f64::consts::TAU};
 
-use ale::Sense;
-use dynamics::{Driver, pair_motion::RigidBody};
-use geometry::{Gear, GearData, GearPair};
+use dynamics::RigidBody;
+use geometry::{Driver, Gear, GearData, GearPair, Sense};
 use integrate::Scheme;
 use lumped::{
     Fourier, LumpedPair, MeshCycle, Operation, RunPlan,

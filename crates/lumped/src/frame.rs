@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ale::Sense;
-use dynamics::Driver;
-use geometry::{GearPair, Side, Vec3};
+use geometry::{Driver, GearPair, Sense, Side, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{LumpedError, error::finite};

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use dynamics::Wrench;
+use contact::Wrench;
 use geometry::Vec3;
 use integrate::{Mechanism, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;

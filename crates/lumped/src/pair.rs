@@ -1,8 +1,7 @@
 //! A pair and its operation, as every lumped model needs them.
 
-use ale::Sense;
-use dynamics::{Driver, pair_motion::RigidBody};
-use geometry::GearPair;
+use dynamics::RigidBody;
+use geometry::{Driver, GearPair, Sense};
 use serde::{Deserialize, Serialize};
 
 use crate::{

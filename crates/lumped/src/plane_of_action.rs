@@ -1,7 +1,6 @@
 //! Contact lines in the plane of action, and what load spread evenly along them amounts to.
 
-use dynamics::Driver;
-use geometry::GearPair;
+use geometry::{Driver, GearPair};
 use serde::{Deserialize, Serialize};
 
 use crate::{

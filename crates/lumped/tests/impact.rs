@@ -6,12 +6,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use ale::Sense;
-use dynamics::Driver;
-use dynamics::pair_motion::{Drive, Speed, Torque};
+use dynamics::{Drive, Speed, Torque};
+use geometry::{Driver, Sense};
 use integrate::{Forces, Mechanism, Scheme, StepControl};
-use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness};
-use lumped::{Recorded, Recording};
+use lumped::{
+    Recorded, Recording,
+    impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness},
+};
 use nalgebra::{DVector, Matrix6, SVector};
 
 mod mill;

@@ -3,14 +3,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use ale::Sense;
-use dynamics::Driver;
-use dynamics::pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
-use geometry::modification::{ProfilePlace, Relief, ReliefShape};
-use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
+use dynamics::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
+use geometry::{
+    Driver, FlankModification, Gear, GearData, GearModifications, GearPair, Sense,
+    modification::{ProfilePlace, Relief, ReliefShape},
+};
 use integrate::{Forces, Mechanism, Scheme, StepControl};
-use lumped::Recording;
-use lumped::impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness};
+use lumped::{
+    Recording,
+    impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness},
+};
 use nalgebra::{Matrix6, SVector};
 
 #[path = "../../contact/tests/random/mod.rs"]

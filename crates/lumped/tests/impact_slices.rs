@@ -1,10 +1,9 @@
 //! Slices of rigid gears that overlap, wide and narrow: those that the springs of elastic gears ask for, against many more.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use ale::Sense;
-use dynamics::pair_motion::{Bearing, Drive, RigidBody, Speed, Torque};
-use dynamics::{Driver, StaticOptions, slices_needed};
-use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
+use dynamics::{Bearing, Drive, RigidBody, Speed, Torque};
+use geometry::{Driver, FlankModification, Gear, GearData, GearModifications, GearPair, Sense};
+use ltca::{StaticOptions, slices_needed};
 use lumped::impact::{ImpactLaw, ImpactMechanism, ImpactOptions, contact_stiffness};
 use nalgebra::DVector;
 

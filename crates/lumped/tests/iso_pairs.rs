@@ -1,14 +1,14 @@
 //! The model `iso` against finite elements, pair by pair: where it is off, and why.
 #![allow(clippy::print_stdout, reason = "the table is what the test is for")]
 
-use dynamics::{ElasticGear, StaticModel, StaticOptions};
 use faer::Mat;
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
+use ltca::{StaticModel, StaticOptions};
 use lumped::iso::{IsoPair, body_compliance, stiffness};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
 use nalgebra::{DMatrix, DVector};
-use reduction::{GearReducer, ReductionOptions};
+use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// Numbers from 0 to 1 (splitmix64).
 struct Random(u64);
@@ -81,7 +81,7 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
     let torque = drawn.line_load * pair.face_width() * pair.wheel.reference_radius();
     let plain = StaticOptions::new(torque, pair);
     // Room for what touches early under load.
-    let window = Some(StaticModel::window_teeth(pair, &plain) + 2);
+    let window = Some(plain.window_teeth(pair) + 2);
     let options = StaticOptions { window, ..plain };
     let first = StaticModel::first_teeth(pair, &options).unwrap();
     let [elements_profile, elements_fillet, elements_thickness, elements_face, elements_rim] = counts;
@@ -99,8 +99,8 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
         let mesh = mesh::generate(gear, &mesher).unwrap_or_else(|e| panic!("{e}"));
         let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap();
         let reduction = ReductionOptions {
-            sides: options.sides(),
-            window: StaticModel::window_teeth(pair, &options),
+            sides: options.contact.sides(),
+            window: options.window_teeth(pair),
             first: first[i],
             elements: ElementOptions::default(),
         };
@@ -116,7 +116,7 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
         .run(POSITIONS, 1, |_, position, model| {
             let share = 1e3 / POSITIONS as f64;
             found.te += share * position.transmission_error;
-            let u = model.contact_set().displacements(model.last().unwrap());
+            let u = model.last().unwrap().displacements_on(model.contact_set());
             let windows = model.contact_set().windows().unwrap();
             let matrices = matrices.get_or_insert_with(|| {
                 let dense = |m: &Mat<f64>| DMatrix::from_fn(m.nrows(), m.ncols(), |r, c| m[(r, c)]);

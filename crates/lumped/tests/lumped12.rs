@@ -5,8 +5,8 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use ale::Sense;
 use common::{pair_004, relative, seed_003};
+use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
     FourierTorque, HistoryRow, LineSharing, LumpedError, LumpedModel, MeshClock, RunPlan,

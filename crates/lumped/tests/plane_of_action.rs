@@ -3,10 +3,8 @@
 
 mod common;
 
-use ale::Sense;
 use common::{gears_003, gears_004, pair_003};
-use dynamics::Driver;
-use geometry::Side;
+use geometry::{Driver, Sense, Side};
 use lumped::{LineSharing, MeshFrame, PlaneOfAction};
 
 /// The total length is that of `geometry` at every phase, whichever gear drives and whichever way; friction's split is that of the lines.

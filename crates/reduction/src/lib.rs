@@ -11,6 +11,7 @@
 //! displacements a boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
+mod elastic;
 mod error;
 mod general;
 mod half_tooth;
@@ -25,6 +26,7 @@ mod stress_modes;
 mod window;
 
 pub use cyclic::pitch_permutation;
+pub use elastic::{ElasticGear, FullGear};
 pub use error::ReductionError;
 pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;

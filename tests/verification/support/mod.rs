@@ -5,11 +5,12 @@ pub mod moving;
 
 use std::path::PathBuf;
 
-use dynamics::{ElasticGear, FullGear, Method, StaticModel, StaticOptions};
+use contact::Method;
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearModifications, GearPair};
+use ltca::{StaticModel, StaticOptions};
 use mesh::{GearMesh, GroupNames, Mesh};
-use reduction::{GearReducer, ReductionOptions};
+use reduction::{ElasticGear, FullGear, GearReducer, ReductionOptions};
 
 /// A pair with the meshes of both gears.
 pub struct Case {
@@ -54,7 +55,7 @@ impl Case {
 
     /// Pressed points.
     pub fn options(&self) -> StaticOptions {
-        StaticOptions { method: Method::Nodal, ..self.slice_options() }
+        self.slice_options().with_contact(|c| c.method = Method::Nodal)
     }
 
     /// Slices.
@@ -71,8 +72,8 @@ impl Case {
         let first = StaticModel::first_teeth(&self.pair, options).unwrap();
         [0, 1].map(|i| {
             let o = ReductionOptions {
-                sides: options.sides(),
-                window: StaticModel::window_teeth(&self.pair, options),
+                sides: options.contact.sides(),
+                window: options.window_teeth(&self.pair),
                 first: first[i],
                 elements: self.elements,
             };

@@ -4,20 +4,19 @@
 use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{
-    ElasticGear, StaticOptions, StaticPosition,
-    pair_motion::{
-        Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
-        SweepPoint, Torque, equivalent_mass, quasi_static_start, sweep,
-    },
+    Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
+    SweepPoint, Torque, equivalent_mass, quasi_static_start, sweep,
 };
 use integrate::Scheme;
+use ltca::{StaticOptions, StaticPosition};
+use reduction::ElasticGear;
 
 use super::Case;
 
 /// Everything is held but the driven gear's turn: the driver keeps its `speed` (rad/s), `torque` (N mm) is steady, `ratio` damps the mesh.
-pub fn at_speed(contact: StaticOptions, bodies: [RigidBody; 2], speed: f64, torque: f64, ratio: f64) -> MotionOptions {
+pub fn at_speed(statics: StaticOptions, bodies: [RigidBody; 2], speed: f64, torque: f64, ratio: f64) -> MotionOptions {
     MotionOptions {
-        contact,
+        statics,
         bodies,
         bearings: [Bearing::default(); 2],
         free: [[false; 6]; 2],

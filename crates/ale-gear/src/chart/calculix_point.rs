@@ -1,8 +1,10 @@
 //! The same mesh through CalculiX.
 
 use geometry::Side;
-use study::calculix::{Body, Calculix, CalculixError, Deck};
-use study::{Answer, Work};
+use study::{
+    Answer, Work,
+    calculix::{Body, Calculix, CalculixError, Deck},
+};
 
 use super::{
     Point,
@@ -89,12 +91,12 @@ fn pinion_angle(scene: &Scene, pair: &geometry::GearPair, side: Side, phase: f64
 /// Teeth of the pairs of the window that stands at a phase of the first cycle.
 fn pairs_near(
     pair: &geometry::GearPair,
-    options: &dynamics::StaticOptions,
+    options: &ltca::StaticOptions,
     rotation: Rotation,
     phase: f64,
     teeth: [u32; 2],
 ) -> Result<Vec<[u32; 2]>, CommandError> {
-    let count = dynamics::StaticModel::window_teeth(pair, options);
+    let count = options.window_teeth(pair);
     let first = ale::ToothWindow::nominal_first(-rotation.sign() * (phase - 0.5), count);
     let window = ale::ToothWindow::new(first, count, teeth).map_err(|e| CommandError::input(&e, None))?;
     Ok(window.pairs().map(|running| window.teeth_of(running)).collect())

@@ -1,6 +1,6 @@
 //! Bodies, supports and torques of the scene in the words of lumped gears.
 
-use dynamics::pair_motion::{Bearing, Drive, RigidBody, Torque};
+use dynamics::{Bearing, Drive, RigidBody, Torque};
 use geometry::GearPair;
 use lumped::{Fourier, FourierTorque, lumped8::Support8, lumped12::Support12};
 

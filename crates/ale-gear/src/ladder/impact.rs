@@ -1,6 +1,6 @@
 //! Rigid gears on their true flanks.
 
-use dynamics::pair_motion::{COORDINATES, Torque};
+use dynamics::{COORDINATES, Torque};
 use geometry::GearPair;
 use integrate::{Mechanism, State};
 use lumped::{
@@ -53,8 +53,8 @@ pub(super) fn impact(
     });
     let rubs = words.static_friction > 0.0 || words.dynamic_friction > 0.0;
     let options = ImpactOptions {
-        driver: running.driver,
-        sense: running.sense,
+        driver: running.contact.driver,
+        sense: running.contact.sense,
         bearings: bearings(scene, &bodies),
         bodies,
         free,
@@ -72,7 +72,7 @@ pub(super) fn impact(
             static_speed: words.static_speed_mm_per_s,
             dynamic_speed: words.dynamic_speed_mm_per_s,
         }),
-        slices: running.slices,
+        slices: running.contact.slices,
         start_cycles: 0.0,
     };
     Ok((ImpactMechanism::new(gears.clone(), options)?, warnings))
@@ -87,7 +87,7 @@ fn formula(scene: &Scene, words: &ImpactScene, gears: &GearPair) -> Result<(f64,
     let compliance: f64 = scene.gears().iter().map(|g| (1.0 - g.material.poisson.powi(2)) / g.material.young_mpa).sum();
     let poisson = scene.pinion.material.poisson;
     let young = 2.0 * (1.0 - poisson * poisson) / compliance;
-    let stiffness = contact_stiffness(gears, run::options(scene, gears).driver, young, poisson)?;
+    let stiffness = contact_stiffness(gears, run::options(scene, gears).contact.driver, young, poisson)?;
     let said = (words.exponent != 1.5).then(|| {
         format!(
             "the impact stiffness of {stiffness:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {}: give \

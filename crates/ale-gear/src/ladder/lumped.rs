@@ -1,8 +1,9 @@
 //! The models with eight and twelve coordinates.
 
-use ale::Sense;
-use dynamics::pair_motion::RigidBody;
-use geometry::GearPair;
+use std::f64::consts::TAU;
+
+use dynamics::RigidBody;
+use geometry::{GearPair, Sense};
 use integrate::State;
 use lumped::{
     HistoryRow, LineSharing, LumpedError, LumpedModel, LumpedPair, MeshClock, MeshFrame, Operation, PlaneOfAction,
@@ -11,7 +12,6 @@ use lumped::{
     starting_state,
 };
 use nalgebra::DVector;
-use std::f64::consts::TAU;
 
 use super::{
     bodies::{bodies, supports8, supports12, torques},
@@ -40,7 +40,7 @@ const START: f64 = -0.5;
 
 /// Sense in which the driver turns: scenes say how the pinion does.
 fn driver_sense(scene: &Scene, pair: &GearPair) -> Sense {
-    match (scene.operation.driver, run::options(scene, pair).sense) {
+    match (scene.operation.driver, run::options(scene, pair).contact.sense) {
         (Driver::Pinion, sense) => sense,
         (Driver::Wheel, Sense::Ccw) => Sense::Cw,
         (Driver::Wheel, Sense::Cw) => Sense::Ccw,
@@ -49,7 +49,7 @@ fn driver_sense(scene: &Scene, pair: &GearPair) -> Sense {
 
 /// Contact lines of a scene's pair.
 pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
-    let driver = run::options(scene, pair).driver;
+    let driver = run::options(scene, pair).contact.driver;
     PlaneOfAction::of_pair(pair, driver, &MeshFrame::of_pair(pair, driver, driver_sense(scene, pair)))
 }
 
@@ -65,7 +65,7 @@ pub(super) fn lumped_pair(
 ) -> Result<(LumpedPair, [RigidBody; 2]), LumpedError> {
     let bodies = bodies(scene, pair);
     let operation = Operation {
-        driver: run::options(scene, pair).driver,
+        driver: run::options(scene, pair).contact.driver,
         sense: driver_sense(scene, pair),
         speed: scene.operation.speed_rpm * RPM,
         torque: scene.operation.torque(),

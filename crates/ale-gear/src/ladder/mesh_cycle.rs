@@ -3,8 +3,8 @@
 //! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2. Lumped pairs have it there at phase 0, so that their contact lines
 //! are half a cycle on.
 
-use dynamics::StaticPosition;
 use geometry::GearPair;
+use ltca::StaticPosition;
 use lumped::{Fourier, MeshCycle, PlaneOfAction};
 
 use crate::{

@@ -1,6 +1,6 @@
 //! Two lumped shafts with the mesh of the pair between them.
 
-use dynamics::pair_motion::RigidBody;
+use dynamics::RigidBody;
 use geometry::GearPair;
 use integrate::State;
 use lumped::{
@@ -40,7 +40,11 @@ const LEADING: [&str; 8] = [
 /// Contact lines of a scene's pair.
 pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
     let running = run::options(scene, pair);
-    PlaneOfAction::of_pair(pair, running.driver, &MeshFrame::of_pair(pair, running.driver, running.sense))
+    PlaneOfAction::of_pair(
+        pair,
+        running.contact.driver,
+        &MeshFrame::of_pair(pair, running.contact.driver, running.contact.sense),
+    )
 }
 
 /// Shafts, mesh and torques of a scene, and the mesh resonance of its gears alone, rad/s.

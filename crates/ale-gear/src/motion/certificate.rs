@@ -1,6 +1,6 @@
 //! What must hold of a motion.
 
-use dynamics::pair_motion::SweepPoint;
+use dynamics::SweepPoint;
 
 use super::MotionHeadline;
 use crate::certificate::{Certificate, Check};
@@ -65,7 +65,7 @@ fn over(value: f64, scale: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::pair_motion::{Changes, Extremes, Way};
+    use dynamics::{Changes, Extremes, Way};
     use integrate::Ledger;
     use integrate::Periodicity;
 

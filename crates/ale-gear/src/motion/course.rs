@@ -1,6 +1,6 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
-use dynamics::pair_motion::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
+use dynamics::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
 use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +52,7 @@ impl Goal {
             None => u64::from(scene.analysis.cycles),
             Some(end) => {
                 let nominal = system.nominal();
-                let cycles = nominal.cycles(system.pair(), &system.options().contact, end) - nominal.start;
+                let cycles = nominal.cycles(system.pair(), &system.options().statics, end) - nominal.start;
                 (cycles + 1e-9).floor().max(1.0) as u64
             }
         };
@@ -225,7 +225,7 @@ fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance:
 /// Contact that another window may cure, or the end.
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
     match error {
-        PairMotionError::Mechanism { source: source @ dynamics::StaticError::Starved { .. }, .. } => {
+        PairMotionError::Mechanism { source: source @ ltca::StaticError::Starved { .. }, .. } => {
             Failure::Static(source)
         }
         other => {

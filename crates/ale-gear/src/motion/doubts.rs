@@ -1,18 +1,19 @@
 //! What a user should hear of a motion.
 
-use dynamics::pair_motion::{Drive, PairMechanism, stable_step};
+use dynamics::{Drive, PairMechanism, stable_step};
 
 use super::{
     MotionHeadline, SweepHeadline,
     course::failure,
     elasticity::mesh_range_hz,
-    prepare,
-    prepare::Prepared,
+    prepare::{self, Prepared},
     price::{Asked, Pace},
     stable::{Steps, refuse_unstable},
 };
-use crate::run::Failure;
-use crate::scene::{Flanks, MotionScene, Run, Scene};
+use crate::{
+    run::Failure,
+    scene::{Flanks, MotionScene, Run, Scene},
+};
 
 /// More steps than this in a mesh cycle take half a minute or more.
 const SLOW: f64 = 20_000.0;
@@ -64,9 +65,9 @@ fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
     let motion = scene.motion.as_ref();
     let slowest = motion.and_then(|m| m.sweep.as_ref()).map(|s| s.from_rpm.min(s.to_rpm));
     let speed_rpm = slowest.unwrap_or(scene.operation.speed_rpm);
-    let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().contact.driven()];
+    let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().statics.driven()];
     let steady = 60.0 / (speed_rpm * f64::from(teeth));
-    let (pair, contact, nominal) = (system.pair(), &system.options().contact, system.nominal());
+    let (pair, contact, nominal) = (system.pair(), &system.options().statics, system.nominal());
     let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
     // The first cycle of a run-up, the last one of a run-down.
     let cycles = |t: f64| nominal.cycles(pair, contact, t) - nominal.start;

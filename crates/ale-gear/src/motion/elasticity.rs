@@ -2,11 +2,8 @@
 
 use std::sync::Arc;
 
-use dynamics::{
-    ElasticGear,
-    pair_motion::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance},
-};
-use reduction::{GearModes, GearReducer, ModeChoice, ReductionError};
+use dynamics::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance};
+use reduction::{ElasticGear, GearModes, GearReducer, ModeChoice, ReductionError};
 use serde::Serialize;
 use study::mesh_harmonics;
 

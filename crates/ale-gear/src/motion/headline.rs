@@ -1,6 +1,6 @@
 //! The few numbers that a motion is run for.
 
-use dynamics::pair_motion::Drive;
+use dynamics::Drive;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
@@ -14,8 +14,10 @@ use super::{
     rows::GEARS,
     table::Columns,
 };
-use crate::output::{PLACE_COLUMNS, PressurePlace};
-use crate::scene::{MotionScene, Run, Scene};
+use crate::{
+    output::{PLACE_COLUMNS, PressurePlace},
+    scene::{MotionScene, Run, Scene},
+};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
@@ -114,10 +116,10 @@ pub(super) fn headline(
     let of_ste = cycle_statistics(&ste, 1)?;
     let system = &prepared.system;
     let options = system.options();
-    let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.contact.driven()]);
+    let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.statics.driven()]);
     let speed_rpm = match &options.drive {
         Drive::Speed(_) | Drive::Balanced(_) if words.ramp.is_none() => scene.operation.speed_rpm,
-        _ => rows.mean(["pinion_speed_rpm", "wheel_speed_rpm"][1 - options.contact.driven()]).abs(),
+        _ => rows.mean(["pinion_speed_rpm", "wheel_speed_rpm"][1 - options.statics.driven()]).abs(),
     };
     let largest = |names: &[&str]| {
         let columns: Vec<&[f64]> = names.iter().map(|n| rows.get(n)).collect();

@@ -1,6 +1,6 @@
 //! Which inertia vibrates on the teeth, and at which frequency.
 
-use dynamics::pair_motion::{Drive, PairMechanism};
+use dynamics::{Drive, PairMechanism};
 use serde::Serialize;
 
 /// t in kg.
@@ -19,7 +19,7 @@ pub(crate) struct InertiaHeadline {
 
 impl InertiaHeadline {
     pub fn of(system: &PairMechanism) -> Self {
-        let driven = system.options().contact.driven();
+        let driven = system.options().statics.driven();
         let moving_gears = match system.options().drive {
             Drive::Speed(_) => vec![["pinion", "wheel"][driven]],
             Drive::Balanced(_) | Drive::Torque { .. } => vec!["pinion", "wheel"],

@@ -247,7 +247,7 @@ pub(crate) fn rows_of(
 /// One width of the window.
 enum Attempt<'a> {
     Motion(Box<Prepared>, Box<Finished>),
-    Sweep(Box<Prepared>, Vec<dynamics::pair_motion::SweepOutcome>, &'a SweepScene),
+    Sweep(Box<Prepared>, Vec<dynamics::SweepOutcome>, &'a SweepScene),
     Stopped { cycles: u64 },
 }
 
@@ -271,7 +271,7 @@ fn attempt<'a>(
         prepared.warnings.push(slow);
     }
     if let Some(sweep) = &words.sweep {
-        let wider = |e: &dynamics::StaticError| prepare::wider(inputs, window, e).is_some();
+        let wider = |e: &ltca::StaticError| prepare::wider(inputs, window, e).is_some();
         let outcomes = sweep::run(scene, (words, sweep), &prepared, &wider, phases)?;
         return Ok(Attempt::Sweep(Box::new(prepared), outcomes, sweep));
     }

@@ -1,8 +1,6 @@
 //! What a scene asks of motion, in the solvers' words and units.
 
-use dynamics::pair_motion::{
-    Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque,
-};
+use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque};
 use geometry::GearPair;
 use integrate::Scheme;
 use nalgebra::Matrix6;
@@ -30,7 +28,7 @@ pub(super) fn motion_options(
     scene: &Scene,
     pair: &GearPair,
     meshes: &[SceneMesh; 2],
-    contact: dynamics::StaticOptions,
+    contact: ltca::StaticOptions,
 ) -> Result<MotionOptions, CommandError> {
     let words = [0, 1].map(|i| scene.gears()[i].body.clone().unwrap_or_default());
     let bodies = [body(scene, meshes, &words[0], 0)?, body(scene, meshes, &words[1], 1)?];
@@ -47,7 +45,7 @@ pub(super) fn motion_options(
     };
     let load = torque(scene.load.as_ref().unwrap_or(&TorqueScene::default()), scene.operation.torque());
     let drive = pair_drive(scene, pair);
-    Ok(MotionOptions { contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
+    Ok(MotionOptions { statics: contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
 }
 
 /// What drives a pair of elastic gears: as below, but a torque that the scene does not state balances the load at every instant, so that the mean speed is the given one.

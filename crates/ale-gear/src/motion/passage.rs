@@ -1,6 +1,6 @@
 //! A run-up or run-down, mesh cycle by mesh cycle: what is largest, and at which speed.
 
-use dynamics::pair_motion::Speed;
+use dynamics::Speed;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics};
 

@@ -1,6 +1,6 @@
 //! The pressure pattern that a motion leaves on the driving flank of one tooth of each gear.
 
-use dynamics::pair_motion::Instant;
+use dynamics::Instant;
 use geometry::GearPair;
 use study::{FlankPattern, StudyError, Touch};
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use dynamics::pair_motion::{PairMechanism, PairMotionError, quasi_static_start, stable_step};
+use dynamics::{PairMechanism, PairMotionError, quasi_static_start, stable_step};
 use integrate::{Integrator, MotionError, Scheme, State, StepControl, StepLimit};
 
 use super::{

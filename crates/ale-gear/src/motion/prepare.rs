@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use dynamics::{
-    StaticError, StaticHistory, StaticModel, StaticOptions,
-    pair_motion::{MotionSettings, PairMechanism},
-};
+use dynamics::{MotionSettings, PairMechanism};
 use geometry::GearPair;
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 
 use super::{
     elasticity::Elasticity,
@@ -65,7 +63,7 @@ pub(crate) struct QuasiStatic {
 impl QuasiStatic {
     fn of(history: &StaticHistory) -> Self {
         let all = &history.positions;
-        let mean = |f: &dyn Fn(&dynamics::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
+        let mean = |f: &dyn Fn(&ltca::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
         Self {
             transmission_error: all.iter().map(|p| p.transmission_error).collect(),
             stiffness: mean(&|p| p.tangent_stiffness),
@@ -164,7 +162,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
             }
         });
     }
-    let driven = [&pair.pinion, &pair.wheel][system.options().contact.driven()];
+    let driven = [&pair.pinion, &pair.wheel][system.options().statics.driven()];
     let length = quasi_static.mean_error().abs().max(1e-6);
     let scale = system.scales(&system.coordinates().scales(length, driven.base_radius()), length);
     let settings = MotionSettings {
@@ -192,7 +190,7 @@ fn steps_per_resonance(words: &MotionScene, system: &PairMechanism) -> usize {
 /// Contact of the driving flanks: the coast flanks are a contact of their own.
 fn contact_options(scene: &Scene, pair: &GearPair, window: Option<usize>) -> StaticOptions {
     let asked = run::options(scene, pair);
-    StaticOptions { both_flanks: false, window: window.or(asked.window), ..asked }
+    StaticOptions { window: window.or(asked.window), ..asked }.with_contact(|c| c.both_flanks = false)
 }
 
 /// The width of the window to try next, where a pair beside it ought to carry load.

@@ -9,7 +9,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use dynamics::pair_motion::{COORDINATES, Instant, PairMechanism};
+use dynamics::{COORDINATES, Instant, PairMechanism};
 use integrate::Ledger;
 
 use study::FlankPattern;

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use dynamics::pair_motion::Checkpoint;
+use dynamics::Checkpoint;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
 

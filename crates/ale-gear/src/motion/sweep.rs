@@ -2,11 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{
-    StaticError,
-    pair_motion::{self, PairMotionError, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way},
-};
+use dynamics::{self, PairMotionError, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way};
 use integrate::MotionError;
+use ltca::StaticError;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
@@ -148,7 +146,7 @@ pub(super) fn run(
     let curable = |error: &PairMotionError| starved(error).is_some_and(wider);
     let outcomes = phases
         .run_steps("sweep", steps, |progress| {
-            pair_motion::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
+            dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
                 progress.tick();
                 match outcome {
                     Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),

@@ -1,6 +1,6 @@
 //! Files of a result.
 
-use dynamics::pair_motion::SweepOutcome;
+use dynamics::SweepOutcome;
 use study::{StudyError, Window};
 
 use super::{

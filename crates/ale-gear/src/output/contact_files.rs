@@ -1,15 +1,17 @@
 //! The files on contact lines and pattern, which only a run with slices has.
 
-use dynamics::result::StaticHistory;
+use ltca::StaticHistory;
 
 use super::{
     ResultDirectory, contact_pattern_svg, heat_map::contact_pattern_figure, write_contact_lines, write_contact_pattern,
     write_pattern_vtu,
 };
-use crate::error::CommandError;
-use crate::gears;
-use crate::pattern::{GearPattern, has_slices, patterns};
-use crate::scene::Scene;
+use crate::{
+    error::CommandError,
+    gears,
+    pattern::{GearPattern, has_slices, patterns},
+    scene::Scene,
+};
 
 /// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.
 ///

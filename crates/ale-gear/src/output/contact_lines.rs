@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use dynamics::result::StaticHistory;
 use geometry::GearPair;
+use ltca::StaticHistory;
 
 use super::{history::push_row, pairs};
-use crate::pattern::diameter;
-use crate::scene::Scene;
+use crate::{pattern::diameter, scene::Scene};
 
 const COLUMNS: &str = "pinion_angle_deg,mesh_phase,pair,pinion_tooth,wheel_tooth,coast_flank,z_mm,\
                        pinion_roll_angle_deg,pinion_diameter_mm,wheel_roll_angle_deg,wheel_diameter_mm,\

@@ -1,12 +1,14 @@
 //! The few numbers that a run is made for.
 
-use dynamics::result::{StaticHistory, StaticPosition};
+use ltca::{StaticHistory, StaticPosition};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{PressurePlace, RootStressHeadline, root_stress::root_stress_headline};
-use crate::run::worse;
-use crate::scene::{Driver, Scene};
+use crate::{
+    run::worse,
+    scene::{Driver, Scene},
+};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;

@@ -1,17 +1,15 @@
 //! `history.csv`: one row a position.
 
-use std::f64::consts::PI;
-use std::fmt::Write;
+use std::{f64::consts::PI, fmt::Write};
 
-use dynamics::result::StaticHistory;
+use ltca::StaticHistory;
 
 use super::{
     pairs,
     pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values},
     root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
-use crate::pattern::has_slices;
-use crate::scene::Scene;
+use crate::{pattern::has_slices, scene::Scene};
 
 const LEADING: &[&str] = &[
     "time_s",

@@ -1,6 +1,6 @@
 //! Charts of a motion and of a sweep.
 
-use dynamics::pair_motion::Speed;
+use dynamics::Speed;
 
 use super::{
     campbell_chart::campbell_chart,
@@ -8,9 +8,11 @@ use super::{
     field_map::{FieldMap, Side, share},
     plot_data::{Numbers, embedded},
 };
-use crate::motion::{Columns, Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine};
-use crate::scene::SweepWay;
-use crate::view::View;
+use crate::{
+    motion::{Columns, Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
+    scene::SweepWay,
+    view::View,
+};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub(super) const SHOWN_CYCLES: usize = 4;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use dynamics::result::{StaticHistory, StaticPosition};
+use ltca::{StaticHistory, StaticPosition};
 
 /// Number of a pair within its mesh cycle: 0 for the pair whose contact passes the middle of the path during
 /// this cycle, 1 for the one ahead of it in the sense of rotation, -1 for the one behind; so that a column means the same in every cycle

@@ -1,10 +1,10 @@
 //! Where the largest pressure is.
 
-use dynamics::{Site, SliceResult, result::StaticHistory};
+use contact::{Site, SliceResult};
+use ltca::StaticHistory;
 use serde::Serialize;
 
-use crate::pattern::diameter;
-use crate::scene::Scene;
+use crate::{pattern::diameter, scene::Scene};
 
 /// Columns of a history that say where the largest pressure of a row is.
 pub(crate) const PLACE_COLUMNS: [&str; 3] =

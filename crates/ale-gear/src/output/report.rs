@@ -2,14 +2,21 @@
 
 use std::f64::consts::PI;
 
-use dynamics::result::{StaticHistory, StaticPosition};
+use ltca::{StaticHistory, StaticPosition};
 
-use super::charts::{Curve, line_chart};
-use super::{Headline, Rendered, page::Page, pairs, root_stress::MAX_PRINCIPAL};
-use crate::error::CommandError;
-use crate::facts::{Cost, Facts};
-use crate::scene::Scene;
-use crate::view::View;
+use super::{
+    Headline, Rendered,
+    charts::{Curve, line_chart},
+    page::Page,
+    pairs,
+    root_stress::MAX_PRINCIPAL,
+};
+use crate::{
+    error::CommandError,
+    facts::{Cost, Facts},
+    scene::Scene,
+    view::View,
+};
 
 /// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the gears in space, where
 /// there are such.

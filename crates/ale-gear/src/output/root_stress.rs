@@ -1,10 +1,7 @@
 //! Root stress in the result files: what is the largest, of which tooth, and where.
 
-use dynamics::{
-    FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StressPeak,
-    result::{StaticHistory, StaticPosition},
-};
 use geometry::Side;
+use ltca::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak};
 use serde::Serialize;
 
 /// Largest root stresses of a run; units are in the names.

@@ -1,6 +1,6 @@
 //! What must hold of positions at rest.
 
-use dynamics::StaticPosition;
+use ltca::StaticPosition;
 
 use crate::certificate::{Certificate, Check};
 

@@ -1,10 +1,11 @@
 //! How much softer a pair would be with other bodies: the same pair on coarse meshes of solid gears, run both ways. Only ratios are read off.
 
-use dynamics::{ElasticGear, Method, StaticModel, StaticOptions};
+use contact::Method;
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
+use ltca::{StaticModel, StaticOptions};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
-use reduction::{GearReducer, ReductionOptions};
+use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// Positions of the mesh cycle over which is averaged.
 const POSITIONS: usize = 4;
@@ -32,9 +33,13 @@ impl<'a> Coarse<'a> {
     /// The pair under the torque of `options`.
     pub fn new(pair: &'a GearPair, materials: [&'a Material; 2], options: &StaticOptions) -> Self {
         let plain = StaticOptions::new(options.torque, pair);
-        let window = Some(StaticModel::window_teeth(pair, options));
-        let options = StaticOptions { driver: options.driver, sense: options.sense, window, slices: SLICES, ..plain };
-        debug_assert_eq!(options.method, Method::Slice);
+        let window = Some(options.window_teeth(pair));
+        let options = StaticOptions { window, ..plain }.with_contact(|c| {
+            c.driver = options.contact.driver;
+            c.sense = options.contact.sense;
+            c.slices = SLICES
+        });
+        debug_assert_eq!(options.contact.method, Method::Slice);
         Self { pair, materials, options }
     }
 
@@ -69,8 +74,12 @@ impl<'a> Coarse<'a> {
         let elastic = |i: usize| {
             let mesh = mesh::generate(&gears[i], &mesher(bodies[i].extent)).ok()?;
             let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gears[i].teeth()).ok()?;
-            let options =
-                ReductionOptions { sides: asked.sides(), window, first: first[i], elements: ElementOptions::default() };
+            let options = ReductionOptions {
+                sides: asked.contact.sides(),
+                window,
+                first: first[i],
+                elements: ElementOptions::default(),
+            };
             Some(ElasticGear::Reduced(GearReducer::new(mesh, *self.materials[i], options).ok()?))
         };
         let mut model = StaticModel::new(pair.clone(), [elastic(0)?, elastic(1)?], asked.clone()).ok()?;

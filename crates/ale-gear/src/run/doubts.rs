@@ -1,6 +1,6 @@
 //! What a user should hear of a solution.
 
-use dynamics::{StaticModel, StaticPosition};
+use ltca::{StaticModel, StaticPosition};
 use mesh::Extent;
 use reduction::GearReducer;
 

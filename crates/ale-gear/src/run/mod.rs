@@ -6,23 +6,25 @@ mod doubts;
 mod foreseen;
 mod options;
 
-use dynamics::{ElasticGear, StaticError, StaticHistory, StaticModel, StaticOptions};
-use geometry::GearPair;
-use reduction::GearReducer;
-
-use crate::cache::Cache;
-use crate::elastic_gears::{ElasticGears, elastic_gears};
-use crate::error::CommandError;
-use crate::facts::{Facts, Solved};
-use crate::fields::FieldWriter;
-use crate::meshes::SceneMesh;
-use crate::output::{self, ResultDirectory};
-use crate::phases::Phases;
-use crate::resolution::resolution;
-use crate::scene::{Analysis, Model, Scene};
-use crate::view::ViewRecorder;
-use crate::{gears, iso_model, iso_root, meshes};
 use doubts::doubts;
+use geometry::GearPair;
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
+use reduction::{ElasticGear, GearReducer};
+
+use crate::{
+    cache::Cache,
+    elastic_gears::{ElasticGears, elastic_gears},
+    error::CommandError,
+    facts::{Facts, Solved},
+    fields::FieldWriter,
+    gears, iso_model, iso_root,
+    meshes::{self, SceneMesh},
+    output::{self, ResultDirectory},
+    phases::Phases,
+    resolution::resolution,
+    scene::{Analysis, Model, Scene},
+    view::ViewRecorder,
+};
 
 pub(crate) use certificate::{certificate, worse};
 pub(crate) use doubts::body_warnings;
@@ -158,7 +160,7 @@ pub(crate) fn wider_window(
     options: &StaticOptions,
     error: &StaticError,
 ) -> Option<usize> {
-    let teeth = StaticModel::window_teeth(pair, options) + 1;
+    let teeth = options.window_teeth(pair) + 1;
     let starved = matches!(error, StaticError::Starved { .. });
     let available = |m: &SceneMesh| {
         if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }

@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::error::SceneError;
-use super::inputs::named;
-use super::raw::{Number, RawFlank, RawGear, RawMisalignment, RawModification, Word};
-use super::schema;
-use super::source::Source;
+use super::{
+    error::SceneError,
+    inputs::named,
+    raw::{Number, RawFlank, RawGear, RawMisalignment, RawModification, Word},
+    schema,
+    source::Source,
+};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -98,7 +100,7 @@ pub enum Shape {
     Parabolic,
 }
 
-/// Deviation of the wheel's axis, um over the face width. Terms and signs: [`dynamics::Misalignment`].
+/// Deviation of the wheel's axis, um over the face width. Terms and signs: [`contact::Misalignment`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct MisalignmentScene {
     /// f_Sigma_beta, across the plane of axes.

@@ -1,11 +1,10 @@
 //! Displacement and root stress on the pieces of both gears, position by position.
 
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use std::{collections::BTreeSet, sync::Arc};
 
-use dynamics::{ElasticGear, StaticModel};
+use ltca::StaticModel;
 use rayon::prelude::*;
-use reduction::{ReductionWay, Window};
+use reduction::{ElasticGear, ReductionWay, Window};
 
 use super::{
     Frame, GearView, Shape, View, WindowView, angles,
@@ -13,8 +12,7 @@ use super::{
     piece::Piece,
     record::{Recorded, RecordedGear, ViewRecorder},
 };
-use crate::error::CommandError;
-use crate::scene::Scene;
+use crate::{error::CommandError, scene::Scene};
 
 /// Bytes of all fields in a page at most, before they become text.
 const BYTES: usize = 2_400_000;

@@ -1,12 +1,12 @@
 //! What a solved position is remembered by until the run is over.
 
-use dynamics::{ElasticGear, Equilibrium, StaticModel, StaticPosition, result::SliceResult};
+use contact::SliceResult;
 use geometry::Side;
-use reduction::Window;
+use ltca::{Equilibrium, StaticModel, StaticPosition};
+use reduction::{ElasticGear, Window};
 
 use super::{Band, DIGITS, FRAMES};
-use crate::output::Numbers;
-use crate::scene::Scene;
+use crate::{output::Numbers, scene::Scene};
 
 /// Remembers some positions of the first mesh cycle.
 #[derive(Debug)]
@@ -50,7 +50,7 @@ impl ViewRecorder {
         if index >= self.per_cycle || !index.is_multiple_of(self.every) {
             return;
         }
-        let displacements = model.last().map(|e| model.contact_set().displacements(e)).unwrap_or_default();
+        let displacements = model.last().map(|e| e.displacements_on(model.contact_set())).unwrap_or_default();
         let mut displacements = displacements.into_iter();
         let gears = [0, 1].map(|i| RecordedGear::new(i, position, model, displacements.next().unwrap_or_default()));
         self.positions.push(Recorded {

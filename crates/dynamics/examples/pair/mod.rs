@@ -2,11 +2,11 @@
 
 use std::{error::Error, path::Path};
 
-use dynamics::{ElasticGear, StaticModel, StaticOptions};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
+use ltca::{StaticModel, StaticOptions};
 use mesh::{GearMesh, GroupNames, Mesh};
-use reduction::{GearReducer, ReductionOptions};
+use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// 30/30 teeth, module 3 mm, helix angle 20 degrees, and the meshes of both gears.
 pub fn coarse() -> Result<(GearPair, [GearMesh; 2]), Box<dyn Error>> {
@@ -30,8 +30,8 @@ pub fn reduced(
     let first = StaticModel::first_teeth(pair, options)?;
     let reduce = |i: usize| -> Result<ElasticGear, Box<dyn Error>> {
         let of = ReductionOptions {
-            sides: options.sides(),
-            window: StaticModel::window_teeth(pair, options),
+            sides: options.contact.sides(),
+            window: options.window_teeth(pair),
             first: first[i],
             elements: ElementOptions::default(),
         };

@@ -1,7 +1,7 @@
 //! What flanks that overlap do to both gears.
 
 use contact::Pose;
-use dynamics::pair_motion::{COORDINATES, Displacement};
+use dynamics::{COORDINATES, Displacement};
 use nalgebra::{SMatrix, Vector3};
 
 use super::{ImpactOptions, StickSlip, flanks::Slice};

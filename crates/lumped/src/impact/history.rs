@@ -1,6 +1,6 @@
 //! A motion of rigid gears as rows of results.
 
-use dynamics::pair_motion::Displacement;
+use dynamics::Displacement;
 use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};

@@ -94,15 +94,15 @@ impl ImpactForce {
 /// [`LumpedError::NotPositive`] when the result is no stiffness.
 pub fn contact_stiffness(
     pair: &geometry::GearPair,
-    driver: dynamics::Driver,
+    driver: geometry::Driver,
     young: f64,
     poisson: f64,
 ) -> Result<f64, LumpedError> {
     positive("Young's modulus, MPa", young)?;
     finite("Poisson's ratio", poisson)?;
     let gears = match driver {
-        dynamics::Driver::Pinion => [&pair.pinion, &pair.wheel],
-        dynamics::Driver::Wheel => [&pair.wheel, &pair.pinion],
+        geometry::Driver::Pinion => [&pair.pinion, &pair.wheel],
+        geometry::Driver::Wheel => [&pair.wheel, &pair.pinion],
     };
     let ratio = f64::from(gears[1].teeth()) / f64::from(gears[0].teeth());
     let along = 2.0 * gears[0].reference_radius() * gears[0].transverse_pressure_angle().cos();

@@ -2,13 +2,12 @@
 
 use std::convert::Infallible;
 
+use ale::Station;
 use contact::Pose;
-use dynamics::{
-    StaticOptions, Station,
-    pair_motion::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed},
-};
+use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed};
 use geometry::GearPair;
 use integrate::{Forces, Mechanism};
+use ltca::StaticOptions;
 use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{
@@ -49,7 +48,10 @@ impl ImpactMechanism {
     /// [`LumpedError`] when an option has no meaning.
     pub fn new(pair: GearPair, options: ImpactOptions) -> Result<Self, LumpedError> {
         options.check()?;
-        let running = StaticOptions { driver: options.driver, sense: options.sense, ..StaticOptions::new(0.0, &pair) };
+        let running = StaticOptions::new(0.0, &pair).with_contact(|c| {
+            c.driver = options.driver;
+            c.sense = options.sense
+        });
         let (speed, by_torque) = match &options.drive {
             Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
             Drive::Torque { start, .. } => (Speed::Constant(*start), true),
@@ -100,7 +102,7 @@ impl ImpactMechanism {
 
     fn standing(&self, t: f64) -> Standing {
         let station = Station::at_cycles(self.cycles(t));
-        let sign = self.running.sense.sign();
+        let sign = self.running.contact.sense.sign();
         let side = self.running.side();
         let pinion_angle =
             self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();

@@ -1,10 +1,7 @@
 //! What is asked of an impact model.
 
-use ale::Sense;
-use dynamics::{
-    Driver,
-    pair_motion::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque},
-};
+use dynamics::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
+use geometry::{Driver, Sense};
 use serde::{Deserialize, Serialize};
 
 use super::{ImpactLaw, StickSlip};

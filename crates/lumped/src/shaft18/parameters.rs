@@ -1,6 +1,6 @@
 //! What the user says of shafts, gears on them and meshes between them.
 
-use dynamics::pair_motion::RigidBody;
+use dynamics::RigidBody;
 use fem::{
     Material,
     beam::{BeamPiece, BeamSection},

@@ -3,9 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use ale::Sense;
-use dynamics::{Driver, pair_motion::RigidBody};
-use geometry::{Gear, GearData, GearPair};
+use dynamics::RigidBody;
+use geometry::{Driver, Gear, GearData, GearPair, Sense};
 use lumped::{
     Fourier, LumpedPair, MeshCycle, Operation,
     lumped8::{Lumped8, MeshLaw, Support8},

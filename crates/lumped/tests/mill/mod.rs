@@ -3,10 +3,8 @@
 
 use std::f64::consts::PI;
 
-use ale::Sense;
-use dynamics::Driver;
-use dynamics::pair_motion::{Bearing, Drive, RigidBody, Speed, Torque};
-use geometry::{Gear, GearData, GearPair};
+use dynamics::{Bearing, Drive, RigidBody, Speed, Torque};
+use geometry::{Driver, Gear, GearData, GearPair, Sense};
 use lumped::impact::{ImpactLaw, ImpactOptions, StickSlip};
 
 /// Load on the 30-tooth gear, N mm.

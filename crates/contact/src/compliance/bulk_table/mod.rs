@@ -1,0 +1,251 @@
+//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are taken away.
+//! Theory (36).
+
+mod rows;
+
+use faer::MatRef;
+
+use crate::{
+    FacePoint, FlankPatch, Support, Vec3,
+    compliance::{bulk_grid::FlankGridLines, condensed::load_columns},
+    opening,
+};
+
+pub use rows::TableWork;
+
+/// One body's compliance, and what is to be taken away of it.
+#[derive(Debug, Clone)]
+pub struct BulkCompliance<'a> {
+    /// W, mm/N, 3n x 3n, node by node x, y, z.
+    pub whole: MatRef<'a, f64>,
+    /// W_c of each patch with the numbers its nodes have in W, ascending.
+    pub halves: Vec<(&'a [u32], MatRef<'a, f64>)>,
+    /// The body's patches.
+    pub patches: &'a [FlankPatch],
+}
+
+/// Table of the bulk compliance of one body.
+///
+/// ```text
+/// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
+/// ```
+/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its generator; w interpolates between
+/// them, cubic along the profile and quadratic along the face, in cells that are the faces of the mesh where these form a grid: what
+/// shape functions make of D is then met almost exactly. Normal forces need the first direction alone. [`BulkTable::error`] says how
+/// far from A D A' that is.
+#[derive(Debug, Clone)]
+pub struct BulkTable {
+    lines: Vec<FlankGridLines>,
+    /// First point of each patch; the last entry is the number of points.
+    first: Vec<usize>,
+    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
+    table: Vec<f64>,
+    error: f64,
+}
+
+/// Points and weights of one row in a table.
+#[derive(Debug, Clone, Copy)]
+pub struct TablePlace {
+    points: [u32; DIRECTIONS * CELL],
+    weights: [f64; DIRECTIONS * CELL],
+    count: usize,
+}
+
+/// Points of a cell: four along the profile, three along the face.
+const CELL: usize = 12;
+/// Normal, profile, generator.
+const DIRECTIONS: usize = 3;
+/// Share of the force along one of the others that counts as none.
+const NONE: f64 = 1e-6;
+/// Points of a table at most, all directions: 288 MiB.
+const MOST_POINTS: usize = 6144;
+/// Uniform grids to try, each twice as fine as the one before.
+const REFINEMENTS: usize = 3;
+/// Places of each patch at which a table is held against the matrices, either way.
+const CHECKS: usize = 9;
+
+impl BulkCompliance<'_> {
+    /// D a for a unit force, mm/N.
+    fn displacement(&self, support: &Support, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.whole.nrows(), 0.0);
+        load_columns(support, |dof, f| {
+            out.iter_mut().zip(self.whole.col(dof).iter()).for_each(|(o, w)| *o += f * w);
+            for (numbers, half) in &self.halves {
+                let Ok(own) = numbers.binary_search(&((dof / 3) as u32)) else { continue };
+                let column = half.col(3 * own + dof % 3);
+                for (k, &number) in numbers.iter().enumerate() {
+                    (0..3).for_each(|b| out[3 * number as usize + b] -= f * column[3 * k + b]);
+                }
+            }
+        });
+    }
+}
+
+/// Supports of unit forces along the three directions at a place of a patch.
+fn supports(flank: &FlankPatch, at: [f64; 2]) -> Option<[Support; DIRECTIONS]> {
+    let mut face: Option<FacePoint> = None;
+    let along = directions(flank, at);
+    let support = crate::nodal::support_at(flank, at, along[0], &mut face)?;
+    Some(along.map(|d| Support { direction: d, load: d, ..support }))
+}
+
+/// The same at all grid points of all patches.
+fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option<[Support; DIRECTIONS]>> {
+    let of_patch = |(grid, flank): (&FlankGridLines, &FlankPatch)| {
+        (0..grid.count()).map(|p| supports(flank, grid.point(p))).collect::<Vec<_>>()
+    };
+    lines.iter().zip(patches).flat_map(of_patch).collect()
+}
+
+/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
+fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
+    let normal = patch.surface().nominal_normal(at);
+    let profile = patch.surface().profile_tangent(at);
+    let along = profile - normal * normal.dot(&profile);
+    let along = along / along.norm().max(f64::MIN_POSITIVE);
+    [normal, along, normal.cross(&along)]
+}
+
+impl BulkTable {
+    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the mesh, else on uniform
+    /// grids that grow finer; `None` where none within reason is good enough.
+    pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+        let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
+        let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
+        let small = |lines: &Vec<FlankGridLines>| {
+            DIRECTIONS * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS
+        };
+        let candidates = of_faces.into_iter().chain((0..REFINEMENTS).map(uniform));
+        candidates.filter(small).map(|lines| Self::on(bulk, lines)).find(|table| table.error <= tolerance)
+    }
+
+    fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
+        let mut first = vec![0];
+        lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+        let count = first.last().copied().unwrap_or(0);
+        let supports = grid_supports(&lines, bulk.patches);
+        let along = |p: usize| supports[p % count].as_ref().map(|s| &s[p / count]);
+        let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
+        let mut u = Vec::new();
+        for (q, column) in table.chunks_mut((DIRECTIONS * count).max(1)).enumerate() {
+            let Some(load) = along(q) else { continue };
+            bulk.displacement(load, &mut u);
+            for (p, entry) in column.iter_mut().enumerate().skip(q) {
+                *entry = along(p).map_or(0.0, |s| opening(s, &u));
+            }
+        }
+        let all = DIRECTIONS * count;
+        for q in 0..all {
+            for p in q + 1..all {
+                table[p * all + q] = table[q * all + p];
+            }
+        }
+        let mut made = Self { lines, first, table, error: 0.0 };
+        made.error = made.measured(bulk);
+        made
+    }
+
+    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each place with itself and with
+    /// the places checked before it.
+    fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
+        let mut places = Vec::new();
+        for (patch, flank) in bulk.patches.iter().enumerate() {
+            let [low, high] = flank.range();
+            // Steps that are no simple parts of the flank, so as to miss the grid lines.
+            for i in 0..CHECKS * CHECKS {
+                let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
+                let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
+                let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.place(flank, patch, at, None)) {
+                    places.push((exact[0], place));
+                }
+            }
+        }
+        let (mut worst, mut largest) = (0.0f64, f64::MIN_POSITIVE);
+        let mut u = Vec::new();
+        for (i, (support, place)) in places.iter().enumerate() {
+            bulk.displacement(support, &mut u);
+            largest = largest.max(opening(support, &u));
+            for (other, other_place) in &places[..=i] {
+                worst = worst.max((opening(other, &u) - self.entry(other_place, place)).abs());
+            }
+        }
+        worst / largest
+    }
+
+    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePlace::read`] reads openings from.
+    ///
+    /// ```text
+    /// A u  ~  w_i' s,   s_p = a_p' u
+    /// ```
+    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would have of the rest.
+    pub fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
+        let supports = grid_supports(&self.lines, patches);
+        let along = |k: usize| supports.iter().map(move |s| s.as_ref().map(|s| &s[k]));
+        let of_one = |u: &&[f64]| {
+            let value = |support: Option<&Support>| support.map_or(0.0, |s| opening(s, u));
+            (0..DIRECTIONS).flat_map(|k| along(k).map(value)).collect()
+        };
+        displacements.iter().map(of_one).collect()
+    }
+
+    /// Error relative to the largest self-compliance, as measured between the grid points when the table was made.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Number of points, all directions.
+    pub fn points(&self) -> usize {
+        DIRECTIONS * self.first.last().copied().unwrap_or(0)
+    }
+
+    /// Size of the table, bytes.
+    pub fn bytes(&self) -> usize {
+        self.table.len() * size_of::<f64>()
+    }
+
+    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal if `None`).
+    pub fn place(
+        &self,
+        flank: &FlankPatch,
+        patch: usize,
+        at: [f64; 2],
+        direction: Option<&Vec3>,
+    ) -> Option<TablePlace> {
+        let (points, weights) = self.lines.get(patch)?.weights(at);
+        let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
+        let mut place = TablePlace { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
+        let all = self.points() / DIRECTIONS;
+        for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
+            for (p, w) in points.iter().zip(weights) {
+                place.points[place.count] = (k * all + self.first[patch] + p) as u32;
+                place.weights[place.count] = part * w;
+                place.count += 1;
+            }
+        }
+        Some(place)
+    }
+
+    /// S between two places, mm/N.
+    pub fn entry(&self, first: &TablePlace, second: &TablePlace) -> f64 {
+        let column = |q: u32| &self.table[q as usize * self.points()..];
+        second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
+    }
+}
+
+impl TablePlace {
+    /// Number of points that it stands on: 12 for each direction that it is loaded along.
+    pub fn points(&self) -> usize {
+        self.count
+    }
+
+    /// Opening (mm) at this place by a displacement sampled at the table's points.
+    pub fn read(&self, samples: &[f64]) -> f64 {
+        self.each().map(|(p, w)| w * samples[p as usize]).sum()
+    }
+
+    fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.points[..self.count].iter().copied().zip(self.weights[..self.count].iter().copied())
+    }
+}

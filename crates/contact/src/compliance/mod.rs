@@ -1,0 +1,14 @@
+//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom, with
+//! normal modes beside.
+
+mod bulk_grid;
+mod bulk_table;
+mod condensed;
+mod full;
+mod modal;
+
+pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
+pub use condensed::{Condensed, opening};
+pub use full::FullContact;
+pub(crate) use modal::ModalRows;
+pub use modal::{ModalFlanks, ModalForces};

@@ -1,0 +1,168 @@
+//! Where the loaded parts of a line of slices begin and end, between its stations. Theory (21b).
+
+use crate::slice::bracket_zero_within;
+
+/// A station of a contact line as the solved contact left it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineStation {
+    /// Gap under load without the local approach, mm: what the flanks overlap by where the station presses (below 0), what is left open where it does not.
+    pub gap: f64,
+    /// What of it is not the undeformed flanks' own gap, mm: the bulk's deflection, smooth along the line.
+    pub opened: f64,
+}
+
+/// Ends are found to this share of the distance between stations.
+const RESOLUTION: f64 = 1e-6;
+/// What stands for the gap of flanks that do not face each other, mm.
+const FAR: f64 = 1.0;
+/// Stations that the deflection is interpolated from.
+const BASE: usize = 3;
+/// How many stations away they may lie.
+const AROUND: usize = 4;
+
+/// Intervals [from, to] of height z, mm, over which a tooth pair is pressed, ascending.
+///
+/// ```text
+/// w(z) = g(z) + o(z) < 0
+/// ```
+/// g: gap of the undeformed flanks at the loaded pose, exact at every z (`gap(i, z)` with station `i` the next one to z; infinite where they do not face each other);
+/// o: [`LineStation::opened`], a parabola through the next three stations. At the stations w is what the solution has, so the ends are those of the very line whose load the slices carry,
+/// and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end face, or between three stations that are about to touch.
+///
+/// `stations` (mm) are evenly spaced, ascending, half a step inside of the faces at -+ `half`; `solved` has `None` for stations that are too far
+/// apart to have been looked at.
+pub fn loaded_intervals(
+    stations: &[f64],
+    solved: &[Option<LineStation>],
+    half: f64,
+    gap: impl FnMut(usize, f64) -> f64,
+) -> Vec<[f64; 2]> {
+    Line { stations, solved, step: 2.0 * half / stations.len().max(1) as f64, gap }.intervals(half)
+}
+
+struct Line<'a, G> {
+    stations: &'a [f64],
+    solved: &'a [Option<LineStation>],
+    step: f64,
+    gap: G,
+}
+
+impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
+    fn intervals(&mut self, half: f64) -> Vec<[f64; 2]> {
+        let count = self.stations.len();
+        let mut all = Vec::new();
+        let mut from = None;
+        for i in 0..count {
+            match (from, self.presses(i)) {
+                (None, true) => from = Some(if i == 0 { self.end(0, -half) } else { self.between(i, i - 1) }),
+                (Some(start), false) => {
+                    all.push([start, self.between(i - 1, i)]);
+                    from = None;
+                }
+                _ => {}
+            }
+            if !self.presses(i) {
+                all.extend(self.unreached(i, half));
+            }
+        }
+        if let Some(start) = from {
+            all.push([start, self.end(count - 1, half)]);
+        }
+        all
+    }
+
+    fn presses(&self, i: usize) -> bool {
+        self.solved[i].is_some_and(|s| s.gap < 0.0)
+    }
+
+    /// End of the line between a station that presses and one beside it that does not.
+    fn between(&mut self, inside: usize, outside: usize) -> f64 {
+        let there = self.solved[outside].map(|s| s.gap);
+        self.zero(inside, [self.stations[inside], self.stations[outside]], there)
+    }
+
+    /// End of the line between the outermost station, which presses, and the end face.
+    fn end(&mut self, i: usize, face: f64) -> f64 {
+        self.zero(i, [self.stations[i], face], None)
+    }
+
+    /// A part of the line that no station carries, beside station `i`, which is open: at an end face, or where the gap dips between stations.
+    fn unreached(&mut self, i: usize, half: f64) -> Option<[f64; 2]> {
+        let here = self.solved[i]?.gap;
+        let z = self.stations[i];
+        let count = self.stations.len();
+        let face = [(0, -half), (count - 1, half)].into_iter().find(|(end, _)| *end == i).map(|(_, face)| face);
+        if let Some(face) = face {
+            let there = self.under_load(i, face);
+            let end = (there < 0.0).then(|| self.zero_of(i, [face, z], [there, here]))?;
+            return Some(if face < z { [face, end] } else { [end, face] });
+        }
+        let [before, after] = [self.solved[i - 1]?.gap, self.solved[i + 1]?.gap];
+        if before < here || after <= here {
+            return None;
+        }
+        // Vertex of the parabola through the three.
+        let bend = before - 2.0 * here + after;
+        let way = 0.5 * (before - after) / bend;
+        if here - 0.25 * (before - after) * way >= 0.0 || !way.is_finite() {
+            return None;
+        }
+        let dip = z + way * self.step;
+        let lowest = self.under_load(i, dip);
+        let open = |side: f64| if (side - z) * (dip - z) > 0.0 { side } else { z };
+        let [low, high] = [open(z - self.step), open(z + self.step)];
+        let gap_at = |at: f64| {
+            if at == z {
+                here
+            } else if at < z {
+                before
+            } else {
+                after
+            }
+        };
+        (lowest < 0.0).then(|| [low, high].map(|to| self.zero_of(i, [dip, to], [lowest, gap_at(to)])))
+    }
+
+    /// Gap under load at any height, without the local approach, mm.
+    fn under_load(&mut self, near: usize, z: f64) -> f64 {
+        let gap = (self.gap)(near, z);
+        if gap.is_finite() { gap + self.opened(near, z) } else { FAR }
+    }
+
+    /// Deflection at height z by the parabola through the known stations next to it.
+    fn opened(&self, near: usize, z: f64) -> f64 {
+        let mut known = [(0.0, 0.0); BASE];
+        let mut count = 0;
+        // Outward from z, the nearer side first.
+        let upward = z >= self.stations[near];
+        for k in 0..=2 * AROUND {
+            let (far, first) = (k.div_ceil(2), k % 2 == 1);
+            let i = if first == upward { near.checked_add(far) } else { near.checked_sub(far) };
+            let Some((i, s)) = i.and_then(|i| Some((i, (*self.solved.get(i)?)?))) else { continue };
+            known[count] = (self.stations[i], s.opened);
+            count += 1;
+            if count == BASE {
+                break;
+            }
+        }
+        let known = &known[..count];
+        let weight = |i: usize| {
+            let others = known.iter().enumerate().filter(|(j, _)| *j != i);
+            others.map(|(_, (x, _))| (z - x) / (known[i].0 - x)).product::<f64>()
+        };
+        known.iter().enumerate().map(|(i, (_, opened))| weight(i) * opened).sum()
+    }
+
+    /// Where between `inside`, a station that presses, and `outside` the line ends; all of the way if it does not. `there`: gap at `outside`, if it is known.
+    fn zero(&mut self, station: usize, [inside, outside]: [f64; 2], there: Option<f64>) -> f64 {
+        let here = self.solved[station].map_or(0.0, |s| s.gap);
+        let there = there.unwrap_or_else(|| self.under_load(station, outside));
+        if there < 0.0 { outside } else { self.zero_of(station, [inside, outside], [here, there]) }
+    }
+
+    fn zero_of(&mut self, near: usize, ends: [f64; 2], gaps: [f64; 2]) -> f64 {
+        let width = RESOLUTION * self.step;
+        let [a, b] = bracket_zero_within(|z| self.under_load(near, z), ends, gaps, width);
+        0.5 * (a + b)
+    }
+}

@@ -1,0 +1,12 @@
+//! The contact line: where it begins and ends, how hard it is pressed.
+
+pub mod hertz;
+mod line_length;
+mod loaded_line;
+mod pair;
+mod pressure;
+
+pub use line_length::{contact_intervals, covered};
+pub use loaded_line::{LineStation, loaded_intervals};
+pub use pair::{Beside, line_pressure, line_station, nodal_contact_line, slice_line};
+pub use pressure::nodal_pressures;

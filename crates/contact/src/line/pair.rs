@@ -1,0 +1,199 @@
+//! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would touch.
+
+use ale::{Station, ToothWindow};
+use geometry::GearPair;
+
+use crate::{
+    ContactOptions, ContactPoint, ContactRow, ContactSet, FlankPair, FlankPatch, LinePoints, LineStation, Pose, Slice,
+    SliceHint, contact_intervals, contact_row, covered, hertz, least_gap, loaded_intervals, opening,
+};
+
+/// Axial stations at which the least gap of a pair is looked at.
+const LINE_SAMPLES: usize = 97;
+/// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
+/// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
+/// by as much within a few hundredths of a millimetre.
+const TOUCHING: f64 = 0.15;
+/// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
+/// and only over more than an element do their forces add up to a line load.
+const BIN_ELEMENTS: f64 = 1.5;
+
+/// Largest Hertzian pressure along the line of a pair, MPa, from the line load in axial bins.
+///
+/// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's force is
+/// spread over one element of face width about it, and bins of [`BIN_ELEMENTS`] elements take their share.
+pub fn line_pressure(
+    pair: &GearPair,
+    patch: &FlankPatch,
+    loaded: &[(&ContactRow, f64)],
+    line: &[[f64; 2]],
+    modulus: f64,
+) -> f64 {
+    let along = 1.0 / pair.base_helix_angle().cos();
+    let half = 0.5 * pair.face_width();
+    let element = patch.mean_face_size()[1];
+    let bins = (pair.face_width() / (BIN_ELEMENTS * element)).floor().clamp(1.0, 64.0) as usize;
+    let width = pair.face_width() / bins as f64;
+    let mut load = vec![0.0; bins];
+    let mut path = vec![0.0; bins];
+    for (row, f) in loaded {
+        let support = &row.supports[0];
+        for (&node, w) in support.nodes[..support.count].iter().zip(support.weights) {
+            let Some([_, z]) = patch.node_coordinates(node) else { continue };
+            let (from, to) = ((z - 0.5 * element).max(-half), (z + 0.5 * element).min(half));
+            for b in 0..bins {
+                let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+                let share = f * w * covered(&[bin], [from, to]) / (to - from);
+                load[b] += share;
+                path[b] += share * row.coordinates[0] * pair.pinion.base_radius();
+            }
+        }
+    }
+    (0..bins)
+        .map(|b| {
+            let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+            // A bin that the line leaves carries its load on part of its length.
+            let length = along * covered(line, bin).max(0.5 * width);
+            let radius = if load[b] > 0.0 { relative_radius(pair, path[b] / load[b]) } else { return 0.0 };
+            hertz::line_pressure(load[b] / length, radius, modulus)
+        })
+        .fold(0.0, f64::max)
+}
+
+/// rho_n = rho_1 rho_2 / ((rho_1 + rho_2) cos b_b) at path coordinate xi = rho_1, mm.
+fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
+    let length = pair.tangent_length();
+    let rho = xi.clamp(1e-3 * length, 0.999 * length);
+    rho * (length - rho) / (length * pair.base_helix_angle().cos())
+}
+
+/// Axial intervals over which a pair of patches touches, by the deformed gap where the undeformed flanks at the loaded pose are
+/// nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach` that of the flanks under load, mm;
+/// `half` half the face width, mm.
+pub fn nodal_contact_line(
+    set: &ContactSet,
+    options: &ContactOptions,
+    poses: &[Pose; 2],
+    displacements: &[Vec<f64>; 2],
+    (first, second): (usize, usize),
+    [half, approach]: [f64; 2],
+) -> Vec<[f64; 2]> {
+    let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
+    let [low, high] = patch.range();
+    let line = LinePoints::new();
+    let scene = set.scene(options, &line);
+    let gap = |z: f64| -> Option<f64> {
+        let coordinates = least_gap(patch, other, poses, z)?;
+        let at = patch.face_at(coordinates)?;
+        let point = ContactPoint { at, coordinates, position: patch.surface().point(coordinates), area: 0.0 };
+        let row = contact_row(&scene, poses, (first, second), usize::MAX, &point)?;
+        let [u1, u2] = displacements;
+        Some(row.gap + opening(&row.supports[0], u1) + opening(&row.supports[1], u2))
+    };
+    let inset = 1e-6 * (high[1] - low[1]);
+    let range = [(low[1] + inset).max(-half), (high[1] - inset).min(half)];
+    contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * approach)
+}
+
+/// The same from slices: `opened` is what of a row's gap under load is not the undeformed flanks' own ([`LineStation`]).
+pub fn slice_line(
+    set: &ContactSet,
+    poses: &[Pose; 2],
+    pair: (usize, usize),
+    rows: impl Iterator<Item = (usize, LineStation, Slice)>,
+    half: f64,
+) -> Vec<[f64; 2]> {
+    let Some(slices) = set.slices() else { return Vec::new() };
+    let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), poses);
+    let stations = slices.stations();
+    // A station too far from contact to be a row is not known.
+    let mut solved = vec![None; stations.len()];
+    let mut hints = vec![SliceHint::default(); stations.len()];
+    for (point, station, slice) in rows {
+        (solved[point], hints[point]) = (Some(station), SliceHint::near(&slice));
+    }
+    let gap = |near: usize, z: f64| {
+        let found = flanks.place(z, &mut hints[near]);
+        let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
+        touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
+    };
+    loaded_intervals(stations, &solved, half, gap)
+}
+
+/// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included, which its force (N) makes. `other`: what opens it besides, mm.
+pub fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f64) -> LineStation {
+    if force > 0.0 {
+        let approach = slice.local.under(force / slice.length).approach;
+        LineStation { gap: -approach, opened: opening + other - approach }
+    } else {
+        LineStation { gap: (gap + opening).max(0.0), opened: opening + other }
+    }
+}
+
+/// A window at given poses, for a look at the pairs beside it.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside<'a> {
+    /// The pair.
+    pub pair: &'a GearPair,
+    /// Flanks and offsets.
+    pub options: &'a ContactOptions,
+    /// Flanks of the window.
+    pub set: &'a ContactSet,
+    /// The window.
+    pub window: &'a ToothWindow,
+    /// Where the pair stands.
+    pub station: Station,
+    /// Frames of the matrices of both gears.
+    pub poses: &'a [Pose; 2],
+}
+
+impl Beside<'_> {
+    /// Running numbers of the two pairs beside the window.
+    fn beside(&self) -> [i64; 2] {
+        let pairs = self.window.pairs();
+        [pairs.start - 1, pairs.end]
+    }
+
+    /// Least gap of the two pairs beside the window, mm, undeformed.
+    pub fn gap_beside(&self) -> f64 {
+        self.beside().into_iter().map(|running| outside_gap(self, running)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The first of the two pairs beside the window whose undeformed flanks overlap by more than `allowed` (mm), and by how much.
+    pub fn overlap_beside(&self, allowed: f64) -> Option<(i64, f64)> {
+        self.beside()
+            .into_iter()
+            .map(|running| (running, -outside_gap(self, running)))
+            .find(|(_, overlap)| *overlap > allowed)
+    }
+}
+
+/// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
+fn outside_gap(beside: &Beside<'_>, running: i64) -> f64 {
+    let Beside { pair, options, set, window, station, poses } = *beside;
+    let side = options.side();
+    let [f1, f2] = set.first_teeth();
+    let last = window.first() + window.count() as i64 - 1;
+    // Places count in the matrices' frames, which the poses belong to; pitch errors belong to the gears' own teeth.
+    let flank1 = pair.pinion.modified_flank_at(side, i64::from(f1) + running - window.first(), running);
+    let flank2 = pair.wheel.modified_flank_at(side, i64::from(f2) + last - running, -running);
+    let base_radius = pair.pinion.base_radius();
+    let [start, end] = pair.path_of_contact();
+    let theta1 = station.pinion_angle(pair, side, options.sense);
+    let tooth = running - station.middle_pair(options.sense);
+    let half = 0.5 * pair.face_width();
+    let (w_low, w_high) = (flank2.nominal().roll_form, flank2.nominal().roll_tip);
+    (0..=32)
+        .map(|i| {
+            let z = half * (f64::from(i) / 16.0 - 1.0);
+            let xi = pair.path_coordinate(side, theta1, tooth, z);
+            let u = xi.clamp(start, end) / base_radius;
+            let point = poses[0].transform_point(&flank1.point(u, z).into());
+            let seen = poses[1].inverse_transform_point(&point).coords;
+            match flank2.locate(&seen) {
+                Some(foot) if foot.roll >= w_low - 1e-6 && foot.roll <= w_high + 1e-6 => foot.distance,
+                _ => f64::INFINITY,
+            }
+        })
+        .fold(f64::INFINITY, f64::min)
+}

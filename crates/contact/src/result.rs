@@ -1,0 +1,122 @@
+//! What contact hands on: forces and moments on the gears, and the state of each loaded slice.
+
+use geometry::Side;
+use serde::Serialize;
+
+use crate::{ContactRow, Pose, Slice, Vec3};
+
+/// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Wrench {
+    /// Force, N.
+    pub force: [f64; 3],
+    /// Moment, N mm; the second entry is the tilting moment.
+    pub moment: [f64; 3],
+}
+
+/// What part of the flanks presses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Site {
+    /// Flank against flank.
+    Flank,
+    /// A slice that ends at an end face of either gear.
+    EndFace,
+    /// The pinion's tip edge presses, off the line of action, or cuts the band off.
+    PinionTipEdge,
+    /// The wheel's tip edge.
+    WheelTipEdge,
+}
+
+impl Site {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Flank, Self::EndFace, Self::PinionTipEdge, Self::WheelTipEdge];
+}
+
+/// One loaded slice of a contact line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SliceResult {
+    /// Height on the pinion, mm.
+    pub z: f64,
+    /// Height on the wheel, mm: another one where the wheel is displaced along its axis.
+    pub wheel_z: f64,
+    /// Side of the teeth that touches, the same on both gears.
+    pub side: Side,
+    /// Roll angle of the contact on pinion and wheel, rad.
+    pub roll: [f64; 2],
+    /// Line load, N per mm of contact line.
+    pub line_load: f64,
+    /// Half-width of the band, mm.
+    pub half_width: f64,
+    /// Largest pressure across the band, MPa.
+    pub pressure: f64,
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
+    pub off_line: f64,
+    /// What part of the flanks presses here.
+    pub site: Site,
+}
+
+impl SliceResult {
+    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an order.
+    pub fn is_harder(&self, other: &Self) -> bool {
+        self.pressure > other.pressure * (1.0 + 1e-9)
+    }
+
+    /// The slice with the largest pressure, the first of those that have it but for round-off.
+    pub fn hardest<'a>(slices: impl IntoIterator<Item = &'a Self>) -> Option<&'a Self> {
+        slices.into_iter().fold(None, |best, s| if best.is_none_or(|b: &Self| s.is_harder(b)) { Some(s) } else { best })
+    }
+}
+
+/// Forces and moments on both gears, about their own centres, common axes.
+pub fn wrenches(poses: &[Pose; 2], rows: &[ContactRow], forces: &[f64]) -> [Wrench; 2] {
+    let centres = poses.map(|p| p.translation.vector);
+    [0, 1].map(|i| {
+        let sign = if i == 0 { 1.0 } else { -1.0 };
+        let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
+        for (row, &f) in rows.iter().zip(forces).filter(|(_, f)| **f != 0.0) {
+            let f = sign * f * row.traction;
+            force += f;
+            moment += (row.position - centres[i]).cross(&f);
+        }
+        Wrench { force: force.into(), moment: moment.into() }
+    })
+}
+
+/// A loaded slice as the results have it.
+pub fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
+    let line_load = force / slice.length;
+    let state = slice.local.under(line_load);
+    SliceResult {
+        z: slice.z,
+        wheel_z: slice.at[1][1],
+        side,
+        roll: [slice.at[0][0], slice.at[1][0]],
+        line_load,
+        half_width: state.half_width,
+        pressure: state.pressure,
+        off_line: slice.local.off_line,
+        site: site(slice, state.half_width),
+    }
+}
+
+/// What part of the flanks a slice presses with: a tip edge that is off the line of action or within the band, an end face that the slice ends at, or neither.
+fn site(slice: &Slice, half_width: f64) -> Site {
+    let [pinion, wheel] = slice.local.bodies.map(|b| b.tip_distance);
+    // The edge that presses is that of the body whose tip is nearer.
+    let tip = if pinion <= wheel { Site::PinionTipEdge } else { Site::WheelTipEdge };
+    let nearest_face =
+        slice.local.bodies.iter().flat_map(|b| b.ends).map(|end| end.distance).fold(f64::INFINITY, f64::min);
+    if slice.local.off_line > 0.0 || pinion.min(wheel) <= half_width {
+        tip
+    } else if nearest_face <= 0.5 * slice.length * (1.0 + 1e-9) {
+        Site::EndFace
+    } else {
+        Site::Flank
+    }
+}
+
+/// What the local approach stores beyond half of force times approach, N mm.
+pub fn local_energy(slice: &Slice, force: f64) -> f64 {
+    slice.length * slice.local.law().curved_energy(force / slice.length)
+}

@@ -1,0 +1,307 @@
+//! Flanks, contact points and matrices of one window of both gears.
+
+use std::sync::Arc;
+
+use ale::ToothWindow;
+use geometry::{Gear, GearPair, Side};
+use reduction::{ElasticGear, Window};
+
+use crate::{
+    Candidates, Condensed, ContactError, ContactOptions, ContactPoint, ContactRow, FlankPatch, FullContact, GapSource,
+    Law, LinePoints, LinearContact, Method, Pose, Scene, SliceSet, contact_points, line_points,
+};
+
+/// Everything the contact of one window needs, in the frames of the window's matrices.
+///
+/// Copies share all but where the window stands.
+#[derive(Debug, Clone)]
+pub struct ContactSet {
+    shared: Arc<Shared>,
+    /// Reduced windows; `None` for full gears.
+    windows: Option<[Window; 2]>,
+}
+
+/// What all windows with the same matrices share.
+#[derive(Debug)]
+struct Shared {
+    patches: [Vec<FlankPatch>; 2],
+    points: Vec<Vec<ContactPoint>>,
+    trees: [Candidates; 2],
+    /// Axial stations for points of least gap: twice as many as Gauss points lie along the face.
+    stations: usize,
+    /// Side of each patch.
+    sides: [Vec<Side>; 2],
+    /// First tooth of each gear's window in the frame of its matrices.
+    first: [u32; 2],
+    slices: Option<SliceSet>,
+    /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
+    pitch_errors: [bool; 2],
+}
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+impl ContactSet {
+    /// Sets up the flanks of a window.
+    ///
+    /// # Errors
+    /// [`ContactError`] when a flank is missing or does not lie on its smooth surface.
+    pub fn new(
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        options: &ContactOptions,
+    ) -> Result<Self, ContactError> {
+        let first_teeth = window.first_teeth();
+        let geometry = [&pair.pinion, &pair.wheel];
+        let mut parts = Vec::with_capacity(2);
+        for i in 0..2 {
+            parts.push(flanks(&gears[i], geometry[i], first_teeth[i], window.count(), options, NAMES[i])?);
+        }
+        let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
+            <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
+        let slices = (options.method == Method::Slice)
+            .then(|| {
+                let named = |p: &[FlankPatch], s: &[Side]| -> Vec<(u32, Side)> {
+                    p.iter().zip(s).map(|(p, &s)| (p.tooth as u32, s)).collect()
+                };
+                let flanks = [named(&p1, &s1), named(&p2, &s2)];
+                let number = |i: usize, flank, node| boundary_number(&gears[i], [&w1, &w2][i].as_ref(), flank, node);
+                SliceSet::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
+            })
+            .transpose()?;
+        let windows = w1.zip(w2).map(|(a, b)| [a, b]);
+        let slices = slices.map(|s| s.with_tables([&p1, &p2], windows.as_ref(), options));
+        let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
+        let stations = p1.first().map_or(0, |p| {
+            let [low, high] = p.range();
+            let faces = ((high[1] - low[1]) / p.mean_face_size()[1]).round().max(1.0);
+            2 * faces as usize * options.points_per_face_edge
+        });
+        let trees = [Candidates::new(&p1), Candidates::new(&p2)];
+        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
+        let shared = Arc::new(Shared { patches, points, trees, stations, sides, first, slices, pitch_errors });
+        Ok(Self { shared, windows })
+    }
+
+    /// Whether this set serves another window too: same matrices, same teeth in their frames.
+    pub fn move_to(&mut self, gears: &[ElasticGear; 2], window: &ToothWindow) -> Result<bool, ContactError> {
+        let Some(mine) = &mut self.windows else { return Ok(false) };
+        let first = window.first_teeth();
+        let mut next = Vec::with_capacity(2);
+        for i in 0..2 {
+            let w = gears[i].window(first[i]).map_err(|source| ContactError::Reduction { gear: NAMES[i], source })?;
+            let Some(w) = w else { return Ok(false) };
+            let other_flanks = w.shift != mine[i].shift && self.shared.pitch_errors[i];
+            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() || other_flanks {
+                return Ok(false);
+            }
+            next.push(w);
+        }
+        mine.iter_mut().zip(next).for_each(|(m, n)| *m = n);
+        Ok(true)
+    }
+
+    /// Whether another window's flanks and matrices are these.
+    pub fn shares_flanks(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
+    /// The reduced windows of both gears.
+    pub fn windows(&self) -> Option<&[Window; 2]> {
+        self.windows.as_ref()
+    }
+
+    /// First tooth of each gear's window in its matrices' frame.
+    pub fn first_teeth(&self) -> [u32; 2] {
+        self.shared.first
+    }
+
+    /// Flank patches of both gears.
+    pub fn patches(&self) -> &[Vec<FlankPatch>; 2] {
+        &self.shared.patches
+    }
+
+    /// Contact points of each patch of the pinion.
+    pub fn points(&self) -> &[Vec<ContactPoint>] {
+        &self.shared.points
+    }
+
+    /// Side of a patch of the pinion.
+    pub fn side(&self, patch: usize) -> Side {
+        self.shared.sides[0][patch]
+    }
+
+    /// Patch of the pinion's (0) or wheel's (1) flank of a window pair, counted from 0 in order of running numbers.
+    pub fn patch_of(&self, gear: usize, pair: usize, side: Side) -> Option<usize> {
+        let count = self.shared.patches[gear].len() / self.kept_sides();
+        // The wheel's teeth run against the pair numbers.
+        let tooth = if gear == 0 { pair } else { count.checked_sub(pair + 1)? };
+        (0..self.kept_sides())
+            .map(|s| tooth * self.kept_sides() + s)
+            .find(|&p| self.shared.sides[gear].get(p) == Some(&side))
+    }
+
+    /// Window pair of a patch of the pinion, counted from 0.
+    pub fn pair_of(&self, patch: usize) -> usize {
+        patch / self.kept_sides()
+    }
+
+    /// Whether a patch of the pinion and one of the wheel face each other. Any others stay whole tooth
+    /// thicknesses apart, yet their smooth surfaces, which go on behind the teeth, may look like deep penetration.
+    pub fn partners(&self, (first, second): (usize, usize)) -> bool {
+        self.partner_of(first) == Some(second)
+    }
+
+    /// The wheel's patch that one of the pinion faces. Driving flanks: of the pair's own tooth. Behind them a tooth of the pinion is followed by the next tooth of the wheel, which belongs to the neighbouring pair;
+    /// of the last tooth in the window it is not kept.
+    fn partner_of(&self, first: usize) -> Option<usize> {
+        let sides = &self.shared.sides[0];
+        let (side, pair) = (*sides.get(first)?, self.pair_of(first));
+        let pair = match side {
+            side if sides.first() == Some(&side) => Some(pair),
+            Side::Left => Some(pair + 1),
+            Side::Right => pair.checked_sub(1),
+        };
+        self.patch_of(1, pair?, side)
+    }
+
+    fn kept_sides(&self) -> usize {
+        let first = self.shared.patches[0].first().map(|p| p.tooth);
+        self.shared.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
+    }
+
+    /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty), or where
+    /// gaps are not those of the smooth flanks.
+    ///
+    /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
+    pub fn line_points(&self, options: &ContactOptions, poses: &[Pose; 2]) -> LinePoints {
+        let mut line = LinePoints::new();
+        if options.method == Method::Slice || options.law != Law::Exact || options.gap != GapSource::Smooth {
+            return line;
+        }
+        let [first, second] = &self.shared.patches;
+        for (a, b) in self.pairs() {
+            line.insert((a, b), line_points(&first[a], &second[b], poses, self.shared.stations));
+        }
+        line
+    }
+
+    /// The flanks of the window for a search of points; `line` holds the points of least gap.
+    pub fn scene<'a>(&'a self, options: &ContactOptions, line: &'a LinePoints) -> Scene<'a> {
+        Scene {
+            first: &self.shared.patches[0],
+            points: &self.shared.points,
+            second: &self.shared.patches[1],
+            first_tree: &self.shared.trees[0],
+            second_tree: &self.shared.trees[1],
+            source: options.gap,
+            line,
+        }
+    }
+
+    /// Slices, when contact is made of them.
+    pub fn slices(&self) -> Option<&SliceSet> {
+        self.shared.slices.as_ref()
+    }
+
+    /// Pairs of patches that face each other.
+    pub fn pairs(&self) -> Vec<(usize, usize)> {
+        let partner = |p: usize| Some((p, self.partner_of(p)?));
+        (0..self.shared.patches[0].len()).filter_map(partner).collect()
+    }
+
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with the nodes that they
+    /// rest on; `None` where no matrices of flanks are known.
+    pub fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let [a, b] = self.windows.as_ref()?;
+        let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+        Some(Condensed::new(rows, compliance).displacements(forces))
+    }
+
+    /// S between rows, mm/N, column by column, from the matrices as they are.
+    pub fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
+        out.clear();
+        if let Some([a, b]) = &self.windows {
+            let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+            let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
+            Condensed::new(rows, compliance).corrected(correction).matrix(out);
+        }
+    }
+
+    /// The elastic model behind the rows.
+    pub fn bodies<'a>(
+        &'a self,
+        gears: &'a [ElasticGear; 2],
+        rows: &'a [ContactRow],
+    ) -> Result<Box<dyn LinearContact + 'a>, ContactError> {
+        let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
+        match (&self.windows, gears) {
+            (Some([a, b]), _) => {
+                let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+                Ok(Box::new(Condensed::new(rows, compliance).corrected(correction)))
+            }
+            (None, [ElasticGear::Full(a), ElasticGear::Full(b)]) => {
+                Ok(Box::new(FullContact::new(rows, [a, b], correction)))
+            }
+            _ => Err(ContactError::MixedGears),
+        }
+    }
+}
+
+type Flanks = (Vec<FlankPatch>, Vec<Side>, u32, Option<Window>);
+
+/// Flank patches of one gear's window, tooth by tooth counter-clockwise, in the frame of its matrices.
+fn flanks(
+    elastic: &ElasticGear,
+    geometry: &Gear,
+    first: u32,
+    count: usize,
+    options: &ContactOptions,
+    name: &'static str,
+) -> Result<Flanks, ContactError> {
+    let gear = elastic.gear();
+    let z = gear.tooth_count();
+    let window = elastic.window(first).map_err(|source| ContactError::Reduction { gear: name, source })?;
+    let teeth: Vec<u32> = match &window {
+        Some(w) => w.reduced.teeth.clone(),
+        None => (0..count as u32).map(|i| (first + i) % z).collect(),
+    };
+    // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
+    let shift = window.as_ref().map_or(0, |w| w.shift);
+    let (mut patches, mut sides) = (Vec::new(), Vec::new());
+    for &tooth in &teeth {
+        for side in options.sides() {
+            let (nodes, faces) = flank_mesh(elastic, tooth, side).ok_or_else(|| ContactError::Reduction {
+                gear: name,
+                source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
+            })?;
+            let number = |node: u32| boundary_number(elastic, window.as_ref(), (tooth, side), node);
+            let surface = Box::new(geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift)));
+            let patch = FlankPatch::new(i64::from(tooth), surface, nodes, faces, number, options.surface_tolerance)
+                .map_err(|source| ContactError::Flank { gear: name, source: Box::new(source) })?;
+            patches.push(patch);
+            sides.push(side);
+        }
+    }
+    let first = teeth.first().copied().unwrap_or(0);
+    Ok((patches, sides, first, window))
+}
+
+/// Nodes and faces that carry the load of a flank: the mesh's own, or those of the grid over it.
+fn flank_mesh(elastic: &ElasticGear, tooth: u32, side: Side) -> Option<(&[[f64; 3]], &[mesh::Face])> {
+    match elastic {
+        ElasticGear::Reduced(r) => r.flank(tooth, side),
+        ElasticGear::Full(f) => f.gear.flank(tooth, side).map(|faces| (&f.gear.mesh().nodes[..], faces)),
+    }
+}
+
+/// Number that a node of a flank has among the boundary nodes of a gear.
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> u32 {
+    let position = match (window, elastic) {
+        (Some(window), ElasticGear::Reduced(r)) => r.boundary_position(window, flank, node),
+        (None, ElasticGear::Full(f)) => f.dofs.position(node),
+        _ => None,
+    };
+    position.map_or(u32::MAX, |p| p as u32)
+}

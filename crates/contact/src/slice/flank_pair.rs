@@ -1,0 +1,256 @@
+//! Contact by axial slices: at each station the one place of the profile where two flanks are nearest.
+
+use crate::{
+    ContactRow, FacePoint, FlankPatch, LocalContact, Pose, ToothLayer,
+    nodal::row_at,
+    slice::profile_search::{Facing, Look, Place},
+};
+
+/// One flank as slices see it.
+#[derive(Debug, Clone, Copy)]
+pub struct SliceFlank<'a> {
+    /// Smooth surface, and faces that carry the load.
+    pub patch: &'a FlankPatch,
+    /// What stands behind it.
+    pub layer: &'a ToothLayer,
+}
+
+/// One slice of a contact line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slice {
+    /// Height z of the station on body 1, mm.
+    pub z: f64,
+    /// Surface coordinates of the contact on each flank.
+    pub at: [[f64; 2]; 2],
+    /// Length of contact line that the slice stands for, mm.
+    pub length: f64,
+    /// The band at this place.
+    pub local: LocalContact,
+}
+
+/// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SliceHint {
+    pub(crate) roll: Option<f64>,
+    faces: [Option<FacePoint>; 2],
+}
+
+/// Two flanks at the poses of their bodies, ready to be cut into slices.
+#[derive(Debug, Clone, Copy)]
+pub struct FlankPair<'a> {
+    flanks: [SliceFlank<'a>; 2],
+    poses: &'a [Pose; 2],
+    facing: Facing<'a>,
+}
+
+/// Place of a slice before anything is made of it.
+#[derive(Debug, Clone, Copy)]
+pub struct SlicePlace {
+    place: Place,
+    look: Look,
+    z: f64,
+}
+
+impl SlicePlace {
+    /// Least gap between the flanks along the profile, mm; what rounding of an edge adds to it is left out.
+    pub fn gap(&self) -> f64 {
+        self.look.gap
+    }
+}
+
+/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None` where the
+/// flanks do not face each other.
+///
+/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip, the
+/// tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of its own.
+/// So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
+pub fn slice(
+    flanks: [SliceFlank; 2],
+    poses: &[Pose; 2],
+    patches: (usize, usize),
+    point: usize,
+    z: f64,
+    length: f64,
+) -> Option<(ContactRow, Slice)> {
+    let pair = FlankPair::new(flanks, poses);
+    let mut hint = SliceHint::default();
+    let place = pair.place(z, &mut hint)?;
+    let (mut row, slice) = pair.slice(&place, patches, point, length)?;
+    pair.support(&mut row, &slice, &mut hint).then_some((row, slice))
+}
+
+impl SliceHint {
+    /// Near the place of a slice.
+    pub fn near(slice: &Slice) -> Self {
+        Self { roll: Some(slice.at[0][0]), ..Self::default() }
+    }
+
+    /// Where a search goes on from here that was at `before` a station ago: as far again.
+    #[must_use]
+    pub fn beyond(&self, before: &Self) -> Self {
+        let roll = match (self.roll, before.roll) {
+            (Some(here), Some(there)) => Some(2.0 * here - there),
+            (here, _) => here,
+        };
+        Self { roll, faces: Default::default() }
+    }
+
+    /// Follows body 1's turn about its own axis (rad): contact stays on its line in space, so the place of flank `patch` moves by as
+    /// much in roll angle.
+    pub fn turn(&mut self, side: f64, angle: f64) {
+        if let Some(roll) = &mut self.roll {
+            *roll += side * angle;
+        }
+    }
+}
+
+impl<'a> FlankPair<'a> {
+    /// Two flanks with their bodies at `poses`.
+    pub fn new(flanks: [SliceFlank<'a>; 2], poses: &'a [Pose; 2]) -> Self {
+        let facing = Facing::new(flanks.map(|f| f.patch), [&poses[0], &poses[1]]);
+        Self { flanks, poses, facing }
+    }
+
+    fn patches(&self) -> [&'a FlankPatch; 2] {
+        self.flanks.map(|f| f.patch)
+    }
+
+    /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.
+    pub fn place(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePlace> {
+        let (place, look) = self.facing.place(z, hint)?;
+        Some(SlicePlace { place, look, z })
+    }
+
+    /// The gap that the slice at a place has, mm: [`SlicePlace::gap`] and what the rounding of an edge adds.
+    pub fn gap(&self, found: &SlicePlace) -> f64 {
+        let SlicePlace { place, look, z } = *found;
+        match place {
+            Place::OtherKink(_) => look.gap,
+            Place::OtherEnd(_) => {
+                let Some((at, look, off)) = self.other_edge(&look) else { return look.gap };
+                look.gap + self.edge_opening(at, off)
+            }
+            Place::Inside(_) | Place::OwnEnd(_) => {
+                let at = [[place.roll(), z], look.foot];
+                let inside = matches!(place, Place::Inside(_));
+                look.gap + self.edge_opening(at, if inside { 0.0 } else { off_line(self.patches(), look.slope, at) })
+            }
+        }
+    }
+
+    /// Whether an edge presses at a place, off the line of action.
+    pub fn is_off_line(&self, found: &SlicePlace) -> bool {
+        let SlicePlace { place, look, .. } = *found;
+        match place {
+            Place::Inside(_) | Place::OtherKink(_) => false,
+            Place::OwnEnd(_) => look.slope != 0.0,
+            Place::OtherEnd(_) => self.other_edge(&look).is_some_and(|(_, _, off)| off != 0.0),
+        }
+    }
+
+    fn edge_opening(&self, at: [[f64; 2]; 2], off_line: f64) -> f64 {
+        let rounded = self.flanks.iter().any(|f| f.layer.edge_radius() > 0.0);
+        if rounded { local(self.flanks, at, off_line).edge_opening() } else { 0.0 }
+    }
+
+    /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen there, and how far
+    /// off the line of action.
+    fn other_edge(&self, look: &Look) -> Option<([[f64; 2]; 2], Look, f64)> {
+        let [a, b] = self.patches();
+        let (edge, seen) = facing_edge([a, b], self.poses, look)?;
+        Some(([seen.foot, edge], seen, off_line([b, a], seen.slope, [edge, seen.foot])))
+    }
+
+    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests on:
+    /// [`FlankPair::support`] finds these for who needs them.
+    pub fn slice(
+        &self,
+        found: &SlicePlace,
+        numbers: (usize, usize),
+        point: usize,
+        length: f64,
+    ) -> Option<(ContactRow, Slice)> {
+        let SlicePlace { place, look, z } = *found;
+        let (patches, poses) = (self.patches(), self.poses);
+        let at = [[place.roll(), z], look.foot];
+        match place {
+            Place::Inside(_) | Place::OwnEnd(_) => {
+                let mut row = row_at(patches, poses, numbers, point, at, look.gap);
+                let inside = matches!(place, Place::Inside(_));
+                let off = if inside { 0.0 } else { off_line(patches, look.slope, at) };
+                let local = local(self.flanks, at, off);
+                row.gap += local.edge_opening();
+                Some((row, Slice { z, at, length, local }))
+            }
+            Place::OtherKink(_) => {
+                let row = self.edge_row(numbers, point, at, look.gap);
+                Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0) }))
+            }
+            Place::OtherEnd(_) => {
+                let (at, look, off) = self.other_edge(&look)?;
+                let mut row = self.edge_row(numbers, point, at, look.gap);
+                let local = local(self.flanks, at, off);
+                row.gap += local.edge_opening();
+                Some((row, Slice { z, at, length, local }))
+            }
+        }
+    }
+
+    /// Finds the nodes that a row of [`FlankPair::slice`] rests on, and their weights; whether there are any.
+    pub fn support(&self, row: &mut ContactRow, slice: &Slice, hint: &mut SliceHint) -> bool {
+        let patches = self.patches();
+        (0..2).all(|i| {
+            let Some(found) = patches[i].nearest_face_from(slice.at[i], hint.faces[i]) else { return false };
+            hint.faces[i] = Some(found);
+            row.supports[i].rest_on(patches[i], found);
+            true
+        })
+    }
+
+    /// Row of an edge of body 2 that presses on body 1: the force acts along body 1's normal.
+    fn edge_row(&self, numbers: (usize, usize), point: usize, at: [[f64; 2]; 2], gap: f64) -> ContactRow {
+        let (patches, poses) = (self.patches(), self.poses);
+        let mut row = row_at(patches, poses, numbers, point, at, gap);
+        let normal = -(poses[0].rotation * patches[0].surface().normal(at[0]));
+        row.position = poses[1].transform_point(&patches[1].surface().point(at[1]).into()).coords;
+        row.normal = normal;
+        row.levers = crate::nodal::levers(poses, &row.position, &normal);
+        row.torque_levers = row.levers;
+        row.traction = normal;
+        for (i, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let direction = sign * poses[i].inverse_transform_vector(&normal);
+            (row.supports[i].direction, row.supports[i].load) = (direction, direction);
+        }
+        row
+    }
+}
+
+/// Body 2's tip edge at the foot of a look, and what is seen of body 1 from there.
+pub(crate) fn facing_edge([a, b]: [&FlankPatch; 2], poses: &[Pose; 2], look: &Look) -> Option<([f64; 2], Look)> {
+    let turned = Facing::new([b, a], [&poses[1], &poses[0]]);
+    let edge = [b.range()[1][0], look.foot[1]];
+    Some((edge, turned.look(edge)?))
+}
+
+/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
+/// which the flanks recede from each other there.
+///
+/// ```text
+/// o = R epsilon,   epsilon = |dg/du| / (r_b u),   1/R: relative curvature
+/// ```
+fn off_line(patches: [&FlankPatch; 2], slope: f64, at: [[f64; 2]; 2]) -> f64 {
+    let tangent = patches[0].surface().profile_tangent(at[0]).norm();
+    let curvature = [0, 1].map(|i| patches[i].surface().curvature(at[i]));
+    let receding = (slope / tangent).abs();
+    // tangent = r_b u; the flanks' relative curvature turns arc length into receding angle.
+    receding / (curvature[0] + curvature[1])
+}
+
+fn local(flanks: [SliceFlank; 2], at: [[f64; 2]; 2], off_line: f64) -> LocalContact {
+    let curvature: f64 = [0, 1].map(|i| flanks[i].patch.surface().curvature(at[i])).iter().sum();
+    LocalContact {
+        bodies: [0, 1].map(|i| flanks[i].layer.body(at[i])),
+        radius: curvature.max(f64::MIN_POSITIVE).recip(),
+        off_line,
+    }
+}

@@ -1,0 +1,112 @@
+//! Rows of contact that were found at some poses, and what follows from them next to these.
+
+use super::cell::Cell;
+use crate::{ContactRow, HeldSolution, LocalLaw, ModalFlanks, Pose, Slice, Vec3, compliance::ModalRows};
+
+/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
+/// um then.
+pub(super) const NEAR: f64 = 1e-3;
+
+/// Rows and their compliance at some poses.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    /// The poses, once there are rows of them.
+    pub at: Option<[Pose; 2]>,
+    /// The cell whose middle they are; none for poses that were given.
+    pub cell: Option<Cell>,
+    /// Station of each row, counted over all pairs.
+    pub keys: Vec<usize>,
+    pub rows: Vec<ContactRow>,
+    pub slices: Vec<Slice>,
+    pub laws: Vec<LocalLaw>,
+    /// Gaps at these poses, mm; those of the rows follow small motions from there.
+    pub gaps: Vec<f64>,
+    /// How displacements and small turns of both gears open each row.
+    pub openings: Vec<[f64; 12]>,
+    pub compliance: Vec<f64>,
+    /// How modes open the rows.
+    pub modal: ModalRows,
+    /// Solution in the middle of the cell.
+    pub held: HeldSolution,
+    /// Least gap of the pairs beside the window there, mm, once it was asked for.
+    pub beside: Option<f64>,
+    /// Tangent there, once it was asked for.
+    pub tangent: Option<Box<Tangent>>,
+}
+
+/// df/dq of the rigid coordinates, and with those of the modes behind them, row by row; empty without.
+#[derive(Debug)]
+pub(super) struct Tangent {
+    pub rigid: [[f64; 12]; 12],
+    pub all: Vec<f64>,
+}
+
+impl Found {
+    pub fn with_capacity(most: usize) -> Self {
+        Self {
+            keys: Vec::with_capacity(most),
+            rows: Vec::with_capacity(most),
+            slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
+            gaps: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            compliance: Vec::with_capacity(most * most),
+            ..Self::default()
+        }
+    }
+
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open gaps by no more than was reckoned with.
+    pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
+        let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
+        let mut motion = [0.0; 12];
+        for g in 0..2 {
+            let moved = poses[g].translation.vector - at[g].translation.vector;
+            // Twice the vector part: turns that are small enough to matter here are no farther from it than their cube.
+            let turned = 2.0 * (poses[g].rotation * at[g].rotation.inverse()).into_inner();
+            let turned = turned.w.signum() * turned.imag();
+            motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
+            motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
+            let way = moved.norm() + radius * turned.norm();
+            if way > NEAR || way.is_nan() {
+                return None;
+            }
+        }
+        Some(motion)
+    }
+
+    /// What the rows' places say of the motion of both gears: once they are known.
+    pub fn settle(&mut self) {
+        let Self { at, rows, gaps, openings, tangent, beside, .. } = self;
+        let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
+        openings.clear();
+        openings.extend(rows.iter().map(|row| opening(row, &row.normal, &centres)));
+        (*tangent, *beside) = (None, None);
+    }
+
+    /// Size, bytes.
+    pub fn bytes(&self) -> usize {
+        let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<LocalLaw>() + size_of::<[f64; 12]>();
+        self.rows.len() * of_row + self.compliance.len() * size_of::<f64>() + self.held.bytes()
+    }
+
+    /// Gaps after a small motion from here.
+    pub fn follow(&mut self, motion: &[f64; 12]) {
+        for ((row, gap), opening) in self.rows.iter_mut().zip(&self.gaps).zip(&self.openings) {
+            row.gap = gap + opening.iter().zip(motion).map(|(j, d)| j * d).sum::<f64>();
+        }
+    }
+}
+
+/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its normal, how they open its gap.
+pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+    let mut j = [0.0; 12];
+    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+        let force = sign * direction;
+        let moment = (row.position - centres[body]).cross(&force);
+        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+    }
+    j
+}

@@ -1,0 +1,312 @@
+//! Contact of two gears that stand where they are told: forces and their tangent. Theory (38).
+
+mod cell;
+mod compliance;
+mod found;
+mod near;
+mod search;
+mod work;
+
+use cell::Kept;
+use faer::MatRef;
+use found::{Found, NEAR, opening};
+use geometry::GearPair;
+
+use crate::{
+    Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
+    LocalState, ModalFlanks, Pose, Slice, SliceHint, SlicePlace, TablePlace, TableWork, Wrench, wrenches,
+};
+
+pub use near::Want;
+pub use work::ContactWork;
+
+/// Forces of the mesh on both gears at given poses, and how they change as the gears move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshForce {
+    /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
+    pub wrench: [Wrench; 2],
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes, in the order
+    /// pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    ///
+    /// ```text
+    /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
+    /// ```
+    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a thousandth of its largest entries.
+    /// Symmetric and negative semi-definite without friction.
+    pub tangent: [[f64; 12]; 12],
+    /// Normal force of each pair of the window, N, in order of running numbers.
+    pub pair_forces: Vec<f64>,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
+    pub residual: f64,
+}
+
+/// The slice contact of a window: search, compliance and solution, in memory that is used again.
+///
+/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from where they were found before, and
+/// forces from what they were; neither changes the answer but by round-off.
+#[derive(Debug)]
+pub struct MeshContact {
+    set: ContactSet,
+    friction: Option<Friction>,
+    /// Of the larger gear's tip, mm.
+    radius: f64,
+    pairs: Vec<(usize, usize)>,
+    hints: Vec<SliceHint>,
+    /// How body 1 stood at the last search.
+    stood: Option<Pose>,
+    /// Force of each station of each pair at the last solution, N.
+    memory: Vec<f64>,
+    places: Vec<(usize, SlicePlace)>,
+    /// What was found at the last poses, and at others.
+    found: Found,
+    kept: Kept,
+    gaps: Vec<f64>,
+    levers: Vec<f64>,
+    torque_levers: Vec<f64>,
+    /// Where the rows' openings stand in the table of a gear, and their loads where friction makes these another thing.
+    openings: Vec<TablePlace>,
+    loads: Vec<TablePlace>,
+    work: [TableWork; 2],
+    solver: DenseSolver,
+    force: MeshForce,
+    /// Normal modes that are coordinates of their own.
+    modal: Option<ModalFlanks>,
+}
+
+impl MeshContact {
+    /// The contact of a window of slices on reduced gears.
+    ///
+    /// # Errors
+    /// [`ContactError::NotSliced`] for points ([`crate::Method::Nodal`]) or gears with all their degrees of freedom.
+    pub fn new(pair: &GearPair, set: ContactSet, options: &ContactOptions) -> Result<Self, ContactError> {
+        let (Some(slices), Some(_)) = (set.slices(), set.windows()) else {
+            return Err(ContactError::NotSliced);
+        };
+        let pairs = set.pairs();
+        let most = pairs.len() * slices.stations().len();
+        let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
+        let friction = Friction::new(pair, options);
+        let force = MeshForce {
+            wrench: Default::default(),
+            tangent: [[0.0; 12]; 12],
+            pair_forces: vec![0.0; pairs.len()],
+            iterations: 0,
+            residual: 0.0,
+        };
+        let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
+        Ok(Self {
+            friction,
+            radius,
+            hints: vec![SliceHint::default(); most],
+            stood: None,
+            memory: vec![0.0; most],
+            places: Vec::with_capacity(most),
+            found: Found::with_capacity(most),
+            kept: Kept::default(),
+            gaps: Vec::with_capacity(most),
+            levers: Vec::with_capacity(most),
+            torque_levers: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
+            work,
+            solver: DenseSolver::new(most),
+            force,
+            modal: None,
+            pairs,
+            set,
+        })
+    }
+
+    /// Flanks and matrices of the window.
+    pub fn contact_set(&self) -> &ContactSet {
+        &self.set
+    }
+
+    /// Goes over to another window with the same flanks; forces are forgotten, they belong to other pairs there.
+    pub fn enter(&mut self, set: ContactSet) {
+        self.memory.fill(0.0);
+        self.hints.fill(SliceHint::default());
+        self.stood = None;
+        if self.set.shares_flanks(&set) {
+            self.start_anew();
+        } else {
+            self.drop_cells();
+        }
+        if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
+            self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
+        }
+        self.set = set;
+    }
+
+    /// Takes normal modes of both gears on the flanks of this window out of the compliance; they then deform the gears by the amplitudes given.
+    pub fn keep_modes(&mut self, modal: ModalFlanks) {
+        // Other teeth move in other ways.
+        self.drop_cells();
+        self.modal = Some(modal);
+    }
+
+    /// Sets the amplitudes of the modes, of pinion and wheel in turn.
+    pub fn deform(&mut self, amplitudes: &[f64]) {
+        if let Some(modal) = &mut self.modal {
+            modal.deform(amplitudes);
+        }
+    }
+
+    /// The modes, and forces on them at the last evaluation.
+    pub fn modal(&self) -> Option<&ModalFlanks> {
+        self.modal.as_ref()
+    }
+
+    /// Forgets the forces of the last solution.
+    pub fn forget(&mut self) {
+        self.memory.fill(0.0);
+    }
+
+    /// Forces with the gears' frames at `poses`.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
+        self.prepare(poses, None);
+        self.solve(Balance::Held, 0)?;
+        self.sum_forces();
+        if let Some(modal) = &mut self.modal {
+            modal.sum_forces(&self.found.modal, &self.solver);
+        }
+        self.find_tangent();
+        Ok(&self.force)
+    }
+
+    /// Resultants of the solution as it is.
+    fn sum_forces(&mut self) {
+        let Self { force, found: Found { rows, at, .. }, solver, set, .. } = self;
+        force.wrench = wrenches(&at.unwrap_or([Pose::identity(); 2]), rows, solver.forces());
+        force.pair_forces.fill(0.0);
+        for (row, f) in rows.iter().zip(solver.forces()) {
+            force.pair_forces[set.pair_of(row.patches.0)] += f;
+        }
+        (force.iterations, force.residual) = (solver.iterations(), solver.residual());
+    }
+
+    /// Tangent by the factor as it is, and with it forces on the modes.
+    fn find_tangent(&mut self) {
+        let Self { force, found: Found { rows, at, modal: bent, .. }, solver, modal, .. } = self;
+        let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
+        let rigid = |i: usize| {
+            let row = &rows[i];
+            [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
+        };
+        match modal {
+            None => force.tangent = solver.tangent(rigid),
+            Some(modal) => {
+                modal.find_tangent(bent, solver, rigid);
+                let (all, n) = (&modal.forces().tangent, 12 + modal.count());
+                force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
+            }
+        }
+    }
+
+    /// Elastic energy of both gears and the contact at the last evaluation, N mm.
+    ///
+    /// ```text
+    /// V = -g F - U*(F),   U* = F' S F / 2 + sum of int_0^F delta dF
+    /// ```
+    /// This dual functional is stationary at the solution: what forces are off by shows in its square only.
+    pub fn strain_energy(&self) -> f64 {
+        let Self { found: Found { slices, laws, .. }, gaps, solver, .. } = self;
+        let of_row = |&i: &usize| {
+            let (force, length) = (solver.forces()[i], slices[i].length);
+            length * laws[i].curved_energy(force / length) - force * (gaps[i] + 0.5 * solver.openings()[i])
+        };
+        solver.active().iter().map(of_row).sum()
+    }
+
+    /// Forces of the last evaluation.
+    pub fn force(&self) -> &MeshForce {
+        &self.force
+    }
+
+    /// Gaps of the rows as they are, with what the modes open them by.
+    fn bend(&mut self) {
+        let Self { found: Found { rows, modal: bent, .. }, modal, gaps, .. } = self;
+        if let Some(modal) = modal {
+            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(bent, i));
+        }
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
+    }
+
+    /// What the kept modes open a row by, mm; it is in the row's gap.
+    pub fn modal_opening(&self, row: usize) -> f64 {
+        self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.found.modal, row))
+    }
+
+    /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
+    pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
+        let Self { found, gaps, levers, torque_levers, memory, solver, .. } = self;
+        levers.clear();
+        torque_levers.clear();
+        levers.extend(found.rows.iter().map(|r| r.levers[body]));
+        torque_levers.extend(found.rows.iter().map(|r| r.torque_levers[body]));
+        let problem = problem(found, gaps, [levers, torque_levers], self.friction.is_none(), balance);
+        let keys = &found.keys;
+        solver.solve(&problem, local(found), |i| memory[keys[i]])?;
+        memory.fill(0.0);
+        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| memory[key] = f);
+        Ok(())
+    }
+
+    /// Rows of the last solution, in order of pair and height.
+    pub fn rows(&self) -> &[ContactRow] {
+        &self.found.rows
+    }
+
+    /// The rows with the nodes that they rest on, at the poses of the last evaluation.
+    pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
+        let Self { set, pairs, hints, found: Found { keys, rows, slices, .. }, .. } = self;
+        let mut rows = rows.clone();
+        let Some(of_window) = set.slices() else { return rows };
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        for ((row, slice), &key) in
+            rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
+        {
+            let numbers = pairs[key / of_window.stations().len()];
+            FlankPair::new(of_window.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
+        }
+        rows
+    }
+
+    /// Slices of the rows.
+    pub fn slices(&self) -> &[Slice] {
+        &self.found.slices
+    }
+
+    /// Forces, openings and active rows of the last solution.
+    pub fn solver(&self) -> &DenseSolver {
+        &self.solver
+    }
+}
+
+/// The contact of what was found, its rows with these gaps.
+fn problem<'a>(
+    found: &'a Found,
+    gaps: &'a [f64],
+    [levers, torque_levers]: [&'a [f64]; 2],
+    symmetric: bool,
+    balance: Balance,
+) -> DenseProblem<'a> {
+    let n = found.rows.len();
+    let compliance = MatRef::from_column_major_slice(&found.compliance[..], n, n);
+    DenseProblem { compliance, symmetric, gaps, levers, torque_levers, balance }
+}
+
+/// Approach (mm) and its slope (mm/N) of each row under its force.
+fn local(found: &Found) -> impl Fn(usize, f64) -> (f64, f64) + '_ {
+    move |i, force| {
+        let length = found.slices[i].length;
+        let LocalState { approach, slope, .. } = found.laws[i].under(force / length);
+        (approach, slope / length)
+    }
+}

@@ -1,0 +1,198 @@
+//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory (19a), (19b).
+
+use std::sync::Arc;
+
+use faer::Mat;
+use geometry::{Gear, GearPair, Side};
+use reduction::{ElasticGear, HalfTooth, Window};
+
+use crate::{
+    Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, ContactRow, FlankPatch, Pose, Slice, SliceFlank,
+    Support, ToothLayer, opening, slice,
+};
+
+/// What slice contact needs beside the flank patches, patch by patch of both gears.
+#[derive(Debug)]
+pub struct SliceSet {
+    stations: Vec<f64>,
+    /// Length of contact line of one slice, mm.
+    length: f64,
+    halves: [Vec<Half>; 2],
+    /// Whether edges may press off the line of action.
+    corner_contact: bool,
+    /// Bulk compliance of both gears in tables, unless it is to be exact.
+    bulk: Option<[BulkTable; 2]>,
+}
+
+/// The half tooth behind one patch.
+#[derive(Debug)]
+struct Half {
+    layer: ToothLayer,
+    tooth: Arc<HalfTooth>,
+    /// Boundary number of each of the half tooth's nodes, ascending.
+    boundary: Vec<u32>,
+}
+
+impl SliceSet {
+    /// Slices for the patches of both gears; `sides` and `teeth` name the flank of each patch, `number` a mesh node among the boundary.
+    ///
+    /// # Errors
+    /// [`ContactError::Reduction`] when a half tooth cannot be condensed.
+    pub(crate) fn new(
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        flanks: [&[(u32, Side)]; 2],
+        number: impl Fn(usize, (u32, Side), u32) -> u32,
+        options: &ContactOptions,
+    ) -> Result<Self, ContactError> {
+        let count = options.slices.max(1);
+        let width = pair.face_width();
+        let stations = (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
+        let geometry = [&pair.pinion, &pair.wheel];
+        let mut halves = [Vec::new(), Vec::new()];
+        for (i, of_gear) in halves.iter_mut().enumerate() {
+            for &(tooth, side) in flanks[i] {
+                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, (tooth, side), node), i)?);
+            }
+        }
+        let length = width / count as f64 / pair.base_helix_angle().cos();
+        Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
+    }
+
+    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as asked.
+    pub(crate) fn with_tables(
+        mut self,
+        patches: [&[FlankPatch]; 2],
+        windows: Option<&[Window; 2]>,
+        options: &ContactOptions,
+    ) -> Self {
+        if let (Bulk::Table(tolerance), Some(windows)) = (options.bulk, windows) {
+            let table = |i: usize| {
+                let bulk = BulkCompliance {
+                    whole: windows[i].reduced.compliance.as_ref(),
+                    halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
+                    patches: patches[i],
+                };
+                BulkTable::new(&bulk, tolerance)
+            };
+            let (first, second) = rayon::join(|| table(0), || table(1));
+            self.bulk = first.zip(second).map(|(a, b)| [a, b]);
+        }
+        self
+    }
+
+    /// Bulk compliance of both gears in tables; `None` where it is exact.
+    pub fn bulk(&self) -> Option<&[BulkTable; 2]> {
+        self.bulk.as_ref()
+    }
+
+    /// Length of contact line of one slice, mm.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether edges may press off the line of action.
+    pub(crate) fn has_corner_contact(&self) -> bool {
+        self.corner_contact
+    }
+
+    /// Whether a slice may press.
+    pub(crate) fn may_touch(&self, slice: &Slice) -> bool {
+        self.corner_contact || slice.local.off_line == 0.0
+    }
+
+    /// Heights of the stations, mm, ascending.
+    pub fn stations(&self) -> &[f64] {
+        &self.stations
+    }
+
+    /// One patch of each gear as slices see them.
+    pub(crate) fn flanks<'a>(&'a self, patches: [&'a [FlankPatch]; 2], pair: (usize, usize)) -> [SliceFlank<'a>; 2] {
+        let number = [pair.0, pair.1];
+        [0, 1].map(|i| SliceFlank { patch: &patches[i][number[i]], layer: &self.halves[i][number[i]].layer })
+    }
+
+    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair and height.
+    pub fn rows(
+        &self,
+        patches: [&[FlankPatch]; 2],
+        pairs: &[(usize, usize)],
+        poses: &[Pose; 2],
+        reach: f64,
+    ) -> (Vec<ContactRow>, Vec<Slice>) {
+        let of_pair = |&pair: &(usize, usize)| {
+            let flanks = self.flanks(patches, pair);
+            let stations = self.stations.iter().enumerate();
+            stations.filter_map(move |(i, &z)| slice(flanks, poses, pair, i, z, self.length))
+        };
+        pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && self.may_touch(s)).unzip()
+    }
+
+    /// X = - sum over both bodies of A W_c A' between rows on the same tooth, mm/N.
+    pub(crate) fn correction(&self, rows: &[ContactRow]) -> Mat<f64> {
+        let mut x = Mat::zeros(rows.len(), rows.len());
+        let mut start = 0;
+        // Rows come pair by pair, and a tooth belongs to one pair.
+        for group in rows.chunk_by(|a, b| a.patches == b.patches) {
+            let halves = [&self.halves[0][group[0].patches.0], &self.halves[1][group[0].patches.1]];
+            for (b, half) in halves.iter().enumerate() {
+                let local: Vec<Support> = group.iter().map(|row| half.own(&row.supports[b])).collect();
+                for (j, column) in local.iter().map(|s| half.displacement(s)).enumerate() {
+                    for (i, support) in local.iter().enumerate() {
+                        x[(start + i, start + j)] -= opening(support, &column);
+                    }
+                }
+            }
+            start += group.len();
+        }
+        x
+    }
+}
+
+impl Half {
+    /// A support in the half tooth's own numbers.
+    fn own(&self, support: &Support) -> Support {
+        let mut own = *support;
+        for node in &mut own.nodes[..support.count] {
+            *node = self.boundary.partition_point(|b| b < node) as u32;
+        }
+        own
+    }
+
+    /// W_c A' for a unit force at the support, mm/N.
+    fn displacement(&self, support: &Support) -> Vec<f64> {
+        let w = &self.tooth.compliance;
+        let mut u = vec![0.0; w.nrows()];
+        for k in 0..support.count {
+            for axis in 0..3 {
+                let f = support.weights[k] * support.load[axis];
+                let column = w.col(3 * support.nodes[k] as usize + axis);
+                u.iter_mut().zip(column.iter()).for_each(|(u, c)| *u += f * c);
+            }
+        }
+        u
+    }
+}
+
+fn half(
+    gear: &ElasticGear,
+    geometry: &Gear,
+    tooth: u32,
+    side: Side,
+    number: impl Fn(u32) -> u32,
+    which: usize,
+) -> Result<Half, ContactError> {
+    let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][which], source };
+    let half = match gear {
+        ElasticGear::Reduced(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
+        ElasticGear::Full(f) => {
+            Arc::new(HalfTooth::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
+        }
+    };
+    let material = gear.material();
+    let flank = geometry.flank_of(side, i64::from(tooth));
+    let (profile, edge_radius) = (half.layer.clone(), geometry.data().tip_edge_radius);
+    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), half.overshoot, profile, edge_radius);
+    let boundary = half.nodes.iter().map(|&n| number(n)).collect();
+    Ok(Half { layer, tooth: half, boundary })
+}

@@ -1,0 +1,169 @@
+//! Putting a pair together: gears, drive, modes.
+
+use std::sync::Arc;
+
+use geometry::GearPair;
+use nalgebra::{DMatrix, SMatrix};
+
+use super::{Extremes, PairMechanism};
+use crate::{
+    Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal, RigidBody, Speed,
+    mesh_side::MeshSide, modal::Modal,
+};
+use ltca::StaticError;
+use reduction::ElasticGear;
+
+impl PairMechanism {
+    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `means`: mesh stiffness (N/mm on the base
+    /// circle) and length of contact lines (mm) that a damping ratio refers to.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn new(
+        pair: GearPair,
+        driving: impl Into<Arc<[ElasticGear; 2]>>,
+        coast: Option<Arc<[ElasticGear; 2]>>,
+        options: MotionOptions,
+        means: [f64; 2],
+    ) -> Result<Self, StaticError> {
+        let cycles = options.start_cycles;
+        let drive_side = MeshSide::new(&pair, driving.into(), options.statics.clone(), &options.statics, cycles)?;
+        let coast_side = coast
+            .map(|gears| MeshSide::new(&pair, gears, options.statics.driven_backwards(), &options.statics, cycles))
+            .transpose()?;
+        Ok(Self::of(pair, drive_side, coast_side, options, means))
+    }
+
+    /// The same pair at its beginning with another drive; gears and tables are shared.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
+        let options = MotionOptions { drive, ..self.options.clone() };
+        let drive_side = self.drive_side.again(&self.pair)?;
+        let coast_side = self.coast_side.as_ref().map(|side| side.again(&self.pair)).transpose()?;
+        let mut other = Self::of(self.pair.clone(), drive_side, coast_side, options, self.means);
+        if let Some(modal) = self.modal.clone() {
+            other.add_modes(modal);
+        }
+        Ok(other)
+    }
+
+    /// The same pair with normal modes of both gears as coordinates of their own: what they share of the teeth's and bodies' compliance gets its inertia, the rest stays quasi-static.
+    ///
+    /// The coordinates are p = q + L D d, amplitudes with what rigid motion shares of them: so mass is constant and without coupling, and a gear that moves as
+    /// a rigid body for a moment keeps its p. Neither they nor their velocities change with the window.
+    ///
+    /// # Errors
+    /// [`StaticError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no number >= 0, and where the bodies' inertia
+    /// is less than what the modes share of it: given for other gears than were meshed.
+    pub fn with_modes(mut self, gears: [GearVibration; 2]) -> Result<Self, StaticError> {
+        if let Some(value) = gears.iter().map(|g| g.damping_ratio).find(|z| !z.is_finite() || *z < 0.0) {
+            return Err(StaticError::OutOfRange { name: "modal damping ratio", value, expected: "a number >= 0" });
+        }
+        let modes = gears.each_ref().map(|g| Arc::clone(&g.modes));
+        self.drive_side.keep_modes(modes.clone())?;
+        if let Some(side) = &mut self.coast_side {
+            side.keep_modes(modes)?;
+        }
+        self.add_modes(Modal::new(gears));
+        if nalgebra::Cholesky::new(self.mass.clone()).is_none() {
+            let least = self.mass.diagonal().min();
+            let expected = "more than the normal modes share of it: are mass and inertia those of the mesh?";
+            return Err(StaticError::OutOfRange { name: "inertia of a gear's body", value: least, expected });
+        }
+        Ok(self)
+    }
+
+    fn add_modes(&mut self, modal: Modal) {
+        let (n, m) = (self.coordinates.count(), modal.count());
+        let mut rigid = self.coordinates.mass(&self.options.bodies);
+        self.coordinates.add_matrix(&modal.shared_inertia(), -1.0, &mut rigid);
+        self.mass = DMatrix::identity(n + m, n + m);
+        self.mass.view_mut((0, 0), (n, n)).copy_from(&rigid);
+        self.modal = Some(modal);
+        self.last = None;
+        // What the modes bend is not in the forces of the flanks.
+        self.roots = None;
+    }
+
+    fn of(
+        pair: GearPair,
+        drive_side: MeshSide,
+        coast_side: Option<MeshSide>,
+        options: MotionOptions,
+        means: [f64; 2],
+    ) -> Self {
+        let mut free = options.free;
+        let driver = 1 - options.statics.driven();
+        let (speed, by_torque) = match &options.drive {
+            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
+            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
+        };
+        free[driver][COORDINATES - 1] = by_torque;
+        let mut coordinates = Coordinates::new(&pair, &options.statics, free);
+        if matches!(options.drive, Drive::Balanced(_)) {
+            coordinates = coordinates.sharing_the_lag(&pair, &options.statics, &options.bodies);
+        }
+        let mass = coordinates.mass(&options.bodies);
+        let nominal = Nominal { speed, start: options.start_cycles };
+        let both = |part: fn(&Bearing) -> nalgebra::Matrix6<f64>| {
+            let mut all = SMatrix::<f64, 12, 12>::zeros();
+            for (g, b) in options.bearings.iter().enumerate() {
+                all.fixed_view_mut::<6, 6>(6 * g, 6 * g).copy_from(&part(b));
+            }
+            all
+        };
+        let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
+        let equivalent = equivalent_mass_of(&pair, &options);
+        let damping = match options.damping {
+            MeshDamping::PerLength(c) => c,
+            MeshDamping::Ratio(zeta) => {
+                // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
+                let cos = pair.base_helix_angle().cos();
+                2.0 * zeta * (means[0] * equivalent).sqrt() / (means[1] * cos * cos)
+            }
+        };
+        let (last, extremes) = (None, Extremes::default());
+        let roots = options.statics.root_stress.then(|| drive_side.root_fillets(&pair));
+        Self {
+            pair,
+            options,
+            coordinates,
+            mass,
+            nominal,
+            drive_side,
+            coast_side,
+            bearing,
+            damping,
+            means,
+            modal: None,
+            last,
+            extremes,
+            roots,
+        }
+    }
+}
+
+/// Inertias of both gears on their base circles, J / r_b^2, t.
+pub(super) fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
+    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
+    [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]))
+}
+
+/// Reduced mass of the pair's turns on the base circles, t: the driven gear's alone where the driver's angle is prescribed.
+pub(super) fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
+    let inertia = masses_on_base_circles(pair, &options.bodies);
+    let driver = 1 - options.statics.driven();
+    let held = matches!(options.drive, Drive::Speed(_));
+    equivalent_mass(inertia, held.then_some(driver))
+}
+
+/// Reduced mass on the base circles of two inertias, one of them perhaps held, t.
+pub fn equivalent_mass([a, b]: [f64; 2], held: Option<usize>) -> f64 {
+    match held {
+        Some(0) => b,
+        Some(_) => a,
+        None => a * b / (a + b),
+    }
+}

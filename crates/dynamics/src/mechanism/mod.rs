@@ -1,0 +1,230 @@
+//! Equations of motion of a pair. Theory (45).
+
+mod balance;
+mod build;
+mod external;
+mod extremes;
+mod observe;
+mod passage;
+mod touching;
+
+use geometry::GearPair;
+use nalgebra::{DMatrix, DVector, SMatrix};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    COORDINATES, Changes, Coordinates, Displacement, MeshResonance, Moment, MotionOptions, Nominal, SidePlace,
+    mesh_side::MeshSide,
+    modal::{Modal, Posture},
+};
+use ltca::{RootStress, StaticError};
+
+pub use build::equivalent_mass;
+pub use extremes::Extremes;
+
+use build::{equivalent_mass_of, masses_on_base_circles};
+use touching::Touching;
+
+/// A pair of gears as an integrator sees it.
+///
+/// ```text
+/// M q'' = T' [w(d) + w_f(d) + w_d(d, d') - K_b d - C_b d' + gyroscopic + load + drive - M a_nominal],   d = T q
+/// V = strain energy of teeth and bodies + d' K_b d / 2
+/// ```
+/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w. Coordinates are
+/// deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With [`PairMechanism::with_modes`] coordinates of
+/// normal modes of both gears come behind the rigid ones.
+#[derive(Debug)]
+pub struct PairMechanism {
+    pair: GearPair,
+    options: MotionOptions,
+    coordinates: Coordinates,
+    mass: DMatrix<f64>,
+    nominal: Nominal,
+    drive_side: MeshSide,
+    coast_side: Option<MeshSide>,
+    bearing: [SMatrix<f64, 12, 12>; 2],
+    /// Mesh damping per length of contact line, N s/mm^2.
+    damping: f64,
+    /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
+    means: [f64; 2],
+    modal: Option<Modal>,
+    last: Option<Touching>,
+    extremes: Extremes,
+    /// Fillets, where their stress is asked for; none with normal modes.
+    roots: Option<RootStress>,
+}
+
+/// Where both windows stand and what has been gathered: with a [`integrate::State`] all that a motion is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Driving flanks.
+    pub driving: SidePlace,
+    /// Coast flanks.
+    pub coast: Option<SidePlace>,
+    /// Gathered so far.
+    pub extremes: Extremes,
+}
+
+impl PairMechanism {
+    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by bit.
+    pub fn forget(&mut self) {
+        self.drive_side.forget();
+        if let Some(side) = &mut self.coast_side {
+            side.forget();
+        }
+        self.last = None;
+    }
+
+    /// Where the windows stand.
+    pub fn place(&self) -> Place {
+        let coast = self.coast_side.as_ref().map(MeshSide::place);
+        Place { driving: self.drive_side.place(), coast, extremes: self.extremes }
+    }
+
+    /// Puts the windows where they stood; what contact remembers is forgotten.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn stand(&mut self, place: &Place) -> Result<(), StaticError> {
+        self.drive_side.stand(&self.pair, place.driving)?;
+        if let (Some(side), Some(place)) = (&mut self.coast_side, place.coast) {
+            side.stand(&self.pair, place)?;
+        }
+        (self.last, self.extremes) = (None, place.extremes);
+        Ok(())
+    }
+
+    /// What has been gathered since the start.
+    pub fn extremes(&self) -> &Extremes {
+        &self.extremes
+    }
+
+    /// Whether the coast flanks may touch.
+    pub fn has_coast_flanks(&self) -> bool {
+        self.coast_side.is_some()
+    }
+
+    /// Tooth changes of the driving flanks.
+    pub fn changes(&self) -> Changes {
+        self.drive_side.place().changes
+    }
+
+    /// What is asked of the motion.
+    pub fn options(&self) -> &MotionOptions {
+        &self.options
+    }
+
+    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean tangent stiffness.
+    pub fn mesh_resonance_hz(&self) -> f64 {
+        (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
+    }
+
+    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of the drive.
+    pub fn mesh_resonances_hz(&self) -> [f64; 2] {
+        let inertia = self.base_circle_masses();
+        let driver = 1 - self.options.statics.driven();
+        [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
+    }
+
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact lines.
+    pub fn mesh_resonance(&self) -> MeshResonance {
+        let cos = self.pair.base_helix_angle().cos();
+        let damping =
+            self.damping * self.means[1] * cos * cos / (2.0 * (self.means[0] * self.equivalent_mass()).sqrt());
+        MeshResonance { hz: self.mesh_resonance_hz(), damping }
+    }
+
+    /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
+    pub fn base_circle_masses(&self) -> [f64; 2] {
+        masses_on_base_circles(&self.pair, &self.options.bodies)
+    }
+
+    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is prescribed.
+    pub fn equivalent_mass(&self) -> f64 {
+        equivalent_mass_of(&self.pair, &self.options)
+    }
+
+    /// Free coordinates.
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// Number of all coordinates: free rigid ones, then normal modes of pinion and wheel.
+    pub fn count(&self) -> usize {
+        self.mass.nrows()
+    }
+
+    /// Frequencies of the kept modes with the bores held, Hz, pinion's first; empty without modes.
+    pub fn mode_frequencies_hz(&self) -> Vec<f64> {
+        self.modal.as_ref().map_or(Vec::new(), Modal::frequencies_hz)
+    }
+
+    /// Sizes of all coordinates from those of the rigid ones: a mode's is what moves a flank by `length` (mm).
+    pub fn scales(&self, rigid: &DVector<f64>, length: f64) -> DVector<f64> {
+        let sizes = self.drive_side.contact().modal().map_or(&[][..], |modal| modal.sizes());
+        let modes = sizes.iter().map(|s| length / s);
+        DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
+    }
+
+    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back, amplitudes of modes, which are in the gears' own frames, are
+    /// those of gears that stand a pitch further. n x n; `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at best.
+    pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
+        let (n, rigid) = (self.count(), self.coordinates.count());
+        let mut all = DMatrix::identity(n, n);
+        if let Some(modal) = &self.modal {
+            let turn = modal.turned_by_a_pitch(self.options.statics.contact.sense.sign() as f64)?;
+            all.view_mut((rigid, rigid), (n - rigid, n - rigid)).copy_from(&turn);
+        }
+        Some(all)
+    }
+
+    /// Nominal motion.
+    pub fn nominal(&self) -> &Nominal {
+        &self.nominal
+    }
+
+    /// The pair.
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    fn cycles(&self, t: f64) -> f64 {
+        self.nominal.cycles(&self.pair, &self.options.statics, t)
+    }
+
+    fn moment(&self, t: f64) -> Moment {
+        self.nominal.at(&self.pair, &self.options.statics, t)
+    }
+
+    /// Mesh cycles that the gears have turned, a driver's own deviation from its nominal turn included.
+    fn turned_cycles(&self, t: f64, d: &Displacement) -> f64 {
+        let contact = &self.options.statics;
+        if self.coordinates.driver_turn().is_none() {
+            return self.cycles(t);
+        }
+        let driver = 1 - contact.driven();
+        let gear = [&self.pair.pinion, &self.pair.wheel][driver];
+        // The wheel turns against the pinion's sense.
+        let sense = contact.contact.sense.sign() as f64 * [1.0, -1.0][driver];
+        self.cycles(t) + sense * d[COORDINATES * (driver + 1) - 1] / gear.pitch_angle()
+    }
+
+    /// L D of the modes at time `t`; no rows without modes.
+    fn coupling(&self, t: f64) -> DMatrix<f64> {
+        match &self.modal {
+            None => DMatrix::zeros(0, 2 * COORDINATES),
+            Some(modal) => modal.coupling(self.drive_side.angles(&self.pair, self.cycles(t))),
+        }
+    }
+
+    /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.
+    fn posture(&self, t: f64, q: &DVector<f64>) -> Posture {
+        let d = self.coordinates.displacement(q);
+        let q = match &self.modal {
+            None => DVector::zeros(0),
+            Some(modal) => modal.amplitudes(&self.coupling(t), &d, &q.as_slice()[self.coordinates.count()..]),
+        };
+        Posture { d, q }
+    }
+}

@@ -1,0 +1,89 @@
+//! What the results hold of a state.
+
+use nalgebra::DVector;
+
+use super::{PairMechanism, Touching};
+use crate::{
+    COORDINATES, Displacement, Instant, Moment, contact_line,
+    mesh_side::SideForce,
+    modal::{ModalBalance, Posture},
+};
+use ltca::StaticError;
+
+impl PairMechanism {
+    /// Everything the results hold of a state.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
+        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let d = at.d;
+        let Touching { driving, coast, .. } = self.contact(t, &at, false)?;
+        let cycles = self.cycles(t);
+        let poses = self.drive_side.poses(&self.pair, cycles, &d);
+        let mut losses = driving.friction + self.drive_side.damping(&poses, &rate, self.damping, None).0;
+        let mut normal = driving.normal;
+        let mut normal_forces = [self.drive_side.normal_forces(&poses, &rate, self.damping)[0], 0.0];
+        if let (Some(side), Some(force)) = (&self.coast_side, &coast) {
+            let poses = side.poses(&self.pair, cycles, &d);
+            losses += force.friction + side.damping(&poses, &rate, self.damping, None).0;
+            normal += force.normal;
+            normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
+        }
+        let mesh = normal + losses;
+        let contact = self.drive_side.contact();
+        let slices = self.drive_side.pressed_slices();
+        let max_pressure = slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure));
+        let (window, tooth_changes) = self.drive_side.window();
+        let moment = self.moment(t);
+        let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &moment);
+        let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
+        let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
+        let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
+        let contact_line_length = contact_line::length(&self.pair, contact, &poses);
+        let root_stress = match &self.roots {
+            Some(roots) => self.drive_side.root_stress(&self.pair, &poses, roots)?,
+            None => Default::default(),
+        };
+        Ok(Instant {
+            time: t,
+            cycles: self.turned_cycles(t, &d),
+            speeds,
+            transmission_error: q[self.coordinates.lag()],
+            transmission_error_rate: v[self.coordinates.lag()],
+            displacement: d,
+            drive_torque: self.drive_torque(t, &moment, &(mesh - shared), &losses),
+            load_torque: self.options.load.at(t),
+            bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
+            pair_forces,
+            first_pair,
+            normal_forces,
+            contact_line_length,
+            max_pressure,
+            tooth_changes,
+            mesh,
+            slices,
+            root_stress,
+        })
+    }
+
+    /// What the inertia of the modes takes of the forces on the rigid bodies, D' L' p''; nothing without modes.
+    fn modal_reaction(
+        &self,
+        t: f64,
+        at: &Posture,
+        v: &DVector<f64>,
+        sides: [Option<&SideForce>; 2],
+        moment: &Moment,
+    ) -> Displacement {
+        let Some(modal) = &self.modal else { return Displacement::zeros() };
+        let (coupling, rate) = (self.coupling(t), self.posture(t, v).q);
+        let mut balance = ModalBalance::new(modal, &at.q, &rate);
+        sides.into_iter().flatten().for_each(|side| {
+            balance.add(side, &rate);
+        });
+        balance.accelerate(&coupling, moment);
+        let all = coupling.tr_mul(&(balance.conservative + balance.other));
+        Displacement::from_fn(|i, _| all[i])
+    }
+}

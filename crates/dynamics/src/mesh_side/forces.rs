@@ -1,0 +1,108 @@
+//! Forces of one side, with their slopes.
+
+use contact::{ContactError, Pose, Want, Wrench};
+use geometry::GearPair;
+use nalgebra::{DMatrix, DVector, SMatrix};
+
+use super::MeshSide;
+use crate::{COORDINATES, Displacement, modal::Posture};
+
+/// Forces of one side on the twelve coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SideForce {
+    /// Normal forces: N, N mm.
+    pub normal: Displacement,
+    /// Friction.
+    pub friction: Displacement,
+    /// -d(normal + friction)/dd.
+    pub stiffness: SMatrix<f64, 12, 12>,
+    /// The same with the modes.
+    pub modal: Option<ModalForce>,
+}
+
+/// Forces of one side on the modes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ModalForce {
+    /// Normal forces, m.
+    pub normal: DVector<f64>,
+    /// Friction, m.
+    pub friction: DVector<f64>,
+    /// -d(forces)/d(d, q), (12 + m) x (12 + m), where it was asked for.
+    pub stiffness: Option<DMatrix<f64>>,
+}
+
+impl MeshSide {
+    /// Strain energy of contact with the gears displaced and deformed, N mm; the last evaluation is lost.
+    pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<f64, ContactError> {
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
+        self.contact.evaluate_near(&poses, Want::Energy)?;
+        Ok(self.contact.strain_energy())
+    }
+
+    /// Contact with the gears displaced and deformed; without `tangents` stiffness is any.
+    pub fn evaluate(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &Posture,
+        tangents: bool,
+    ) -> Result<SideForce, ContactError> {
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
+        let force = self.contact.evaluate_near(&poses, if tangents { Want::Tangent } else { Want::Forces })?;
+        let all = vector(&force.wrench);
+        let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
+        let friction = self.friction(&poses);
+        let modal = self.contact.modal().map(|modal| {
+            let (forces, n) = (modal.forces(), 2 * COORDINATES + modal.count());
+            ModalForce {
+                normal: DVector::from_column_slice(&forces.normal),
+                friction: DVector::from_column_slice(&forces.friction),
+                stiffness: tangents.then(|| -DMatrix::from_row_slice(n, n, &forces.tangent)),
+            }
+        });
+        Ok(SideForce { normal: all - friction, friction, stiffness, modal })
+    }
+
+    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm; negative where they are apart. Then, with modes, the last evaluation
+    /// is lost.
+    pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> f64 {
+        // Where flanks overlap the deepest place is among the rows.
+        let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));
+        if deepest > 0.0 {
+            return deepest;
+        }
+        let poses = self.poses(pair, cycles, &at.d);
+        self.contact.deform(at.q.as_slice());
+        self.contact.overlap(&poses)
+    }
+
+    /// Friction alone, from the rows of the last evaluation.
+    fn friction(&self, poses: &[Pose; 2]) -> Displacement {
+        let mut sum = Displacement::zeros();
+        if self.options.contact.friction == 0.0 {
+            return sum;
+        }
+        for (row, &f) in self.contact.rows().iter().zip(self.contact.solver().forces()) {
+            let force = f * (row.traction - row.normal);
+            for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let arm = row.position - poses[g].translation.vector;
+                let moment = arm.cross(&force);
+                for i in 0..3 {
+                    sum[COORDINATES * g + i] += sign * force[i];
+                    sum[COORDINATES * g + 3 + i] += sign * moment[i];
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Forces and moments of both gears as one vector.
+fn vector(wrench: &[Wrench; 2]) -> Displacement {
+    Displacement::from_fn(|i, _| {
+        let w = &wrench[i / COORDINATES];
+        if i % COORDINATES < 3 { w.force[i % 3] } else { w.moment[i % 3] }
+    })
+}

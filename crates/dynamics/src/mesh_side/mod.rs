@@ -1,0 +1,173 @@
+//! Contact of the flanks on one side of the teeth, in motion. Theory (46), (47).
+
+mod changes;
+mod damping;
+mod forces;
+
+use std::sync::Arc;
+
+use ale::{Station, ToothWindow};
+use contact::{ContactSet, MeshContact, ModalFlanks, Pose, frames, reference_angle, slice_result};
+use geometry::GearPair;
+use ltca::{FilletStress, Parts, RootStress, StaticError, StaticOptions};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use reduction::{ElasticGear, GearModes};
+
+use super::{COORDINATES, Displacement, PressedSlice};
+
+pub use changes::{Changes, SidePlace};
+pub(super) use forces::SideForce;
+
+/// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
+#[derive(Debug)]
+pub(super) struct MeshSide {
+    options: StaticOptions,
+    gears: Arc<[ElasticGear; 2]>,
+    window: ToothWindow,
+    contact: MeshContact,
+    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from there.
+    home: (ToothWindow, ContactSet),
+    /// Mesh cycles that this side is ahead of the pair's counting.
+    ahead: f64,
+    /// Turn of the wheel from where these flanks touch to where the driving ones do, rad: backlash on the coast side.
+    slack: f64,
+    changes: Changes,
+    /// Normal modes of both gears that are coordinates of their own.
+    modes: Option<[Arc<GearModes>; 2]>,
+}
+
+impl MeshSide {
+    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the pair's counting.
+    pub fn new(
+        pair: &GearPair,
+        gears: Arc<[ElasticGear; 2]>,
+        options: StaticOptions,
+        reference: &StaticOptions,
+        cycles: f64,
+    ) -> Result<Self, StaticError> {
+        let pitch = pair.pinion.pitch_angle();
+        let apart = pair.middle_angle(reference.side()) - pair.middle_angle(options.side());
+        let ahead = reference.contact.sense.sign() as f64 * apart / pitch;
+        let own = Station::at_cycles(cycles + ahead);
+        let theta = [(own, &options), (Station::at_cycles(cycles), reference)].map(|(station, options)| {
+            reference_angle(pair, &options.contact, station.pinion_angle(pair, options.side(), options.contact.sense))
+        });
+        // Whole teeth apart is the same place.
+        let of_wheel = pair.wheel.pitch_angle();
+        let slack = (theta[1] - theta[0]) - ((theta[1] - theta[0]) / of_wheel).round() * of_wheel;
+        let count = options.window_teeth(pair);
+        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+        let first = ToothWindow::nominal_first(own.centre(options.contact.sense), count);
+        let window = ToothWindow::new(first, count, teeth)?;
+        let set = ContactSet::new(pair, &gears, &window, &options.contact)?;
+        let contact = MeshContact::new(pair, set.clone(), &options.contact)?;
+        let home = (window, set);
+        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default(), modes: None })
+    }
+
+    /// Takes normal modes of both gears for coordinates of their own.
+    pub fn keep_modes(&mut self, modes: [Arc<GearModes>; 2]) -> Result<(), StaticError> {
+        self.modes = Some(modes);
+        self.enter_modes()
+    }
+
+    /// The modes on the flanks of the window as it is.
+    fn enter_modes(&mut self) -> Result<(), StaticError> {
+        let Some([a, b]) = &self.modes else { return Ok(()) };
+        let modal = ModalFlanks::new(&self.gears, [a, b], self.contact.contact_set())?;
+        self.contact.keep_modes(modal);
+        Ok(())
+    }
+
+    /// The same side at its beginning, with the same gears and tables.
+    pub fn again(&self, pair: &GearPair) -> Result<Self, StaticError> {
+        let (window, set) = self.home.clone();
+        let mut again = Self {
+            options: self.options.clone(),
+            gears: Arc::clone(&self.gears),
+            contact: MeshContact::new(pair, set.clone(), &self.options.contact)?,
+            window,
+            home: (window, set),
+            ahead: self.ahead,
+            slack: self.slack,
+            changes: Changes::default(),
+            modes: self.modes.clone(),
+        };
+        again.enter_modes()?;
+        Ok(again)
+    }
+
+    /// Forgets forces and places of the last solution: what comes then depends on the state alone.
+    pub fn forget(&mut self) {
+        self.contact.enter(self.contact.contact_set().clone());
+    }
+
+    /// The fillets of both gears, for [`MeshSide::root_stress`].
+    pub fn root_fillets(&self, pair: &GearPair) -> RootStress {
+        RootStress::new(pair, &self.gears)
+    }
+
+    /// Slices that carried load in the last evaluation.
+    pub fn pressed_slices(&self) -> Vec<PressedSlice> {
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces());
+        loaded
+            .filter(|(_, f)| **f > 0.0)
+            .map(|((row, slice), &f)| PressedSlice {
+                pair: self.window.first() + set.pair_of(row.patches.0) as i64,
+                slice: slice_result(slice, set.side(row.patches.0), f),
+            })
+            .collect()
+    }
+
+    /// Stress in the root fillets of the window under the forces of the last evaluation, which was at these poses.
+    pub fn root_stress(
+        &mut self,
+        pair: &GearPair,
+        poses: &[Pose; 2],
+        roots: &RootStress,
+    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let rows = self.contact.supported_rows(poses);
+        let set = self.contact.contact_set();
+        let displacements =
+            (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
+        let parts = Parts { pair, gears: &self.gears, set, window: &self.window, options: &self.options };
+        roots.of(&parts, displacements.as_ref())
+    }
+
+    /// Angles of the gears' own frames against the common one in their nominal motion, rad.
+    pub fn angles(&self, pair: &GearPair, cycles: f64) -> [f64; 2] {
+        let poses = self.poses(pair, cycles, &Displacement::zeros());
+        let pitches = [pair.pinion.pitch_angle(), pair.wheel.pitch_angle()];
+        [0, 1].map(|g| {
+            let turn = poses[g].rotation.into_inner();
+            let shift = self.contact.contact_set().windows().map_or(0, |w| w[g].shift);
+            2.0 * turn.k.atan2(turn.w) - f64::from(shift) * pitches[g]
+        })
+    }
+
+    /// Frames of the matrices with the gears displaced by `d` from their nominal places.
+    pub fn poses(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> [Pose; 2] {
+        let station = Station::at_cycles(cycles + self.ahead);
+        let turns = [d[COORDINATES - 1], d[2 * COORDINATES - 1] + self.slack];
+        let set = self.contact.contact_set();
+        let nominal = frames(pair, set, &self.window, &self.options.contact, station, turns);
+        [0, 1].map(|g| {
+            let at = COORDINATES * g;
+            let moved = Vector3::new(d[at], d[at + 1], d[at + 2]);
+            let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[at + 3], d[at + 4], 0.0));
+            let place = nominal[g].translation.vector + moved;
+            Pose::from_parts(Translation3::from(place), tilt * nominal[g].rotation)
+        })
+    }
+
+    /// The last evaluation.
+    pub fn contact(&self) -> &MeshContact {
+        &self.contact
+    }
+
+    /// The window, and how often it has moved.
+    pub fn window(&self) -> (&ToothWindow, u64) {
+        (&self.window, self.changes.count)
+    }
+}

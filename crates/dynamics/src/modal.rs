@@ -1,0 +1,197 @@
+//! Normal modes that move beside the rigid bodies. Theory (62).
+//!
+//! ```text
+//! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2        x rigid coordinates of one gear, D their turn into the gear's own frame
+//! p = q + L D x:  x' (M - L' L) x' / 2 + p' . p' / 2              constant, and without coupling
+//! V = V_contact(x, q) + q' Omega^2 q / 2,   q = p - L D x
+//! ```
+//! L = Phi' M R is the inertia that modes share with rigid motion. Turning at the angular velocity W changes D; what that adds to velocities, and Coriolis forces on the
+//! modes, are W / omega of what is kept and are left out.
+
+use std::{f64::consts::TAU, sync::Arc};
+
+use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
+use reduction::GearModes;
+
+use crate::{COORDINATES, Displacement, Moment, mesh_side::SideForce};
+
+/// Normal modes of a gear with their damping.
+#[derive(Debug, Clone)]
+pub struct GearVibration {
+    /// Shapes and frequencies, bore held and flanks free ([`reduction::GearReducer::modes`]), or of its Craig-Bampton model
+    /// ([`reduction::GearReducer::craig_bampton_modes`]).
+    pub modes: Arc<GearModes>,
+    /// Damping ratio of every mode, 0 .. 1; steel alone has a thousandth.
+    pub damping_ratio: f64,
+}
+
+/// Place or velocity of a pair: rigid displacements of both gears and amplitudes q of their modes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Posture {
+    pub d: Displacement,
+    pub q: DVector<f64>,
+}
+
+/// Modes of both gears as coordinates of a pair.
+#[derive(Debug, Clone)]
+pub(super) struct Modal {
+    gears: [GearVibration; 2],
+    /// omega^2 and 2 zeta omega of all modes, pinion's first.
+    pub squares: DVector<f64>,
+    pub dampers: DVector<f64>,
+}
+
+impl Modal {
+    pub fn new(gears: [GearVibration; 2]) -> Self {
+        let all = |value: fn(f64, f64) -> f64| {
+            let of_gear =
+                |g: &GearVibration| g.modes.squares().iter().map(|s| value(*s, g.damping_ratio)).collect::<Vec<_>>();
+            DVector::from_vec(gears.iter().flat_map(of_gear).collect())
+        };
+        let (squares, dampers) = (all(|s, _| s), all(|s, zeta| 2.0 * zeta * s.sqrt()));
+        Self { gears, squares, dampers }
+    }
+
+    /// Number of modes of both gears, m.
+    pub fn count(&self) -> usize {
+        self.squares.len()
+    }
+
+    /// L D of both gears, m x 12, with the gears' own frames turned by `angles` (rad).
+    pub fn coupling(&self, angles: [f64; 2]) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.count(), 2 * COORDINATES);
+        let mut row = 0;
+        for (g, gear) in self.gears.iter().enumerate() {
+            let (sin, cos) = angles[g].sin_cos();
+            for own in gear.modes.coupling() {
+                for at in [0, 3] {
+                    // (L D) = L turned back: the gear's x axis stands at the angle in the common frame.
+                    let (x, y, z) = (own[at], own[at + 1], own[at + 2]);
+                    let turned = [cos * x - sin * y, sin * x + cos * y, z];
+                    (0..3).for_each(|i| all[(row, COORDINATES * g + at + i)] = turned[i]);
+                }
+                row += 1;
+            }
+        }
+        all
+    }
+
+    /// L' L of both gears, averaged over the turn, as bodies are: that of a cyclic gear is the same at every angle.
+    pub fn shared_inertia(&self) -> SMatrix<f64, 12, 12> {
+        let mut all = SMatrix::<f64, 12, 12>::zeros();
+        for (g, gear) in self.gears.iter().enumerate() {
+            let own = gear.modes.coupling().iter().fold(Matrix6::zeros(), |sum: Matrix6<f64>, row| {
+                let l = nalgebra::Vector6::from_column_slice(row);
+                sum + l * l.transpose()
+            });
+            let mut round = Matrix6::zeros();
+            for (a, b) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+                let (same, across) = (own[(a, b)] + own[(a + 1, b + 1)], own[(a, b + 1)] - own[(a + 1, b)]);
+                (round[(a, b)], round[(a + 1, b + 1)]) = (0.5 * same, 0.5 * same);
+                (round[(a, b + 1)], round[(a + 1, b)]) = (0.5 * across, -0.5 * across);
+                round[(a + 2, b + 2)] = own[(a + 2, b + 2)];
+            }
+            all.fixed_view_mut::<6, 6>(COORDINATES * g, COORDINATES * g).copy_from(&round);
+        }
+        all
+    }
+
+    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, the pinion in the sense of `sign` and the wheel against it; `None`
+    /// where one of them has no such turn.
+    pub fn turned_by_a_pitch(&self, sign: f64) -> Option<DMatrix<f64>> {
+        let mut all = DMatrix::zeros(self.count(), self.count());
+        let mut at = 0;
+        for (gear, sign) in self.gears.iter().zip([sign, -sign]) {
+            let turn = gear.modes.turned_by_a_tooth()?;
+            let m = turn.nrows();
+            all.view_mut((at, at), (m, m)).copy_from(&if sign > 0.0 { turn } else { turn.transpose() });
+            at += m;
+        }
+        Some(all)
+    }
+
+    /// q = p - L D d, for places and for velocities.
+    pub fn amplitudes(&self, coupling: &DMatrix<f64>, d: &Displacement, p: &[f64]) -> DVector<f64> {
+        DVector::from_column_slice(p) - coupling * d
+    }
+
+    /// Frequencies of all modes, Hz.
+    pub fn frequencies_hz(&self) -> Vec<f64> {
+        self.squares.iter().map(|s| s.sqrt() / TAU).collect()
+    }
+}
+
+/// Forces on the modes and the tangents of all coordinates, as they are put together.
+#[derive(Debug)]
+pub(super) struct ModalBalance<'a> {
+    modal: &'a Modal,
+    /// With a potential: normal forces and -Omega^2 q.
+    pub conservative: DVector<f64>,
+    /// Friction and damping.
+    pub other: DVector<f64>,
+    /// -df/d(d, q) and -df/d(velocities), (12 + m) x (12 + m).
+    pub stiffness: DMatrix<f64>,
+    pub damping: DMatrix<f64>,
+    /// Power that the modes' own dampers take.
+    pub dissipated: f64,
+}
+
+impl<'a> ModalBalance<'a> {
+    /// Of the modes by themselves.
+    pub fn new(modal: &'a Modal, q: &DVector<f64>, rate: &DVector<f64>) -> Self {
+        let n = 2 * COORDINATES + modal.count();
+        let on_diagonal = |values: &DVector<f64>| {
+            let mut all = DMatrix::zeros(n, n);
+            values.iter().enumerate().for_each(|(j, v)| all[(2 * COORDINATES + j, 2 * COORDINATES + j)] = *v);
+            all
+        };
+        let damped = modal.dampers.component_mul(rate);
+        Self {
+            modal,
+            conservative: -modal.squares.component_mul(q),
+            dissipated: damped.dot(rate),
+            other: -damped,
+            stiffness: on_diagonal(&modal.squares),
+            damping: on_diagonal(&modal.dampers),
+        }
+    }
+
+    /// Adds what the contact of one side does; the power that friction takes from the modes.
+    pub fn add(&mut self, force: &SideForce, rate: &DVector<f64>) -> f64 {
+        let Some(modal) = &force.modal else { return 0.0 };
+        self.conservative += &modal.normal;
+        self.other += &modal.friction;
+        if let Some(stiffness) = &modal.stiffness {
+            self.stiffness += stiffness;
+        }
+        -modal.friction.dot(rate)
+    }
+
+    /// Adds the inertia of a nominal motion that is not steady, -L D a, which is returned.
+    pub fn accelerate(&mut self, coupling: &DMatrix<f64>, moment: &Moment) -> DVector<f64> {
+        let mut force = DVector::zeros(self.modal.count());
+        for g in 0..2 {
+            force -= coupling.column(COORDINATES * (g + 1) - 1) * moment.acceleration[g];
+        }
+        self.other += &force;
+        force
+    }
+
+    /// Adds stiffness and damping of the rigid coordinates alone.
+    pub fn add_rigid(&mut self, stiffness: &SMatrix<f64, 12, 12>, damping: &SMatrix<f64, 12, 12>) {
+        for (all, own) in [(&mut self.stiffness, stiffness), (&mut self.damping, damping)] {
+            let mut block = all.fixed_view_mut::<12, 12>(0, 0);
+            block += own;
+        }
+    }
+}
+
+/// Y of y = (d, q) = Y (free coordinates, p), (12 + m) x (n + m).
+pub(super) fn expansion(map: &DMatrix<f64>, coupling: &DMatrix<f64>) -> DMatrix<f64> {
+    let (n, m) = (map.ncols(), coupling.nrows());
+    let mut y = DMatrix::zeros(2 * COORDINATES + m, n + m);
+    y.view_mut((0, 0), (2 * COORDINATES, n)).copy_from(map);
+    y.view_mut((2 * COORDINATES, 0), (m, n)).copy_from(&(-coupling * map));
+    y.view_mut((2 * COORDINATES, n), (m, m)).fill_with_identity();
+    y
+}

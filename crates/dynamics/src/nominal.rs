@@ -1,0 +1,79 @@
+//! Where a pair would stand if its flanks were rigid and just touched.
+
+use ale::Station;
+use geometry::{Driver, GearPair};
+use ltca::StaticOptions;
+use serde::{Deserialize, Serialize};
+
+use crate::Speed;
+
+/// Nominal motion of a pair: both gears turn in the ratio of their teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Nominal {
+    /// Speed of the driver, rad/s, in the running sense.
+    pub speed: Speed,
+    /// Mesh cycles, whole and part, at t = 0.
+    pub start: f64,
+}
+
+/// Nominal motion at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Station.
+    pub station: Station,
+    /// Angular velocity of both gears about +z, rad/s.
+    pub velocity: [f64; 2],
+    /// Angular acceleration of both gears about +z, rad/s^2.
+    pub acceleration: [f64; 2],
+    /// Sense in which the pinion runs, +1 counter-clockwise.
+    pub sense: f64,
+}
+
+impl Moment {
+    /// Sense in which a gear runs, +1 counter-clockwise; also where it stands still.
+    pub fn running_sense(&self, gear: usize) -> f64 {
+        if gear == 0 { self.sense } else { -self.sense }
+    }
+}
+
+impl Nominal {
+    /// Mesh cycles a second at time `t` (s).
+    pub fn cycles_per_second(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> f64 {
+        self.speed.at(t) / driver_pitch(pair, options)
+    }
+
+    /// Time (s, >= 0) at which `cycles` mesh cycles have passed since t = 0; `None` where the gears stop before that.
+    pub fn time_at(&self, pair: &GearPair, options: &StaticOptions, cycles: f64) -> Option<f64> {
+        self.speed.time_at(cycles * driver_pitch(pair, options))
+    }
+
+    /// Mesh cycles since the start of counting at time `t` (s).
+    pub fn cycles(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> f64 {
+        self.start + self.speed.angle(t) / driver_pitch(pair, options)
+    }
+
+    /// The moment at time `t` (s).
+    pub fn at(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> Moment {
+        let cycles = self.cycles(pair, options, t);
+        let ratio = f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth());
+        let sense = options.contact.sense.sign() as f64;
+        let of_pinion = match options.contact.driver {
+            Driver::Pinion => sense,
+            Driver::Wheel => sense / ratio,
+        };
+        let both = |x: f64| [of_pinion * x, -of_pinion * ratio * x];
+        Moment {
+            station: Station::at_cycles(cycles),
+            velocity: both(self.speed.at(t)),
+            acceleration: both(self.speed.acceleration(t)),
+            sense,
+        }
+    }
+}
+
+fn driver_pitch(pair: &GearPair, options: &StaticOptions) -> f64 {
+    match options.contact.driver {
+        Driver::Pinion => pair.pinion.pitch_angle(),
+        Driver::Wheel => pair.wheel.pitch_angle(),
+    }
+}

@@ -1,0 +1,187 @@
+//! The periodic answer found directly: Newton on the map over one period. Theory (49).
+//!
+//! ```text
+//! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
+//! ```
+//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of modes are in
+//! ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
+//! period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
+//! than waiting; and it finds unstable answers, which waiting never does.
+
+use integrate::{MotionError, State, difference};
+use ltca::StaticError;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::{Motion, PairMotionError, Place};
+
+/// Differences of coordinates over their scales.
+const STEP: f64 = 1e-4;
+/// Times a Newton step is halved before it is taken as it is.
+const HALVINGS: usize = 5;
+
+/// What shooting has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShootingResult {
+    /// Largest difference of a coordinate or velocity over a period, over its peak to peak.
+    pub residual: f64,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Periods integrated in all.
+    pub periods: usize,
+    /// Largest |eigenvalue| of dP/dx: below 1 the answer is stable; how much of a disturbance is left after a period.
+    pub multiplier: f64,
+}
+
+/// Brings `motion`, at the start of cycle 0, onto its periodic answer of `period` mesh cycles; afterwards it stands there at the start of cycle 0.
+///
+/// Gives up after `most` Newton steps: the residual then says how far it is from repeating itself.
+///
+/// # Errors
+/// [`MotionError::NoPeriod`] where a torque drives, since speed and place of the driver are free then, and with modes of a gear that is not known by sectors; [`PairMotionError`]
+/// of the integration.
+pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<ShootingResult, PairMotionError> {
+    if motion.system().coordinates().driver_turn().is_some() {
+        return Err(MotionError::NoPeriod(
+            "a driver that a torque turns has no period of its own: shooting needs a given speed",
+        ));
+    }
+    if period == 0 || motion.cycle() != 0 {
+        return Err(MotionError::Options(
+            "shooting begins at the start of a motion and takes a period of one mesh cycle or more",
+        ));
+    }
+    let Some(over) = motion.system().over_a_pitch() else {
+        return Err(MotionError::NoPeriod(
+            "shooting with normal modes needs gears that are known by sectors, whose teeth are all alike, and whole pairs of modes of one frequency",
+        ));
+    };
+    let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
+    let mut search = Search { start: motion.system().place(), period, back, periods: 0 };
+    // Where the search begins, the integrator's own acceleration is the true one.
+    let mut here = motion.state().clone();
+    motion.rewind(&search.start, here.clone())?;
+    here.averaged = motion.state().a.clone();
+    let mut end = search.map(motion, &here)?;
+    let mut shot = ShootingResult { residual: end.residual, iterations: 0, periods: 0, multiplier: f64::NAN };
+    while shot.residual > tolerance && shot.iterations < most {
+        let monodromy = search.monodromy(motion, &here, &end)?;
+        shot.multiplier = largest_eigenvalue(&monodromy);
+        let parts = parts(motion);
+        let rest = stacked(&end.state, parts) - stacked(&here, parts);
+        let step = (DMatrix::identity(rest.len(), rest.len()) - monodromy)
+            .lu()
+            .solve(&rest)
+            .filter(|s| s.iter().all(|x| x.is_finite()))
+            .ok_or(MotionError::Singular { time: here.time, which: "period" })?;
+        let mut share = 1.0;
+        for halving in 0..=HALVINGS {
+            let next = moved(&here, &(share * &step));
+            let there = match search.map(motion, &next) {
+                // Too far: not even a motion.
+                Err(MotionError::Mechanism { source: StaticError::PassedThrough { .. }, .. }) if halving < HALVINGS => {
+                    share *= 0.5;
+                    continue;
+                }
+                other => other?,
+            };
+            if there.residual < shot.residual || halving == HALVINGS {
+                (here, end) = (next, there);
+                break;
+            }
+            share *= 0.5;
+        }
+        shot.residual = end.residual;
+        shot.iterations += 1;
+    }
+    shot.periods = search.periods;
+    motion.rewind(&search.start, here)?;
+    Ok(shot)
+}
+
+/// The map over a period.
+struct Search {
+    start: Place,
+    period: u64,
+    /// Turn of the coordinates back by a period.
+    back: DMatrix<f64>,
+    periods: usize,
+}
+
+/// Where a period ends.
+struct End {
+    state: State,
+    residual: f64,
+}
+
+impl Search {
+    fn map(&mut self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
+        self.periods += 1;
+        self.over_period(motion, from)
+    }
+
+    /// dP/dx, column by column.
+    fn monodromy(&mut self, motion: &Motion, here: &State, end: &End) -> Result<DMatrix<f64>, PairMotionError> {
+        let (n, parts) = (here.q.len(), parts(motion));
+        self.periods += parts * n;
+        let scale = &motion.settings().scale;
+        let omega = std::f64::consts::TAU * motion.system().mesh_resonance_hz();
+        let base = stacked(&end.state, parts);
+        let column = |j: usize| {
+            // Coordinates, velocities and accelerations of a vibration at the mesh resonance.
+            let size = STEP * scale[j % n] * omega.powi((j / n) as i32);
+            let mut offset = DVector::zeros(parts * n);
+            offset[j] = size;
+            let system = motion.system().with_drive(motion.system().options().drive.clone());
+            let system = system.map_err(|source| MotionError::Mechanism { time: here.time, source })?;
+            let mut own = Motion::new(system, motion.settings().clone(), here.clone());
+            let there = self.over_period(&mut own, &moved(here, &offset))?;
+            Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)
+        };
+        let columns: Vec<DVector<f64>> = (0..parts * n).into_par_iter().map(column).collect::<Result<_, _>>()?;
+        Ok(DMatrix::from_columns(&columns))
+    }
+
+    fn over_period(&self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
+        motion.rewind(&self.start, from.clone())?;
+        let mut size: Option<[DVector<f64>; 2]> = None;
+        for _ in 0..self.period {
+            let envelope = motion.run_cycle(None)?.peak_to_peak();
+            size = Some(match size {
+                None => envelope,
+                Some(before) => [0, 1].map(|i| before[i].sup(&envelope[i])),
+            });
+        }
+        let mut state = motion.state().clone();
+        for part in [&mut state.q, &mut state.v, &mut state.averaged] {
+            *part = &self.back * &*part;
+        }
+        let both = [[state.q.clone(), state.v.clone()], [from.q.clone(), from.v.clone()]];
+        let scale = &motion.settings().scale;
+        let residual = size.map_or(f64::INFINITY, |s| difference([&both[0], &both[1]], &s, scale, None));
+        Ok(End { state, residual })
+    }
+}
+
+/// Parts of x: coordinates, velocities, and the integrator's own acceleration where it has one.
+fn parts(motion: &Motion) -> usize {
+    if motion.carries_acceleration() { 3 } else { 2 }
+}
+
+fn stacked(state: &State, parts: usize) -> DVector<f64> {
+    let n = state.q.len();
+    DVector::from_fn(parts * n, |i, _| [&state.q, &state.v, &state.averaged][i / n][i % n])
+}
+
+fn moved(state: &State, by: &DVector<f64>) -> State {
+    let n = state.q.len();
+    let mut next = state.clone();
+    for (k, part) in [&mut next.q, &mut next.v, &mut next.averaged].into_iter().enumerate().take(by.len() / n) {
+        *part += by.rows(k * n, n);
+    }
+    next
+}
+
+fn largest_eigenvalue(matrix: &DMatrix<f64>) -> f64 {
+    matrix.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
+}

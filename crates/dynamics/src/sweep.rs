@@ -1,0 +1,235 @@
+//! The same pair at many speeds.
+
+use std::ops::ControlFlow;
+
+use integrate::{Ledger, MotionError, Periodicity, State};
+use ltca::StaticError;
+use rayon::prelude::*;
+
+use crate::{
+    Changes, Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, quasi_static_start,
+    run_to_steady, shoot,
+};
+
+/// Which way a sweep goes through its speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Every speed begins by itself, in quasi-static equilibrium.
+    Apart,
+    /// From the lowest speed to the highest, each beginning where the one before ended.
+    Up,
+    /// From the highest to the lowest.
+    Down,
+}
+
+/// How a steady state is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SteadyBy {
+    /// By waiting.
+    Running,
+    /// Directly, then by waiting for what is left.
+    Shooting,
+}
+
+/// What is asked of a steady state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteadyOptions {
+    /// How it is found.
+    pub by: SteadyBy,
+    /// Difference over a period over the peak to peak that counts as none.
+    pub tolerance: f64,
+    /// Mesh cycles to wait at the most.
+    pub most: u64,
+    /// Mesh cycles that are looked at then.
+    pub cycles: u64,
+}
+
+/// Speeds, ways, and what is asked of each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepPlan {
+    /// Speeds of the driver, rad/s, ascending, > 0.
+    pub speeds: Vec<f64>,
+    /// Ways to go through them.
+    pub ways: Vec<Way>,
+    /// Method and rows.
+    pub settings: MotionSettings,
+    /// Steady state.
+    pub steady: SteadyOptions,
+    /// A near-by lag at the start, mm.
+    pub guess: f64,
+}
+
+/// The answer at one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepPoint {
+    /// Speed of the driver, rad/s.
+    pub speed: f64,
+    /// Which way it was come to.
+    pub way: Way,
+    /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
+    pub own_start: bool,
+    /// How well it repeats itself.
+    pub periodicity: Periodicity,
+    /// Mesh cycles waited.
+    pub waited: u64,
+    /// Dynamic transmission error row by row, mm.
+    pub transmission_error: Vec<f64>,
+    /// Sum of the normal forces on the driving flanks row by row, N.
+    pub normal_force: Vec<f64>,
+    /// Sum of the normal forces on the coast flanks, largest, N.
+    pub coast_force: f64,
+    /// Largest force of a bearing, N; 0 without bearings.
+    pub bearing_force: f64,
+    /// Energy from the start of this speed on, its settling included.
+    pub ledger: Ledger,
+    /// Work that went through the pair in the same time, N mm.
+    pub throughput: f64,
+    /// Extremes over the same time.
+    pub extremes: Extremes,
+    /// Tooth changes in the same time.
+    pub changes: Changes,
+}
+
+/// A speed without an answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepMiss {
+    /// Speed of the driver, rad/s.
+    pub speed: f64,
+    /// Which way it was come to.
+    pub way: Way,
+    /// Why: of its own quasi-static start, where it was tried from there as well.
+    pub error: PairMotionError,
+}
+
+/// What a sweep finds at one speed.
+pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
+
+/// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same numbers for any number of threads.
+///
+/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static equilibrium, and the speed behind one without an answer goes on from the
+/// last that has one. `seen` is told of each, and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
+///
+/// # Errors
+/// [`MotionError::Options`] where a torque of its own drives: the sweep says the speed.
+pub fn sweep(
+    system: &PairMechanism,
+    plan: &SweepPlan,
+    seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
+) -> Result<Vec<SweepOutcome>, PairMotionError> {
+    if matches!(system.options().drive, Drive::Torque { .. }) {
+        return Err(MotionError::Options(
+            "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load",
+        ));
+    }
+    let chain = |way: Way| {
+        let mut state: Option<State> = None;
+        let mut outcomes = Vec::with_capacity(plan.speeds.len());
+        let mut speeds = plan.speeds.clone();
+        if way == Way::Down {
+            speeds.reverse();
+        }
+        for speed in speeds {
+            let (outcome, end) = standing(system, plan, way, speed, state.as_ref());
+            state = end.or(state);
+            let goes_on = seen(&outcome);
+            outcomes.push(outcome);
+            if goes_on.is_break() {
+                break;
+            }
+        }
+        outcomes
+    };
+    let apart = |&speed: &f64| {
+        let (outcome, _) = standing(system, plan, Way::Apart, speed, None);
+        let _ = seen(&outcome);
+        outcome
+    };
+    let of_way = |&way: &Way| match way {
+        Way::Apart => plan.speeds.par_iter().map(apart).collect(),
+        _ => chain(way),
+    };
+    let all: Vec<Vec<SweepOutcome>> = plan.ways.par_iter().map(of_way).collect();
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// One speed from a state of another one, then from its own start where that does not get through; and where it ends.
+fn standing(
+    system: &PairMechanism,
+    plan: &SweepPlan,
+    way: Way,
+    speed: f64,
+    state: Option<&State>,
+) -> (SweepOutcome, Option<State>) {
+    // Teeth missing beside the window are no matter of the start.
+    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source: StaticError::Starved { .. }, .. });
+    let carried = state.map(|state| one(system, plan, way, speed, Some(state)));
+    let found = match carried {
+        Some(Ok(found)) => Ok(found),
+        Some(Err(error)) if starved(&error) => Err(error),
+        Some(Err(_)) | None => one(system, plan, way, speed, None),
+    };
+    match found {
+        Ok((point, end)) => (Ok(point), Some(end)),
+        Err(error) => (Err(SweepMiss { speed, way, error }), None),
+    }
+}
+
+fn one(
+    system: &PairMechanism,
+    plan: &SweepPlan,
+    way: Way,
+    speed: f64,
+    state: Option<&State>,
+) -> Result<(SweepPoint, State), PairMotionError> {
+    let time = 0.0;
+    let drive = match system.options().drive {
+        Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
+        _ => Drive::Speed(Speed::Constant(speed)),
+    };
+    let mut own = system.with_drive(drive).map_err(|source| MotionError::Mechanism { time, source })?;
+    let own_start = state.is_none();
+    let state = match state {
+        Some(before) => State::new(time, before.q.clone(), before.v.clone()),
+        None => quasi_static_start(&mut own, time, plan.guess, &plan.settings.scale)?,
+    };
+    let mut motion = Motion::new(own, plan.settings.clone(), state);
+    let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
+    if by == SteadyBy::Shooting {
+        shoot(&mut motion, 1, tolerance, SHOTS)?;
+    }
+    let periodicity = run_to_steady(&mut motion, tolerance, most, |_, _| ())?;
+    let mut point = SweepPoint {
+        speed,
+        way,
+        own_start,
+        periodicity,
+        waited: motion.cycle(),
+        transmission_error: Vec::new(),
+        normal_force: Vec::new(),
+        coast_force: 0.0,
+        bearing_force: 0.0,
+        ledger: Ledger::default(),
+        throughput: 0.0,
+        extremes: Extremes::default(),
+        changes: Changes::default(),
+    };
+    let mut row = |now: &crate::Instant, _: &Ledger| {
+        point.transmission_error.push(now.transmission_error);
+        point.normal_force.push(now.normal_forces[0]);
+        point.coast_force = point.coast_force.max(now.normal_forces[1]);
+        for at in [0, crate::COORDINATES] {
+            point.bearing_force = point.bearing_force.max(now.bearing.fixed_rows::<3>(at).norm());
+        }
+    };
+    for _ in 0..cycles {
+        motion.run_cycle(Some(&mut row))?;
+    }
+    point.ledger = motion.ledger().copied().unwrap_or_default();
+    point.throughput = motion.counts().throughput;
+    (point.extremes, point.changes) = (*motion.system().extremes(), motion.system().changes());
+    let end = motion.state().clone();
+    Ok((point, end))
+}
+
+/// Newton steps of shooting before waiting takes over.
+pub const SHOTS: usize = 12;

@@ -1,0 +1,184 @@
+//! Torque equilibrium at one station. Theory (20).
+
+use ale::Station;
+use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, Solution, frames};
+use geometry::GearPair;
+
+use crate::{
+    Parts, StaticError,
+    kinematic::Unloaded,
+    pose_solver::{Memory, Solver, Step, Touched, remembered},
+};
+
+/// Solved contact at one station.
+#[derive(Debug, Clone)]
+pub struct Equilibrium {
+    /// Where.
+    pub station: Station,
+    /// Poses of the matrices' frames of both gears.
+    pub poses: [Pose; 2],
+    /// Rotation of the driven gear from the unloaded position, rad, about +z.
+    pub rotation: f64,
+    /// The same without load: where the flanks just touch.
+    pub unloaded_rotation: f64,
+    /// Transmission error, mm; positive when the driven gear lags.
+    pub transmission_error: f64,
+    /// Transmission error without load, mm.
+    pub kinematic_transmission_error: f64,
+    /// Candidate points.
+    pub rows: Vec<ContactRow>,
+    /// The slice of each row; none where points touch.
+    pub slices: Vec<Slice>,
+    /// Forces and gaps at the rows.
+    pub solution: Solution,
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced gears, where nothing
+    /// needs them: [`contact::ContactSet::displacements`] has them then.
+    pub displacements: [Vec<f64>; 2],
+    /// Active-set iterations over all pose steps.
+    pub iterations: usize,
+}
+
+/// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
+pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
+/// Pose steps before giving up.
+const POSE_STEPS: usize = 40;
+/// Last step of the pose relative to the approach.
+const POSE_TOLERANCE: f64 = 1e-10;
+/// Deflection over the module from which on it is the load that parts the flanks: teeth are some two modules high.
+const TOO_FAR: f64 = 0.25;
+/// Guessed deflection of steel teeth over the module from which on no material stands the load.
+const HOPELESS: f64 = 10.0;
+/// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
+const POSE_ROUND_OFF: f64 = 1e-9;
+
+/// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
+pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2] {
+    let Parts { pair, set, window, options, .. } = *parts;
+    let mut turns = [0.0; 2];
+    turns[options.driven()] = rotation;
+    frames(pair, set, window, &options.contact, station, turns)
+}
+
+impl Equilibrium {
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that the
+    /// equilibrium was found on.
+    pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
+        match set.windows() {
+            Some(_) if self.displacements.iter().all(Vec::is_empty) => {
+                set.displacements_under(&self.rows, &self.solution.forces).unwrap_or_default()
+            }
+            _ => self.displacements.clone(),
+        }
+    }
+
+    pub(crate) fn memory(&self) -> Memory {
+        remembered(&self.rows, &self.solution)
+    }
+
+    /// Transmission error that is due to load, mm.
+    pub fn elastic_error(&self) -> f64 {
+        self.transmission_error - self.kinematic_transmission_error
+    }
+
+    /// Opening of the gaps at the rows' normal approach, largest, mm.
+    pub fn approach(&self, pair: &GearPair) -> f64 {
+        self.elastic_error().abs() * pair.base_helix_angle().cos()
+    }
+}
+
+/// Turns the driven gear until contact balances its torque.
+///
+/// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
+/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact. `mesh` solves it
+/// where contact is made of slices on reduced gears.
+pub(crate) fn equilibrium(
+    parts: &Parts,
+    mesh: Option<&mut MeshContact>,
+    station: Station,
+    guess: Option<&Equilibrium>,
+) -> Result<Equilibrium, StaticError> {
+    let Parts { pair, set, options, .. } = *parts;
+    let fail = |source: ContactError| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
+    let side = options.side();
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+    let unloaded = Unloaded::new(pair, &options.contact, station)?;
+    let kinematic = unloaded.transmission_error();
+    let mut solver = match mesh {
+        Some(mesh) => Solver::Mesh(mesh),
+        None => Solver::General {
+            line: set.line_points(&options.contact, &poses(parts, station, unloaded.rotation)),
+            memory: guess.map(Equilibrium::memory).unwrap_or_default(),
+            touched: None,
+        },
+    };
+    let force = options.torque / base_radius;
+    // From the flanks' touch on by the deflection of the station before.
+    let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
+    let mut rotation = unloaded.rotation + deflection;
+    let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
+    let module_mm = pair.pinion.data().normal_module;
+    let overloaded = |deflection_mm: f64| {
+        let Station { cycle, phase } = station;
+        StaticError::Overloaded { cycle, phase, torque_nm: 1e-3 * options.torque, deflection_mm, module_mm }
+    };
+    // No search settles this: the numbers of the contact themselves are lost in round-off.
+    if guessed > HOPELESS * module_mm {
+        return Err(overloaded(guessed));
+    }
+    // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
+    let facets = if options.contact.gap == contact::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
+    let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
+    let mut iterations = 0;
+    let mut step_mm = f64::INFINITY;
+    for _ in 0..POSE_STEPS {
+        let poses = poses(parts, station, rotation);
+        let (turn, steps) = match solver.step(parts, &poses, reach).map_err(fail)? {
+            Step::Turn(turn, steps) => (turn, steps),
+            Step::OutOfReach => {
+                if reach > module_mm {
+                    let turned = base_radius * (rotation - unloaded.rotation).abs();
+                    let deflection_mm = turned.max(guessed);
+                    if deflection_mm > TOO_FAR * module_mm {
+                        return Err(overloaded(deflection_mm));
+                    }
+                    return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
+                }
+                reach = 4.0 * reach.max(1e-9);
+                continue;
+            }
+            Step::TooShort(farthest) => {
+                reach = 1.5 * farthest;
+                continue;
+            }
+        };
+        iterations += steps;
+        rotation += turn;
+        let before = step_mm;
+        step_mm = (turn * base_radius).abs();
+        let error = side.sign() * base_radius * rotation;
+        let elastic = (error - kinematic).abs();
+        // An angle of a few radians resolves no smaller steps.
+        let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
+        let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
+        if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
+            && let Some(touched) = solver.touched(&poses)
+        {
+            let Touched { rows, slices, solution, displacements } = *touched;
+            return Ok(Equilibrium {
+                station,
+                poses,
+                rotation,
+                unloaded_rotation: unloaded.rotation,
+                transmission_error: error,
+                kinematic_transmission_error: kinematic,
+                rows,
+                slices,
+                solution,
+                displacements,
+                iterations,
+            });
+        }
+        reach = facets + (0.25 * elastic).max(2.0 * step_mm);
+    }
+    Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })
+}

@@ -1,0 +1,153 @@
+//! What can go wrong in an analysis.
+
+/// A quasi-static analysis could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StaticError {
+    /// Contact cannot be set up: a gear cannot be reduced, mesh and geometry do not fit, an offset is out of range.
+    #[error(transparent)]
+    SetUp(#[from] contact::ContactError),
+    /// Contact at a station.
+    #[error("at mesh phase {phase:.6} of cycle {cycle}: {source}")]
+    Contact {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// What happened.
+        source: contact::ContactError,
+    },
+    /// The pose did not settle.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: no equilibrium after {iterations} steps, the last one {step_mm:.3e} mm"
+    )]
+    NoEquilibrium {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Steps.
+        iterations: usize,
+        /// Last step on the base circle, mm.
+        step_mm: f64,
+    },
+    /// Teeth would bend by as much as they are high.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: {torque_nm} N m would bend the teeth by {deflection_mm:.3} mm, at a module of {module_mm} mm"
+    )]
+    Overloaded {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Torque, N m.
+        torque_nm: f64,
+        /// How far the driven gear had given way when its flanks lost each other, on the base circle; mm.
+        deflection_mm: f64,
+        /// Normal module, mm.
+        module_mm: f64,
+    },
+    /// A pair outside the window would touch.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
+    )]
+    Starved {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Running number of the pair.
+        pair: i64,
+        /// Teeth of the window.
+        window: usize,
+        /// Overlap of the undeformed flanks at the loaded pose, um.
+        overlap_um: f64,
+        /// Torque, N m.
+        torque_nm: f64,
+    },
+    /// Teeth have gone through each other.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: teeth have passed through each other: along the line of action flanks are {distance_mm:.3e} mm beyond touching (negative: apart), teeth are {thickness_mm:.3} mm thick there"
+    )]
+    PassedThrough {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative: farther apart. mm.
+        distance_mm: f64,
+        /// Half a base pitch, mm.
+        thickness_mm: f64,
+    },
+    /// The gears turn farther in a step than the window can follow.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
+    )]
+    Leapt {
+        /// Mesh cycle at the step's end.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Teeth that the window is behind.
+        teeth: f64,
+        /// Teeth of the window.
+        window: usize,
+    },
+    /// No flanks face each other.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: without load no flanks touch, wherever the driven gear is turned"
+    )]
+    Apart {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+    },
+    /// Tooth window.
+    #[error(transparent)]
+    Window(#[from] ale::AleError),
+    /// A value out of its range.
+    #[error("{name} = {value} is out of range: {expected}")]
+    OutOfRange {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The permitted range.
+        expected: &'static str,
+    },
+}
+
+const SMALLER_STEPS: &str =
+    "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them";
+
+impl From<reduction::ReductionError> for StaticError {
+    fn from(source: reduction::ReductionError) -> Self {
+        Self::SetUp(contact::ContactError::Reduction { gear: "gear", source })
+    }
+}
+
+impl StaticError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::SetUp(source) | Self::Contact { source, .. } => source.hint(),
+            Self::NoEquilibrium { .. } => {
+                Some("lower the torque, or try other `slices` (method nodal: `points_per_face_edge`)".into())
+            },
+            Self::Overloaded { .. } => Some(
+                "elasticity here is linear and holds for small deflections: is the torque in N m, the face width in mm, Young's modulus in MPa, a penalty in MPa per mm?".into(),
+            ),
+            Self::Starved { window, .. } => Some(format!(
+                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
+                window + 1
+            )),
+            Self::PassedThrough { distance_mm, .. } if *distance_mm < 0.0 => Some(format!("{SMALLER_STEPS}; where the torque may turn round, `flanks = \"both\"` lets the coast flanks hold")),
+            Self::PassedThrough { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m?")),
+            Self::Leapt { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m, and the inertia in kg m^2?")),
+            Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
+            Self::Window(e) => e.hint(),
+            Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
+        }
+    }
+}

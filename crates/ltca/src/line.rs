@@ -1,0 +1,23 @@
+//! The contact line of a pair of the window.
+
+use contact::{line_station, nodal_contact_line, slice_line};
+
+use crate::{Equilibrium, parts::Parts};
+
+/// Axial intervals over which window pair `k` touches.
+pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64; 2]> {
+    let Parts { pair, set, options, .. } = *parts;
+    let side = options.side();
+    let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
+        return Vec::new();
+    };
+    let half = 0.5 * pair.face_width();
+    if set.slices().is_some() {
+        let of_rows = e.rows.iter().zip(&e.slices).zip(e.solution.openings.iter().zip(&e.solution.forces));
+        let of_pair = of_rows.filter(|((row, _), _)| row.patches == (first, second));
+        let stations = of_pair
+            .map(|((row, slice), (&o, &force))| (row.point, line_station(row.gap, o, slice, force, 0.0), *slice));
+        return slice_line(set, &e.poses, (first, second), stations, half);
+    }
+    nodal_contact_line(set, &options.contact, &e.poses, &e.displacements, (first, second), [half, e.approach(pair)])
+}

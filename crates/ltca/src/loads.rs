@@ -1,0 +1,129 @@
+//! From a solved contact to the quantities of a station. Theory (34).
+
+use contact::{
+    ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, local_energy, slice_result, wrenches,
+};
+
+use crate::{Certificate, Equilibrium, PairResult, Parts, StaticPosition, line::contact_line};
+
+/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see it.
+fn action_reaction(e: &Equilibrium) -> f64 {
+    let total = |body: usize| {
+        let mut sum = Vec3::zeros();
+        for (row, &f) in e.rows.iter().zip(&e.solution.forces) {
+            let s = &row.supports[body];
+            let weight: f64 = s.weights[..s.count].iter().sum();
+            sum += f * weight * (e.poses[body].rotation * s.load);
+        }
+        sum
+    };
+    let (a, b) = (total(0), total(1));
+    (a + b).amax() / a.amax().max(b.amax()).max(f64::MIN_POSITIVE)
+}
+
+/// Everything the results hold of a station.
+pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> StaticPosition {
+    let Parts { pair, window, options, .. } = *parts;
+    let side = options.side();
+    let driven = options.driven();
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+    let wrench = wrenches(&e.poses, &e.rows, &e.solution.forces);
+    // Torque is about the gear's own axis, which may be tilted.
+    let torque = Vec3::from(wrench[driven].moment).dot(&(e.poses[driven].rotation * Vec3::z()));
+    let mut pairs: Vec<PairResult> = (0..window.count()).map(|k| pair_result(parts, e, k)).collect();
+    // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
+    pairs.sort_by_key(|p| p.pair);
+    let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
+    let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
+    let moment = -side.sign() * options.torque;
+    let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
+    let local: f64 = e.slices.iter().zip(&e.solution.forces).map(|(s, &f)| local_energy(s, f)).sum();
+    let penalty: f64 = match options.contact.law {
+        contact::Law::Exact => 0.0,
+        contact::Law::Penalty(k) => {
+            e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
+        }
+    };
+    let friction_work = e
+        .rows
+        .iter()
+        .zip(&e.solution.forces)
+        .map(|(row, f)| f * friction_work(pair, &options.contact, &e.poses, row))
+        .sum();
+    let theta1 = e.station.pinion_angle(pair, options.side(), options.contact.sense);
+    StaticPosition {
+        pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
+        mesh_phase: e.station.phase,
+        transmission_error: e.transmission_error,
+        kinematic_transmission_error: e.kinematic_transmission_error,
+        secant_stiffness: if options.torque == 0.0 {
+            f64::NAN
+        } else {
+            options.torque / base_radius / e.elastic_error()
+        },
+        tangent_stiffness: e.solution.stiffness / (base_radius * base_radius),
+        contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
+        geometric_line_length: pair.contact_line_length(side, theta1),
+        max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
+        wrench,
+        root_stress: Default::default(),
+        friction_work,
+        strain_energy: elastic + local + penalty,
+        tooth_changes,
+        certificate: Certificate {
+            torque_residual: if moment == 0.0 { 0.0 } else { (torque / moment - 1.0).abs() },
+            complementarity_residual: e.solution.residual,
+            action_reaction_residual: action_reaction(e),
+            iterations: e.iterations,
+            bulk_compliance_error: bulk_error(parts),
+            window_edge_load: if total > 0.0 { edge / total } else { 0.0 },
+        },
+        pairs,
+    }
+}
+
+fn bulk_error(parts: &Parts) -> f64 {
+    let tables = parts.set.slices().and_then(|s| s.bulk());
+    tables.map_or(0.0, |both| both.iter().map(contact::BulkTable::error).fold(0.0, f64::max))
+}
+
+fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
+    let Parts { pair, gears, set, window, options } = *parts;
+    let running = window.first() + k as i64;
+    let [pinion_tooth, wheel_tooth] = window.teeth_of(running);
+    let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
+    let loaded: Vec<(&ContactRow, f64)> =
+        e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
+    let line = contact_line(parts, e, k);
+    let along = 1.0 / pair.base_helix_angle().cos();
+    let half = 0.5 * pair.face_width();
+    let modulus =
+        hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
+    let slices: Vec<SliceResult> = e
+        .slices
+        .iter()
+        .zip(e.rows.iter().zip(&e.solution.forces))
+        .filter(|(_, (row, f))| **f > 0.0 && mine(row))
+        .map(|(s, (row, &f))| slice_result(s, set.side(row.patches.0), f))
+        .collect();
+    let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
+    let max_pressure = if set.slices().is_some() {
+        pressed
+    } else {
+        set.patch_of(0, k, options.side()).map_or(0.0, |p| {
+            let patch = &set.patches()[0][p];
+            line_pressure(pair, patch, &loaded, &line, modulus)
+        })
+    };
+    PairResult {
+        pair: options.contact.sense.sign() * running,
+        pinion_tooth,
+        wheel_tooth,
+        // 0.0 first: the sum of nothing is -0.0 otherwise.
+        normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
+        max_pressure,
+        contact_line_length: along * covered(&line, [-half, half]),
+        points_in_contact: loaded.len(),
+        slices,
+    }
+}

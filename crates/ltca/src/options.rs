@@ -1,0 +1,53 @@
+//! What is asked of a quasi-static analysis.
+
+use ale::teeth_needed;
+use contact::ContactOptions;
+use geometry::{GearPair, Side};
+
+/// Contact, load and window of a quasi-static analysis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaticOptions {
+    /// Flanks, offsets and discretisation.
+    pub contact: ContactOptions,
+    /// Torque on the driven gear, N mm, >= 0.
+    pub torque: f64,
+    /// Teeth of the window; `None`: floor(eps_gamma) + 1, at least 3.
+    pub window: Option<usize>,
+    /// Compute stress in the root fillets at every station.
+    pub root_stress: bool,
+}
+
+impl StaticOptions {
+    /// Defaults for a torque (N mm) on the driven gear of `pair`; see [`ContactOptions::new`].
+    pub fn new(torque: f64, pair: &GearPair) -> Self {
+        Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false }
+    }
+
+    /// The same with other contact options.
+    #[must_use]
+    pub fn with_contact(mut self, change: impl FnOnce(&mut ContactOptions)) -> Self {
+        change(&mut self.contact);
+        self
+    }
+
+    /// The pinion's flanks that carry the load.
+    pub fn side(&self) -> Side {
+        self.contact.side()
+    }
+
+    /// Index of the driven gear: 0 pinion, 1 wheel.
+    pub fn driven(&self) -> usize {
+        self.contact.driven()
+    }
+
+    /// The same with the other gear as the driver: the options of the coast flanks.
+    #[must_use]
+    pub fn driven_backwards(&self) -> Self {
+        self.clone().with_contact(|c| c.driver = c.driver.opposite())
+    }
+
+    /// Teeth of the window that the options ask of `pair`.
+    pub fn window_teeth(&self, pair: &GearPair) -> usize {
+        self.window.unwrap_or_else(|| teeth_needed(pair.total_contact_ratio()))
+    }
+}

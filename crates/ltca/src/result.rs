@@ -1,0 +1,92 @@
+//! What a quasi-static analysis hands on, position by position.
+
+use contact::{SliceResult, Wrench};
+use serde::Serialize;
+
+use crate::FilletStress;
+
+/// One tooth pair of the window at one position.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairResult {
+    /// Running number of the pair; grows by one from pair to pair in the sense of rotation, never wraps.
+    pub pair: i64,
+    /// Pinion tooth, 0 .. z1-1.
+    pub pinion_tooth: u32,
+    /// Wheel tooth, 0 .. z2-1.
+    pub wheel_tooth: u32,
+    /// Sum of the normal forces, N.
+    pub normal_force: f64,
+    /// Largest contact pressure, MPa.
+    pub max_pressure: f64,
+    /// Length of this pair's contact line, mm.
+    pub contact_line_length: f64,
+    /// Slices or quadrature points that carry load.
+    pub points_in_contact: usize,
+    /// The loaded slices, ascending in z; none where points touch.
+    pub slices: Vec<SliceResult>,
+}
+
+/// How well a position is solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Certificate {
+    /// |contact torque - applied torque| / applied torque.
+    pub torque_residual: f64,
+    /// Largest violation of g >= 0, p >= 0, p g = 0, relative to the largest approach and pressure.
+    pub complementarity_residual: f64,
+    /// Largest component of (force on pinion + force on wheel) / largest force.
+    pub action_reaction_residual: f64,
+    /// Newton (active-set) iterations.
+    pub iterations: usize,
+    /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0 where it is exact.
+    pub bulk_compliance_error: f64,
+    /// Force on the teeth at the window's ends relative to the total: how close the window is to being too small.
+    pub window_edge_load: f64,
+}
+
+/// Everything known of one solved position.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StaticPosition {
+    /// Pinion angle, rad, in the sense of rotation, from the middle position of pair 0.
+    pub pinion_angle: f64,
+    /// Mesh phase, 0 .. 1.
+    pub mesh_phase: f64,
+    /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
+    pub transmission_error: f64,
+    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the transmission
+    /// error does, from where the unmodified flanks would touch with the axes parallel through the gears' centres.
+    pub kinematic_transmission_error: f64,
+    /// F_bt / (te - kinematic te), N/mm; NaN without load.
+    pub secant_stiffness: f64,
+    /// d F_bt / d te, N/mm.
+    pub tangent_stiffness: f64,
+    /// Sum over the pairs, mm.
+    pub contact_line_length: f64,
+    /// Analytic length of the unloaded pair's contact lines, mm.
+    pub geometric_line_length: f64,
+    /// Pairs of the window, ascending.
+    pub pairs: Vec<PairResult>,
+    /// Mesh force on pinion and wheel.
+    pub wrench: [Wrench; 2],
+    /// Largest contact pressure, MPa.
+    pub max_pressure: f64,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
+    /// asked for.
+    pub root_stress: [Vec<FilletStress>; 2],
+    /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
+    pub friction_work: f64,
+    /// Elastic energy of both gears and the contact, N mm.
+    pub strain_energy: f64,
+    /// Tooth changes since the start of the run.
+    pub tooth_changes: u64,
+    /// How well it is solved.
+    pub certificate: Certificate,
+}
+
+/// A whole quasi-static run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct StaticHistory {
+    /// Positions in the order of the rotation.
+    pub positions: Vec<StaticPosition>,
+    /// What the user should know: neglected, doubtful, adjusted.
+    pub warnings: Vec<String>,
+}

@@ -1,0 +1,287 @@
+//! Stress in the root fillets at a solved station.
+//!
+//! ```text
+//! sigma(x_i) = S_i u_B        at the surface nodes x_i of the window's fillets
+//! ```
+//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is cyclic):
+//! no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their place.
+//!
+//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the Gauss points of the
+//! elements, whose distance from it says how far the mesh has settled.
+
+mod fillet;
+mod turn;
+
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use contact::ContactError;
+use faer::MatRef;
+use fem::{DofMap, ElementOptions, Material, StressOperator};
+use fillet::{Fillet, Surroundings, fallback_radius};
+use geometry::{GearPair, Side};
+use mesh::{Face, Mesh, RootFillets};
+use reduction::{ElasticGear, ReducedGear, ReductionError, StressModes};
+use serde::Serialize;
+
+use crate::{Parts, StaticError};
+
+/// What is called root stress; said wherever one is handed on.
+pub const ROOT_STRESS_DEFINITION: &str = "largest hill of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
+    middle of the tooth space, over the whole face width; stress that rises up to the flank is of contact and left out";
+
+/// How it comes from the displacement of the mesh; said beside it.
+pub const ROOT_STRESS_RECOVERY: &str = "strains in the surface from the displacement of its faces, no stress across it, by \
+    polynomials through the most accurate points of the faces about each node, then principal values";
+
+/// Share of the difference between the two recoveries that is the error of the better one.
+///
+/// Both converge to the same stress, the one from Gauss points from farther off. Measured on random pairs (docs/validation.md).
+const ERROR_SHARE: f64 = 0.35;
+/// Error that both recoveries share, over stress and the square of the angle by which the surface turns within one face, 1/rad^2: where
+/// both are wrong alike, they agree. Measured there, too: six faces along a fillet turn by 15 to 18 deg, and are 1.3 % off at the most.
+const ERROR_OF_TURN: f64 = 0.15;
+
+/// The largest of some stress measure in a fillet, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StressPeak {
+    /// MPa, tension positive.
+    pub stress: f64,
+    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs print.
+    pub from_volume: f64,
+    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces over their radius.
+    pub turn: f64,
+    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
+    pub node: u64,
+    /// Distance of the node from the gear's axis, mm.
+    pub radius: f64,
+    /// Height of the node, mm from mid-face.
+    pub z: f64,
+}
+
+/// Stress on the surface of one root fillet, from its 20 deg tangent to the middle of the tooth space.
+///
+/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the tooth in
+/// compression.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FilletStress {
+    /// Tooth, 0 .. z-1.
+    pub tooth: u32,
+    /// Which of its two fillets.
+    pub side: Side,
+    /// Largest principal stress.
+    pub max_principal: StressPeak,
+    /// Smallest principal stress: the greatest compression.
+    pub min_principal: StressPeak,
+    /// Largest von Mises stress.
+    pub von_mises: StressPeak,
+}
+
+impl StressPeak {
+    /// Estimate of how far `stress` is from that of an infinitely fine mesh, as a share of it. 0 at rest.
+    ///
+    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and what both can share:
+    /// 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
+    pub fn relative_error(&self) -> f64 {
+        let off = ERROR_SHARE * (self.stress - self.from_volume).abs()
+            + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
+        if off > 0.0 { off / self.stress.abs() } else { 0.0 }
+    }
+}
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+/// Fillets of both gears and the maps to their stress, window by window.
+#[derive(Debug)]
+pub struct RootStress {
+    fillets: [RootFillets; 2],
+    /// Radius below which stress is looked for on fillets without a hill, mm.
+    fallback: [f64; 2],
+    /// By gear, first tooth and number of teeth in the matrices' frame.
+    windows: Mutex<BTreeMap<(usize, u32, usize), Arc<WindowRoots>>>,
+}
+
+/// The fillets of one window.
+#[derive(Debug)]
+struct WindowRoots {
+    fillets: Vec<Fillet>,
+    /// Numbers of the mesh, fillet by fillet.
+    nodes: Vec<u32>,
+    /// From the free surface, and from the elements.
+    maps: [StressMap; 2],
+}
+
+#[derive(Debug)]
+enum StressMap {
+    /// From boundary coordinates of these matrices.
+    Modes(Arc<ReducedGear>, StressModes),
+    /// From all free degrees of freedom.
+    Operator(StressOperator),
+}
+
+impl StressMap {
+    fn new(parts: &Parts, i: usize, nodes: &[u32], faces: Option<&[Vec<Face>]>) -> Result<Self, ReductionError> {
+        let operator = |mesh: &Mesh, material: &Material, elements: &ElementOptions, dofs: &DofMap| {
+            Ok(Self::Operator(match faces {
+                None => StressOperator::new(mesh, material, elements, dofs, nodes)?,
+                Some(faces) => StressOperator::on_surface(mesh, material, dofs, faces, nodes)?,
+            }))
+        };
+        match (&parts.gears[i], parts.set.windows()) {
+            (ElasticGear::Reduced(gear), Some(windows)) => {
+                let modes = match faces {
+                    None => gear.stress_modes(&windows[i], nodes)?,
+                    Some(faces) => gear.surface_stress_modes(&windows[i], nodes, faces)?,
+                };
+                Ok(Self::Modes(windows[i].reduced.clone(), modes))
+            }
+            // No set of a reduced gear is without its window; the operator would serve all the same.
+            (ElasticGear::Reduced(gear), None) => {
+                operator(gear.gear().mesh(), gear.material(), gear.elements(), gear.dofs())
+            }
+            (ElasticGear::Full(gear), _) => operator(gear.gear.mesh(), &gear.material, &gear.elements, &gear.dofs),
+        }
+    }
+
+    fn stress(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, ReductionError> {
+        match self {
+            Self::Modes(_, modes) => modes.stress(u),
+            Self::Operator(operator) => {
+                let s = operator.apply(MatRef::from_column_major_slice(u, u.len(), 1))?;
+                let at = |i: usize| [0, 1, 2, 3, 4, 5].map(|k| s[(6 * i + k, 0)]);
+                Ok((0..operator.node_count()).map(at).collect())
+            }
+        }
+    }
+}
+
+impl RootStress {
+    /// Finds the fillets of both gears.
+    pub fn new(pair: &GearPair, gears: &[ElasticGear; 2]) -> Self {
+        let [pinion, wheel] = gears;
+        let fillets = [RootFillets::new(pinion.gear(), &pair.pinion), RootFillets::new(wheel.gear(), &pair.wheel)];
+        let fallback = [&pair.pinion, &pair.wheel].map(fallback_radius);
+        Self { fillets, fallback, windows: Mutex::default() }
+    }
+
+    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them the
+    /// fillets that share a space with the window's outermost teeth.
+    ///
+    /// `displacements` are those of an equilibrium; without any the gears are at rest.
+    pub fn of(
+        &self,
+        parts: &Parts,
+        displacements: Option<&[Vec<f64>; 2]>,
+    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let mut both = [Vec::new(), Vec::new()];
+        for (i, result) in both.iter_mut().enumerate() {
+            let fail = |source| ContactError::Reduction { gear: NAMES[i], source };
+            let roots = self.window(parts, i).map_err(fail)?;
+            let stress = match displacements {
+                Some(u) => roots.stress(&u[i]).map_err(fail)?,
+                None => [(); 2].map(|()| vec![[0.0; 6]; roots.nodes.len()]),
+            };
+            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, parts, i)).collect();
+        }
+        Ok(both)
+    }
+
+    fn window(&self, parts: &Parts, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
+        let key = (i, parts.set.first_teeth()[i], parts.window.count());
+        let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(roots) = windows.get(&key).filter(|roots| roots.serves(parts, i)) {
+            return Ok(roots.clone());
+        }
+        let roots = Arc::new(WindowRoots::new(&self.fillets[i], self.fallback[i], parts, i)?);
+        windows.insert(key, roots.clone());
+        Ok(roots)
+    }
+}
+
+impl WindowRoots {
+    fn new(found: &RootFillets, fallback: f64, parts: &Parts, i: usize) -> Result<Self, ReductionError> {
+        let elastic = &parts.gears[i];
+        let z = elastic.gear().tooth_count();
+        let (first, count) = (parts.set.first_teeth()[i], parts.window.count() as u32);
+        let (mut fillets, mut nodes) = (Vec::new(), Vec::new());
+        let about = Surroundings::new(found, elastic.gear().mesh(), fallback);
+        let mut add = |tooth: u32, side: Side, needed: bool| {
+            let tooth = tooth % z;
+            let own = found.nodes(tooth, side);
+            if own.is_empty() {
+                return if needed { Err(ReductionError::MissingFillet { tooth, side }) } else { Ok(()) };
+            }
+            fillets.push(about.fillet(tooth, side, own, nodes.len()));
+            nodes.extend_from_slice(own);
+            Ok(())
+        };
+        // A sector may end with the window's outermost teeth.
+        if count < z {
+            add(first + z - 1, Side::Left, false)?;
+        }
+        for tooth in first..first + count {
+            add(tooth, Side::Right, true)?;
+            add(tooth, Side::Left, true)?;
+        }
+        if count < z {
+            add(first + count, Side::Right, false)?;
+        }
+        let map = |faces| StressMap::new(parts, i, &nodes, faces);
+        let maps = [map(Some(found.faces()))?, map(None)?];
+        Ok(Self { fillets, nodes, maps })
+    }
+
+    /// Whether the map is that of the matrices now in use.
+    fn serves(&self, parts: &Parts, i: usize) -> bool {
+        match (&self.maps[0], parts.set.windows()) {
+            (StressMap::Modes(mine, _), Some(windows)) => Arc::ptr_eq(mine, &windows[i].reduced),
+            (StressMap::Operator(_), None) => true,
+            _ => false,
+        }
+    }
+
+    /// By both recoveries.
+    fn stress(&self, u: &[f64]) -> Result<[Vec<[f64; 6]>; 2], ReductionError> {
+        let [surface, volume] = &self.maps;
+        Ok([surface.stress(u)?, volume.stress(u)?])
+    }
+
+    /// Peaks of one fillet, as the gear itself numbers tooth and node.
+    fn fillet(
+        &self,
+        fillet: &Fillet,
+        [surface, volume]: &[Vec<[f64; 6]>; 2],
+        parts: &Parts,
+        i: usize,
+    ) -> Option<FilletStress> {
+        let elastic = &parts.gears[i];
+        let mesh = elastic.gear().mesh();
+        let window = parts.set.windows().map(|w| &w[i]);
+        let peak = |measure: fn(&[f64; 6]) -> f64, sign: f64| {
+            let (at, stress) = fillet.peak(|at| measure(&surface[at]), sign)?;
+            let node = self.nodes[at];
+            let [x, y, z] = mesh.nodes[node as usize];
+            let own = match (elastic, window) {
+                (ElasticGear::Reduced(gear), Some(window)) => gear.material_node(window, node),
+                _ => node,
+            };
+            Some(StressPeak {
+                stress,
+                from_volume: fillet.largest(|at| measure(&volume[at]), sign)?,
+                turn: fillet.turn,
+                node: mesh.node_tags[own as usize],
+                radius: x.hypot(y),
+                z,
+            })
+        };
+        Some(FilletStress {
+            tooth: (fillet.tooth + window.map_or(0, |w| w.shift)) % elastic.gear().tooth_count(),
+            side: fillet.side,
+            max_principal: peak(fem::max_principal, 1.0)?,
+            min_principal: peak(fem::min_principal, -1.0)?,
+            von_mises: peak(fem::von_mises, 1.0)?,
+        })
+    }
+}

@@ -1,0 +1,71 @@
+//! The elastic gears of an analysis: reduced, or with all their degrees of freedom.
+
+use crate::{GearReducer, ReductionError, Window};
+use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
+use mesh::GearMesh;
+
+/// A gear with all degrees of freedom kept, bore held.
+#[derive(Debug)]
+pub struct FullGear {
+    /// The meshed gear.
+    pub gear: GearMesh,
+    /// Its material.
+    pub material: Material,
+    /// Element variants.
+    pub elements: ElementOptions,
+    /// Free degrees of freedom.
+    pub dofs: DofMap,
+    /// K, N/mm.
+    pub stiffness: SymmetricMatrix,
+}
+
+impl FullGear {
+    /// Assembles the gear.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fem`].
+    pub fn new(gear: GearMesh, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
+        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
+        let stiffness = fem::assemble_stiffness(gear.mesh(), &material, &dofs, elements)?;
+        Ok(Self { gear, material, elements: *elements, dofs, stiffness })
+    }
+}
+
+/// One gear as the analysis holds it.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "two of them live as long as the program")]
+pub enum ElasticGear {
+    /// Known from its flanks, or from coarse grids over them.
+    Reduced(GearReducer),
+    /// All degrees of freedom.
+    Full(FullGear),
+}
+
+impl ElasticGear {
+    /// The reduced window whose first tooth is `first`; `None` for a gear with all its degrees of freedom.
+    ///
+    /// # Errors
+    /// [`ReductionError`].
+    pub fn window(&self, first: u32) -> Result<Option<Window>, ReductionError> {
+        match self {
+            Self::Reduced(r) => r.window(first).map(Some),
+            Self::Full(_) => Ok(None),
+        }
+    }
+
+    /// The meshed gear.
+    pub fn gear(&self) -> &GearMesh {
+        match self {
+            Self::Reduced(r) => r.gear(),
+            Self::Full(f) => &f.gear,
+        }
+    }
+
+    /// The material.
+    pub fn material(&self) -> &Material {
+        match self {
+            Self::Reduced(r) => r.material(),
+            Self::Full(f) => &f.material,
+        }
+    }
+}
