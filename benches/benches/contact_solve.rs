@@ -1,15 +1,12 @@
 //! One contact solve of the default pair, against one pass over its data; see `benches/README.md`.
 #![allow(clippy::print_stdout, reason = "the table is what the bench is for")]
 
-#[path = "../tests/verification/support/mod.rs"]
-mod support;
-
 use std::time::{Duration, Instant};
 
 use contact::Pose;
 use divan::{Bencher, black_box};
 use dynamics::{Bulk, MeshContact, StaticModel, StaticOptions, Station};
-use support::{default_data, quadratic};
+use verification::{default_data, quadratic};
 
 /// Positions of the mesh cycle whose contact is solved in turn.
 const POSITIONS: usize = 32;

@@ -4,16 +4,13 @@
 //! out, `-- --points` the slices.
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
-#[path = "../tests/verification/support/mod.rs"]
-mod support;
-
 use std::time::Instant;
 
 use contact::Law;
 use dynamics::{ElasticGear, StaticModel, StaticOptions, flank_grids};
 use mesh::Extent;
 use reduction::{GearReducer, ReductionOptions};
-use support::{Case, default_data, quadratic, steel, summary};
+use verification::{Case, default_data, quadratic, steel, summary};
 
 /// Positions of a mesh cycle for slices, and for points, which take long.
 const POSITIONS: [usize; 2] = [64, 16];

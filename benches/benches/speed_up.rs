@@ -1,16 +1,13 @@
 //! Full against reduced over mesh size and number of teeth, with fitted exponents; see `benches/README.md`.
 #![allow(clippy::print_stdout, reason = "the table is what the bench is for")]
 
-#[path = "../tests/verification/support/mod.rs"]
-mod support;
-
 use std::time::Instant;
 
 use dynamics::Station;
 use geometry::GearData;
 use mesh::Extent;
 use study::power_law;
-use support::{Case, default_data, quadratic};
+use verification::{Case, default_data, quadratic};
 
 /// Positions of one mesh cycle.
 const POSITIONS: usize = 8;

@@ -1,13 +1,10 @@
 //! The phases of a quasi-static run on the coarse meshes that Gmsh wrote; see `benches/README.md`.
 
-#[path = "../tests/verification/support/mod.rs"]
-mod support;
-
 use divan::{Bencher, black_box};
 use dynamics::{ElasticGear, Station};
 use fem::ElementOptions;
 use mesh::Mesh;
-use support::{Case, meshes_folder};
+use verification::{Case, meshes_folder};
 
 fn main() {
     divan::main();

@@ -1,5 +1,5 @@
-//! What the verification tests share: the default pair, its meshes, and models of them.
-#![allow(dead_code, reason = "each test uses its part")]
+//! What tests and benches across crates share: the default pair, its meshes, and models of them.
+#![allow(missing_docs, reason = "for tests and benches alone")]
 
 pub mod moving;
 
@@ -30,7 +30,7 @@ pub fn default_pair() -> GearPair {
 }
 
 pub fn meshes_folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes")
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../meshes")
 }
 
 fn read(name: &str, teeth: u32) -> GearMesh {

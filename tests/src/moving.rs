@@ -1,5 +1,4 @@
 //! A pair that is set in motion again and again: condensed once, with its quasi-static answer beside it.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use std::{ops::ControlFlow, sync::Arc};
 

@@ -1,14 +1,12 @@
 //! The step of the contact of given poses takes no memory.
 #![allow(unsafe_code, reason = "an allocator that counts is one")]
 
-mod support;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use dynamics::{MeshContact, StaticOptions, Station};
 use nalgebra::{UnitQuaternion, Vector3};
-use support::generated;
+use verification::generated;
 
 thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };

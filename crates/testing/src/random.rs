@@ -1,9 +1,11 @@
 //! Numbers that look random and are the same in every run.
 
 /// Steele, Lea and Flood's SplitMix64 (2014).
+#[derive(Debug)]
 pub struct Random(u64);
 
 impl Random {
+    /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
     }

@@ -1,5 +1,4 @@
 //! The half tooth of a spur gear, resolved: flank (tip edge sharp or rounded) and tip land free, centre surface and foot clamped.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use faer::Mat;
 use geometry::Gear;

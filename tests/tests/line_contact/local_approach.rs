@@ -1,21 +1,14 @@
 //! The closed form of a line contact's approach against contacts with the band resolved.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! Source: the plane-strain models of `support/plane.rs` and `support/half_section.rs`, 2026, quad8 of a sixteenth of the
+//! Source: the plane-strain models of `plane.rs` and `half_section.rs`, 2026, quad8 of a sixteenth of the
 //! half-width. Nothing in the closed form was fitted to them.
 
-#[path = "support/half_section.rs"]
-mod half_section;
-#[path = "support/plane.rs"]
-mod plane;
-#[path = "support/plane_gear.rs"]
-mod plane_gear;
-
+use crate::half_section::HalfSection;
+use crate::plane::{Lattice, even, graded, press, under_hertz};
+use crate::plane_gear::{Place, PlaneGear};
 use contact::{EndFace, LocalBody, LocalContact, hertz, layer_constant};
 use geometry::{Gear, GearData};
-use half_section::HalfSection;
-use plane::{Lattice, even, graded, press, under_hertz};
-use plane_gear::{Place, PlaneGear};
 use reduction::LayerProfile;
 
 const STEEL: (f64, f64) = (2.06e5, 0.3);

@@ -2,7 +2,6 @@
 //!
 //! Nothing of the library's local compliance is used: fully integrated quad8 on a lattice that is fine at the band, pressure linear
 //! between the nodes, gap and pressure complementary in the mean with the pressure's own shape functions.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use faer::{Mat, linalg::solvers::Solve};
 use fem::{BoundaryLastFactor, SymmetricMatrix};

@@ -1,5 +1,4 @@
 //! A spur gear's mesh in plane strain: the coarse bulk of the slice formula.
-#![allow(dead_code, reason = "each test uses its part")]
 
 use std::collections::HashMap;
 

@@ -1,12 +1,10 @@
 //! Lead crowning: pressure ends before the edge of the face; unmodified flanks press up to it.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use dynamics::StaticModel;
 use geometry::{FlankModification, GearModifications};
 use mesh::Extent;
-use support::{default_data, modified, quadratic};
+use verification::{default_data, modified, quadratic};
 
 #[test]
 fn crowned_flanks_end_their_pressure_before_the_edge() {

@@ -4,13 +4,11 @@
 //! Source: S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958): every relief has a load at which STE is flattest,
 //! and is worse than none far below it.
 
-mod support;
-
 use dynamics::{StaticModel, StaticOptions};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, GearModifications, GearPair};
 use mesh::Extent;
-use support::{default_data, modified, quadratic, summary};
+use verification::{default_data, modified, quadratic, summary};
 
 const TORQUES_NM: [f64; 5] = [15.0, 75.0, 150.0, 225.0, 300.0];
 const RELIEFS_UM: [f64; 5] = [0.0, 10.0, 20.0, 30.0, 40.0];

@@ -1,13 +1,11 @@
 //! Loaded contact of modified, misaligned flanks: what symmetry, continuity and the unloaded pair demand.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::Sense;
 use dynamics::{Method, Misalignment, Offset, StaticHistory, StaticOptions, Station, kinematic_transmission_error};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, GearModifications, GearPair};
-use support::{Case, generated};
+use verification::{Case, generated};
 
 const SMALL: [u32; 5] = [2, 2, 2, 4, 1];
 
@@ -118,7 +116,7 @@ fn pitch_errors_stay_with_their_teeth() {
                 assert!(off.abs() < 1e-9, "cycle {cycle}: {off:e} from a turn before");
             }
         }
-        let (_, span) = support::summary(first.into_iter());
+        let (_, span) = verification::summary(first.into_iter());
         assert!(span > 1e-3, "pitch errors of some um show: {span} mm");
     }
 }

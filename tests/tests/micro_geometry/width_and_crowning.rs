@@ -3,12 +3,10 @@
 //!
 //! Pairs of 30/30 teeth, module 3 mm, helix angle 20 degrees, at the line load of the default pair.
 
-mod support;
-
 use dynamics::{ElasticGear, Misalignment, SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
 use mesh::Extent;
-use support::{Case, default_data, modified, of_order, quadratic, summary};
+use verification::{Case, default_data, modified, of_order, quadratic, summary};
 
 /// Face width in modules.
 const WIDTHS: [f64; 3] = [5.0, 15.0, 40.0];

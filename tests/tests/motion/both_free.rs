@@ -1,8 +1,6 @@
 //! Both gears free, the speed of their common motion held: the motion of a pair that a torque drives in balance with its load, without its drift.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
@@ -13,7 +11,7 @@ use dynamics::{
         Torque, Way, quasi_static_start, sweep,
     },
 };
-use support::moving::{MovingPair, peak_to_peak, rows, swept, worst};
+use verification::moving::{MovingPair, peak_to_peak, rows, swept, worst};
 
 const ROWS: usize = 32;
 const TORQUE: f64 = 150e3;
@@ -22,7 +20,7 @@ const TORQUE: f64 = 150e3;
 fn bench() -> &'static MovingPair {
     static BENCH: OnceLock<MovingPair> = OnceLock::new();
     BENCH.get_or_init(|| {
-        let case = support::generated(20.0, [2, 2, 2, 2, 1]);
+        let case = verification::generated(20.0, [2, 2, 2, 2, 1]);
         let contact = StaticOptions { torque: TORQUE, ..case.slice_options() };
         let mut pair = MovingPair::new(case, contact, 8);
         pair.bodies[1].polar_inertia *= 3.0;

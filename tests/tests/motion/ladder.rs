@@ -1,8 +1,6 @@
 //! The ladder of models on one pair: the lumped ones, fed by the reduced one, beside it in motion.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::Sense;
 use dynamics::{
     Driver, Station,
@@ -17,7 +15,7 @@ use lumped::{
     run,
 };
 use nalgebra::DVector;
-use support::{Case, moving::at_speed};
+use verification::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 /// Positions a mesh cycle that the lumped models are fed with, and steps of every model.
@@ -64,7 +62,7 @@ fn apart(a: &[f64], b: &[f64]) -> [f64; 2] {
 fn fed_models_follow_the_reduced_one() {
     let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
     let bodies = [0, 1].map(|i| {
-        let m = fem::mass_properties(case.meshes[i].mesh(), &support::steel()).unwrap();
+        let m = fem::mass_properties(case.meshes[i].mesh(), &verification::steel()).unwrap();
         RigidBody::of_tensor(m.mass_t, m.inertia_about_tmm2([0.0; 3]))
     });
     let mut model = case.reduced(case.slice_options());

@@ -1,8 +1,6 @@
 //! Normal modes beside the rigid bodies: the same at rest, exact forces, no trace of a tooth change, and where the low-frequency approximation ends.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::sync::{Arc, OnceLock};
 
 use dynamics::{
@@ -18,7 +16,7 @@ use geometry::{Gear, GearData, GearPair};
 use mesh::{GearMesh, GroupNames};
 use nalgebra::{DMatrix, DVector};
 use reduction::{GearModes, GearReducer, ModeChoice};
-use support::{Case, moving::at_speed};
+use verification::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 
@@ -70,7 +68,7 @@ impl Pair {
         let p = model.solve(Station { cycle: 0, phase: 0.0 }).unwrap_or_else(|e| panic!("{e}"));
         let bodies = [0, 1].map(|i| {
             let whole = case.meshes[i].clone().whole().unwrap();
-            let m = fem::mass_properties(whole.mesh(), &support::steel()).unwrap();
+            let m = fem::mass_properties(whole.mesh(), &verification::steel()).unwrap();
             RigidBody::of_tensor(m.mass_t, m.inertia_about_tmm2([0.0; 3]))
         });
         let (gears, means) = (Arc::new(case.reduced_gears(&contact)), [p.tangent_stiffness, p.contact_line_length]);

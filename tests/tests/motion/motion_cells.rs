@@ -1,7 +1,5 @@
 //! What is kept of the contact of a pair in motion is memory of a pure function: forces do not depend on where the pair has been.
 
-mod support;
-
 use std::sync::OnceLock;
 
 use dynamics::{
@@ -11,7 +9,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
-use support::{Case, moving::MovingPair};
+use verification::{Case, moving::MovingPair};
 
 fn pair() -> &'static MovingPair {
     static PAIR: OnceLock<MovingPair> = OnceLock::new();

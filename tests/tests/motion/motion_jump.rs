@@ -1,8 +1,6 @@
 //! Lightly loaded and lightly damped, the reduced pair loses contact at its resonance and jumps; its free vibration with separation keeps its energy.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::sync::OnceLock;
 
 use dynamics::{
@@ -12,7 +10,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
-use support::{
+use verification::{
     Case,
     moving::{MovingPair, peak_to_peak, swept},
 };

@@ -8,15 +8,13 @@
 //! stiffness, k(t) must hardly vary: the pair has an overlap ratio of one, and contact lines of constant length.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use dynamics::{
     StaticOptions,
     motion::Scheme,
     pair_motion::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way},
 };
 use geometry::GearData;
-use support::moving::{MovingPair, order, peak_to_peak, swept};
+use verification::moving::{MovingPair, order, peak_to_peak, swept};
 
 const ROWS: usize = 48;
 const ZETA: f64 = 0.06;
@@ -27,7 +25,7 @@ const ORDERS: usize = 4;
 fn steady_pair() -> MovingPair {
     let GearData { normal_module, face_width, .. } = GearData::default();
     let beta = (std::f64::consts::PI * normal_module / face_width).asin();
-    let case = support::generated(beta.to_degrees(), [2, 2, 2, 4, 1]);
+    let case = verification::generated(beta.to_degrees(), [2, 2, 2, 4, 1]);
     let contact = StaticOptions { torque: 300e3, slices: 16, ..case.slice_options() };
     MovingPair::new(case, contact, ROWS)
 }

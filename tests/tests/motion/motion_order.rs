@@ -1,8 +1,6 @@
 //! Error of the integrators against their step, on the reduced pair itself.
 #![allow(clippy::print_stdout, reason = "the table is what the test is for")]
 
-mod support;
-
 use std::sync::OnceLock;
 
 use dynamics::{
@@ -12,7 +10,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
-use support::{Case, moving::MovingPair};
+use verification::{Case, moving::MovingPair};
 
 const SCHEMES: [(&str, Scheme, f64); 5] = [
     ("generalised-alpha", Scheme::GeneralisedAlpha { rho: 0.8 }, 2.0),

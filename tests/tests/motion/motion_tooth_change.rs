@@ -1,8 +1,6 @@
 //! Tooth changes in motion leave nothing in the dynamic transmission error: no line that the mesh does not make, no mark of the wrap, no drift.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::sync::{Arc, OnceLock};
 
 use ale::{Sense, ToothWindow};
@@ -13,7 +11,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use nalgebra::{DMatrix, DVector};
-use support::{
+use verification::{
     Case,
     moving::{MovingPair, order, peak_to_peak, rows, worst},
 };

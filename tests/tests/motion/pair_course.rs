@@ -1,8 +1,6 @@
 //! Courses of a pair's motion: starts without a transient, periodic states by waiting and by shooting, sweeps, energy, tooth changes, either sense.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::sync::OnceLock;
 
 use ale::Sense;
@@ -15,14 +13,14 @@ use dynamics::{
     },
 };
 use nalgebra::Matrix6;
-use support::moving::{MovingPair, rows, swept, worst};
+use verification::moving::{MovingPair, rows, swept, worst};
 
 const TORQUE: f64 = 150e3;
 const ROWS: usize = 32;
 
 /// The default pair on tiny meshes: the same for all tests of a sense and a driver.
 fn tiny(driver: Driver, sense: Sense) -> MovingPair {
-    let case = support::generated(20.0, [2, 2, 2, 2, 1]);
+    let case = verification::generated(20.0, [2, 2, 2, 2, 1]);
     let contact = StaticOptions { driver, sense, ..case.slice_options() };
     MovingPair::new(case, contact, 8)
 }

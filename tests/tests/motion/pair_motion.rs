@@ -1,8 +1,6 @@
 //! A pair in motion: slow running is quasi-static, heavy load is linear, energy is accounted for.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use dynamics::{
     StaticOptions, Station,
     motion::{Integrator, Scheme, State, StepControl},
@@ -10,13 +8,13 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use nalgebra::DVector;
-use support::{Case, moving::at_speed};
+use verification::{Case, moving::at_speed};
 
 const TORQUE: f64 = 150e3;
 
 fn bodies(case: &Case) -> [RigidBody; 2] {
     [0, 1].map(|i| {
-        let m = fem::mass_properties(case.meshes[i].mesh(), &support::steel()).unwrap();
+        let m = fem::mass_properties(case.meshes[i].mesh(), &verification::steel()).unwrap();
         RigidBody::of_tensor(m.mass_t, m.inertia_about_tmm2([0.0; 3]))
     })
 }

@@ -1,11 +1,9 @@
 //! Driving and coast flanks in one contact at rest, and loads that no tooth stands.
 
-mod support;
-
 use ale::Sense;
 use dynamics::{Driver, Method, StaticError, StaticOptions};
 use geometry::GearModifications;
-use support::{Case, generated, modified};
+use verification::{Case, generated, modified};
 
 const SENSES: [(Driver, Sense); 4] = [
     (Driver::Pinion, Sense::Ccw),
@@ -58,7 +56,7 @@ fn a_wedged_tooth_is_pressed_from_both_sides() {
     // Either sign: one of the tooth's neighbours closes.
     let pressed = [-1.0, 1.0].map(|sign| {
         wedged.pitch_errors[0] = sign * (1.5 * backlash + 0.03);
-        case.pair = modified(&support::default_pair(), [GearModifications::default(), wedged.clone()]);
+        case.pair = modified(&verification::default_pair(), [GearModifications::default(), wedged.clone()]);
         normal_sum(&case, true) / normal_sum(&case, false)
     });
     assert!(pressed.iter().all(|&p| p > 1.1), "normal forces over those of the driving flanks alone: {pressed:?}");

@@ -5,12 +5,10 @@
 //! (sector of 5 teeth a gear, cut faces free, bore rigid). Default pair, 150 N m. Numbers of each position as the program printed
 //! them. Tolerances: mean STE 0.5 %, peak to peak 5 %, pair forces 1 % of the total.
 
-mod support;
-
 use contact::{GapSource, Law};
 use dynamics::{StaticHistory, StaticModel};
 use fem::{ElementOptions, IncompatibleModes, Integration};
-use support::{Case, summary};
+use verification::{Case, summary};
 
 /// STE [um] and forces (N) of pairs -1, 0, +1 at s = 0, 1/8 .. 7/8.
 struct Reference {

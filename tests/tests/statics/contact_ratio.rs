@@ -1,14 +1,12 @@
 //! Any total contact ratio: from a spur pair with 1.2 to one with more than 5, the window sized by the program.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::time::Instant;
 
 use dynamics::{StaticError, StaticModel};
 use geometry::GearData;
 use mesh::Extent;
-use support::{Case, quadratic};
+use verification::{Case, quadratic};
 
 /// A spur pair of stubbed teeth.
 fn low() -> Case {
@@ -66,7 +64,7 @@ fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -
     };
     let each = started.elapsed().as_secs_f64() / (3 * positions) as f64;
     let te: Vec<f64> = history.positions.iter().map(|p| 1e3 * p.transmission_error).collect();
-    let (mean, swing) = support::summary(te.iter().copied());
+    let (mean, swing) = verification::summary(te.iter().copied());
     let drift = (positions..3 * positions).map(|i| (te[i] / te[i % positions] - 1.0).abs()).fold(0.0, f64::max);
     let step = te.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
     let most = history.positions.iter().map(|p| p.pairs.iter().filter(|q| q.normal_force > 0.0).count()).max().unwrap();

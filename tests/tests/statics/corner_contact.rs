@@ -1,12 +1,10 @@
 //! Contact at tip edges off the line of action, at three times the torque of the default pair.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use dynamics::{StaticModel, StaticOptions, StaticPosition};
 use geometry::GearPair;
 use mesh::Extent;
-use support::{Case, default_data, quadratic};
+use verification::{Case, default_data, quadratic};
 
 const TORQUE: f64 = 450e3;
 

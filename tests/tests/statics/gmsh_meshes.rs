@@ -1,13 +1,11 @@
 //! Regression on the meshes that Gmsh wrote (`meshes/`): what comes out of each of them.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::Sense;
 use dynamics::{ElasticGear, StaticHistory, StaticOptions};
 use fem::ElementOptions;
 use mesh::{GearMesh, GroupNames, Mesh};
-use support::{Case, meshes_folder, steel, summary};
+use verification::{Case, meshes_folder, steel, summary};
 
 fn run(pinion: &str, wheel: &str) -> (StaticHistory, bool) {
     let case = Case::read(pinion, wheel, ElementOptions::default());
@@ -136,7 +134,7 @@ fn constraint_modes_equal_direct_solves() {
 /// motion's kinetic energy equals that of the field it stands for.
 #[test]
 fn condensed_mass_has_the_fields_energy() {
-    let case = support::generated(20.0, [2, 2, 2, 3, 1]);
+    let case = verification::generated(20.0, [2, 2, 2, 3, 1]);
     let model = case.reduced(case.options());
     let ElasticGear::Reduced(gear) = &model.gears()[0] else { unreachable!() };
     let window = &model.contact_set().windows().unwrap()[0];

@@ -1,14 +1,12 @@
 //! Laws that hold at every angle: equilibrium, contact-line length as load vanishes, reduced = full, mirror, scaling.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::Sense;
 use contact::Law;
 use dynamics::{Driver, StaticError, StaticOptions};
 use fem::{ElementOptions, IncompatibleModes};
 use geometry::{Gear, GearData, GearPair};
-use support::{Case, generated};
+use verification::{Case, generated};
 
 /// A pair of helix angle `beta` on small meshes of the built-in mesher.
 fn small_case(beta_deg: f64) -> Case {
@@ -148,7 +146,7 @@ fn answers_scale_with_the_gears() {
         .unwrap()
     };
     let pair = GearPair::new(bigger(1.0), bigger(-1.0), None).unwrap();
-    let meshes = one.meshes.clone().map(|m| support::scaled(&m, scale));
+    let meshes = one.meshes.clone().map(|m| verification::scaled(&m, scale));
     let large = Case { pair, meshes, elements: one.elements, torque: one.torque * scale.powi(3) };
     let a = one.reduced(one.options()).run(4, 1, |_, _, _| ()).unwrap();
     let b = large.reduced(large.options()).run(4, 1, |_, _, _| ()).unwrap();
@@ -182,7 +180,7 @@ fn plain_hex8_locks() {
     let stiff = Case { elements: options, ..generated(20.0, [3, 2, 2, 6, 2]) };
     let mean = |case: &Case| {
         let history = case.reduced(case.options()).run(4, 1, |_, _, _| ()).unwrap();
-        support::summary(history.positions.iter().map(|p| p.transmission_error)).0
+        verification::summary(history.positions.iter().map(|p| p.transmission_error)).0
     };
     let (soft, stiff) = (mean(&soft), mean(&stiff));
     println!("mean STE: incompatible modes {:.3} um, plain hex8 {:.3} um", 1e3 * soft, 1e3 * stiff);

@@ -1,14 +1,12 @@
 //! The contact of given poses, and the tables behind it: what was gained in speed must not have been lost in truth.
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
-mod support;
-
 use contact::Pose;
 use dynamics::{Bulk, ElasticGear, MeshContact, Misalignment, Offset, StaticModel, StaticOptions, Station};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, GearModifications};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
-use support::{Case, default_data, generated, modified, quadratic};
+use verification::{Case, default_data, generated, modified, quadratic};
 
 fn gears(case: &Case, options: &StaticOptions) -> StaticModel {
     StaticModel::new(case.pair.clone(), case.reduced_gears(options), options.clone()).unwrap()

@@ -5,12 +5,10 @@
 //! nodes between stand half an element lower; along the face likewise, twisted with the helix. Flank nodes stay on the
 //! involute. Tolerance: 0.2 % of STE at every position.
 
-mod support;
-
 use dynamics::StaticOptions;
 use geometry::{Gear, Side};
 use mesh::{Extent, GearMesh, GroupNames};
-use support::{Case, default_data, quadratic, summary};
+use verification::{Case, default_data, quadratic, summary};
 
 const PROFILE: u32 = 6;
 const FACE: u32 = 6;

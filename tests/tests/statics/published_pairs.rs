@@ -1,13 +1,11 @@
 //! Published pairs: mesh stiffness of ISO/TR 6336-30, Hertzian pressure of the FZG test gears.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use contact::hertz;
 use dynamics::{StaticModel, Station};
 use geometry::{GearData, GearModifications, GearPair};
 use mesh::Extent;
-use support::{Case, modified, quadratic};
+use verification::{Case, modified, quadratic};
 
 /// ISO/TR 6336-30:2022, example 1.
 const C_MESH: f64 = 17.46485e3; // c_gamma_alpha, N/(mm mm)

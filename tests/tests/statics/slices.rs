@@ -4,11 +4,9 @@
 //! Source: `nodal` contact with the band resolved by a fine local mesh under every contact line, made by an independent code,
 //! 2026; sectors of 5 teeth, cut faces free, bore rigid, 150 N m. Single positions +- 0.3 %, pair forces +- 10 N.
 
-mod support;
-
 use dynamics::{Bulk, StaticHistory, StaticOptions};
 use fem::ElementOptions;
-use support::{Case, summary};
+use verification::{Case, summary};
 
 const STE_UM: [f64; 8] = [10.21, 10.40, 10.87, 11.18, 11.05, 11.16, 10.86, 10.38];
 const PAIR_FORCE_N: [[f64; 3]; 8] = [
@@ -80,7 +78,7 @@ fn hex8_comes_near_them() {
 /// All degrees of freedom kept, or reduced: the same slices, the same answer.
 #[test]
 fn reduced_equals_full() {
-    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let case = verification::generated(20.0, [2, 2, 2, 4, 1]);
     let options = StaticOptions { bulk: Bulk::Exact, ..case.slice_options() };
     let [a, b] = [case.reduced(options.clone()), case.full(options)].map(|mut m| m.run(8, 1, |_, _, _| ()).unwrap());
     for (a, b) in a.positions.iter().zip(&b.positions) {
@@ -97,7 +95,7 @@ fn reduced_equals_full() {
 /// Power is lost at every position and comes out of the driver; without friction the torques are in the ratio of the teeth.
 #[test]
 fn friction_takes_power() {
-    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let case = verification::generated(20.0, [2, 2, 2, 4, 1]);
     let run = |friction: f64| {
         case.reduced(StaticOptions { friction, ..case.slice_options() }).run(16, 1, |_, _, _| ()).unwrap().positions
     };
@@ -120,7 +118,7 @@ fn friction_takes_power() {
 /// Without friction the torques are in the ratio of the teeth wherever no edge presses off the line of action.
 #[test]
 fn torques_are_in_the_ratio_of_the_teeth() {
-    let case = support::generated(20.0, [2, 2, 2, 4, 1]);
+    let case = verification::generated(20.0, [2, 2, 2, 4, 1]);
     let options = StaticOptions { torque: 1e3, ..case.slice_options() };
     let positions = case.reduced(options).run(16, 1, |_, _, _| ()).unwrap().positions;
     let on_line: Vec<_> =

@@ -1,12 +1,10 @@
 //! A tooth change is bookkeeping: STE, pair forces and strain energy may not jump.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::{AleError, Sense, ToothWindow, carry_coordinates};
 use dynamics::{ElasticGear, StaticError, StaticOptions, Station};
 use mesh::GearMesh;
-use support::{Case, generated};
+use verification::{Case, generated};
 
 /// Two turns' worth would do for a law; the run is three full turns, in either sense, across tooth z-1 to 0.
 #[test]

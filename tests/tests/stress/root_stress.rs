@@ -1,8 +1,6 @@
 //! Root stress: against CalculiX under the same forces and under contact, across tooth changes, reduced = full.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use ale::Sense;
 use contact::{GapSource, Law};
 use dynamics::{FilletStress, StaticOptions, StaticPosition, Station};
@@ -10,7 +8,7 @@ use fem::{ElementOptions, IncompatibleModes, Integration};
 use geometry::Side;
 use mesh::{GearMesh, GroupNames, Mesh, RootFillets};
 use reduction::{GearReducer, ReductionOptions};
-use support::{Case, default_pair, generated, meshes_folder, steel};
+use verification::{Case, default_pair, generated, meshes_folder, steel};
 
 /// A scalar of a stress.
 type Measure = fn(&[f64; 6]) -> f64;

@@ -5,15 +5,13 @@
 //! CalculiX (`calculix-ccx`) must be installed.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod support;
-
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path, process::Command};
 
 use dynamics::{ElasticGear, StaticModel, StaticOptions, StressPeak};
 use fem::assemble_stiffness;
 use geometry::GearData;
 use mesh::{ElementKind, Extent, Mesh, StructuredOptions};
-use support::{Case, quadratic, steel};
+use verification::{Case, quadratic, steel};
 
 /// Gmsh's nodes of a hex20 in CalculiX's order.
 const HEX20: [usize; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15];
@@ -105,7 +103,7 @@ fn default_meshes_agree_with_calculix_on_resolved_ones() {
         bore_diameter: bore,
         ..GearData::default()
     };
-    let usual = support::default_data(20.0);
+    let usual = verification::default_data(20.0);
     let odd = [few(17, 1.0, 0.4, 20.0), few(43, -1.0, 0.1, 60.0)];
     for (name, gears, torque) in [("17/43, beta 28", odd, 250e3), ("default pair", usual, 150e3)] {
         let (own, options) = case(&gears, torque, 1.0);

@@ -3,17 +3,13 @@
 //! A few pairs always; twenty random ones, and the order of convergence, with `--ignored --nocapture` (minutes for sections, hours for pairs).
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-#[path = "../../crates/contact/tests/random/mod.rs"]
-mod random;
-mod support;
-
 use std::f64::consts::PI;
 
 use dynamics::StressPeak;
 use geometry::{Gear, GearData, GearPair};
 use mesh::{Extent, StructuredOptions};
-use random::Random;
-use support::quadratic;
+use testing::Random;
+use verification::quadratic;
 
 /// Elements along profile and fillet, across the tooth, along the face, in the rim.
 type Counts = [u32; 5];

@@ -1,10 +1,8 @@
 //! Reduced gears on disk: a second run finds them, gives the same to the bit, and believes no damaged file.
 
-mod util;
-
 use std::{fs, path::PathBuf, process::Command, time::Duration};
 
-use util::{ISO_SCENE, Run, Scratch};
+use crate::util::{ISO_SCENE, Run, Scratch};
 
 fn scene(output: &str) -> String {
     let mesher = |gear: &str| {

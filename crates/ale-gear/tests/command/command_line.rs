@@ -1,9 +1,7 @@
 //! Manners of the command line: what goes where, and with which status.
 
-mod util;
-
+use crate::util::{ISO_SCENE, Run, Scratch, motion_scene};
 use serde_json::Value;
-use util::{ISO_SCENE, Run, Scratch, motion_scene};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}:\n{text}"))
@@ -63,7 +61,7 @@ fn data_goes_to_stdout_and_talk_to_stderr() {
 /// Into a log goes a line on how far a phase is, as late as the environment says: twenty seconds, at once, or never.
 #[test]
 fn a_log_is_told_how_far_the_work_is() {
-    let still = motion_scene(0, "").replace("kind = \"dynamic\"\n", "").replace(util::MOTION_LINES, "");
+    let still = motion_scene(0, "").replace("kind = \"dynamic\"\n", "").replace(crate::util::MOTION_LINES, "");
     let scratch = Scratch::new().file("a.toml", still);
     let run = |after: &str| {
         let words = ["run", "a.toml", "--out", "o"];

@@ -1,8 +1,6 @@
 //! Where results go and what is read: work folders of killed runs, links, devices, the scene that is part of the program.
 #![cfg(unix)]
 
-mod util;
-
 use std::{
     fs,
     os::unix::fs::symlink,
@@ -10,7 +8,7 @@ use std::{
     process::{Child, Command, Stdio},
 };
 
-use util::{ISO_SCENE, MOTION_LINES, Scratch, motion_scene, repository};
+use crate::util::{ISO_SCENE, MOTION_LINES, Scratch, motion_scene, repository};
 
 const MARK: &str = ".ale-gear-work";
 

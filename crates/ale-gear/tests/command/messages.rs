@@ -1,8 +1,6 @@
 //! Typical mistakes, as a user meets them: the whole text, exit status 2, nothing written.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch, motion_scene};
+use crate::util::{ISO_SCENE, Scratch, motion_scene};
 
 fn says(scene: &str, text: &str) {
     let scratch = Scratch::new().file("a.toml", scene);

@@ -1,10 +1,8 @@
 //! A run that is taken up again is the same run: the same inputs, the same state, the same rows, or none.
 
-mod util;
-
 use std::fs;
 
-use util::{Run, Scratch, motion_scene};
+use crate::util::{Run, Scratch, motion_scene};
 
 const ADVICE: &str = "hint: put that one back, or run without `--resume` to start from the beginning\n";
 const FROM_START: &str = "hint: run without `--resume` to start from the beginning\n";

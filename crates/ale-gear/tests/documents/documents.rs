@@ -1,13 +1,10 @@
 //! What the documents say exists: pages, anchors, files, equations.
 
-mod markdown;
-mod util;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use markdown::Page;
-use util::repository;
+use crate::markdown::Page;
+use crate::util::repository;
 
 /// Every Markdown file that a reader is sent to.
 fn pages() -> Vec<Page> {

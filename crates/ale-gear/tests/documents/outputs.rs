@@ -1,14 +1,10 @@
 //! docs/outputs.md against what the program writes: every column and key of every kind of run is in it, and every column and key in it is written by one of them.
 
-mod markdown;
-mod quantities;
-mod util;
-
 use std::collections::BTreeSet;
 
-use markdown::Page;
-use quantities::{Documented, generalised, written_in};
-use util::{ISO_SCENE, Scratch, motion_scene, repository};
+use crate::markdown::Page;
+use crate::quantities::{Documented, generalised, written_in};
+use crate::util::{ISO_SCENE, Scratch, motion_scene, repository};
 
 /// Every file that a run at rest can write; no stress in a model without meshes.
 fn at_rest() -> String {

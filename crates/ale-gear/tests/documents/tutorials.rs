@@ -14,18 +14,14 @@
 //! `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER` behind it: among the rows that have this.
 #![cfg(unix)] // the commands are a shell's
 
-mod markdown;
-mod quantities;
-mod util;
-
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
-use markdown::Page;
+use crate::markdown::Page;
+use crate::quantities::Documented;
+use crate::util::{Run, Scratch, column, repository};
 use pulldown_cmark::{Event, Tag, TagEnd};
-use quantities::Documented;
 use testing::Record;
-use util::{Run, Scratch, column, repository};
 
 /// What a page asks to be done, in its order.
 enum Step {

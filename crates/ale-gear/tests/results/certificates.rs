@@ -1,9 +1,7 @@
 //! What must hold of a result: steps that an explicit method bears, and certificates with their bounds.
 
-mod util;
-
+use crate::util::{ISO_SCENE, Scratch, column, motion_scene};
 use serde_json::Value;
-use util::{ISO_SCENE, Scratch, column, motion_scene};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
@@ -59,7 +57,7 @@ fn a_tolerance_needs_no_limit() {
 /// A cheaper model with light bodies on stiff bearings.
 #[test]
 fn cheaper_models_know_their_limit() {
-    let text = std::fs::read_to_string(util::repository().join("scenes/seeds/004.toml")).unwrap();
+    let text = std::fs::read_to_string(crate::util::repository().join("scenes/seeds/004.toml")).unwrap();
     let text = text.replace("spectral_radius", "# spectral_radius");
     let scratch = Scratch::new().file("a.toml", text);
     let words =

@@ -1,11 +1,9 @@
 //! Contact lines and pressure pattern of a run with slices.
 
-mod util;
-
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use util::{ISO_SCENE, Scratch, repository};
+use crate::util::{ISO_SCENE, Scratch, repository};
 
 type Row = HashMap<String, f64>;
 

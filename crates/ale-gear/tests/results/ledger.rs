@@ -1,9 +1,7 @@
 //! Energy of every shipped scene in time: the ledger closes within a millionth of the work that is done, and no force pulls.
 
-mod util;
-
+use crate::util::{Scratch, repository};
 use serde_json::Value;
-use util::{Scratch, repository};
 
 /// A shipped scene with some words changed, its meshes where they are.
 fn shipped(name: &str, changes: &[(&str, &str)]) -> String {

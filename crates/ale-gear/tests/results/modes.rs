@@ -1,8 +1,6 @@
 //! Elastic frequencies and normal modes, as a user meets them.
 
-mod util;
-
-use util::{MOTION_LINES, Scratch, column, motion_scene};
+use crate::util::{MOTION_LINES, Scratch, column, motion_scene};
 
 fn summary(scene: &str) -> (serde_json::Value, String) {
     let scratch = Scratch::new().file("a.toml", scene);

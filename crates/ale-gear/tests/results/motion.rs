@@ -1,8 +1,6 @@
 //! Scenes in time, as a user runs them: files, certificate, checkpoints, threads, coast flanks.
 
-mod util;
-
-use util::{Scratch, column, motion_scene as scene};
+use crate::util::{Scratch, column, motion_scene as scene};
 
 fn run(scratch: &Scratch, out: &str, more: &[&str]) -> serde_json::Value {
     let mut words = vec!["run", "a.toml", "--out", out];
@@ -105,7 +103,7 @@ fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
     let moving = scene(1, motion).replace("[operation]", "[operation]\nspeed_rpm = 0.1");
     let still = scene(1, "[output]\nroot_stress = true\n")
         .replace("kind = \"dynamic\"\npositions_per_cycle = 4", "positions_per_cycle = 16")
-        .replace(util::MOTION_LINES, "");
+        .replace(crate::util::MOTION_LINES, "");
     let scratch = Scratch::new().file("a.toml", &moving).file("still.toml", &still);
     run(&scratch, "o", &[]);
     assert_eq!(scratch.command(&["run", "still.toml", "--out", "s"]).code, Some(0));

@@ -1,9 +1,7 @@
 //! Analyses in time beyond the plain one: normal modes in every one of them, steps by error, a driver by torque, gears on bearings, a start from standstill.
 
-mod util;
-
+use crate::util::{MOTION_LINES, Scratch, column, motion_scene as scene};
 use serde_json::Value;
-use util::{MOTION_LINES, Scratch, column, motion_scene as scene};
 
 fn run(scratch: &Scratch, out: &str, more: &[&str]) -> Value {
     let mut words = vec!["run", "a.toml", "--out", out];

@@ -1,9 +1,7 @@
 //! Motions over speed as a user runs them: which inertias count, what a ramp is made for, speeds without a solution, a pair without backlash.
 
-mod util;
-
+use crate::util::{Scratch, column, motion_scene as scene, repository};
 use serde_json::Value;
-use util::{Scratch, column, motion_scene as scene, repository};
 
 fn run(scratch: &Scratch, more: &[&str]) -> Value {
     let words = [&["run", "a.toml", "--out", "o"], more].concat();

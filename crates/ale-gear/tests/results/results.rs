@@ -1,10 +1,8 @@
 //! The result folder of the model `iso`: which files, which columns, and the physics that any model must show.
 
-mod util;
-
 use std::collections::HashMap;
 
-use util::{ISO_SCENE, Scratch};
+use crate::util::{ISO_SCENE, Scratch};
 
 type Columns = HashMap<String, Vec<f64>>;
 
@@ -165,7 +163,7 @@ fn the_root_stress_of_the_standard_stands_beside() {
     // Beside 119.3 MPa of resolved finite elements.
     assert!((of_iso / 119.3 - 1.0).abs() < 0.1, "{of_iso} MPa");
     assert!(scratch.read("deep/er/o/report.html").contains("nominal root stress of the wheel by ISO 6336-3"));
-    let meshed = util::motion_scene(0, "");
+    let meshed = crate::util::motion_scene(0, "");
     let meshed = meshed.split("kind = \"dynamic\"").next().unwrap().to_owned() + "positions_per_cycle = 2\n";
     assert_eq!(stress(&run(&meshed).2), None, "nobody asked");
     let asked = run(&(meshed + "[output]\nroot_stress = true\n")).2;

@@ -1,10 +1,8 @@
 //! `[output] root_stress`: columns, headline, chart, and who may not ask for it.
 
-mod util;
-
 use std::collections::HashMap;
 
-use util::{ISO_SCENE, Scratch};
+use crate::util::{ISO_SCENE, Scratch};
 
 /// The default pair on small meshes.
 fn scene(model: &str, output: &str) -> String {

@@ -1,10 +1,8 @@
 //! The study of seed 000 on the meshes that Gmsh wrote, shortened: what does its figure 3 stand on?
 
-mod util;
-
 use std::f64::consts::PI;
 
-use util::{Run, Scratch, column, repository};
+use crate::util::{Run, Scratch, column, repository};
 
 const ANGLES: [u32; 4] = [10, 15, 20, 25];
 const WIDTH: f64 = 22.0;

@@ -1,8 +1,6 @@
 //! A window too narrow for its load grows by itself, and only when its width was left to the program.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch};
+use crate::util::{ISO_SCENE, Scratch};
 
 /// The default pair bent far past its rating: teeth beside the least window of three would touch.
 fn overloaded() -> String {

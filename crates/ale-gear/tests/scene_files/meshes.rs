@@ -1,8 +1,6 @@
 //! `ale-gear mesh` and meshes in scenes, as a user meets them.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch, repository};
+use crate::util::{ISO_SCENE, Scratch, repository};
 
 /// A small sector: one quadratic layer is enough to see every part.
 fn scene(order: u32, sector: u32) -> String {
@@ -159,7 +157,7 @@ fn a_flank_in_part_is_refused() {
 }
 
 /// A run of a scene on a mesh of the pinion with a bore of 60 mm; `pinion` are the words on its bore.
-fn on_a_mesh(model: &str, pinion: &str) -> (Scratch, util::Run) {
+fn on_a_mesh(model: &str, pinion: &str) -> (Scratch, crate::util::Run) {
     let scratch = Scratch::new().file("a.toml", scene(1, 1));
     let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh"]);
     assert_eq!(made.code, Some(0), "{}", made.stderr);

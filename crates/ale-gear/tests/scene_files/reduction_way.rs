@@ -1,8 +1,6 @@
 //! `[analysis] reduction`: which way gears go by themselves, that all ways end in the same results, and who may not ask.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch};
+use crate::util::{ISO_SCENE, Scratch};
 
 /// The default pair on small meshes, three positions.
 fn scene(analysis: &str, output: &str) -> String {

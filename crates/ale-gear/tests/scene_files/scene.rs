@@ -1,12 +1,10 @@
 //! A scene written out says the same as the scene read.
 
-mod util;
-
 use std::path::Path;
 
+use crate::util::{ISO_SCENE, repository};
 use ale_gear::scene::{Driver, Model, Rotation, Scene};
 use geometry::Side;
-use util::{ISO_SCENE, repository};
 
 /// Every scene of the repository, with its defaults written out, reads back as itself.
 #[test]

@@ -1,11 +1,9 @@
 //! Keys set beside the file: `--set key=value`.
 
-mod util;
-
 use std::path::Path;
 
+use crate::util::{ISO_SCENE, Scratch};
 use ale_gear::scene::{Scene, SceneError, Setting};
-use util::{ISO_SCENE, Scratch};
 
 fn with(words: &[&str]) -> Result<Scene, SceneError> {
     let settings = words.iter().map(|w| Setting::parse(w)).collect::<Result<Vec<_>, _>>()?;
@@ -48,7 +46,7 @@ fn a_setting_is_as_if_the_file_said_so() {
 /// Entries of lists by their number, and only those that are there.
 #[test]
 fn entries_of_lists_are_counted_from_0() {
-    let text = std::fs::read_to_string(util::repository().join("scenes/seeds/002.toml")).unwrap();
+    let text = std::fs::read_to_string(crate::util::repository().join("scenes/seeds/002.toml")).unwrap();
     let read = |word: &str| Scene::parse_with(&text, Path::new("a.toml"), &[Setting::parse(word).unwrap()]);
     let stiff = |scene: &Scene| scene.pinion.shaft.as_ref().unwrap().supports[1].stiffness_x_n_per_mm;
     let scene = read("pinion.shaft.supports.1.stiffness_x_n_per_mm=12345").unwrap();

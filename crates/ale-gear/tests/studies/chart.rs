@@ -1,8 +1,6 @@
 //! `ale-gear chart` end to end on a small scene: every point is a run, or says why it is none.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch, chart_rows, fields, five_teeth};
+use crate::util::{ISO_SCENE, Scratch, chart_rows, fields, five_teeth};
 
 #[test]
 fn every_point_is_a_run_or_says_why_not() {
@@ -71,7 +69,7 @@ fn words_of_the_chart_are_checked_before_any_work() {
 /// Every method with every step has its row; those of second order come nearer to the reference with smaller steps, and a scene at rest has no methods.
 #[test]
 fn methods_of_integration_have_their_chart() {
-    let scratch = Scratch::new().file("a.toml", util::motion_scene(1, "")).file("rest.toml", ISO_SCENE);
+    let scratch = Scratch::new().file("a.toml", crate::util::motion_scene(1, "")).file("rest.toml", ISO_SCENE);
     let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", "--methods", "--quick"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let csv = scratch.read("o/motion_precision.csv");

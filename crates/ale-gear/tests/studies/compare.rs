@@ -1,9 +1,7 @@
 //! `ale-gear compare`: runs of any kind side by side.
 
-mod util;
-
+use crate::util::{ISO_SCENE, Scratch, column, motion_scene, repository};
 use serde_json::Value;
-use util::{ISO_SCENE, Scratch, column, motion_scene, repository};
 
 /// A static run, the same with another torque, a motion and a run of the ladder.
 fn runs() -> Scratch {

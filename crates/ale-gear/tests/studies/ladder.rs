@@ -1,10 +1,9 @@
 //! The cheaper models as a user runs them: the seeds' scenes shortened, a fed one, and what is refused.
 
-mod util;
-
+use crate::util;
+use crate::util::{ISO_SCENE, Scratch, repository};
 use ale_gear::scene::Scene;
 use serde_json::Value;
-use util::{ISO_SCENE, Scratch, repository};
 
 /// A seed's scene with some words changed.
 fn seed(number: &str, changes: &[(&str, &str)]) -> String {

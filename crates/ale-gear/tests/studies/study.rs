@@ -1,8 +1,6 @@
 //! `ale-gear study` end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
-mod util;
-
-use util::{ISO_SCENE, Scratch, column, motion_scene};
+use crate::util::{ISO_SCENE, Scratch, column, motion_scene};
 
 /// Three pairs without meshes that differ in the helix angle.
 fn iso_cases() -> Scratch {

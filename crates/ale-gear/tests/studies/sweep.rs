@@ -1,9 +1,7 @@
 //! Sweeps over a key as a user runs them: seeds' scenes shortened.
 
-mod util;
-
+use crate::util::{Scratch, column, repository};
 use serde_json::Value;
-use util::{Scratch, column, repository};
 
 fn seed(number: &str) -> String {
     std::fs::read_to_string(repository().join(format!("scenes/seeds/{number}.toml"))).unwrap()
@@ -209,7 +207,7 @@ fn a_scene_may_ask_for_its_sweep() {
 /// Every complaint is made before any work, and nothing is written.
 #[test]
 fn words_of_a_sweep_are_checked_first() {
-    let still = util::ISO_SCENE.to_owned();
+    let still = crate::util::ISO_SCENE.to_owned();
     for (scene, words, text) in [
         (
             seed("004"),

@@ -10,8 +10,7 @@ use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;
 use rayon::prelude::*;
 
-mod random;
-use random::Random;
+use testing::Random;
 
 struct Flanks {
     pair: GearPair,

@@ -8,8 +8,7 @@ use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
 use nalgebra::{Translation3, UnitQuaternion};
 use rayon::prelude::*;
 
-mod random;
-use random::Random;
+use testing::Random;
 
 /// Poses drawn.
 const POSES: u64 = 50_000;

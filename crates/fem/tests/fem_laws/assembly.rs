@@ -1,8 +1,6 @@
 //! Assembly: what the whole inherits from its parts.
 
-mod common;
-
-use common::{box_mesh, largest, on_threads, shaken};
+use crate::common::{box_mesh, largest, on_threads, shaken};
 use fem::{
     DofMap, ElementOptions, FemError, Material, SymmetricMatrix, assemble, assemble_mass, assemble_stiffness,
     mass_properties,

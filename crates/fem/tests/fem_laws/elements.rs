@@ -1,8 +1,6 @@
 //! Laws every element has to obey.
 
-mod common;
-
-use common::{
+use crate::common::{
     boundary_faces, boundary_nodes, box_mesh, first_element, largest, nodes_where, pick_free, shaken, solve_prescribed,
 };
 use faer::{Mat, Side};

@@ -1,8 +1,6 @@
 //! One factor, many answers: each judged by dense algebra.
 
-mod common;
-
-use common::{box_mesh, nodes_where, on_threads, shaken};
+use crate::common::{box_mesh, nodes_where, on_threads, shaken};
 use faer::{Mat, MatRef, linalg::solvers::Solve};
 use fem::{
     BoundaryLastFactor, DofMap, ElementOptions, FemError, IndefiniteFactor, Material, SymmetricMatrix,

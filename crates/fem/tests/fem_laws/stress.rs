@@ -1,8 +1,6 @@
 //! Stress recovery.
 
-mod common;
-
-use common::{box_mesh, largest, nodes_where, on_threads, shaken};
+use crate::common::{box_mesh, largest, nodes_where, on_threads, shaken};
 use faer::Mat;
 use fem::{
     BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, assemble_stiffness, max_principal,
@@ -48,7 +46,7 @@ fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
     let full = assemble_stiffness(&mesh, &STEEL, &all, &options).unwrap();
     let free = assemble_stiffness(&mesh, &STEEL, &dofs, &options).unwrap();
     let exact: Vec<[f64; 3]> = mesh.nodes.iter().map(|x| bending([x[0] - 4.0, x[1], x[2]])).collect();
-    let u = common::solve_prescribed(&full, &free, &dofs, &exact).unwrap();
+    let u = crate::common::solve_prescribed(&full, &free, &dofs, &exact).unwrap();
     let stress = nodal_stress(&mesh, &STEEL, &options, &u).unwrap();
     for (x, s) in mesh.nodes.iter().zip(&stress).filter(|(x, _)| (x[0] - 4.0).abs() < 1.5 && x[1].abs() > 0.1) {
         let wanted = STEEL.young_mpa() * 1e-3 * x[1];

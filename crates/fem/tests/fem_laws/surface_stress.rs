@@ -1,11 +1,9 @@
 //! Stress of free surfaces from their own displacement.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::f64::consts::FRAC_PI_2;
 
-use common::{boundary_faces, box_mesh, largest, nodes_where, shaken};
+use crate::common::{boundary_faces, box_mesh, largest, nodes_where, shaken};
 use faer::Mat;
 use fem::{DofMap, ElementOptions, FemError, Material, StressOperator, assemble_stiffness, nodal_stress};
 use mesh::{ElementKind, Face, Mesh};
@@ -143,7 +141,7 @@ fn errors_at_the_hole(kind: ElementKind, n: usize) -> [f64; 2] {
     let options = ElementOptions::default();
     let [full, part] = [&all, &free].map(|dofs| assemble_stiffness(&mesh, &STEEL, dofs, &options).unwrap());
     let exact: Vec<[f64; 3]> = mesh.nodes.iter().map(|&x| kirsch(x)).collect();
-    let u = common::solve_prescribed(&full, &part, &free, &exact).unwrap();
+    let u = crate::common::solve_prescribed(&full, &part, &free, &exact).unwrap();
     let (faces, nodes) = faces_where(&mesh, |x| (x[0].hypot(x[1]) - 1.0).abs() < 0.3 * (1.0 / n as f64).powi(2));
     let stress = surface_stress(&mesh, &faces, &nodes, &u);
     let volume = nodal_stress(&mesh, &STEEL, &options, &u).unwrap();

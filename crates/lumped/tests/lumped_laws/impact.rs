@@ -14,7 +14,7 @@ use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffnes
 use lumped::{Recorded, Recording};
 use nalgebra::{DVector, Matrix6, SVector};
 
-mod mill;
+use crate::mill;
 
 /// T / (r_b cos b_b), N.
 fn normal_force() -> f64 {

@@ -13,9 +13,7 @@ use lumped::Recording;
 use lumped::impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness};
 use nalgebra::{Matrix6, SVector};
 
-#[path = "../../contact/tests/random/mod.rs"]
-mod random;
-use random::Random;
+use testing::Random;
 
 const STICK_SLIP: StickSlip =
     StickSlip { static_coefficient: 0.08, dynamic_coefficient: 0.05, static_speed: 0.1, dynamic_speed: 10.0 };

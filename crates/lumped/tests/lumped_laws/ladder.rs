@@ -1,11 +1,9 @@
 //! The ladder: lumped models of one pair agree where they must (linear, no friction, the same stiffness).
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{bodies_004, gears_004, operation, relative};
+use crate::common::{bodies_004, gears_004, operation, relative};
 use dynamics::motion::{Mechanism, Scheme};
 use lumped::{
     LumpedError, LumpedModel, LumpedPair, MeshClock, MeshCycle, RunPlan,

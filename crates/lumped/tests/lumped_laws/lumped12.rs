@@ -1,12 +1,10 @@
 //! Twelve coordinates (seed 003): mirrors, friction off the line of action, modes and flutter.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{pair_004, relative, seed_003};
 use ale::Sense;
-use common::{pair_004, relative, seed_003};
 use dynamics::motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
     FourierTorque, HistoryRow, LineSharing, LumpedError, LumpedModel, MeshClock, RunPlan,

@@ -1,11 +1,9 @@
 //! Eight coordinates (seed 004): statics, energy, dimensionless form, one-DOF limit, what it refuses.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{relative, seed_004};
+use crate::common::{relative, seed_004};
 use dynamics::motion::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
     Fourier, FourierTorque, LumpedError, LumpedModel, MeshClock, RunPlan,
@@ -36,7 +34,7 @@ fn statics_of_the_seed_are_those_of_the_geometry() {
         // A right-hand pinion that drives counter-clockwise is pushed along +z.
         assert!((pinion.force[2] / 1157.7 - 1.0).abs() < 1e-4, "F_a {}", pinion.force[2]);
         assert!((pinion.moment[2] / -300e3 - 1.0).abs() < 1e-9 && (wheel.moment[2] / -900e3 - 1.0).abs() < 1e-9);
-        let a = common::gears_004().centre_distance();
+        let a = crate::common::gears_004().centre_distance();
         for i in 0..3 {
             assert!((pinion.force[i] + wheel.force[i]).abs() < 1e-9, "force {i}");
         }
@@ -307,7 +305,8 @@ type Trouble = dynamics::motion::MotionError<std::convert::Infallible>;
 /// The pair's own backlash, whichever way the law takes it: j / 2 along the transverse line of action.
 #[test]
 fn backlash_of_a_pair_is_its_clearance_on_the_line_of_action() {
-    let gears = common::pair([30, 90], geometry::GearData { helix_angle: 0.3, ..Default::default() }, Some(189.0));
+    let gears =
+        crate::common::pair([30, 90], geometry::GearData { helix_angle: 0.3, ..Default::default() }, Some(189.0));
     assert!(gears.backlash() > 0.01);
     for law in [MeshLaw::Normal, MeshLaw::Projected] {
         let mut model = seed_004(law, 0.0);

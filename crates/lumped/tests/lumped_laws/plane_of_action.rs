@@ -1,10 +1,8 @@
 //! Contact lines of the lumped models against exact geometry, published lengths, and closed forms.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
+use crate::common::{gears_003, gears_004, pair_003};
 use ale::Sense;
-use common::{gears_003, gears_004, pair_003};
 use dynamics::Driver;
 use geometry::Side;
 use lumped::{LineSharing, MeshFrame, PlaneOfAction};

@@ -13,8 +13,7 @@ use lumped::shaft18::{
 use lumped::{Fourier, LumpedError, MeshCycle, Recording};
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
 
-mod gearbox;
-use gearbox::{ALL, disc, gearbox, steel};
+use crate::gearbox::{ALL, disc, gearbox, steel};
 
 /// Steps of different diameters, one of them hollow.
 fn stepped() -> Shaft {

@@ -12,8 +12,7 @@ use lumped::{LumpedError, Recording};
 use nalgebra::DVector;
 use study::{Branch, Lyapunov, LyapunovPlan, Window};
 
-mod gearbox;
-use gearbox::light;
+use crate::gearbox::light;
 
 /// Half of a backlash of 40 um, mm.
 const HALF_BACKLASH: f64 = 0.02;

@@ -1,8 +1,6 @@
 //! Damaged files: each gives an error that names the section and the place, none a panic.
 
-mod common;
-
-use common::data;
+use crate::common::data;
 use mesh::{Mesh, MeshError};
 use proptest::prelude::*;
 

@@ -1,8 +1,6 @@
 //! Files that Gmsh itself wrote (`data/make.py`), every element kind in every flavour.
 
-mod common;
-
-use common::{FLAVOURS, data, volume};
+use crate::common::{FLAVOURS, data, volume};
 use mesh::{ElementKind, FaceTable, Mesh, MeshError};
 
 fn read(name: &str) -> Mesh {

@@ -1,11 +1,9 @@
 //! The meshes that Gmsh made from an independent script: they agree with this program's own geometry.
 
-mod measure;
-
 use std::path::PathBuf;
 
+use crate::measure::{tooth_area, volume_and_least_jacobian};
 use geometry::{Gear, GearData, Side, Vec3};
-use measure::{tooth_area, volume_and_least_jacobian};
 use mesh::Mesh;
 
 fn read(name: &str) -> Mesh {

@@ -1,7 +1,5 @@
 //! Parts of a gear: by group names, by fit, and what the checks say about them.
 
-mod common;
-
 use std::path::PathBuf;
 
 use geometry::{Gear, GearData, Side};

@@ -1,8 +1,6 @@
 //! What is written is read back the same, bit for bit.
 
-mod common;
-
-use common::{FLAVOURS, data, one_element};
+use crate::common::{FLAVOURS, data, one_element};
 use mesh::{ElementKind, Mesh, MshFormat};
 
 fn assert_comes_back(mesh: &Mesh, what: &str) {

@@ -1,11 +1,9 @@
 //! Laws of the structured mesher, judged on the finished mesh.
 
-mod measure;
-
 use std::collections::{HashMap, HashSet};
 
+use crate::measure::{tooth_area, volume_and_least_jacobian};
 use geometry::{Gear, GearData, Side, Vec3};
-use measure::{tooth_area, volume_and_least_jacobian};
 use mesh::{
     Extent, GearMesh, GroupNames, Mesh, MeshReport, MshFormat, Severity, StructuredError, StructuredOptions, generate,
 };

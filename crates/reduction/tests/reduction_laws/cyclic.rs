@@ -1,12 +1,10 @@
 //! One sector condensed and joined with itself against one factor of the whole gear.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use common::{gear, options};
+use crate::common::{gear, options};
 use faer::Mat;
 use fem::Material;
 use geometry::{Gear, GearData, Side};
@@ -15,7 +13,7 @@ use reduction::{FlankGrid, FlankGrids, GearReducer, ReductionError, ReductionOpt
 
 /// Two elements along every edge of the tooth.
 fn meshed(gear: &Gear, order: u32, extent: Extent) -> GearMesh {
-    common::meshed(gear, order, 2, extent)
+    crate::common::meshed(gear, order, 2, extent)
 }
 
 /// Largest difference over the largest entry.

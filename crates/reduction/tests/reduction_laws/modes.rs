@@ -1,11 +1,9 @@
 //! Normal modes against dense matrices, a closed form, and one way against the other.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{gear, options};
+use crate::common::{gear, options};
 use faer::{Mat, MatRef};
 use fem::{DofMap, ElementOptions, Material};
 use geometry::{Gear, Side};
@@ -15,7 +13,7 @@ use reduction::{GearModes, GearReducer, ModeChoice, ReductionWay, Window};
 
 /// As few elements as a gear can have, times `fine` in the tooth.
 fn meshed(gear: &Gear, fine: u32, extent: Extent) -> GearMesh {
-    common::meshed(gear, 1, fine, extent)
+    crate::common::meshed(gear, 1, fine, extent)
 }
 
 /// All frequencies of a mesh, Hz, by dense matrices: nodes `held`, by Cholesky of M and nalgebra's symmetric QR.

@@ -1,7 +1,5 @@
 //! The file of a reduced gear: what goes in comes out to the bit, and nothing else is ever taken for it.
 
-mod common;
-
 use fem::Material;
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GearMesh, GroupNames};
@@ -21,8 +19,8 @@ impl Sample {
 
     fn meshed(extent: Extent) -> Self {
         let geometry = Gear::new(GearData { teeth: 12, bore_diameter: 16.0, ..GearData::default() }).unwrap();
-        let mesh = common::meshed(&geometry, 1, 2, extent);
-        let options = common::options(&[Side::Left], 3, 11);
+        let mesh = crate::common::meshed(&geometry, 1, 2, extent);
+        let options = crate::common::options(&[Side::Left], 3, 11);
         Self { geometry, mesh, options, material: Material::STEEL }
     }
 

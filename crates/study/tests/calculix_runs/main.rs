@@ -1,5 +1,6 @@
 //! What CalculiX makes of a deck.
 
+#[path = "../calculix_pair/mod.rs"]
 mod calculix_pair;
 
 use std::process::ExitCode;

@@ -1,8 +1,6 @@
 //! The deck of one position.
 
-mod calculix_pair;
-
-use calculix_pair::{PAIRS, pair};
+use crate::calculix_pair::{PAIRS, pair};
 use geometry::Side;
 use mesh::GearMesh;
 use study::calculix::{Calculix, CalculixError, Deck};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ale_gear::scene::all_keys;
 use serde_json::Value;
 
-use crate::rows::{Base, tables};
+use super::rows::{Base, tables};
 use crate::util::{ISO_SCENE, Run, Scratch, motion_scene, repository};
 
 /// Words of a run with the key at the case's value, and with it at the other one.
@@ -164,7 +164,7 @@ fn every_key_has_an_effect() {
     let mut faults = Vec::new();
     for key in all_keys() {
         let Some(mut case) = case(&key) else {
-            faults.push(format!("{key}: has no row in tests/keys/rows.rs"));
+            faults.push(format!("{key}: has no row in tests/scene_files/keys/rows.rs"));
             continue;
         };
         if key.ends_with(".mesh") {

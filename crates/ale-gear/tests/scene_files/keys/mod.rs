@@ -3,14 +3,12 @@
 mod effect;
 mod fits;
 mod rows;
-#[path = "../util/mod.rs"]
-mod util;
 
 use std::collections::BTreeSet;
 
+use crate::util::{repository, scenes};
 use ale_gear::scene::{all_keys, json_schema};
 use fits::fits;
-use util::{repository, scenes};
 
 fn as_json(toml: &str) -> serde_json::Value {
     toml::from_str(toml).unwrap_or_else(|e| panic!("{e}\n{toml}"))
@@ -40,8 +38,8 @@ fn shipped_scenes_fit_the_schema() {
 fn wrong_scenes_do_not_fit_the_schema() {
     let schema = json_schema();
     let wrong = |old: &str, new: &str, said: &str| {
-        assert!(util::ISO_SCENE.contains(old), "no `{old}`");
-        let error = fits(&schema, &as_json(&util::ISO_SCENE.replacen(old, new, 1))).expect_err(new);
+        assert!(crate::util::ISO_SCENE.contains(old), "no `{old}`");
+        let error = fits(&schema, &as_json(&crate::util::ISO_SCENE.replacen(old, new, 1))).expect_err(new);
         assert!(error.contains(said), "{new}: {error}");
     };
     wrong("face_width_mm", "face_widht_mm", "face_widht_mm");

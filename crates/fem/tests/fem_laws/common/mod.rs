@@ -1,5 +1,4 @@
 //! Boxes meshed with every kind of element.
-#![allow(dead_code)] // each test file takes what it needs
 
 use std::collections::BTreeMap;
 

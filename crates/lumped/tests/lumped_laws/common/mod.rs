@@ -1,5 +1,4 @@
 //! The seeds' pairs.
-#![allow(dead_code, reason = "each test file uses its part")]
 
 use std::f64::consts::{PI, TAU};
 

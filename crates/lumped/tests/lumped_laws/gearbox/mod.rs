@@ -1,5 +1,4 @@
 //! The transmission of seed 002 as far as it is given.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use geometry::Side;
 use lumped::Fourier;

@@ -1,5 +1,4 @@
 //! The pair of seed 001, a gear box of a rolling mill.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,4 @@
 //! What several tests need.
-#![allow(dead_code)]
 
 use std::path::PathBuf;
 

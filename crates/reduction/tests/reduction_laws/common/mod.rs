@@ -1,7 +1,5 @@
 //! Small gears and their meshes.
 
-#![allow(dead_code)] // each test file uses its own part
-
 use fem::ElementOptions;
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
