@@ -1,6 +1,6 @@
 //! Transmission error over mesh density: slices, pressed points with exact contact, pressed points with a penalty; see `benches/README.md`.
 //!
-//! `cargo bench -p dynamics --bench mesh_independence` takes the three coarser meshes for all methods and the finest for slices; `-- --quick` leaves the finest
+//! `cargo bench -p benches --bench mesh_independence` takes the three coarser meshes for all methods and the finest for slices; `-- --quick` leaves the finest
 //! out, `-- --points` the slices.
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 

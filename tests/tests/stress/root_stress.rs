@@ -23,7 +23,7 @@ type Peaks = [(f64, u64); 3];
 
 /// Given nodal forces on both programs, so that contact plays no part.
 ///
-/// Source: CalculiX 2.20, `scripts/root_stress_ccx.py`, 2026; meshes by Gmsh. 1000 N along (0.3, -0.9, 0.3) in equal shares on the
+/// Source: CalculiX 2.20, `tests/scripts/root_stress_ccx.py`, 2026; meshes by Gmsh. 1000 N along (0.3, -0.9, 0.3) in equal shares on the
 /// nodes of the left flank of tooth 0 with 47.0 <= r <= 48.5 mm, bore held, cuts free. Asked: 3 % of the largest von Mises stress;
 /// with the same integration and extrapolation 1e-4 is reached. (Its fully integrated C3D20 extrapolates from 27 points and not from
 /// the eight most accurate ones: 65.94 MPa in place of 61.31 here, with two elements along the fillet. That is another

@@ -1,7 +1,7 @@
 //! Root stress of default meshes against CalculiX on resolved ones.
 //!
 //! A pair is solved on both meshes. The forces of the flanks of the resolved one, K u, go into CalculiX on that mesh; its nodal stress, from
-//! Gauss points, is what a user of CalculiX would read. `cargo test --workspace --test root_stress_calculix -- --ignored --nocapture`;
+//! Gauss points, is what a user of CalculiX would read. `cargo test --workspace --test stress -- root_stress_calculix:: --ignored --nocapture`;
 //! CalculiX (`calculix-ccx`) must be installed.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 

@@ -103,7 +103,7 @@ fn a_free_turn_is_no_chaos() {
     assert_eq!(summary["headline"]["chaotic"].as_array().map(Vec::len), Some(0));
 }
 
-/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of `crates/lumped/tests/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600 rad/s with one
+/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of `crates/lumped/tests/lumped_laws/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600 rad/s with one
 /// above.
 #[test]
 fn backlash_brings_chaos_between_windows() {

@@ -156,7 +156,7 @@ fn by_iso(drawn: &Drawn) -> (f64, [f64; 2]) {
     (base_force / (pair.face_width() * iso.c_mesh), bodies)
 }
 
-/// The command's own table: `cargo test -p lumped --test iso_pairs -- --ignored --nocapture`.
+/// The command's own table: `cargo test --workspace --test lumped_laws -- iso_pairs:: --ignored --nocapture`.
 #[test]
 #[ignore = "twenty-five pairs by finite elements: some minutes"]
 fn random_pairs() {

@@ -1,4 +1,4 @@
-//! Files that Gmsh itself wrote (`data/make.py`), every element kind in every flavour.
+//! Files that Gmsh itself wrote (`tests/data/make.py`), every element kind in every flavour.
 
 use crate::common::{FLAVOURS, data, volume};
 use mesh::{ElementKind, FaceTable, Mesh, MeshError};

@@ -56,14 +56,6 @@ fn the_last_line_names_what_was_left_out() {
     }
 }
 
-/// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the last one is this package's.
-#[test]
-fn no_package_has_its_examples_tested_later() {
-    let folders = std::fs::read_dir(repository().join("crates")).unwrap();
-    let last = folders.map(|e| e.unwrap().file_name().into_string().unwrap()).max();
-    assert_eq!(last.as_deref(), Some(env!("CARGO_PKG_NAME")));
-}
-
 #[test]
 fn the_check_of_a_change_ends_with_it() {
     let script = std::fs::read_to_string(repository().join(".ci/run")).unwrap();

@@ -9,7 +9,7 @@ pub fn data(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
-/// The flavours that `data/make.py` writes.
+/// The flavours that `tests/data/make.py` writes.
 pub const FLAVOURS: [&str; 4] = ["a41", "b41", "a22", "b22"];
 
 /// A mesh of one reference element of that kind, its first face named `bore`, its last `flank_left_0`.
