@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::program::{Kind, Program, files_below, packages, programs, repository};
+use crate::program::{Kind, Program, files_below, package_name, packages, programs, repository};
 
 /// Where readers find commands.
 const PAGES: [&str; 4] = ["md", "rs", "sh", "toml"];
@@ -58,11 +58,7 @@ fn fault(words: &[&str], all: &[(String, Vec<Program>)]) -> Option<String> {
 }
 
 fn all_programs() -> Vec<(String, Vec<Program>)> {
-    let name = |package: &Path| {
-        let manifest: toml::Value = toml::from_str(&fs::read_to_string(package.join("Cargo.toml")).unwrap()).unwrap();
-        manifest["package"]["name"].as_str().unwrap().to_owned()
-    };
-    packages().iter().map(|p| (name(p), programs(p))).collect()
+    packages().iter().map(|p| (package_name(p), programs(p))).collect()
 }
 
 #[test]

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
-use crate::program::{Kind, packages, programs, read_by_none, repository};
+use crate::program::{Kind, manifest, packages, programs, read_by_none};
 
 /// A file that no `mod` line names compiles with nothing, and its tests would never be run.
 #[test]
@@ -54,8 +53,7 @@ fn test_programs_have_names_of_their_own() {
 fn what_has_no_test_program_has_no_tests() {
     let is_off = |table: &toml::Value| table.get("test").and_then(toml::Value::as_bool) == Some(false);
     for package in packages() {
-        let manifest = fs::read_to_string(package.join("Cargo.toml")).unwrap();
-        let manifest: toml::Value = toml::from_str(&manifest).unwrap();
+        let manifest = manifest(&package);
         let library = manifest.get("lib").is_some_and(is_off);
         let binaries = manifest.get("bin").and_then(toml::Value::as_array).cloned().unwrap_or_default();
         let off = |kind: Kind, name: &str| match kind {
@@ -67,23 +65,4 @@ fn what_has_no_test_program_has_no_tests() {
             assert_eq!(program.tests(), [""; 0], "{}: {:?} has `test = false`", package.display(), program.kind);
         }
     }
-}
-
-/// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the last one is this package's.
-#[test]
-fn no_package_has_its_examples_tested_later() {
-    let mut names = Vec::new();
-    for package in packages() {
-        let manifest: toml::Value = toml::from_str(&fs::read_to_string(package.join("Cargo.toml")).unwrap()).unwrap();
-        let tested = |table: &toml::Value| table.get("doctest").and_then(toml::Value::as_bool) != Some(false);
-        if has_library(&package) && manifest.get("lib").is_none_or(tested) {
-            names.push(manifest["package"]["name"].as_str().unwrap().to_owned());
-        }
-    }
-    assert_eq!(names.iter().max().map(String::as_str), Some(env!("CARGO_PKG_NAME")), "{names:?}");
-    assert!(repository().join("crates/testing").is_dir());
-}
-
-fn has_library(package: &Path) -> bool {
-    programs(package).iter().any(|p| p.kind == Kind::Library)
 }

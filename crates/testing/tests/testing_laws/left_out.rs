@@ -1,13 +1,12 @@
 //! What was left out is told at the end, by whatever means tests are run.
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use testing::{Record, note, summary};
 
-fn repository() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap()
-}
+use crate::program::{Kind, manifest, package_name, packages, programs, repository};
 
 /// Tests, each with the reason why it was left out, or nothing.
 fn keep(folder: &Path, source: &str, part: &str, tests: &[(&str, &str)]) {
@@ -43,7 +42,7 @@ fn the_last_line_names_what_was_left_out() {
     let said = Command::new(env!("CARGO_BIN_EXE_left_out")).env(testing::FOLDER, folder).output().unwrap();
     assert_eq!((said.status.code(), String::from_utf8(said.stdout).unwrap()), (Some(0), summary(folder)));
     // And so do the examples that rustdoc is to ignore.
-    let examples = std::fs::read_to_string(folder.join("examples.rs")).unwrap();
+    let examples = fs::read_to_string(folder.join("examples.rs")).unwrap();
     assert_eq!(examples.matches("```ignore").count(), 3, "{examples}");
     for named in [
         "pub mod no_ccx_in_path {",
@@ -56,9 +55,26 @@ fn the_last_line_names_what_was_left_out() {
     }
 }
 
+/// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the last one is this package's.
+#[test]
+fn no_package_has_its_examples_tested_later() {
+    let mut names = Vec::new();
+    for package in packages() {
+        let tested = |table: &toml::Value| table.get("doctest").and_then(toml::Value::as_bool) != Some(false);
+        if has_library(&package) && manifest(&package).get("lib").is_none_or(tested) {
+            names.push(package_name(&package));
+        }
+    }
+    assert_eq!(names.iter().max().map(String::as_str), Some(env!("CARGO_PKG_NAME")), "{names:?}");
+}
+
+fn has_library(package: &Path) -> bool {
+    programs(package).iter().any(|p| p.kind == Kind::Library)
+}
+
 #[test]
 fn the_check_of_a_change_ends_with_it() {
-    let script = std::fs::read_to_string(repository().join(".ci/run")).unwrap();
+    let script = fs::read_to_string(repository().join(".ci/run")).unwrap();
     let last = script.lines().rev().map(str::trim).find(|l| !l.is_empty() && !l.starts_with('#'));
     assert_eq!(last, Some("cargo run --quiet --profile test --package testing --bin left_out"));
 }

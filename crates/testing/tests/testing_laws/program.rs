@@ -17,6 +17,18 @@ pub fn packages() -> Vec<PathBuf> {
     packages
 }
 
+/// A package's `Cargo.toml`.
+pub fn manifest(package: &Path) -> toml::Value {
+    let file = package.join("Cargo.toml");
+    let text = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()))
+}
+
+/// Name of a package.
+pub fn package_name(package: &Path) -> String {
+    manifest(package)["package"]["name"].as_str().unwrap().to_owned()
+}
+
 /// What is in a folder, in the order of names; nothing where there is none.
 pub fn entries(folder: &Path) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = fs::read_dir(folder).into_iter().flatten().map(|e| e.unwrap().path()).collect();
