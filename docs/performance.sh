@@ -32,7 +32,7 @@ put() {
 }
 # 24 GiB are what a gear may take, whatever the machine has.
 ulimit -v "${MEMORY_KIB:-25165824}"
-put offline table cargo bench -p reduction --bench offline -- --largest
-put ways text cargo bench -p reduction --bench reduction
-put contact text cargo bench -p dynamics --bench contact_solve
-put motion table cargo bench -p dynamics --bench dynamic_step
+put offline table cargo bench -p benches --bench offline -- --largest
+put ways text cargo bench -p benches --bench reduction
+put contact text cargo bench -p benches --bench contact_solve
+put motion table cargo bench -p benches --bench dynamic_step

@@ -19,7 +19,7 @@ const PLACES: [usize; 3] = [64, 768, 2048];
 const BEYOND: f64 = 0.15;
 /// What the springs may be off by: mean and peak to peak of their approach relative to what it is cut into infinitely many, the latter relative to itself or,
 /// where that is next to nothing, to a share of the mean; largest line load. Measured on pairs of 5, 8, 15 and 40 modules, crowned and misaligned, elastic gears are off by less
-/// (`tests/verification/width_and_crowning.rs`): teeth share the load with their neighbourhood, springs stand alone.
+/// (`tests/tests/micro_geometry/width_and_crowning.rs`): teeth share the load with their neighbourhood, springs stand alone.
 const MEAN: f64 = 0.0125;
 const SWING: f64 = 0.025;
 const LEAST_SWING: f64 = 0.01;

@@ -11,10 +11,12 @@
 //! ```
 
 mod programs;
+mod random;
 mod record;
 mod suite;
 
 pub use programs::{browser, program, python};
+pub use random::Random;
 pub use record::{FOLDER, Record, folder, note, summary};
 pub use suite::Suite;
 

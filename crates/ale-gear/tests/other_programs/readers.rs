@@ -8,7 +8,7 @@ use super::util::{ISO_SCENE, Scratch, repository};
 
 /// What the script finds in a file.
 fn read(scratch: &Scratch, words: [&str; 2]) -> Value {
-    let script = repository().join("tests/verification/scripts/other_readers.py");
+    let script = repository().join("tests/scripts/other_readers.py");
     let read = Command::new("python3").arg(script).args(words).current_dir(scratch.path()).output().unwrap();
     assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
     serde_json::from_slice(&read.stdout).unwrap()

@@ -17,7 +17,7 @@ pub fn meshio_and_pyvista(_: ()) {
     let scratch = Scratch::new().file("a.toml", scene);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
-    let script = repository().join("tests/verification/scripts/vtu_readers.py");
+    let script = repository().join("tests/scripts/vtu_readers.py");
     let read = Command::new("python3").arg(script).arg(scratch.path().join("o")).output().unwrap();
     assert!(read.status.success(), "{}", String::from_utf8_lossy(&read.stderr));
     let found: Value = serde_json::from_slice(&read.stdout).unwrap();

@@ -1,0 +1,175 @@
+//! Reduced gears on disk: a second run finds them, gives the same to the bit, and believes no damaged file.
+
+use std::{fs, path::PathBuf, process::Command, time::Duration};
+
+use crate::util::{ISO_SCENE, Run, Scratch};
+
+fn scene(output: &str) -> String {
+    let mesher = |gear: &str| {
+        format!(
+            "[{gear}.mesher]\norder = 1\nelements_profile = 2\nelements_fillet = 2\nelements_thickness = 2\n\
+             elements_face = 2\nelements_rim = 1\n"
+        )
+    };
+    let model = "model = \"reduced\"\npositions_per_cycle = 4";
+    let scene = ISO_SCENE.replace("model = \"iso\"", model);
+    format!("{scene}{}{}[output]\n{output}\n", mesher("pinion"), mesher("wheel"))
+}
+
+struct Cached(Scratch);
+
+impl Cached {
+    fn new(output: &str) -> Self {
+        Self(Scratch::new().file("a.toml", scene(output)))
+    }
+
+    fn run(&self, out: &str) -> Run {
+        let run = self.0.ale_gear(["run", "a.toml", "--out", out, "--cache", "cache"]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+        run
+    }
+
+    /// Gears that came from the cache.
+    fn found(&self, out: &str) -> u64 {
+        let summary: serde_json::Value = serde_json::from_str(&self.0.read(&format!("{out}/summary.json"))).unwrap();
+        assert!(summary["first_result_s"].as_f64().is_some_and(|s| s > 0.0));
+        summary["model"]["gears_from_cache"].as_u64().unwrap()
+    }
+
+    /// Files of the cache, ascending.
+    fn files(&self) -> Vec<PathBuf> {
+        let entries = fs::read_dir(self.0.path().join("cache")).unwrap();
+        let mut files: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
+        files.sort();
+        files
+    }
+}
+
+/// What is done to the bytes of a file.
+type Damage = fn(&mut Vec<u8>);
+
+#[test]
+fn a_second_run_gives_the_same_to_the_bit() {
+    // Fields and root stress need the factor, which the record does not have.
+    for output in ["", "vtu = true\nroot_stress = true"] {
+        let cached = Cached::new(output);
+        cached.run("first");
+        assert_eq!((cached.found("first"), cached.files().len()), (0, 2));
+        cached.run("second");
+        assert_eq!((cached.found("second"), cached.files().len()), (2, 2));
+        for entry in fs::read_dir(cached.0.path().join("first")).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            if name != "summary.json" && !name.starts_with("report.") {
+                let of = |folder: &str| fs::read(cached.0.path().join(folder).join(&name)).unwrap();
+                assert!(of("first") == of("second"), "{name} differs with `{output}`");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_spoilt_file_is_told_of_and_replaced() {
+    let cached = Cached::new("");
+    cached.run("first");
+    let sound: Vec<Vec<u8>> = cached.files().iter().map(|f| fs::read(f).unwrap()).collect();
+    let spoil: [(&str, Damage); 5] = [
+        ("checksum is wrong", |b| {
+            let middle = b.len() / 2;
+            b[middle] ^= 1;
+        }),
+        ("has 1000 bytes of", |b| b.truncate(1000)),
+        ("is no reduced gear", |b| *b = b"%PDF-1.7 not a gear".to_vec()),
+        ("is no reduced gear", Vec::clear),
+        ("format version", |b| b[16] = 200),
+    ];
+    for (what, spoil) in spoil {
+        let mut bytes = sound[0].clone();
+        spoil(&mut bytes);
+        fs::write(&cached.files()[0], bytes).unwrap();
+        let run = cached.run("again");
+        assert!(run.stdout.contains(what) && run.stdout.contains("reduced again"), "{what}: {}", run.stdout);
+        assert_eq!(cached.found("again"), 1, "{what}: the other gear's file is sound");
+        let now: Vec<Vec<u8>> = cached.files().iter().map(|f| fs::read(f).unwrap()).collect();
+        assert!(now == sound, "{what}: the file is not what it was");
+        assert_eq!(cached.0.read("first/history.csv"), cached.0.read("again/history.csv"), "{what}");
+    }
+    cached.run("last");
+    assert_eq!(cached.found("last"), 2);
+}
+
+#[test]
+fn what_the_cache_depends_on() {
+    let cached = Cached::new("");
+    cached.run("first");
+    // Torque is none of the gear's business, the material is.
+    let text = cached.0.read("a.toml");
+    fs::write(cached.0.path().join("a.toml"), text.replace("torque_nm = 150", "torque_nm = 90")).unwrap();
+    cached.run("torque");
+    assert_eq!(cached.found("torque"), 2);
+    fs::write(cached.0.path().join("a.toml"), format!("{text}[material]\nyoung_mpa = 2.1e5\n")).unwrap();
+    cached.run("material");
+    assert_eq!((cached.found("material"), cached.files().len()), (0, 4));
+}
+
+#[test]
+fn without_a_cache_nothing_is_written() {
+    let cached = Cached::new("");
+    let run = cached.0.ale_gear(["run", "a.toml", "--out", "o", "--no-cache"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!((cached.0.names(), cached.found("o")), (vec!["a.toml".into(), "o".into()], 0));
+    // A folder that cannot be one costs a warning, no result.
+    let run = cached.0.ale_gear(["run", "a.toml", "--out", "o", "--cache", "a.toml"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("the next run will reduce the gear again"), "{}", run.stdout);
+}
+
+/// Stopped by the user at any moment: no result, no half-written file anywhere, status 130.
+#[cfg(unix)]
+#[test]
+fn a_stopped_run_leaves_no_broken_file() {
+    let scratch =
+        Scratch::new().file("a.toml", scene("").replace("positions_per_cycle = 4", "positions_per_cycle = 20000"));
+    for wait_ms in [60, 250, 700] {
+        for words in [["run", "a.toml"], ["chart", "a.toml"]] {
+            let mut child = scratch
+                .program()
+                .env("XDG_CACHE_HOME", scratch.path().join("user"))
+                .args(words)
+                .args(["--out", "o"])
+                .spawn()
+                .unwrap();
+            std::thread::sleep(Duration::from_millis(wait_ms));
+            // The shell's own: not every machine has a program of that name.
+            let kill = format!("kill -INT {}", child.id());
+            assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+            let status = child.wait().unwrap();
+            // Before the first folder is made there is nothing to take away, and the signal alone ends the program.
+            assert!(matches!(status.code(), Some(130) | None), "{words:?} after {wait_ms} ms: {status}");
+            let names = scratch.names();
+            assert!(names.iter().all(|n| n == "a.toml" || n == "user"), "{words:?} after {wait_ms} ms: {names:?}");
+        }
+    }
+    let user = scratch.path().join("user/ale-gear");
+    for entry in fs::read_dir(user).into_iter().flatten() {
+        let path = entry.unwrap().path();
+        assert!(path.extension().is_some_and(|e| e == "reduced"), "{} is left", path.display());
+    }
+}
+
+/// What a killed process has left half written goes with the next record; what may still be written stays, and so does all else.
+#[test]
+fn half_written_records_of_killed_runs_go() {
+    let cached = Cached::new("");
+    let folder = cached.0.path().join("cache");
+    fs::create_dir(&folder).unwrap();
+    let names = ["0a.partial-17", "0a.partial-18", "notes.partial-me"];
+    for name in names {
+        fs::write(folder.join(name), "half").unwrap();
+    }
+    for name in [names[0], names[2]] {
+        let long_ago = std::time::SystemTime::now() - Duration::from_secs(3 * 24 * 3600);
+        fs::File::options().append(true).open(folder.join(name)).unwrap().set_modified(long_ago).unwrap();
+    }
+    cached.run("o");
+    assert_eq!(names.map(|n| folder.join(n).exists()), [false, true, true]);
+}

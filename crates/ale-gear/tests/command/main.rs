@@ -1,0 +1,9 @@
+//! The command line as a user meets it: words, messages, folders, cache, runs that are taken up again.
+
+mod cache;
+mod command_line;
+mod folders;
+mod messages;
+mod resume;
+#[path = "../util/mod.rs"]
+mod util;

@@ -1,0 +1,145 @@
+//! What the documents say exists: pages, anchors, files, equations.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::markdown::Page;
+use crate::util::repository;
+
+/// Every Markdown file that a reader is sent to.
+fn pages() -> Vec<Page> {
+    let top = repository();
+    let mut pages = Page::all_in(&top, false);
+    for folder in ["docs", "meshes", "benches"] {
+        pages.extend(Page::all_in(&top.join(folder), true));
+    }
+    pages
+}
+
+/// `a/b/../c` as `a/c`, without a look at the disk.
+fn plain(path: &Path) -> PathBuf {
+    let mut parts = PathBuf::new();
+    for part in path.components() {
+        if part.as_os_str() == ".." {
+            parts.pop();
+        } else {
+            parts.push(part);
+        }
+    }
+    parts
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let pages = pages();
+    let docs = repository().join("docs");
+    let anchors: BTreeMap<&Path, Vec<String>> = pages.iter().map(|p| (p.path.as_path(), p.anchors())).collect();
+    let mut faults = Vec::new();
+    for page in &pages {
+        for (link, byte) in page.links() {
+            if link.starts_with("https://") {
+                continue; // the world outside is not this test's business
+            }
+            let (file, heading) = link.split_once('#').unwrap_or((&link, ""));
+            let target =
+                if file.is_empty() { page.path.clone() } else { plain(&page.path.parent().unwrap().join(file)) };
+            let fault = if !target.exists() {
+                "there is no such file"
+            } else if page.path.starts_with(&docs) && !target.starts_with(&docs) {
+                "a page of the book may only link to what is in the book: name the file in code font"
+            } else if !heading.is_empty()
+                && !anchors.get(target.as_path()).is_some_and(|a| a.iter().any(|a| a == heading))
+            {
+                "there is no such heading"
+            } else {
+                continue;
+            };
+            faults.push(format!("{}: {link}: {fault}", page.place(byte)));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Files named in code font, `crates/contact/src/local.rs`, are there. Names with placeholders are not looked at.
+#[test]
+fn named_files_exist() {
+    let top = repository();
+    let mut faults = Vec::new();
+    for page in pages() {
+        for (code, byte) in page.code() {
+            let is_path =
+                ["crates/", "tests/", "docs/", "scenes/", "meshes/", "benches/"].iter().any(|f| code.starts_with(f));
+            if is_path && !code.contains([' ', '*', '<', '{']) && !top.join(&code).exists() {
+                faults.push(format!("{}: `{code}` is not in the repository", page.place(byte)));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_page_is_in_the_book_once() {
+    let docs = repository().join("docs");
+    let summary = Page::read(docs.join("SUMMARY.md"));
+    let mut listed: Vec<PathBuf> = summary.links().into_iter().map(|(link, _)| docs.join(link)).collect();
+    listed.sort();
+    let mut there: Vec<PathBuf> =
+        Page::all_in(&docs, true).into_iter().map(|p| p.path).filter(|p| *p != summary.path).collect();
+    there.sort();
+    assert_eq!(listed, there, "left: docs/SUMMARY.md; right: the folder");
+}
+
+/// Rust files below a folder.
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// `12` or `19a` where a text begins with `(12)` or `(19a)`, and what follows.
+fn equation_number(text: &str) -> Option<(&str, &str)> {
+    let (number, rest) = text.strip_prefix('(')?.split_once(')')?;
+    (number.starts_with(|c: char| c.is_ascii_digit()) && number.len() <= 3).then_some((number, rest))
+}
+
+/// Numbers of `Theory (1), (2), (3).` wherever it stands in a text.
+fn cited(text: &str) -> BTreeSet<String> {
+    let mut numbers = BTreeSet::new();
+    for (at, word) in text.match_indices("Theory ") {
+        let mut rest = &text[at + word.len()..];
+        while let Some((number, after)) = equation_number(rest) {
+            numbers.insert(number.to_owned());
+            rest = after.strip_prefix(", ").unwrap_or("");
+        }
+    }
+    numbers
+}
+
+/// Docstrings cite equations as `Theory (12).`; each is in the theory once, and each of the theory's is cited where it is computed.
+#[test]
+fn theory_and_docstrings_number_equations_alike() {
+    let theory = Page::read(repository().join("docs/theory.md"));
+    let (mut numbered, mut in_block) = (BTreeSet::new(), false);
+    for line in theory.text.lines() {
+        in_block ^= line.starts_with("```");
+        if let (true, Some((number, _))) = (in_block, equation_number(line)) {
+            assert!(numbered.insert(number.to_owned()), "docs/theory.md numbers two equations ({number})");
+        }
+    }
+    let mut files = Vec::new();
+    sources(&repository().join("crates"), &mut files);
+    let mut all_cited = BTreeSet::new();
+    for file in files.iter().filter(|f| f.components().any(|c| c.as_os_str() == "src")) {
+        let here = cited(&std::fs::read_to_string(file).unwrap());
+        let unknown: Vec<&String> = here.difference(&numbered).collect();
+        assert!(unknown.is_empty(), "{} cites equations that the theory does not have: {unknown:?}", file.display());
+        all_cited.extend(here);
+    }
+    let silent: Vec<&String> = numbered.difference(&all_cited).collect();
+    assert!(silent.is_empty(), "no docstring cites the equations {silent:?} of the theory");
+}

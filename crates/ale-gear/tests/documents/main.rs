@@ -1,0 +1,11 @@
+//! The documents against the program: links, columns and keys of results, tutorials.
+
+mod documents;
+#[path = "../markdown/mod.rs"]
+mod markdown;
+mod outputs;
+#[path = "../quantities/mod.rs"]
+mod quantities;
+mod tutorials;
+#[path = "../util/mod.rs"]
+mod util;

@@ -1,0 +1,113 @@
+//! docs/outputs.md against what the program writes: every column and key of every kind of run is in it, and every column and key in it is written by one of them.
+
+use std::collections::BTreeSet;
+
+use crate::markdown::Page;
+use crate::quantities::{Documented, generalised, written_in};
+use crate::util::{ISO_SCENE, Scratch, motion_scene, repository};
+
+/// Every file that a run at rest can write; no stress in a model without meshes.
+fn at_rest() -> String {
+    motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().to_owned()
+        + "positions_per_cycle = 2\n[output]\nroot_stress = true\ncontact_lines = true\n"
+}
+
+/// A span of both gears on bearings, with everything that a motion can write.
+fn on_bearings() -> String {
+    let gear = |name: &str| {
+        format!(
+            "[{name}.body]\nfree = [\"x\", \"y\", \"z\", \"rx\", \"ry\"]\n[{name}.bearing]\nstiffness_x_n_per_mm = 1e6\nstiffness_y_n_per_mm = 1e6\n\
+             stiffness_z_n_per_mm = 1e6\nstiffness_rx_nmm_per_rad = 1e9\nstiffness_ry_nmm_per_rad = 1e9\n"
+        )
+    };
+    motion_scene(1, "run = \"span\"\n[output]\nroot_stress = true\n") + &gear("pinion") + &gear("wheel")
+}
+
+const RAMP: &str =
+    "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 2000.0\nto_rpm = 4000.0\nduration_s = 0.01\nwaterfall_cycles = 4\n";
+const SWEEP: &str = "run = \"sweep\"\nperiodic_tolerance = 0.5\nwarm_up_cycles = 2\n[motion.sweep]\nfrom_rpm = 900.0\nto_rpm = 1000.0\nspeeds = 2\n";
+const STUDY: &str = "[[case]]\nscene = \"iso.toml\"\nlabel = \"a\"\nvalue = 1\n[[case]]\nscene = \"iso.toml\"\nlabel = \"b\"\nvalue = 2\nset = [\"operation.torque_nm=100\"]\n\
+    [[quantity]]\ncolumn = \"ste_um\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
+
+/// One folder of every kind, in a folder of its own each.
+fn every_kind() -> Scratch {
+    let scratch = Scratch::new()
+        .file("iso.toml", ISO_SCENE)
+        .file("rest.toml", at_rest())
+        .file("span.toml", on_bearings())
+        .file("ramp.toml", motion_scene(0, RAMP))
+        .file("resonance.toml", motion_scene(1, SWEEP))
+        .file("study.toml", STUDY);
+    let run = |words: &[&str]| {
+        let done = scratch.command(words);
+        assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
+    };
+    for scene in ["iso", "rest", "span", "ramp", "resonance"] {
+        run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
+    }
+    let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();
+    let soon = ["--set", "analysis.cycles=2", "--set", "motion.warm_up_cycles=2"];
+    let start = ["--set", "motion.ramp.duration_s=0.004", "--set", "motion.ramp.after_s=0.01"];
+    for (number, words) in [("001", &start[..]), ("002", &soon), ("003", &soon), ("004", &soon)] {
+        run(&[&["run", &seed(number), "--out", &format!("out-{number}")], words].concat());
+    }
+    let key = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "900",
+        "--to",
+        "1000",
+        "--points",
+        "2",
+        "--cycles",
+        "6",
+        "--settle",
+        "20",
+        "--lyapunov",
+        "10",
+    ];
+    run(&[&["sweep", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
+    run(&["study", "study.toml", "--out", "out-study"]);
+    run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
+    scratch
+}
+
+fn folders(scratch: &Scratch) -> impl Iterator<Item = std::path::PathBuf> + '_ {
+    scratch.names().into_iter().filter(|n| n.starts_with("out-")).map(|n| scratch.path().join(n))
+}
+
+/// Sections and tables whose quantities no run above writes: a chart takes minutes, and so does `full` of a study; fields of ParaView files have a test of their own.
+const NOT_TRIED: [&str; 3] = ["Files of ale-gear chart", "*.vtu, gears.pvd", "key of at_rest"];
+
+#[test]
+fn what_is_written_is_documented_and_what_is_documented_is_written() {
+    let scratch = every_kind();
+    let page = Page::read(repository().join("docs/outputs.md"));
+    let documented = Documented::by(&page);
+    let missing: Vec<String> = folders(&scratch).flat_map(|folder| documented.missing(&folder)).collect();
+    assert!(missing.is_empty(), "not in docs/outputs.md:\n{}", missing.join("\n"));
+
+    let written: BTreeSet<String> = folders(&scratch)
+        .flat_map(|folder| written_in(&folder))
+        .flat_map(|(_, names)| names)
+        .map(|name| generalised(&name))
+        .collect();
+    let unknown: Vec<String> = page
+        .table_keys()
+        .into_iter()
+        .filter(|k| ![&k.section, &k.title].iter().any(|t| NOT_TRIED.contains(&t.as_str())))
+        // Files and words of the command line have dots and hyphens.
+        .filter(|k| k.name.chars().all(|c| c.is_ascii_alphanumeric() || "_<>".contains(c)))
+        .filter(|k| {
+            let general = generalised(&k.name);
+            let stands_for = |w: &String| {
+                k.name.strip_suffix("<column>").is_some_and(|start| w.starts_with(start))
+                    || k.name.starts_with('_') && w.ends_with(&k.name)
+            };
+            !written.contains(&general) && !written.iter().any(stands_for)
+        })
+        .map(|k| format!("{}: `{}` in \"{}\"", page.place(k.byte), k.name, k.section))
+        .collect();
+    assert!(unknown.is_empty(), "documented, but no run writes it:\n{}", unknown.join("\n"));
+}

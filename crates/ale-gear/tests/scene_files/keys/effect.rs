@@ -1,0 +1,187 @@
+//! Every key has an effect: another value changes the result, or is refused.
+
+use std::collections::BTreeMap;
+
+use ale_gear::scene::all_keys;
+use serde_json::Value;
+
+use super::rows::{Base, tables};
+use crate::util::{ISO_SCENE, Run, Scratch, motion_scene, repository};
+
+/// Words of a run with the key at the case's value, and with it at the other one.
+struct Case {
+    base: Base,
+    before: Vec<String>,
+    other: String,
+}
+
+/// The case of a key, with what its row says put in for its table.
+fn case(key: &str) -> Option<Case> {
+    tables().into_iter().find_map(|(table, words, rows)| {
+        let own = key.strip_prefix(table.as_str())?;
+        let (_, base, list, value) = rows.iter().find(|row| row.0 == own)?;
+        let all = words.split("; ").chain(list.split("; ")).filter(|w| !w.is_empty());
+        let before = all.map(|w| w.replace('~', &table)).collect();
+        Some(Case { base: *base, before, other: format!("{key}={value}") })
+    })
+}
+
+/// The scene of a case.
+fn scene(base: Base) -> String {
+    let seed =
+        |number: &str| std::fs::read_to_string(repository().join(format!("scenes/seeds/{number}.toml"))).unwrap();
+    let mesher =
+        "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";
+    let tiny = ISO_SCENE.replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}"));
+    let reduced = tiny.replace("model = \"iso\"\n", "positions_per_cycle = 3\n");
+    let few_slices = "[contact]\nslices = 4\n";
+    match base {
+        Base::Iso => format!("{tiny}positions_per_cycle = 4\n"),
+        Base::Reduced => reduced,
+        Base::Files => reduced.replace(mesher, "mesh = \"sector.msh\"\n").replacen(
+            "[wheel]\nmesh = \"sector.msh\"",
+            "[wheel]\nmesh = \"sector_wheel.msh\"",
+            1,
+        ),
+        Base::Motion => motion_scene(0, "run = \"span\"\n") + few_slices,
+        Base::Modes => {
+            motion_scene(1, "warm_up_cycles = 1\n")
+                .replace("kind = \"dynamic\"\n", "kind = \"dynamic\"\nmodel = \"reduced+modes\"\n")
+                + few_slices
+        }
+        Base::Lumped8 => seed("004"),
+        Base::Lumped12 => seed("003"),
+        Base::Shaft18 => seed("002"),
+        Base::Impact => seed("001"),
+        Base::Flanks => {
+            ISO_SCENE.replace("model = \"iso\"\n", "model = \"impact\"\ncycles = 1\npositions_per_cycle = 2\n")
+                + few_slices
+                + "[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 8\n[load]\ntable_s_nm = [[0.0, 150.0], [0.0008, 150.0], [0.0009, -150.0]]\n"
+        }
+    }
+}
+
+/// What makes the seeds' scenes short.
+fn short(base: Base) -> &'static [&'static str] {
+    match base {
+        Base::Lumped8 => &["analysis.cycles=2", "motion.warm_up_cycles=12"],
+        Base::Lumped12 | Base::Shaft18 => &["analysis.cycles=2", "motion.warm_up_cycles=4"],
+        Base::Motion | Base::Modes => &["analysis.cycles=1"],
+        Base::Impact => &[
+            "contact.slices=5",
+            "analysis.positions_per_cycle=2",
+            "motion.steps_per_mesh_cycle=16",
+            "motion.ramp.duration_s=0.003",
+            "motion.ramp.after_s=0.001",
+        ],
+        _ => &[],
+    }
+}
+
+/// What a user sees of a run, but for times and for the echo of the input.
+fn seen(scratch: &Scratch, run: Run) -> String {
+    let mut all = format!("{:?}\n{}", run.code, run.stderr);
+    let folder = scratch.path().join("o");
+    if !folder.is_dir() {
+        return all;
+    }
+    let mut names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
+    names.sort();
+    for path in names {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let content = match name.as_str() {
+            "report.html" | "report.json.gz" => String::new(),
+            "summary.json" => summary(&std::fs::read_to_string(&path).unwrap()),
+            _ => String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned(),
+        };
+        all += &format!("== {name}\n{content}\n");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+    all
+}
+
+fn summary(text: &str) -> String {
+    let mut summary: Value = serde_json::from_str(text).unwrap();
+    let map = summary.as_object_mut().unwrap();
+    for echo in ["inputs", "cost", "first_result_s"] {
+        map.remove(echo);
+    }
+    // Whether gears came from the cache depends on what ran before.
+    if let Some(model) = map.get_mut("model").and_then(Value::as_object_mut) {
+        model.remove("gears_from_cache");
+    }
+    summary.to_string()
+}
+
+/// A folder with the scenes of all cases and the files that they name.
+fn prepared() -> Scratch {
+    let grid = "diameter_mm -9 0 9\n92 -5 0 -4\n96 -3 0 -2\n101 -6 -4 -5\n";
+    let mut scratch = Scratch::new().file("grid.csv", grid).file("pitch.csv", "4\n".repeat(15) + &"-3\n".repeat(15));
+    for base in [
+        Base::Iso,
+        Base::Reduced,
+        Base::Motion,
+        Base::Modes,
+        Base::Lumped8,
+        Base::Lumped12,
+        Base::Shaft18,
+        Base::Impact,
+        Base::Flanks,
+    ] {
+        scratch = scratch.file(&format!("{base:?}.toml"), scene(base));
+    }
+    let sector = scene(Base::Reduced).replace("order = 1", "sector_teeth = 1, order = 1");
+    scratch = scratch.file("Sector.toml", sector);
+    for (gear, name) in [("pinion", "sector.msh"), ("wheel", "sector_wheel.msh")] {
+        let run = scratch.ale_gear(["mesh", "generate", "Sector.toml", "--gear", gear, "--output", name]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    // A coarser or finer mesh of the same gear; hands differ, so each gear has its own file.
+    let other = scene(Base::Reduced)
+        .replace("order = 1, elements_profile = 2", "sector_teeth = 1, order = 1, elements_profile = 3");
+    scratch = scratch.file("Other.toml", other);
+    scratch.file("Files.toml", scene(Base::Files))
+}
+
+/// Checkpoints leave nothing behind when all goes well: seen by a file that is in their way.
+const IN_THE_WAY: &str = "o.checkpoint";
+
+/// Every key that the schema lists has a row here, and another value of it changes what a user sees.
+#[test]
+fn every_key_has_an_effect() {
+    let scratch = prepared().file(IN_THE_WAY, "");
+    let mut known: BTreeMap<(Base, Vec<String>), String> = BTreeMap::new();
+    let run = |base: Base, words: &[String]| {
+        let file = format!("{base:?}.toml");
+        let mut all = vec!["run", &file, "--out", "o", "--threads", "1"];
+        // What says its length in seconds has no cycles.
+        let seconds = words.iter().any(|w| w.starts_with("motion.ramp") || w.starts_with("motion.duration_s"));
+        let short = if seconds && base == Base::Motion { &[] } else { short(base) };
+        all.extend(short.iter().flat_map(|w| ["--set", w]));
+        all.extend(words.iter().flat_map(|w| ["--set", w]));
+        seen(&scratch, scratch.command(&all))
+    };
+    let mut faults = Vec::new();
+    for key in all_keys() {
+        let Some(mut case) = case(&key) else {
+            faults.push(format!("{key}: has no row in tests/scene_files/keys/rows.rs"));
+            continue;
+        };
+        if key.ends_with(".mesh") {
+            let gear = &key[..key.len() - 5];
+            let made = scratch.ale_gear(["mesh", "generate", "Other.toml", "--gear", gear, "--output", "other.msh"]);
+            assert_eq!(made.code, Some(0), "{}", made.stderr);
+        }
+        let before =
+            known.entry((case.base, case.before.clone())).or_insert_with(|| run(case.base, &case.before)).clone();
+        let words = case.before.clone();
+        case.before.push(case.other.clone());
+        let after = run(case.base, &case.before);
+        if !before.starts_with("Some(0)") {
+            faults.push(format!("{key}: the case itself fails with {words:?}: {before}"));
+        } else if before == after {
+            faults.push(format!("{key}: {} changes nothing in {:?} with {words:?}", case.other, case.base));
+        }
+    }
+    assert!(faults.is_empty(), "{} keys without effect:\n{}", faults.len(), faults.join("\n"));
+}

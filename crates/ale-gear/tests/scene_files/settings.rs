@@ -1,0 +1,111 @@
+//! Keys set beside the file: `--set key=value`.
+
+use std::path::Path;
+
+use crate::util::{ISO_SCENE, Scratch};
+use ale_gear::scene::{Scene, SceneError, Setting};
+
+fn with(words: &[&str]) -> Result<Scene, SceneError> {
+    let settings = words.iter().map(|w| Setting::parse(w)).collect::<Result<Vec<_>, _>>()?;
+    Scene::parse_with(ISO_SCENE, Path::new("a.toml"), &settings)
+}
+
+fn said(words: &[&str]) -> String {
+    let error = with(words).expect_err("it is taken");
+    format!("{error}|{}", error.hint().unwrap_or_default())
+}
+
+/// What is set is what a file with that value says: keys that the file has, keys that it has not, tables that it has not, lists and words.
+#[test]
+fn a_setting_is_as_if_the_file_said_so() {
+    let say = |old: &str, new: &str| {
+        assert!(ISO_SCENE.contains(old), "no `{old}`");
+        Scene::parse(&ISO_SCENE.replacen(old, new, 1), Path::new("a.toml")).unwrap()
+    };
+    for (word, wanted) in [
+        ("operation.torque_nm=200", say("torque_nm = 150.0", "torque_nm = 200")),
+        ("operation.speed_rpm = 1.5e3", say("torque_nm", "speed_rpm = 1500.0\ntorque_nm")),
+        ("operation.driver=wheel", say("torque_nm", "driver = \"wheel\"\ntorque_nm")),
+        ("material.poisson=0.28", say("[analysis]", "[material]\npoisson = 0.28\n[analysis]")),
+        ("pinion.material.poisson=0.28", say("[wheel]", "[pinion.material]\npoisson = 0.28\n[wheel]")),
+        ("name=again", say("[pinion]", "name = \"again\"\n[pinion]")),
+        ("pinion.material={ poisson = 0.28 }", say("[wheel]", "[pinion.material]\npoisson = 0.28\n[wheel]")),
+    ] {
+        let mut found = with(&[word]).unwrap_or_else(|e| panic!("{word}: {e}"));
+        assert_eq!(found.set.len(), 1);
+        found.set.clear();
+        assert_eq!(found, wanted, "{word}");
+    }
+    let last = with(&["operation.torque_nm=1", "operation.torque_nm=2"]).unwrap();
+    assert_eq!(last.operation.torque_nm, 2.0, "the last one holds");
+    let number = Setting::number("pair.face_width_mm", 0.1 + 0.2).unwrap();
+    let scene = Scene::parse_with(ISO_SCENE, Path::new("a.toml"), &[number]).unwrap();
+    assert_eq!(scene.pair.face_width_mm.to_bits(), (0.1f64 + 0.2).to_bits());
+}
+
+/// Entries of lists by their number, and only those that are there.
+#[test]
+fn entries_of_lists_are_counted_from_0() {
+    let text = std::fs::read_to_string(crate::util::repository().join("scenes/seeds/002.toml")).unwrap();
+    let read = |word: &str| Scene::parse_with(&text, Path::new("a.toml"), &[Setting::parse(word).unwrap()]);
+    let stiff = |scene: &Scene| scene.pinion.shaft.as_ref().unwrap().supports[1].stiffness_x_n_per_mm;
+    let scene = read("pinion.shaft.supports.1.stiffness_x_n_per_mm=12345").unwrap();
+    assert_eq!(stiff(&scene), 12345.0);
+    let beyond = read("pinion.shaft.supports.9.stiffness_x_n_per_mm=1").unwrap_err().to_string();
+    assert!(beyond.starts_with("--set pinion.shaft.supports.9.stiffness_x_n_per_mm: "), "{beyond}");
+}
+
+/// The same messages as for a file, naming the setting in place of file and line; places in the file stay right.
+#[test]
+fn complaints_name_the_setting() {
+    for (word, text) in [
+        ("pair.face_widht_mm=3", "--set pair.face_widht_mm: unknown key `face_widht_mm`|did you mean `face_width_mm`?"),
+        ("operatoin.torque_nm=3", "--set operatoin.torque_nm: unknown key `operatoin`|did you mean `operation`?"),
+        ("pinion.teeth=-3", "--set pinion.teeth: `teeth` is -3, allowed is 5 .. 2000|`teeth` means: number of teeth"),
+        (
+            "pinion.teeth=many",
+            "--set pinion.teeth: `pinion.teeth` must be a whole number, found string \"many\"|write numbers without quotes and without a unit: the \
+             unit is in the key",
+        ),
+        (
+            "operation",
+            "--set operation: has no `=`|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
+        ),
+        (
+            "a b=3",
+            "--set a b: `a b` is no key|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
+        ),
+    ] {
+        assert_eq!(said(&[word]), text);
+    }
+    // The file's own mistake keeps its line.
+    let wrong = ISO_SCENE.replace("face_width_mm = 20.0", "face_width_mm = -1.0");
+    let setting = Setting::parse("operation.torque_nm=3").unwrap();
+    let error = Scene::parse_with(&wrong, Path::new("a.toml"), &[setting]).unwrap_err();
+    assert!(error.to_string().starts_with("a.toml:12: "), "{error}");
+}
+
+/// On the command line, and in the results.
+#[test]
+fn a_run_says_what_was_set() {
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE);
+    let run = scratch.ale_gear([
+        "run",
+        "a.toml",
+        "--out",
+        "o",
+        "--set",
+        "operation.torque_nm=200",
+        "--set",
+        "name=set beside",
+    ]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    assert_eq!(summary["inputs"]["operation"]["torque_nm"], 200.0);
+    assert_eq!(summary["inputs"]["name"], "set beside");
+    let report = scratch.read("o/report.html");
+    assert!(report.contains("operation.torque_nm=200"), "the command that makes it again");
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "p", "--set", "operation.torque=5"]);
+    assert_eq!(run.stderr, "ale-gear: --set operation.torque: unknown key `torque`\nhint: did you mean `torque_nm`?\n");
+    assert_eq!(run.code, Some(2));
+}

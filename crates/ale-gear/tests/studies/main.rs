@@ -1,0 +1,9 @@
+//! Many runs as one: studies, sweeps, charts, comparisons, cheaper models.
+
+mod chart;
+mod compare;
+mod ladder;
+mod study;
+mod sweep;
+#[path = "../util/mod.rs"]
+mod util;

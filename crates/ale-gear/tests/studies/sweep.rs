@@ -1,0 +1,236 @@
+//! Sweeps over a key as a user runs them: seeds' scenes shortened.
+
+use crate::util::{Scratch, column, repository};
+use serde_json::Value;
+
+fn seed(number: &str) -> String {
+    std::fs::read_to_string(repository().join(format!("scenes/seeds/{number}.toml"))).unwrap()
+}
+
+/// Runs a sweep into `o`; its folder and summary.
+fn sweep(scene: String, words: &[&str]) -> (Scratch, Value) {
+    let scratch = Scratch::new().file("a.toml", scene);
+    let run = scratch.command(&[&["sweep", "a.toml", "--out", "o"], words].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{words:?}: {}", run.stdout);
+    let summary = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    (scratch, summary)
+}
+
+/// Rows of one way of a file that begins with a column of ways.
+fn of_way(csv: &str, way: &str) -> String {
+    let (header, rows) = csv.split_once('\n').unwrap();
+    let own = rows.lines().filter_map(|l| l.strip_prefix(&format!("{way},"))).map(|l| l.to_owned() + "\n");
+    header.strip_prefix("way,").unwrap().to_owned() + "\n" + &own.collect::<String>()
+}
+
+/// A mesh without clearance has one answer at every speed, whichever way it is come to, and every disturbance dies out: sections of one point, exponents below zero.
+/// Files hold the same bytes for one thread and for two.
+#[test]
+fn a_linear_mesh_has_one_answer_everywhere() {
+    let words = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "700",
+        "--to",
+        "1300",
+        "--points",
+        "3",
+        "--ways",
+        "up,down,apart",
+        "--cycles",
+        "6",
+        "--lyapunov",
+        "20",
+        "--set",
+        "mesh.half_backlash_um=0",
+        "--set",
+        "contact.friction=0",
+        "--set",
+        "motion.steps_per_resonance=0",
+    ];
+    let (one, summary) = sweep(seed("004"), &[&words[..], &["-j", "1"]].concat());
+    let (two, _) = sweep(seed("004"), &[&words[..], &["-j", "2"]].concat());
+    for file in ["sweep.csv", "bifurcation.csv", "bifurcation.svg"] {
+        assert!(one.read(&format!("o/{file}")) == two.read(&format!("o/{file}")), "{file} changes with the threads");
+    }
+    let csv = one.read("o/sweep.csv");
+    let ways = ["up", "down", "apart"].map(|way| column(&of_way(&csv, way), "peak_to_peak_dte_um"));
+    for k in 0..3 {
+        for way in &ways[1..] {
+            assert!((way[k] / ways[0][k] - 1.0).abs() < 1e-2, "value {k}: {ways:?}");
+        }
+    }
+    let exponents = column(&of_way(&csv, "apart"), "lyapunov_per_s");
+    assert!(exponents.iter().all(|l| *l < -1.0), "{exponents:?} 1/s: a disturbance does not die out");
+    let headline = &summary["headline"];
+    assert_eq!(headline["period_one"], 9, "{headline}");
+    assert_eq!(headline["hysteresis"].as_array().map(Vec::len), Some(0), "{headline}");
+    assert_eq!(headline["chaotic"].as_array().map(Vec::len), Some(0), "{headline}");
+    assert_eq!(one.read("o/bifurcation.csv").lines().count(), 1 + 9 * 6);
+}
+
+/// Shafts that turn freely: the turn that nothing holds is no growth. Without clearance every disturbance dies out, at any speed.
+#[test]
+fn a_free_turn_is_no_chaos() {
+    let words = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "2000",
+        "--to",
+        "5000",
+        "--points",
+        "2",
+        "--ways",
+        "apart",
+        "--cycles",
+        "4",
+        "--settle",
+        "60",
+        "--lyapunov",
+        "100",
+        "--set",
+        "mesh.half_backlash_um=0",
+        "--set",
+        "motion.steps_per_resonance=0",
+        "--set",
+        "shaft18.mass_damping_per_s=400",
+    ];
+    let (scratch, summary) = sweep(seed("002"), &words);
+    let exponents = column(&of_way(&scratch.read("o/sweep.csv"), "apart"), "lyapunov_per_s");
+    assert!(exponents.iter().all(|l| *l < 0.0), "{exponents:?} 1/s");
+    assert_eq!(summary["headline"]["chaotic"].as_array().map(Vec::len), Some(0));
+}
+
+/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of `crates/lumped/tests/lumped_laws/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600 rad/s with one
+/// above.
+#[test]
+fn backlash_brings_chaos_between_windows() {
+    let words = [
+        "--key",
+        "operation.speed_rpm",
+        "--from",
+        "4774.648",
+        "--to",
+        "5729.578",
+        "--points",
+        "2",
+        "--ways",
+        "apart",
+        "--cycles",
+        "40",
+        "--settle",
+        "240",
+        "--lyapunov",
+        "120",
+        "--of",
+        "compression_um",
+        "--set",
+        "operation.torque_nm=30.66667",
+        "--set",
+        "mesh.stiffness_cos_n_per_um=[90.0]",
+        "--set",
+        "mesh.stiffness_sin_n_per_um=[]",
+        "--set",
+        "mesh.error_cos_um=[5.0]",
+        "--set",
+        "mesh.half_backlash_um=20",
+        "--set",
+        "motion.mesh_damping_ratio=0.03",
+        "--set",
+        "motion.steps_per_resonance=0",
+        "--set",
+        "pinion.shaft.supports.0.stiffness_rz_nmm_per_rad=1e7",
+        "--set",
+        "pinion.shaft.supports.0.damping_rz_nmms_per_rad=2e3",
+    ];
+    let (scratch, summary) = sweep(seed("002"), &words);
+    let csv = of_way(&scratch.read("o/sweep.csv"), "apart");
+    let exponents = column(&csv, "lyapunov_per_s");
+    let periods = column(&csv, "section_period");
+    assert!(exponents[0] < 0.0 && periods[0].is_finite(), "500 rad/s: {exponents:?} 1/s, {periods:?}");
+    assert!(exponents[1] > 50.0 && periods[1].is_nan(), "600 rad/s: {exponents:?} 1/s, {periods:?}");
+    let chaotic = summary["headline"]["chaotic"].as_array().map(Vec::len);
+    assert_eq!(chaotic, Some(1), "{}", summary["headline"]);
+}
+
+/// Any numeric key, in the logarithm, and its section once a turn: softer meshes lag more.
+#[test]
+fn any_key_may_change() {
+    let words = [
+        "--key",
+        "mesh.stiffness_n_per_um",
+        "--from",
+        "2500",
+        "--to",
+        "10000",
+        "--points",
+        "3",
+        "--log",
+        "--ways",
+        "apart",
+        "--cycles",
+        "2",
+        "--once",
+        "pinion-turn",
+        "--settle",
+        "60",
+        "--lyapunov",
+        "0",
+        "--of",
+        "mesh_deflection_um",
+        "--set",
+        "motion.steps_per_resonance=0",
+    ];
+    let (scratch, _) = sweep(seed("004"), &words);
+    let csv = of_way(&scratch.read("o/sweep.csv"), "apart");
+    assert_eq!(column(&csv, "mesh.stiffness_n_per_um"), [2500.0, 5000.0, 10000.0]);
+    let mean = column(&csv, "mean_mesh_deflection_um");
+    assert!(mean[0] > mean[1] && mean[1] > mean[2], "{mean:?} um at twice the stiffness each");
+    // Normal force over stiffness, half the backlash beyond the middle.
+    assert!(scratch.read("o/bifurcation.csv").lines().count() == 1 + 3 * 2);
+}
+
+/// The scene's own sweep over speed is the same analysis.
+#[test]
+fn a_scene_may_ask_for_its_sweep() {
+    let lines = "run = \"sweep\"\nsweep = { from_rpm = 900.0, to_rpm = 1100.0, speeds = 3, ways = [\"up\"] }\nsteps_per_resonance = 0\n";
+    let scene = seed("004").replace("[motion]\n", &format!("[motion]\n{lines}")).replace("cycles = 30", "cycles = 4");
+    let scratch = Scratch::new().file("a.toml", scene);
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let speeds = column(&of_way(&scratch.read("o/sweep.csv"), "up"), "operation.speed_rpm");
+    assert_eq!(speeds, [900.0, 1000.0, 1100.0]);
+}
+
+/// Every complaint is made before any work, and nothing is written.
+#[test]
+fn words_of_a_sweep_are_checked_first() {
+    let still = crate::util::ISO_SCENE.to_owned();
+    for (scene, words, text) in [
+        (
+            seed("004"),
+            ["--key", "operation.speed", "--from", "1", "--to", "2"],
+            "--key operation.speed = 1: unknown key `speed`",
+        ),
+        (seed("004"), ["--key", "pinion.teeth", "--from", "30", "--to", "31.5"], "--key pinion.teeth = "),
+        (
+            seed("004"),
+            ["--key", "operation.torque_nm", "--from", "-1", "--to", "2"],
+            "--key operation.torque_nm = -1: `torque_nm` is -1",
+        ),
+        (seed("004"), ["--key", "operation.torque_nm", "--from", "3", "--to", "2"], "`--from 3` is not below `--to 2`"),
+        (
+            still,
+            ["--key", "operation.torque_nm", "--from", "1", "--to", "2"],
+            "a.toml: a sweep wants a motion of the model",
+        ),
+    ] {
+        let scratch = Scratch::new().file("a.toml", scene);
+        let run = scratch.command(&[&["sweep", "a.toml", "--out", "o", "--points", "3"], &words[..]].concat());
+        assert_eq!(run.code, Some(2), "{text}: {}", run.stderr);
+        assert!(run.stderr.starts_with(&format!("ale-gear: {text}")), "{text}: {}", run.stderr);
+        assert_eq!(scratch.names(), ["a.toml"]);
+    }
+}

@@ -1,0 +1,9 @@
+//! Laws of the crate `fem`.
+
+mod assembly;
+mod beam;
+mod common;
+mod elements;
+mod factor;
+mod stress;
+mod surface_stress;

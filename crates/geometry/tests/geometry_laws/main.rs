@@ -1,0 +1,5 @@
+//! Laws of the crate `geometry`.
+
+mod iso21771;
+mod modification;
+mod nonsense;

@@ -1,0 +1,4 @@
+//! Laws of the integrators, without a gear.
+
+mod motion;
+mod schemes;

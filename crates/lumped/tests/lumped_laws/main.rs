@@ -1,0 +1,17 @@
+//! Laws of the lumped models, and the cases that they are held against.
+
+mod common;
+mod gearbox;
+mod impact;
+mod impact_random;
+mod impact_slices;
+mod iso;
+mod iso_pairs;
+mod iso_root;
+mod ladder;
+mod lumped12;
+mod lumped8;
+mod mill;
+mod plane_of_action;
+mod shaft18;
+mod shaft18_backlash;

@@ -1,0 +1,7 @@
+//! Laws of the crate `reduction`.
+
+mod common;
+mod cyclic;
+mod modes;
+mod record;
+mod stress_modes;

@@ -1,0 +1,7 @@
+//! Modified, crowned and misaligned flanks, unloaded and loaded.
+
+mod crowning;
+mod harris_map;
+mod kinematic;
+mod modified;
+mod width_and_crowning;

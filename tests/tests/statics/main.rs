@@ -1,0 +1,13 @@
+//! The loaded pair at rest: laws, CalculiX, published values, any contact ratio.
+
+mod both_flanks;
+mod calculix;
+mod contact_ratio;
+mod corner_contact;
+mod gmsh_meshes;
+mod laws_of_statics;
+mod online;
+mod phase_independence;
+mod published_pairs;
+mod slices;
+mod tooth_change;
