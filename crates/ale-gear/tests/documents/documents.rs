@@ -60,7 +60,7 @@ fn links_lead_somewhere() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Files named in code font, `crates/contact/src/local.rs`, are there. Names with placeholders are not looked at.
+/// Files named in code font, `crates/contact/src/local/mod.rs`, are there. Names with placeholders are not looked at.
 #[test]
 fn named_files_exist() {
     let top = repository();
