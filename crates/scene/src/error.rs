@@ -1,7 +1,10 @@
 //! What can be wrong with a scene, and where.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use geometry::GeometryError;
+use geometry::modification::DataFileError;
 
 /// Where a value was said.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -143,13 +146,34 @@ pub enum SceneError {
         /// The way out.
         advice: String,
     },
+    /// No running pair can be made of the data.
+    #[error("{}: [{table}]: {source}", at(place.as_ref(), file))]
+    Geometry {
+        /// The key at fault, where it is written.
+        place: Option<Place>,
+        /// The scene.
+        file: PathBuf,
+        /// `pinion`, `wheel` or `pair`.
+        table: &'static str,
+        /// What the geometry says.
+        source: GeometryError,
+    },
+    /// A topography or a list of pitch errors that cannot be read.
+    #[error(transparent)]
+    DataFile(#[from] DataFileError),
+}
+
+/// The place, or the file where none is known.
+fn at(place: Option<&Place>, file: &Path) -> String {
+    place.map_or_else(|| file.display().to_string(), ToString::to_string)
 }
 
 impl SceneError {
     /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
     pub fn excerpt(&self) -> Option<&str> {
         match self {
-            Self::Read { .. } | Self::Missing { .. } | Self::Setting { .. } => None,
+            Self::Read { .. } | Self::Missing { .. } | Self::Setting { .. } | Self::DataFile(_) => None,
+            Self::Geometry { place, .. } => place.as_ref()?.excerpt(),
             Self::Syntax { place, .. }
             | Self::UnknownKey { place, .. }
             | Self::WrongType { place, .. }
@@ -178,6 +202,8 @@ impl SceneError {
                 "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value".into(),
             ),
             Self::NotYet { instead, .. } => Some(instead.clone()),
+            Self::Geometry { source, .. } => source.hint(),
+            Self::DataFile(error) => error.hint(),
         }
     }
 }

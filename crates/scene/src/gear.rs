@@ -127,4 +127,9 @@ impl PairScene {
     pub fn normal_pressure_angle(&self) -> f64 {
         self.normal_pressure_angle_deg.to_radians()
     }
+
+    /// Elements along the face that a mesh of this order asks for, with root stress or without.
+    pub(crate) fn face_elements(&self, order: u32, root_stress: bool) -> u32 {
+        mesh::face_elements(self.face_width_mm, self.normal_module_mm, order, root_stress)
+    }
 }

@@ -1,19 +1,17 @@
-//! Which words of a scene a complaint of the geometry is about.
+//! Which keys of a scene a complaint of the geometry is about.
 
 use geometry::GeometryError;
 
-use crate::error::CommandError;
-use crate::scene::Scene;
+use crate::{Scene, SceneError};
 
-/// The complaint at the line of the key at fault; `table` is `pinion`, `wheel` or `pair`.
-pub(crate) fn geometry_fault(scene: &Scene, table: &str, error: &GeometryError) -> CommandError {
-    let keys = keys(table, error);
-    // A gear's heading says less than a key, but more than the file.
-    let names: Vec<&str> = keys.iter().map(String::as_str).chain([table]).collect();
-    let place = scene.place_of(&names);
-    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
-    CommandError::input(format_args!("{at}: [{table}]: {error}"), error.hint())
-        .about(place.as_ref().and_then(|p| p.excerpt()))
+impl Scene {
+    /// The complaint of the geometry at the line of the key at fault; `table` is `pinion`, `wheel` or `pair`.
+    pub(crate) fn geometry_fault(&self, table: &'static str, source: GeometryError) -> SceneError {
+        let keys = keys(table, &source);
+        // A gear's heading says less than a key, but more than the file.
+        let names: Vec<&str> = keys.iter().map(String::as_str).chain([table]).collect();
+        SceneError::Geometry { place: self.place_of(&names), file: self.file.clone(), table, source }
+    }
 }
 
 /// Keys that the complaint may be about, the likeliest first.

@@ -15,7 +15,7 @@ const MOST: u64 = 16 << 20;
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for folders, devices and named pipes, and for a pipe without an end; else as the system says.
-pub(crate) fn read(path: &Path) -> Result<String> {
+pub fn read_text(path: &Path) -> Result<String> {
     if !is_handed_over(path) {
         return read_regular_text(path);
     }

@@ -22,11 +22,11 @@ pub(crate) enum Origin {
 
 /// What messages call the default scene.
 const NAME: &str = "default scene";
-const TEXT: &str = include_str!("../../../../scenes/default.toml");
+const TEXT: &str = include_str!("../../../scenes/default.toml");
 /// Files of the default scene, as it names them.
 const FILES: [(&str, &[u8]); 2] = [
-    ("../meshes/coarse_hex20_pinion.msh", include_bytes!("../../../../meshes/coarse_hex20_pinion.msh")),
-    ("../meshes/coarse_hex20_wheel.msh", include_bytes!("../../../../meshes/coarse_hex20_wheel.msh")),
+    ("../meshes/coarse_hex20_pinion.msh", include_bytes!("../../../meshes/coarse_hex20_pinion.msh")),
+    ("../meshes/coarse_hex20_wheel.msh", include_bytes!("../../../meshes/coarse_hex20_wheel.msh")),
 ];
 
 fn in_program(path: &Path) -> Option<&'static [u8]> {
@@ -44,16 +44,19 @@ impl Scene {
 
     /// Whether it is the default scene of the program.
     pub fn is_default_scene(&self) -> bool {
-        self.origin == Origin::Program
+        self.written.origin() == Origin::Program
     }
 
     /// The content of a file that the scene names.
-    pub(crate) fn content(&self, path: &Path) -> io::Result<Cow<'static, [u8]>> {
-        content(self.origin, &self.file, path)
+    ///
+    /// # Errors
+    /// As the system says; [`io::ErrorKind::InvalidInput`] for folders, devices and named pipes.
+    pub fn content(&self, path: &Path) -> io::Result<Cow<'static, [u8]>> {
+        content(self.written.origin(), &self.file, path)
     }
 
     /// Every file that the scene names, as it names them: meshes, topographies, pitch errors; pinion first, each once.
-    pub(crate) fn files(&self) -> Vec<&Path> {
+    pub fn files(&self) -> Vec<&Path> {
         let mut all: Vec<&Path> = Vec::new();
         for path in self.gears().into_iter().flat_map(files_of) {
             if !all.contains(&path) {

@@ -1,10 +1,10 @@
 //! Which keys there are, and which of them a misspelt one is nearest to.
 
 /// Tables of a kind of file with their keys; the first one is the file itself.
-pub(crate) type Tables = fn() -> Vec<(String, Vec<&'static str>)>;
+pub type Tables = fn() -> Vec<(String, Vec<&'static str>)>;
 
 /// The nearest of `known` if it is near enough to be meant.
-pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
         .map(|&k| (strsim::normalized_damerau_levenshtein(word, k), k))
@@ -31,7 +31,7 @@ pub(super) fn advice(tables: Tables, word: &str, here: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::schema::tables;
+    use crate::schema::tables;
 
     #[test]
     fn advice_finds_neighbours_tables_and_units() {

@@ -10,7 +10,10 @@ mod contact;
 mod error;
 mod excerpt;
 mod gear;
+mod gear_pair;
+mod geometry_fault;
 mod hints;
+mod input_text;
 mod inputs;
 mod keys;
 mod ladder;
@@ -30,14 +33,13 @@ use std::path::{Path, PathBuf};
 use geometry::Side;
 use serde::Serialize;
 
-use crate::input_text;
-
 pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use error::{Line, Place, SceneError};
 pub use gear::{GearScene, Material, MesherScene, PairScene};
-pub(crate) use inputs::Origin;
-pub(crate) use keys::nearest;
+pub use input_text::read_text;
+use inputs::Origin;
+pub use keys::{Tables, nearest};
 pub use ladder::{
     DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
     StiffnessFrom, SupportScene,
@@ -49,10 +51,10 @@ pub use motion::{
 };
 pub use operation::{Driver, Operation, Rotation};
 pub use output::{FieldName, OutputScene};
-pub(crate) use raw::{Number, Whole, Word};
+pub use raw::{Number, Whole, Word};
 pub use schema::{all_keys, json_schema};
 pub use setting::Setting;
-pub(crate) use source::Source;
+pub use source::Source;
 pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
@@ -69,9 +71,6 @@ pub struct Scene {
     /// Words of a command line that set keys beside the file.
     #[serde(skip)]
     pub set: Vec<String>,
-    /// Whether it stands in a file or in the program.
-    #[serde(skip)]
-    pub(crate) origin: Origin,
     /// Gear 1.
     pub pinion: GearScene,
     /// Gear 2.
@@ -133,7 +132,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let text = input_text::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
         Self::parse_with(&text, file, settings)
     }
 
@@ -156,7 +155,7 @@ impl Scene {
     fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
         let (all, ranges) = setting::below(text, settings);
         let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
-        let scene = crate::resolution::settled(check::scene(&source, raw::read(&source)?)?);
+        let scene = check::scene(&source, raw::read(&source)?)?;
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
 
@@ -190,6 +189,16 @@ impl Scene {
             Driver::Pinion => self.pinion.teeth,
             Driver::Wheel => self.wheel.teeth,
         }
+    }
+
+    /// Whether the scene's contact is made of slices of its own, which a contact pattern needs.
+    pub fn has_slices(&self) -> bool {
+        matches!(self.analysis.model, Model::Reduced | Model::Full) && self.contact.method == Method::Slice
+    }
+
+    /// Elements along the face that a mesh of this order asks for; the default of `elements_face`.
+    pub fn face_elements(&self, order: u32) -> u32 {
+        self.pair.face_elements(order, self.output.root_stress)
     }
 
     /// Gear ratio z2/z1.

@@ -98,7 +98,7 @@ pub enum Shape {
     Parabolic,
 }
 
-/// Deviation of the wheel's axis, um over the face width. Terms and signs: [`dynamics::Misalignment`].
+/// Deviation of the wheel's axis, um over the face width. Terms and signs: `docs/scene.md`, `[pair.misalignment]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct MisalignmentScene {
     /// f_Sigma_beta, across the plane of axes.

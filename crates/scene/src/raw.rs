@@ -10,11 +10,11 @@ use super::setting;
 use super::source::Source;
 
 /// A number as written.
-pub(crate) type Number = Option<Spanned<f64>>;
+pub type Number = Option<Spanned<f64>>;
 /// A whole number as written; signed, so that `-3` is out of range and not of a wrong type.
-pub(crate) type Whole = Option<Spanned<i64>>;
+pub type Whole = Option<Spanned<i64>>;
 /// A word as written.
-pub(crate) type Word = Option<Spanned<String>>;
+pub type Word = Option<Spanned<String>>;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -16,17 +16,18 @@ use super::schema::{self, Table};
 use super::setting::Setting;
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
-pub(crate) struct Source<'a> {
+pub struct Source<'a> {
+    /// As the user named it.
     pub file: &'a Path,
     /// The file's text, and a line for each setting below it.
-    pub text: &'a str,
+    pub(crate) text: &'a str,
     /// What was set beside the file.
-    pub settings: &'a [Setting],
+    pub(crate) settings: &'a [Setting],
     /// Where in the text.
-    pub ranges: &'a [Range<usize>],
+    pub(crate) ranges: &'a [Range<usize>],
     tables: Tables,
     /// Where files that it names are looked for.
-    pub origin: Origin,
+    pub(crate) origin: Origin,
 }
 
 impl<'a> Source<'a> {
@@ -148,19 +149,19 @@ impl Source<'_> {
     }
 
     /// The number of a key, within the range of its table, or the table's default; 0 where it has none.
-    pub fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
+    pub(crate) fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
         let about = table.about(key).or(schema::meaning(key));
         self.within(key, value, default.unwrap_or(0.0), [low, high], about)
     }
 
     /// The same where it is written, else nothing.
-    pub fn optional_of(&self, table: &Table, key: &str, value: &Number) -> Result<Option<f64>, SceneError> {
+    pub(crate) fn optional_of(&self, table: &Table, key: &str, value: &Number) -> Result<Option<f64>, SceneError> {
         value.as_ref().map(|_| self.number_of(table, key, value)).transpose()
     }
 
     /// The whole number of a key, within the range of its table, or the table's default.
-    pub fn whole_of(&self, table: &Table, key: &str, value: &Whole) -> Result<u32, SceneError> {
+    pub(crate) fn whole_of(&self, table: &Table, key: &str, value: &Whole) -> Result<u32, SceneError> {
         let (low, high, default) = table.whole(key);
         self.whole(key, value, default.unwrap_or(low), low, high)
     }

@@ -7,7 +7,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::{Place, Scene, Setting, raw, source::Source};
+use super::{Place, Scene, Setting, inputs::Origin, raw, source::Source};
 
 /// The text of a scene with what was set beside it. Equal to any other: scenes are compared by what they mean.
 #[derive(Debug, Clone)]
@@ -18,6 +18,7 @@ struct Text {
     all: String,
     settings: Vec<Setting>,
     ranges: Vec<Range<usize>>,
+    origin: Origin,
 }
 
 impl PartialEq for Written {
@@ -29,7 +30,12 @@ impl PartialEq for Written {
 impl Written {
     pub(super) fn new(source: &Source<'_>) -> Self {
         let (all, settings, ranges) = (source.text.to_owned(), source.settings.to_vec(), source.ranges.to_vec());
-        Self(Arc::new(Text { all, settings, ranges }))
+        Self(Arc::new(Text { all, settings, ranges, origin: source.origin }))
+    }
+
+    /// Whether the scene stands in files or in the program.
+    pub(super) fn origin(&self) -> Origin {
+        self.0.origin
     }
 
     fn source<'a>(&'a self, file: &'a Path) -> Source<'a> {

@@ -8,7 +8,6 @@ use dialoguer::{Confirm, Input, Select};
 
 use crate::error::CommandError;
 use crate::gears;
-use crate::input_text;
 use crate::rexs::read_pair;
 use crate::scene::{Kind, Scene};
 use crate::starter::Starter;
@@ -106,7 +105,7 @@ impl InitArgs {
     fn of_file(&self) -> Result<Starter, CommandError> {
         let default = Starter::default();
         let Some(file) = &self.rexs else { return Ok(default) };
-        let text = input_text::read(file).map_err(|e| {
+        let text = crate::scene::read_text(file).map_err(|e| {
             let hint = Some("is the path right, as seen from here?".into());
             CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
         })?;

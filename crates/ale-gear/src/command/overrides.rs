@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::resolution::with_slices;
 use crate::scene::{Scene, SceneError, Setting};
 
 /// Keys of the scene, instead of the file's.
@@ -33,6 +34,6 @@ impl Overrides {
     /// # Errors
     /// As of [`Scene::read_with`].
     pub fn read(&self, scene: &Path) -> Result<Scene, SceneError> {
-        Scene::read_with(scene, &self.settings()?)
+        Scene::read_with(scene, &self.settings()?).map(with_slices)
     }
 }

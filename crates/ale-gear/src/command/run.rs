@@ -12,6 +12,7 @@ use crate::output::{
     ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report, write_summary,
 };
 use crate::phases::Phases;
+use crate::resolution::with_slices;
 use crate::room;
 use crate::run;
 use crate::scene::{Kind, Model, Run, Scene};
@@ -72,7 +73,7 @@ impl RunArgs {
                     self.out.display()
                 )
             });
-            Scene::default_scene()?
+            with_slices(Scene::default_scene()?)
         } else {
             self.overrides.read(&self.scene)?
         };

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::CommandError;
 use crate::gears;
-use crate::pattern::{GearPattern, has_slices, patterns};
+use crate::pattern::{GearPattern, patterns};
 use crate::scene::Scene;
 
 /// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.
@@ -20,7 +20,7 @@ pub fn write_contact(
     history: &StaticHistory,
     results: &ResultDirectory,
 ) -> Result<Option<String>, CommandError> {
-    if !has_slices(scene) {
+    if !scene.has_slices() {
         return Ok(None);
     }
     let pair = gears::pair(scene)?;

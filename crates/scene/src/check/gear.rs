@@ -1,13 +1,12 @@
 //! The gears, and what they share.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use geometry::GearData;
-use mesh::GroupNames;
+use mesh::{GroupNames, Mesh};
 
 use super::Checked;
-use crate::meshes;
-use crate::scene::{
+use crate::{
     GearScene, Material, MesherScene, PairScene, inputs, micro,
     raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
     schema,
@@ -74,6 +73,13 @@ fn fitting_root_radius(pair: &PairScene) -> f64 {
     if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
 }
 
+/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
+fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
+    let mesh = Mesh::parse(content, file).ok()?;
+    let [low, high] = mesh.radii(&mesh.surface(&names.bore)?.nodes());
+    Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
+}
+
 /// Whether a gear states its helix angle or follows the mating one.
 pub(super) enum Hand {
     Own,
@@ -86,6 +92,7 @@ pub(super) fn gear(
     hand: Hand,
     pair: &PairScene,
     shared: Material,
+    face_elements: impl Fn(u32) -> u32,
 ) -> Checked<GearScene> {
     let teeth = s.whole_of(&schema::GEAR, "teeth", &raw.teeth)?;
     let helix_angle_deg = match hand {
@@ -95,14 +102,14 @@ pub(super) fn gear(
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
     let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
-    let (mesh, mesher) = mesh_source(s, raw, teeth, pair)?;
+    let (mesh, mesher) = mesh_source(s, raw, teeth, face_elements)?;
     let groups = groups(s, &raw.groups)?;
     let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
     let bore_of_mesh = match &mesh {
         // A mesh in another unit, or of another gear, is told where it is read.
         Some(path) if raw.bore_diameter_mm.is_none() => {
             let content = inputs::content(s.origin, s.file, path).ok();
-            content.and_then(|mesh| meshes::bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
+            content.and_then(|mesh| bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
         }
         _ => None,
     };
@@ -169,7 +176,7 @@ fn mesh_source(
     s: &Source<'_>,
     raw: &RawGear,
     teeth: u32,
-    pair: &PairScene,
+    face_elements: impl Fn(u32) -> u32,
 ) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
     match (&raw.mesh, &raw.mesher) {
         (Some(_), Some(mesher)) => Err(s.conflict(
@@ -180,21 +187,25 @@ fn mesh_source(
         (Some(mesh), None) => Ok((Some(inputs::named(s, "mesh", mesh)?), None)),
         (None, mesher) => {
             let none = RawMesher::default();
-            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth, pair)?)))
+            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth, face_elements)?)))
         }
     }
 }
 
-fn mesher_options(s: &Source<'_>, raw: &RawMesher, teeth: u32, pair: &PairScene) -> Checked<MesherScene> {
+fn mesher_options(
+    s: &Source<'_>,
+    raw: &RawMesher,
+    teeth: u32,
+    face_elements: impl Fn(u32) -> u32,
+) -> Checked<MesherScene> {
     let order = s.whole_of(&schema::MESHER, "order", &raw.order)?;
     let (least, most, _) = schema::MESHER.whole("elements_face");
-    let usual = mesh::face_elements(pair.face_width_mm, pair.normal_module_mm, order, false);
     Ok(MesherScene {
         order,
         elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
         elements_fillet: s.whole_of(&schema::MESHER, "elements_fillet", &raw.elements_fillet)?,
         elements_thickness: s.whole_of(&schema::MESHER, "elements_thickness", &raw.elements_thickness)?,
-        elements_face: s.whole("elements_face", &raw.elements_face, usual, least, most)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, face_elements(order), least, most)?,
         elements_rim: s.whole_of(&schema::MESHER, "elements_rim", &raw.elements_rim)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })

@@ -18,8 +18,11 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     all_given(source, &raw)?;
     let shared = material(source, &raw.material, steel())?;
     let pair = pair(source, &raw.pair)?;
-    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared)?;
-    let mut wheel = gear(source, &raw.wheel, Hand::Against(pinion.helix_angle_deg), &pair, shared)?;
+    let root_stress = raw.output.root_stress.as_ref().is_some_and(|on| *on.get_ref());
+    let face_elements = |order| pair.face_elements(order, root_stress);
+    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared, face_elements)?;
+    let hand = Hand::Against(pinion.helix_angle_deg);
+    let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
     let analysis = analysis(source, &raw.analysis)?;
     ladder::tables(source, &raw, analysis.model)?;
     let dynamic = analysis.kind == Kind::Dynamic;
@@ -42,7 +45,6 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         file: source.file.to_owned(),
         written: Written::new(source),
         set: Vec::new(),
-        origin: source.origin,
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,
         drive: dynamic.then(|| drive(source, &raw, analysis.model)).transpose()?,

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Checked;
-use crate::scene::{
+use crate::{
     DriveScene, GearScene, Model, ModesScene, MotionScene, ShaftScene, TorqueScene, ladder, motion,
     raw::{RawGear, RawScene},
     source::Source,

@@ -1,7 +1,7 @@
 //! Load, contact, analysis and output: tables that stand for themselves.
 
 use super::Checked;
-use crate::scene::{
+use crate::{
     Analysis, ContactScene, Driver, FieldName, Flanks, Gap, Kind, Method, Model, Operation, OutputScene, Reduction,
     Rotation, ladder,
     raw::{RawAnalysis, RawContact, RawOperation, RawOutput},

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Checked;
-use crate::scene::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, raw::RawScene, source::Source};
+use crate::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, raw::RawScene, source::Source};
 
 /// What can only be judged with the whole scene in view.
 pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
@@ -55,8 +55,7 @@ fn of_method(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             "leave it out, or use `method = \"slice\"`",
         ));
     }
-    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !crate::pattern::has_slices(scene))
-    {
+    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !scene.has_slices()) {
         return Err(s.conflict(
             &word.span(),
             "`contact_lines` lists slices, and this scene has none",

@@ -6,9 +6,9 @@ use toml::Spanned;
 
 use super::check::Torques;
 use super::{Rung, StiffnessFrom};
-use crate::scene::raw::{RawGear, RawScene};
-use crate::scene::source::Source;
-use crate::scene::{BodyScene, DriveBy, Model, Run, Scene, SceneError, SteadyBy};
+use crate::raw::{RawGear, RawScene};
+use crate::source::Source;
+use crate::{BodyScene, DriveBy, Model, Run, Scene, SceneError, SteadyBy};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -17,7 +17,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
 }
 
 /// Tables of models that are not the scene's.
-pub(in crate::scene) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
+pub(crate) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
     let meshed = Rung::of(model).is_some_and(|r| r.mesh);
     let all = [
         ("mesh", span(&raw.mesh), meshed, "the models \"lumped8\", \"lumped12\" and \"shaft18\""),
@@ -38,7 +38,7 @@ pub(in crate::scene) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> 
 }
 
 /// A model whose gears move along fixed coordinates: `free` may say the same, and no more.
-pub(in crate::scene) fn moves(s: &Source<'_>, raw: &RawGear, rung: Rung, body: &BodyScene) -> Checked<()> {
+pub(crate) fn moves(s: &Source<'_>, raw: &RawGear, rung: Rung, body: &BodyScene) -> Checked<()> {
     let listed = raw.body.as_ref().and_then(|b| b.get_ref().free.as_ref()).and_then(|free| free.first());
     match (listed, rung.moves) {
         (Some(word), Some(moves)) if body.free != moves => {
@@ -77,7 +77,7 @@ fn turning(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
 }
 
 /// What an analysis in time with a cheaper model can do.
-pub(in crate::scene) fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
+pub(crate) fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
     let name = rung.name;
     let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
     if !fed {
@@ -133,8 +133,8 @@ fn unfed(s: &Source<'_>, raw: &RawScene, scene: &Scene, name: &str) -> Checked<(
         ("window_teeth", span(&raw.analysis.window_teeth)),
         ("slices", span(&raw.contact.slices).filter(|_| scene.contact.slices != Some(32) && scene.impact.is_none())),
         ("corner_contact", span(&raw.contact.corner_contact).filter(|_| scene.contact.corner_contact != Some(true))),
-        ("flanks", span(&raw.contact.flanks).filter(|_| scene.contact.flanks != crate::scene::Flanks::Both)),
-        ("method", span(&raw.contact.method).filter(|_| scene.contact.method != crate::scene::Method::Slice)),
+        ("flanks", span(&raw.contact.flanks).filter(|_| scene.contact.flanks != crate::Flanks::Both)),
+        ("method", span(&raw.contact.method).filter(|_| scene.contact.method != crate::Method::Slice)),
     ];
     // Rigid gears have flanks as they are ground.
     let ground = tables.chain(lists).chain(files).filter(|_| scene.impact.is_none());

@@ -2,8 +2,8 @@
 
 use super::raw::{List, RawLumped8, RawLumped12, RawMesh};
 use super::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
-use crate::scene::source::Source;
-use crate::scene::{Axis, Model, SceneError, schema};
+use crate::source::Source;
+use crate::{Axis, Model, SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -14,7 +14,7 @@ const MOVES: [Axis; 5] = Axis::ALL;
 
 /// Torques that a model knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::scene) enum Torques {
+pub(crate) enum Torques {
     /// Steady ones that balance each other.
     Steady,
     /// Those and harmonic ones.
@@ -25,7 +25,7 @@ pub(in crate::scene) enum Torques {
 
 /// What a model of the ladder takes from the scene.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::scene) struct Rung {
+pub(crate) struct Rung {
     /// Its name in [analysis].
     pub name: &'static str,
     /// Coordinates of each gear beside the turn, where the model has them fixed.
@@ -101,7 +101,7 @@ pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
 }
 
 /// The mesh of a model; without a word on its stiffness that of the reduced model.
-pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshScene> {
+pub(crate) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshScene> {
     let given = raw.stiffness_n_per_um.is_some();
     let from = match &raw.stiffness_from {
         None if given => StiffnessFrom::Series,
@@ -157,7 +157,7 @@ pub(in crate::scene) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Check
     })
 }
 
-pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene> {
+pub(crate) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene> {
     let both = [
         ("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, "speed_fluctuation_hz"),
         ("speed_fluctuation_hz", &raw.speed_fluctuation_hz, "speed_fluctuation_rpm"),
@@ -178,7 +178,7 @@ pub(in crate::scene) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lum
     })
 }
 
-pub(in crate::scene) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {
+pub(crate) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {
     let made = Lumped12Scene {
         orientation_deg: s.optional_of(&schema::LUMPED12, "orientation_deg", &raw.orientation_deg)?,
         damping_ratio: s.number_of(&schema::LUMPED12, "damping_ratio", &raw.damping_ratio)?,

@@ -2,10 +2,10 @@
 
 use super::ImpactScene;
 use super::raw::RawImpact;
-use crate::scene::source::Source;
-use crate::scene::{SceneError, schema};
+use crate::source::Source;
+use crate::{SceneError, schema};
 
-pub(in crate::scene) fn impact(s: &Source<'_>, raw: &RawImpact) -> Result<ImpactScene, SceneError> {
+pub(crate) fn impact(s: &Source<'_>, raw: &RawImpact) -> Result<ImpactScene, SceneError> {
     let made = ImpactScene {
         stiffness_n_per_mm_to_exponent: s.optional_of(
             &schema::IMPACT,

@@ -3,15 +3,15 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::motion::{Matrix, RawSupport};
-use crate::scene::raw::{Number, Word};
+use crate::motion::{Matrix, RawSupport};
+use crate::raw::{Number, Word};
 
 /// A list of numbers as written.
-pub(in crate::scene) type List = Option<Spanned<Vec<f64>>>;
+pub(crate) type List = Option<Spanned<Vec<f64>>>;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawMesh {
+pub(crate) struct RawMesh {
     pub stiffness_from: Word,
     pub stiffness_n_per_um: Number,
     pub stiffness_cos_n_per_um: List,
@@ -24,7 +24,7 @@ pub(in crate::scene) struct RawMesh {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawLumped8 {
+pub(crate) struct RawLumped8 {
     pub law: Word,
     pub speed_fluctuation_rpm: Number,
     pub speed_fluctuation_hz: Number,
@@ -32,7 +32,7 @@ pub(in crate::scene) struct RawLumped8 {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawLumped12 {
+pub(crate) struct RawLumped12 {
     pub orientation_deg: Number,
     pub damping_ratio: Number,
     pub damping_from_hz: Number,
@@ -41,7 +41,7 @@ pub(in crate::scene) struct RawLumped12 {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawImpact {
+pub(crate) struct RawImpact {
     pub stiffness_n_per_mm_to_exponent: Number,
     pub exponent: Number,
     pub damping_ns_per_mm: Number,
@@ -54,7 +54,7 @@ pub(in crate::scene) struct RawImpact {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawShaft18 {
+pub(crate) struct RawShaft18 {
     pub mass_damping_per_s: Number,
     pub stiffness_damping_s: Number,
     pub gravity_m_per_s2: List,
@@ -62,7 +62,7 @@ pub(in crate::scene) struct RawShaft18 {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawShaft {
+pub(crate) struct RawShaft {
     pub segments_mm: Matrix,
     pub gear_at_mm: Number,
     pub torque_at_mm: Number,
@@ -77,7 +77,7 @@ pub(in crate::scene) struct RawShaft {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawDisc {
+pub(crate) struct RawDisc {
     pub at_mm: Number,
     pub mass_kg: Number,
     pub polar_inertia_kg_m2: Number,

@@ -5,10 +5,10 @@ use toml::Spanned;
 use super::check::list;
 use super::raw::{RawDisc, RawShaft, RawShaft18};
 use super::{DiscScene, Kept, Shaft18Scene, ShaftScene, SupportScene};
-use crate::scene::motion::{Matrix, RawSupport};
-use crate::scene::raw::Number;
-use crate::scene::source::Source;
-use crate::scene::{SceneError, schema};
+use crate::motion::{Matrix, RawSupport};
+use crate::raw::Number;
+use crate::source::Source;
+use crate::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -17,7 +17,7 @@ const KEPT: [(&str, Kept); 6] =
 /// What a disc keeps that says nothing: of a coupled end what its mass moves most.
 const ENDS: [Kept; 3] = [Kept::X, Kept::Y, Kept::Rz];
 
-pub(in crate::scene) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene> {
+pub(crate) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene> {
     let gravity = list(s, "gravity_m_per_s2", &raw.gravity_m_per_s2)?;
     let gravity_m_per_s2 = match (<[f64; 3]>::try_from(gravity.as_slice()), &raw.gravity_m_per_s2) {
         (Ok(g), _) => g,
@@ -35,7 +35,7 @@ pub(in crate::scene) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Sha
 }
 
 /// The shaft of a gear; `at` is the table, for what it does not say.
-pub(in crate::scene) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftScene> {
+pub(crate) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftScene> {
     let raw = table.get_ref();
     let segments_mm = segments(s, table, &raw.segments_mm)?;
     // Without the last bits of the sum: the end of the shaft is on it.

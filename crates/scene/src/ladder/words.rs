@@ -4,14 +4,14 @@ use toml::Spanned;
 
 use super::{ImpactScene, Lumped8Scene, Lumped12Scene, MeshScene, Rung, Shaft18Scene};
 use super::{impact, lumped8, lumped12, mesh, shaft18};
-use crate::scene::raw::RawScene;
-use crate::scene::source::Source;
-use crate::scene::{Model, SceneError};
+use crate::raw::RawScene;
+use crate::source::Source;
+use crate::{Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 
 /// Tables, each set exactly for the models that have it.
-pub(in crate::scene) struct Words {
+pub(crate) struct Words {
     pub mesh: Option<MeshScene>,
     pub lumped8: Option<Lumped8Scene>,
     pub lumped12: Option<Lumped12Scene>,
@@ -20,7 +20,7 @@ pub(in crate::scene) struct Words {
 }
 
 /// What a scene says to its model.
-pub(in crate::scene) fn words(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<Words> {
+pub(crate) fn words(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<Words> {
     let meshed = Rung::of(model).filter(|r| r.mesh);
     Ok(Words {
         mesh: match meshed {

@@ -2,16 +2,16 @@
 
 use super::raw::{Matrix, RawBearing, RawBody};
 use super::{Axis, BearingScene, BodyScene};
-use crate::scene::raw::Number;
-use crate::scene::source::Source;
-use crate::scene::{SceneError, schema};
+use crate::raw::Number;
+use crate::source::Source;
+use crate::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
 const AXES: [(&str, Axis); 5] = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z), ("rx", Axis::Rx), ("ry", Axis::Ry)];
 
-pub(in crate::scene) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
+pub(crate) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
     let mut free = Vec::new();
     for word in raw.free.iter().flatten() {
         if word.get_ref() == "turn" {
@@ -39,7 +39,7 @@ pub(in crate::scene) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene
 }
 
 /// A bearing of a gear whose coordinates `free` are free: each of them is held, and nothing else is said.
-pub(in crate::scene) fn bearing(
+pub(crate) fn bearing(
     s: &Source<'_>,
     raw: Option<&RawBearing>,
     free: &[Axis],

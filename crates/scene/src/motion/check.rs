@@ -4,9 +4,9 @@ use toml::Spanned;
 
 use super::raw::{RawMotion, RawRamp, RawSweep};
 use super::{Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene, SweepWay};
-use crate::scene::raw::{Number, Whole};
-use crate::scene::source::Source;
-use crate::scene::{SceneError, schema};
+use crate::raw::{Number, Whole};
+use crate::source::Source;
+use crate::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
@@ -29,7 +29,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
     value.as_ref().map(Spanned::span)
 }
 
-pub(in crate::scene) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
+pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
     let run = s.choice("run", &raw.run, &[STEADY, SHOOTING, SPAN, RAMP, SWEEP])?;
     belongs(s, raw, run, cycles)?;
     let method = method(s, raw)?;

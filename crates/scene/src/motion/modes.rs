@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::scene::{
+use crate::{
     SceneError,
     raw::{Number, Whole, Word},
     schema,
@@ -13,7 +13,7 @@ use crate::scene::{
 /// The words of the table, nothing checked yet.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawModes {
+pub(crate) struct RawModes {
     pub count: Whole,
     pub below_hz: Number,
     pub boundary: Word,
@@ -50,7 +50,7 @@ pub enum Boundary {
 }
 
 /// The table that goes with `model = "reduced+modes"`.
-pub(in crate::scene) fn modes(s: &Source<'_>, raw: &RawModes) -> Result<ModesScene, SceneError> {
+pub(crate) fn modes(s: &Source<'_>, raw: &RawModes) -> Result<ModesScene, SceneError> {
     let conflict = |span: std::ops::Range<usize>, what: &str, advice: &str| Err(s.conflict(&span, what, advice));
     if let (Some(_), Some(bound)) = (&raw.count, &raw.below_hz) {
         return conflict(bound.span(), "`count` and `below_hz` both say which modes are kept", "keep one of them");

@@ -3,13 +3,13 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::raw::{Number, Whole, Word};
+use crate::raw::{Number, Whole, Word};
 
-pub(in crate::scene) type Matrix = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
+pub(crate) type Matrix = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawBody {
+pub(crate) struct RawBody {
     pub mass_kg: Number,
     pub transverse_inertia_kg_m2: Number,
     pub polar_inertia_kg_m2: Number,
@@ -22,7 +22,7 @@ macro_rules! held_table {
     ($name:ident { $($own:ident: $kind:ty),* }) => {
         #[derive(Debug, Default, Deserialize)]
         #[serde(deny_unknown_fields)]
-        pub(in crate::scene) struct $name {
+        pub(crate) struct $name {
             $(pub $own: $kind,)*
             pub stiffness_x_n_per_mm: Number,
             pub stiffness_y_n_per_mm: Number,
@@ -45,7 +45,7 @@ held_table!(RawSupport { at_mm: Number });
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawDrive {
+pub(crate) struct RawDrive {
     pub by: Word,
     pub torque_nm: Number,
     pub amplitude_nm: Number,
@@ -56,7 +56,7 @@ pub(in crate::scene) struct RawDrive {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawLoad {
+pub(crate) struct RawLoad {
     pub amplitude_nm: Number,
     pub frequency_hz: Number,
     pub phase_deg: Number,
@@ -65,7 +65,7 @@ pub(in crate::scene) struct RawLoad {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawMotion {
+pub(crate) struct RawMotion {
     pub run: Word,
     pub method: Word,
     pub spectral_radius: Number,
@@ -85,7 +85,7 @@ pub(in crate::scene) struct RawMotion {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawRamp {
+pub(crate) struct RawRamp {
     pub from_rpm: Number,
     pub to_rpm: Number,
     pub duration_s: Number,
@@ -96,7 +96,7 @@ pub(in crate::scene) struct RawRamp {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(in crate::scene) struct RawSweep {
+pub(crate) struct RawSweep {
     pub from_rpm: Number,
     pub to_rpm: Number,
     pub speeds: Whole,

@@ -4,15 +4,15 @@ use toml::Spanned;
 
 use super::raw::{Matrix, RawDrive, RawLoad};
 use super::{DriveBy, DriveScene, TorqueScene};
-use crate::scene::raw::Number;
-use crate::scene::source::Source;
-use crate::scene::{Model, SceneError, schema};
+use crate::raw::Number;
+use crate::source::Source;
+use crate::{Model, SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
 /// What drives the driver of a model. Flanks of elastic gears turn both gears freely unless the scene holds the driver; the others prescribe its speed, or know no difference.
-pub(in crate::scene) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
+pub(crate) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
     let mut words = [("torque", DriveBy::Torque), ("speed", DriveBy::Speed)];
     if !model.is_reduced() {
         words.reverse();
@@ -30,7 +30,7 @@ pub(in crate::scene) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> C
     }
 }
 
-pub(in crate::scene) fn load(s: &Source<'_>, raw: &RawLoad) -> Checked<TorqueScene> {
+pub(crate) fn load(s: &Source<'_>, raw: &RawLoad) -> Checked<TorqueScene> {
     torque(s, [&None, &raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)
 }
 

@@ -54,14 +54,13 @@ const GEAR_KEYS: &[Key] = &[
 ];
 
 /// `[pinion]`
-pub(in crate::scene) static GEAR: Table =
-    Table { about: "gear 1", keys: GEAR_KEYS, needed: &["teeth", "helix_angle_deg"] };
+pub(crate) static GEAR: Table = Table { about: "gear 1", keys: GEAR_KEYS, needed: &["teeth", "helix_angle_deg"] };
 
 /// `[wheel]`
 pub(super) static WHEEL: Table = Table { about: "gear 2", keys: GEAR_KEYS, needed: &["teeth"] };
 
 /// `[pinion.mesher]`
-pub(in crate::scene) static MESHER: Table = keys(
+pub(crate) static MESHER: Table = keys(
     "the built-in structured mesher",
     &[
         whole("order", 1, 2, 2, "1: hex8, 2: hex20"),
@@ -98,7 +97,7 @@ static GROUPS: Table = keys(
 );
 
 /// `[material]`; a gear's own table takes its defaults from this one.
-pub(in crate::scene) static MATERIAL: Table = keys(
+pub(crate) static MATERIAL: Table = keys(
     "linear elastic material",
     &[
         number("young_mpa", 1.0, 1e7, 2.06e5, "Young's modulus, MPa"),
@@ -157,7 +156,7 @@ macro_rules! flank_keys {
 }
 
 /// `[pinion.modification]`
-pub(in crate::scene) static MODIFICATION: Table = keys(
+pub(crate) static MODIFICATION: Table = keys(
     "micro-geometry of both flanks of every tooth: material removed, normal to the flank",
     flank_keys![table("drive", &DRIVE_FLANK), table("coast", &COAST_FLANK)],
 );

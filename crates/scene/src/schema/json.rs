@@ -7,7 +7,7 @@ use super::{Key, Kind, SCENE, Table};
 /// The schema of the scene file.
 ///
 /// ```
-/// let schema = ale_gear::scene::json_schema();
+/// let schema = scene::json_schema();
 /// assert_eq!(schema["properties"]["operation"]["properties"]["torque_nm"]["minimum"], 0.0);
 /// ```
 pub fn json_schema() -> Value {

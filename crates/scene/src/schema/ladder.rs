@@ -5,7 +5,7 @@ use super::{Key, Table, bare, bare_word, keys, list, number, numbers, rows, word
 const INF: f64 = f64::INFINITY;
 
 /// `[mesh]`
-pub(in crate::scene) static MESH: Table = keys(
+pub(crate) static MESH: Table = keys(
     "mesh of a model that has a stiffness instead of flanks (lumped8, lumped12, shaft18)",
     &[
         bare_word(
@@ -29,7 +29,7 @@ pub(in crate::scene) static MESH: Table = keys(
 );
 
 /// `[lumped8]`
-pub(in crate::scene) static LUMPED8: Table = keys(
+pub(crate) static LUMPED8: Table = keys(
     "the model with eight coordinates",
     &[
         word("law", &["normal", "projected"], "one spring along the normal, or two with projected stiffness"),
@@ -39,7 +39,7 @@ pub(in crate::scene) static LUMPED8: Table = keys(
 );
 
 /// `[lumped12]`
-pub(in crate::scene) static LUMPED12: Table = keys(
+pub(crate) static LUMPED12: Table = keys(
     "the model with twelve coordinates",
     &[
         bare(
@@ -55,7 +55,7 @@ pub(in crate::scene) static LUMPED12: Table = keys(
 );
 
 /// `[impact]`
-pub(in crate::scene) static IMPACT: Table = keys(
+pub(crate) static IMPACT: Table = keys(
     "rigid gears on true flanks, force by overlap",
     &[
         bare(
@@ -75,7 +75,7 @@ pub(in crate::scene) static IMPACT: Table = keys(
 );
 
 /// `[shaft18]`
-pub(in crate::scene) static SHAFT18: Table = keys(
+pub(crate) static SHAFT18: Table = keys(
     "both shafts of the model of shafts",
     &[
         number("mass_damping_per_s", 0.0, 1e9, 20.0, "damping in proportion to mass, 1/s"),
@@ -85,7 +85,7 @@ pub(in crate::scene) static SHAFT18: Table = keys(
 );
 
 /// `[pinion.shaft]`
-pub(in crate::scene) static SHAFT: Table = Table {
+pub(crate) static SHAFT: Table = Table {
     about: "the shaft the gear sits on (model shaft18); places are mm from the beginning of its first segment",
     keys: &[
         rows("segments_mm", 3, "length, outer and inner diameter of each segment, mm"),
@@ -101,7 +101,7 @@ pub(in crate::scene) static SHAFT: Table = Table {
 };
 
 /// `[[pinion.shaft.discs]]`
-pub(in crate::scene) static DISC: Table = Table {
+pub(crate) static DISC: Table = Table {
     about: "couplings and wheels on the shaft",
     keys: &[
         bare("at_mm", 0.0, INF, "place, mm"),
@@ -118,7 +118,7 @@ const fn of(name: &'static str, about: &'static str) -> Key {
 }
 
 /// `[[pinion.shaft.supports]]`
-pub(in crate::scene) static SUPPORT: Table = Table {
+pub(crate) static SUPPORT: Table = Table {
     about: "bearings of the shaft; what is 0 does not hold",
     keys: &[
         bare("at_mm", 0.0, INF, "place, mm"),

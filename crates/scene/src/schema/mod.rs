@@ -167,14 +167,14 @@ pub fn all_keys() -> Vec<String> {
 }
 
 /// What a key of the scene says, of several of one name the first.
-pub(in crate::scene) fn meaning(name: &str) -> Option<&'static str> {
+pub(crate) fn meaning(name: &str) -> Option<&'static str> {
     let mut found = None;
     walk("", &SCENE, &mut |_, table| found = found.or(table.about(name)));
     found
 }
 
 /// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.
-pub(in crate::scene) fn tables() -> Vec<(String, Vec<&'static str>)> {
+pub(crate) fn tables() -> Vec<(String, Vec<&'static str>)> {
     let mut all = Vec::new();
     walk("", &SCENE, &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
     all
@@ -198,7 +198,7 @@ mod tests {
     use mesh::StructuredOptions;
 
     use super::*;
-    use crate::scene::Scene;
+    use crate::Scene;
 
     /// A scene of which every table has what it needs, with `line` in `table`.
     fn scene_with(table: &str, line: &str) -> String {
@@ -235,7 +235,7 @@ mod tests {
     fn the_tables_are_the_words_that_are_read() {
         for (path, table) in every_table() {
             let text = scene_with(&path, "zzz_unknown = 1");
-            let error = toml::from_str::<crate::scene::raw::RawScene>(&text).expect_err(&text);
+            let error = toml::from_str::<crate::raw::RawScene>(&text).expect_err(&text);
             let said = error.message().to_owned();
             let rest = said.strip_prefix("unknown field `zzz_unknown`").unwrap_or_else(|| panic!("[{path}]: {said}"));
             let mut known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();

@@ -3,7 +3,7 @@
 use super::{Key, Table, bare, bare_word, keys, number, rows, switch, table, whole, word, words};
 
 /// `[pinion.body]`
-pub(in crate::scene) static BODY: Table = keys(
+pub(crate) static BODY: Table = keys(
     "rigid body of the gear (analyses in time)",
     &[
         bare("mass_kg", 1e-9, 1e9, "mass, kg; default: of the mesh"),
@@ -28,7 +28,7 @@ const fn damper(name: &'static str, about: &'static str) -> Key {
 }
 
 /// `[pinion.bearing]`
-pub(in crate::scene) static BEARING: Table = keys(
+pub(crate) static BEARING: Table = keys(
     "what holds the gear's centre (analyses in time)",
     &[
         spring("stiffness_x_n_per_mm", "stiffness along the line of centres, N/mm"),
@@ -62,7 +62,7 @@ const PHASE: Key = number("phase_deg", -360.0, 360.0, 0.0, "phase of its cosine 
 const TABLE: Key = rows("table_s_nm", 2, "in place of the others: rows of time, s, ascending, and torque, N m");
 
 /// `[drive]`
-pub(in crate::scene) static DRIVE: Table = keys(
+pub(crate) static DRIVE: Table = keys(
     "what drives the driver (analyses in time)",
     &[
         bare_word(
@@ -88,7 +88,7 @@ pub(super) static LOAD: Table =
     keys("torque on the driven gear beside its mean (analyses in time)", &[AMPLITUDE, FREQUENCY, PHASE, TABLE]);
 
 /// `[modes]`
-pub(in crate::scene) static MODES: Table = keys(
+pub(crate) static MODES: Table = keys(
     "which normal modes of the gears move (model reduced+modes)",
     &[
         whole("count", 1, 1000, 12, "the lowest so many modes of each gear"),
@@ -100,7 +100,7 @@ pub(in crate::scene) static MODES: Table = keys(
 );
 
 /// `[motion]`
-pub(in crate::scene) static MOTION: Table = keys(
+pub(crate) static MOTION: Table = keys(
     "integration and analysis in time",
     &[
         word("run", &["steady", "shooting", "span", "ramp", "sweep"], "what is run"),
@@ -151,7 +151,7 @@ pub(in crate::scene) static MOTION: Table = keys(
 );
 
 /// `[motion.ramp]`
-pub(in crate::scene) static RAMP: Table = Table {
+pub(crate) static RAMP: Table = Table {
     about: "run-up or run-down: the driver's speed changes by a smooth step",
     keys: &[
         bare("from_rpm", 0.0, 1e7, "speed at first, 1/min; 0: from rest"),
@@ -165,7 +165,7 @@ pub(in crate::scene) static RAMP: Table = Table {
 };
 
 /// `[motion.sweep]`
-pub(in crate::scene) static SWEEP: Table = Table {
+pub(crate) static SWEEP: Table = Table {
     about: "steady states at many speeds of the driver",
     keys: &[
         bare("from_rpm", 1e-3, 1e7, "lowest speed, 1/min"),

@@ -8,7 +8,7 @@ use super::{Key, Table, bare, bare_whole, bare_word, keys, number, switch, table
 const INF: f64 = f64::INFINITY;
 
 /// The whole file.
-pub(in crate::scene) static SCENE: Table = Table {
+pub(crate) static SCENE: Table = Table {
     about: "A scene of ale-gear: a pair of helical gears, its load, and what is computed. Every key has its unit in its name",
     keys: &[
         text("name", "title of the case; default: the file's name"),
@@ -34,7 +34,7 @@ pub(in crate::scene) static SCENE: Table = Table {
 };
 
 /// `[pair]`
-pub(in crate::scene) static PAIR: Table = Table {
+pub(crate) static PAIR: Table = Table {
     about: "what both gears share",
     keys: &[
         bare("normal_module_mm", 0.01, 200.0, "normal module, mm"),
@@ -83,7 +83,7 @@ const MISALIGNED: &[Key] = &[
 static MISALIGNMENT: Table = keys("deviation of the wheel's axis; each at most 10 um a mm of face width", MISALIGNED);
 
 /// `[operation]`
-pub(in crate::scene) static OPERATION: Table = Table {
+pub(crate) static OPERATION: Table = Table {
     about: "load and motion",
     keys: &[
         word("driver", &["pinion", "wheel"], "the gear that drives"),
@@ -100,7 +100,7 @@ pub(in crate::scene) static OPERATION: Table = Table {
 };
 
 /// `[contact]`
-pub(in crate::scene) static CONTACT: Table = keys(
+pub(crate) static CONTACT: Table = keys(
     "how flanks press on each other",
     &[
         word(
@@ -133,7 +133,7 @@ pub(in crate::scene) static CONTACT: Table = keys(
 );
 
 /// `[analysis]`
-pub(in crate::scene) static ANALYSIS: Table = keys(
+pub(crate) static ANALYSIS: Table = keys(
     "what is computed",
     &[
         bare_word(
@@ -163,7 +163,7 @@ pub(in crate::scene) static ANALYSIS: Table = keys(
 );
 
 /// `[output]`
-pub(in crate::scene) static OUTPUT: Table = keys(
+pub(crate) static OUTPUT: Table = keys(
     "what is computed and written on request",
     &[
         switch("root_stress", false, "stress in the root fillets at every position"),
