@@ -136,6 +136,12 @@ pub enum SceneError {
         /// What is wrong with it.
         what: String,
     },
+    /// What a scene made in code sets is no key.
+    #[error("`{key}` is no key")]
+    NoKey {
+        /// As the program says it.
+        key: String,
+    },
     /// Two keys that do not go together, or a value against the rest of the scene.
     #[error("{place}: {what}")]
     Conflict {
@@ -172,7 +178,11 @@ impl SceneError {
     /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
     pub fn excerpt(&self) -> Option<&str> {
         match self {
-            Self::Read { .. } | Self::Missing { .. } | Self::Setting { .. } | Self::DataFile(_) => None,
+            Self::Read { .. }
+            | Self::Missing { .. }
+            | Self::Setting { .. }
+            | Self::NoKey { .. }
+            | Self::DataFile(_) => None,
             Self::Geometry { place, .. } => place.as_ref()?.excerpt(),
             Self::Syntax { place, .. }
             | Self::UnknownKey { place, .. }
@@ -201,6 +211,7 @@ impl SceneError {
             Self::Setting { .. } => Some(
                 "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value".into(),
             ),
+            Self::NoKey { .. } => Some("tables and key with dots between them, as `operation.torque_nm`".into()),
             Self::NotYet { instead, .. } => Some(instead.clone()),
             Self::Geometry { source, .. } => source.hint(),
             Self::DataFile(error) => error.hint(),

@@ -5,6 +5,7 @@
 //! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
 
 mod analysis;
+mod builder;
 mod check;
 mod contact;
 mod error;
@@ -34,6 +35,7 @@ use geometry::Side;
 use serde::Serialize;
 
 pub use analysis::{Analysis, Kind, Model, Reduction};
+pub use builder::{SceneBuilder, Value};
 pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use error::{Line, Place, SceneError};
 pub use gear::{GearScene, Material, MesherScene, PairScene};

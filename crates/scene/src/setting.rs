@@ -44,6 +44,17 @@ impl Setting {
         Self::labelled(format!("--set {key}"), key, &written)
     }
 
+    /// A key with its value, named by the key in messages.
+    ///
+    /// # Errors
+    /// [`SceneError::NoKey`] where `key` is none.
+    pub(crate) fn of(key: &str, value: &toml::Value) -> Result<Self, SceneError> {
+        match path(key) {
+            None => Err(SceneError::NoKey { key: key.to_owned() }),
+            Some(_) => Ok(Self { label: key.to_owned(), key: key.to_owned(), value: value.to_string() }),
+        }
+    }
+
     /// The same, named otherwise in messages: by a word of its own, as `--torque-nm`.
     pub fn called(self, label: &str) -> Self {
         Self { label: label.to_owned(), ..self }
