@@ -26,47 +26,46 @@ pub struct Analysis {
     pub window_teeth: Option<u32>,
 }
 
-/// Which way gears are condensed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Reduction {
-    /// One sector where the gear is cyclic, else the whole gear.
-    Auto,
-    /// The whole gear in one factor.
-    General,
+choices! {
+    /// Which way gears are condensed.
+    pub enum Reduction {
+        /// One sector where the gear is cyclic, else the whole gear.
+        Auto = "auto",
+        /// The whole gear in one factor.
+        General = "general",
+    }
 }
 
-/// Quasi-static or in time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// Equilibrium at every position.
-    Static,
-    /// Motion in time.
-    Dynamic,
+choices! {
+    /// Quasi-static or in time.
+    pub enum Kind {
+        /// Equilibrium at every position.
+        Static = "static",
+        /// Motion in time.
+        Dynamic = "dynamic",
+    }
 }
 
-/// A model of the pair.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Model {
-    /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
-    Iso,
-    /// Flanks of the tooth window.
-    Reduced,
-    /// The same with normal modes of both gears, in time.
-    #[serde(rename = "reduced+modes")]
-    ReducedModes,
-    /// Every degree of freedom of both meshes.
-    Full,
-    /// Eight coordinates, mesh stiffness, backlash and friction.
-    Lumped8,
-    /// Twelve coordinates.
-    Lumped12,
-    /// Two lumped shafts with the mesh between them.
-    Shaft18,
-    /// Rigid gears, force by overlap of their true flanks.
-    Impact,
+choices! {
+    /// A model of the pair.
+    pub enum Model {
+        /// Flanks of the tooth window.
+        Reduced = "reduced",
+        /// The same with normal modes of both gears, in time.
+        ReducedModes = "reduced+modes",
+        /// Every degree of freedom of both meshes.
+        Full = "full",
+        /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
+        Iso = "iso",
+        /// Eight coordinates, mesh stiffness, backlash and friction.
+        Lumped8 = "lumped8",
+        /// Twelve coordinates.
+        Lumped12 = "lumped12",
+        /// Two lumped shafts with the mesh between them.
+        Shaft18 = "shaft18",
+        /// Rigid gears, force by overlap of their true flanks.
+        Impact = "impact",
+    }
 }
 
 impl Model {

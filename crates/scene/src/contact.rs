@@ -28,32 +28,32 @@ pub struct ContactScene {
     pub flanks: Flanks,
 }
 
-/// Where the contact unknowns sit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// One line load an axial slice.
-    Slice,
-    /// Quadrature points of the flank mesh.
-    Nodal,
+choices! {
+    /// Where the contact unknowns sit.
+    pub enum Method {
+        /// One line load an axial slice.
+        Slice = "slice",
+        /// Quadrature points of the flank mesh.
+        Nodal = "nodal",
+    }
 }
 
-/// Which surface gives the gaps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Gap {
-    /// The exact involute helicoid.
-    Smooth,
-    /// The faces of the mesh: for showing what facets do to the transmission error, not for engineering.
-    Facet,
+choices! {
+    /// Which surface gives the gaps.
+    pub enum Gap {
+        /// The exact involute helicoid.
+        Smooth = "smooth",
+        /// The faces of the mesh: for showing what facets do to the transmission error, not for engineering.
+        Facet = "facet",
+    }
 }
 
-/// Which flanks may touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Flanks {
-    /// Those that the torque presses together.
-    Driving,
-    /// Both sides.
-    Both,
+choices! {
+    /// Which flanks may touch.
+    pub enum Flanks {
+        /// Those that the torque presses together.
+        Driving = "driving",
+        /// Both sides.
+        Both = "both",
+    }
 }

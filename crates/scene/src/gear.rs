@@ -108,6 +108,13 @@ pub struct PairScene {
     pub misalignment: MisalignmentScene,
 }
 
+impl MisalignmentScene {
+    /// Whether the axes are parallel.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 impl Material {
     /// Density, t/mm^3.
     pub fn density(&self) -> f64 {

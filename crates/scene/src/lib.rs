@@ -4,6 +4,9 @@
 //! typed words as they stand in the file (`raw`), then the checked [`Scene`] with every default filled in.
 //! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
 
+#[macro_use]
+mod macros;
+
 mod analysis;
 mod builder;
 mod check;
@@ -18,7 +21,7 @@ mod input_text;
 mod inputs;
 mod keys;
 mod ladder;
-mod micro;
+mod modification;
 mod motion;
 mod operation;
 mod output;
@@ -42,19 +45,18 @@ pub use gear::{GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
 use inputs::Origin;
 pub use keys::{Tables, nearest};
-pub use ladder::{
-    DiscScene, ImpactScene, Kept, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing,
-    StiffnessFrom, SupportScene,
-};
-pub use micro::{FlankScene, MisalignmentScene, ModificationScene, Shape};
+pub use ladder::{DiscScene, Kept, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing, StiffnessFrom};
+pub use modification::{FlankScene, ModificationScene, Shape};
 pub use motion::{
-    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, RampScene, Run,
-    SteadyBy, SweepScene, SweepWay, TorqueScene,
+    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, Run, SteadyBy,
+    SweepScene, SweepWay, TorqueScene,
 };
-pub use operation::{Driver, Operation, Rotation};
+pub use operation::{Driver, Rotation};
 pub use output::{FieldName, OutputScene};
 pub use raw::{Number, Whole, Word};
-pub use schema::{all_keys, json_schema};
+pub use schema::{
+    ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys, json_schema,
+};
 pub use setting::Setting;
 pub use source::Source;
 pub use written::Written;

@@ -1,38 +1,25 @@
 //! Load and sense of rotation.
 
-use serde::Serialize;
+use crate::Operation;
 
-/// Load and motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Operation {
+choices! {
     /// The gear that drives.
-    pub driver: Driver,
-    /// Sense of rotation of the pinion, seen from +z.
-    pub rotation: Rotation,
-    /// Torque on the driven gear, N m.
-    pub torque_nm: f64,
-    /// Speed of the driver, 1/min.
-    pub speed_rpm: f64,
+    pub enum Driver {
+        /// Gear 1.
+        Pinion = "pinion",
+        /// Gear 2.
+        Wheel = "wheel",
+    }
 }
 
-/// The gear that drives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Driver {
-    /// Gear 1.
-    Pinion,
-    /// Gear 2.
-    Wheel,
-}
-
-/// Sense of rotation seen from +z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Rotation {
-    /// Counter-clockwise.
-    Ccw,
-    /// Clockwise.
-    Cw,
+choices! {
+    /// Sense of rotation seen from +z.
+    pub enum Rotation {
+        /// Counter-clockwise.
+        Ccw = "ccw",
+        /// Clockwise.
+        Cw = "cw",
+    }
 }
 
 impl Rotation {

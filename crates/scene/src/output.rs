@@ -24,14 +24,14 @@ pub struct OutputScene {
     pub vtu_every: u32,
 }
 
-/// A field of the ParaView files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum FieldName {
-    /// Displacement of every node, mm.
-    Displacement,
-    /// Contact pressure at flank nodes, MPa.
-    Pressure,
-    /// Stress tensor and von Mises stress, MPa.
-    Stress,
+choices! {
+    /// A field of the ParaView files.
+    pub enum FieldName {
+        /// Displacement of every node, mm.
+        Displacement = "displacement",
+        /// Contact pressure at flank nodes, MPa.
+        Pressure = "pressure",
+        /// Stress tensor and von Mises stress, MPa.
+        Stress = "stress",
+    }
 }

@@ -11,8 +11,8 @@ use super::excerpt::excerpt;
 use super::hints;
 use super::inputs::Origin;
 use super::keys::{self, Tables};
-use super::raw::{Number, Whole, Word};
-use super::schema::{self, Table};
+use super::raw::{Number, Switch, Whole, Word, Words};
+use super::schema::{self, Choice, Table};
 use super::setting::Setting;
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
@@ -150,14 +150,26 @@ impl Source<'_> {
 
     /// The number of a key, within the range of its table, or the table's default; 0 where it has none.
     pub(crate) fn number_of(&self, table: &Table, key: &str, value: &Number) -> Result<f64, SceneError> {
+        self.number_up_to(table, key, value, f64::INFINITY)
+    }
+
+    /// The same of a range whose infinite ends are `end`, which depends on the rest of the scene.
+    pub(crate) fn number_up_to(&self, table: &Table, key: &str, value: &Number, end: f64) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
+        let finite = |x: f64| if x.is_finite() { x } else { end.copysign(x) };
         let about = table.about(key).or(schema::meaning(key));
-        self.within(key, value, default.unwrap_or(0.0), [low, high], about)
+        self.within(key, value, default.unwrap_or(0.0), [finite(low), finite(high)], about)
     }
 
     /// The same where it is written, else nothing.
-    pub(crate) fn optional_of(&self, table: &Table, key: &str, value: &Number) -> Result<Option<f64>, SceneError> {
-        value.as_ref().map(|_| self.number_of(table, key, value)).transpose()
+    pub(crate) fn optional_up_to(
+        &self,
+        table: &Table,
+        key: &str,
+        value: &Number,
+        end: f64,
+    ) -> Result<Option<f64>, SceneError> {
+        value.as_ref().map(|_| self.number_up_to(table, key, value, end)).transpose()
     }
 
     /// The whole number of a key, within the range of its table, or the table's default.
@@ -172,6 +184,28 @@ impl Source<'_> {
             None => Ok(choices[0].1),
             Some(word) => self.one_of(key, word, choices),
         }
+    }
+
+    /// The choice that the word of `key` stands for; the first one where none is written.
+    pub(crate) fn choice_of<T: Choice>(&self, key: &str, value: &Word) -> Result<T, SceneError> {
+        self.choice(key, value, T::CHOICES)
+    }
+
+    /// The choice that a word stands for.
+    pub(crate) fn meaning_of<T: Choice>(&self, key: &str, word: &Spanned<String>) -> Result<T, SceneError> {
+        self.one_of(key, word, T::CHOICES)
+    }
+
+    /// The choices of a list of words in the order of the list, each once.
+    pub(crate) fn choices_of<T: Choice + PartialEq>(&self, key: &str, words: &Words) -> Result<Vec<T>, SceneError> {
+        let mut all = Vec::new();
+        for word in words.iter().flatten() {
+            let choice = self.meaning_of(key, word)?;
+            if !all.contains(&choice) {
+                all.push(choice);
+            }
+        }
+        Ok(all)
     }
 
     /// The meaning of a word.
@@ -207,5 +241,41 @@ impl Source<'_> {
             advice: Some(hints::of_range(key, &allowed, about)),
             allowed,
         }
+    }
+}
+
+/// What is written behind a key that has a range and a default of its own.
+pub(crate) trait Entry {
+    /// What it is when it is checked.
+    type Value;
+
+    /// The value within the range of its row, or the row's default.
+    fn value(&self, s: &Source<'_>, table: &Table, key: &str) -> Result<Self::Value, SceneError>;
+}
+
+impl Entry for Number {
+    type Value = f64;
+
+    fn value(&self, s: &Source<'_>, table: &Table, key: &str) -> Result<f64, SceneError> {
+        s.number_of(table, key, self)
+    }
+}
+
+impl Entry for Whole {
+    type Value = u32;
+
+    fn value(&self, s: &Source<'_>, table: &Table, key: &str) -> Result<u32, SceneError> {
+        s.whole_of(table, key, self)
+    }
+}
+
+impl Entry for Switch {
+    type Value = bool;
+
+    fn value(&self, _: &Source<'_>, table: &Table, key: &str) -> Result<bool, SceneError> {
+        Ok(match self {
+            Some(written) => *written.get_ref(),
+            None => table.switch(key),
+        })
     }
 }

@@ -6,10 +6,11 @@ use geometry::GearData;
 use mesh::{GroupNames, Mesh};
 
 use super::Checked;
+use super::pitch_errors::pitch_errors;
 use crate::{
-    GearScene, Material, MesherScene, PairScene, inputs, micro,
-    raw::{RawGear, RawGroups, RawMaterial, RawMesher, RawPair, Word},
-    schema,
+    GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
+    raw::Word,
+    schema::{MATERIAL, MESHER, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
     source::Source,
 };
 
@@ -18,13 +19,13 @@ const BORE_RATIO: f64 = 0.55;
 
 /// What a gear is of where nothing is said.
 pub(super) fn steel() -> Material {
-    let of = |key| schema::MATERIAL.number(key).2.unwrap_or(0.0);
+    let of = |key| MATERIAL.number(key).2.unwrap_or(0.0);
     Material { young_mpa: of("young_mpa"), poisson: of("poisson"), density_kg_m3: of("density_kg_m3") }
 }
 
 pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
     let or = |key, value, default| {
-        let (low, high, _) = schema::MATERIAL.number(key);
+        let (low, high, _) = MATERIAL.number(key);
         s.number(key, value, default, low, high)
     };
     Ok(Material {
@@ -35,22 +36,22 @@ pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> 
 }
 
 pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
-    let face_width_mm = s.number_of(&schema::PAIR, "face_width_mm", &raw.face_width_mm)?;
+    let face_width_mm = value!(s, PAIR, raw.face_width_mm)?;
     let mut pair = PairScene {
-        normal_module_mm: s.number_of(&schema::PAIR, "normal_module_mm", &raw.normal_module_mm)?,
-        normal_pressure_angle_deg: s.number_of(
-            &schema::PAIR,
-            "normal_pressure_angle_deg",
-            &raw.normal_pressure_angle_deg,
-        )?,
+        normal_module_mm: value!(s, PAIR, raw.normal_module_mm)?,
+        normal_pressure_angle_deg: value!(s, PAIR, raw.normal_pressure_angle_deg)?,
         face_width_mm,
-        centre_distance_mm: s.optional_of(&schema::PAIR, "centre_distance_mm", &raw.centre_distance_mm)?,
-        addendum_coefficient: s.number_of(&schema::PAIR, "addendum_coefficient", &raw.addendum_coefficient)?,
-        dedendum_coefficient: s.number_of(&schema::PAIR, "dedendum_coefficient", &raw.dedendum_coefficient)?,
-        root_radius_coefficient: s.number_of(&schema::PAIR, "root_radius_coefficient", &raw.root_radius_coefficient)?,
+        centre_distance_mm: optional!(s, PAIR, raw.centre_distance_mm)?,
+        addendum_coefficient: value!(s, PAIR, raw.addendum_coefficient)?,
+        dedendum_coefficient: value!(s, PAIR, raw.dedendum_coefficient)?,
+        root_radius_coefficient: value!(s, PAIR, raw.root_radius_coefficient)?,
         misalignment: match &raw.misalignment {
             None => Default::default(),
-            Some(table) => micro::misalignment(s, table.get_ref(), face_width_mm)?,
+            Some(table) =>
+            // Each at most 0.01 rad: more than that is no misalignment but another gear drive.
+            {
+                MisalignmentScene::read(s, table.get_ref(), 10.0 * face_width_mm)?
+            }
         },
     };
     if raw.root_radius_coefficient.is_none() {
@@ -94,9 +95,9 @@ pub(super) fn gear(
     shared: Material,
     face_elements: impl Fn(u32) -> u32,
 ) -> Checked<GearScene> {
-    let teeth = s.whole_of(&schema::GEAR, "teeth", &raw.teeth)?;
+    let teeth = value!(s, GEAR, raw.teeth)?;
     let helix_angle_deg = match hand {
-        Hand::Own => s.number_of(&schema::GEAR, "helix_angle_deg", &raw.helix_angle_deg)?,
+        Hand::Own => value!(s, GEAR, raw.helix_angle_deg)?,
         Hand::Against(other) => against(s, raw, other)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
@@ -113,7 +114,7 @@ pub(super) fn gear(
         }
         _ => None,
     };
-    let (pitch_errors_um, pitch_errors_file) = micro::pitch_errors(s, raw, teeth)?;
+    let (pitch_errors_um, pitch_errors_file) = pitch_errors(s, raw, teeth)?;
     Ok(GearScene {
         teeth,
         helix_angle_deg,
@@ -124,7 +125,7 @@ pub(super) fn gear(
             1e-3,
             bore_limit,
         )?,
-        profile_shift: s.number_of(&schema::GEAR, "profile_shift", &raw.profile_shift)?,
+        profile_shift: value!(s, GEAR, raw.profile_shift)?,
         tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,
@@ -147,7 +148,7 @@ pub(super) fn gear(
         material: material(s, &raw.material, shared)?,
         modification: match &raw.modification {
             None => Default::default(),
-            Some(table) => micro::modification(s, table.get_ref(), pair.face_width_mm)?,
+            Some(table) => ModificationScene::read(s, table.get_ref(), pair.face_width_mm)?,
         },
         body: None,
         bearing: Default::default(),
@@ -198,15 +199,15 @@ fn mesher_options(
     teeth: u32,
     face_elements: impl Fn(u32) -> u32,
 ) -> Checked<MesherScene> {
-    let order = s.whole_of(&schema::MESHER, "order", &raw.order)?;
-    let (least, most, _) = schema::MESHER.whole("elements_face");
+    let order = value!(s, MESHER, raw.order)?;
+    let (least, most, _) = MESHER.whole("elements_face");
     Ok(MesherScene {
         order,
-        elements_profile: s.whole_of(&schema::MESHER, "elements_profile", &raw.elements_profile)?,
-        elements_fillet: s.whole_of(&schema::MESHER, "elements_fillet", &raw.elements_fillet)?,
-        elements_thickness: s.whole_of(&schema::MESHER, "elements_thickness", &raw.elements_thickness)?,
+        elements_profile: value!(s, MESHER, raw.elements_profile)?,
+        elements_fillet: value!(s, MESHER, raw.elements_fillet)?,
+        elements_thickness: value!(s, MESHER, raw.elements_thickness)?,
         elements_face: s.whole("elements_face", &raw.elements_face, face_elements(order), least, most)?,
-        elements_rim: s.whole_of(&schema::MESHER, "elements_rim", &raw.elements_rim)?,
+        elements_rim: value!(s, MESHER, raw.elements_rim)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })
 }

@@ -2,10 +2,11 @@
 
 mod gear;
 mod motion;
+mod pitch_errors;
 mod tables;
 mod together;
 
-use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, raw::RawScene, source::Source};
+use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, schema::RawScene, source::Source};
 use gear::{Hand, gear, material, pair, steel};
 use motion::{belongs_to_motion, bodies, drive, in_time, load, normal_modes, shaft};
 use tables::{analysis, contact, operation, output};
@@ -41,7 +42,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
-        name: raw.name.clone().unwrap_or_else(|| default_name(source)),
+        name: raw.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| default_name(source)),
         file: source.file.to_owned(),
         written: Written::new(source),
         set: Vec::new(),

@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::Checked;
 use crate::{
     DriveScene, GearScene, Model, ModesScene, MotionScene, ShaftScene, TorqueScene, ladder, motion,
-    raw::{RawGear, RawScene},
+    schema::{RawGear, RawScene},
     source::Source,
 };
 

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Checked;
-use crate::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, raw::RawScene, source::Source};
+use crate::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
 
 /// What can only be judged with the whole scene in view.
 pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::check::Torques;
 use super::{Rung, StiffnessFrom};
-use crate::raw::{RawGear, RawScene};
+use crate::schema::{RawGear, RawScene};
 use crate::source::Source;
 use crate::{BodyScene, DriveBy, Model, Run, Scene, SceneError, SteadyBy};
 

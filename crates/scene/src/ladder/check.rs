@@ -1,9 +1,10 @@
 //! From the words of the tables on the cheaper models to what they mean.
 
-use super::raw::{List, RawLumped8, RawLumped12, RawMesh};
-use super::{Law, Lumped8Scene, Lumped12Scene, MeshScene, Sharing, StiffnessFrom};
+use super::{Lumped8Scene, MeshScene, StiffnessFrom};
+use crate::raw::Numbers;
+use crate::schema::{RawLumped8, RawLumped12, RawMesh};
 use crate::source::Source;
-use crate::{Axis, Model, SceneError, schema};
+use crate::{Axis, Lumped12Scene, Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -88,15 +89,16 @@ impl Rung {
 }
 
 /// Finite numbers, `ORDERS` at most.
-pub(super) fn list(s: &Source<'_>, key: &str, raw: &List) -> Checked<Vec<f64>> {
+pub(super) fn list(s: &Source<'_>, key: &str, raw: &Numbers) -> Checked<Vec<f64>> {
     let Some(values) = raw else { return Ok(Vec::new()) };
     let wrong = |what: String| s.conflict(&values.span(), what, "a short list of numbers, as in [0.2, 0.05]");
     if values.get_ref().len() > ORDERS {
         return Err(wrong(format!("`{key}` has {} numbers, more than {ORDERS}", values.get_ref().len())));
     }
-    match values.get_ref().iter().find(|x| !(-1e9..=1e9).contains(*x)) {
+    let numbers: Vec<f64> = values.get_ref().iter().map(|x| *x.get_ref()).collect();
+    match numbers.iter().find(|x| !(-1e9..=1e9).contains(*x)) {
         Some(x) => Err(wrong(format!("`{key}` holds {x}, allowed is -1e9 .. 1e9"))),
-        None => Ok(values.get_ref().clone()),
+        None => Ok(numbers),
     }
 }
 
@@ -105,11 +107,7 @@ pub(crate) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshSce
     let given = raw.stiffness_n_per_um.is_some();
     let from = match &raw.stiffness_from {
         None if given => StiffnessFrom::Series,
-        word => s.choice(
-            "stiffness_from",
-            word,
-            &[("reduced", StiffnessFrom::Reduced), ("series", StiffnessFrom::Series), ("iso", StiffnessFrom::Iso)],
-        )?,
+        _ => choice!(s, raw.stiffness_from)?,
     };
     let series = from == StiffnessFrom::Series;
     if let (true, false, Some(word)) = (series, given, &raw.stiffness_from) {
@@ -143,16 +141,15 @@ pub(crate) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshSce
         let what = format!("`line_sharing` means nothing to the model \"{}\", which has no friction", rung.name);
         return Err(s.conflict(&word.span(), what, "leave it out"));
     }
-    let sharing =
-        s.choice("line_sharing", &raw.line_sharing, &[("length", Sharing::Length), ("line", Sharing::Line)])?;
+    let sharing = choice!(s, raw.line_sharing)?;
     Ok(MeshScene {
         stiffness_from: from,
-        stiffness_n_per_um: s.optional_of(&schema::MESH, "stiffness_n_per_um", &raw.stiffness_n_per_um)?,
+        stiffness_n_per_um: optional!(s, MESH, raw.stiffness_n_per_um)?,
         stiffness_cos_n_per_um: list(s, "stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um)?,
         stiffness_sin_n_per_um: list(s, "stiffness_sin_n_per_um", &raw.stiffness_sin_n_per_um)?,
         error_cos_um: list(s, "error_cos_um", &raw.error_cos_um)?,
         error_sin_um: list(s, "error_sin_um", &raw.error_sin_um)?,
-        half_backlash_um: s.optional_of(&schema::MESH, "half_backlash_um", &raw.half_backlash_um)?,
+        half_backlash_um: optional!(s, MESH, raw.half_backlash_um)?,
         line_sharing: rung.lines.then_some(sharing),
     })
 }
@@ -162,7 +159,7 @@ pub(crate) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene>
         ("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, "speed_fluctuation_hz"),
         ("speed_fluctuation_hz", &raw.speed_fluctuation_hz, "speed_fluctuation_rpm"),
     ];
-    let fluctuation = s.number_of(&schema::LUMPED8, "speed_fluctuation_rpm", &raw.speed_fluctuation_rpm)?;
+    let fluctuation = value!(s, LUMPED8, raw.speed_fluctuation_rpm)?;
     let swings = fluctuation > 0.0;
     if let Some((key, Some(value), other)) = both.into_iter().find(|(_, v, other)| {
         let gone = both.iter().any(|(k, v, _)| k == other && v.is_none());
@@ -172,19 +169,14 @@ pub(crate) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene>
         return Err(s.conflict(&value.span(), format!("`{key}` without `{other}`"), "give both, or leave both out"));
     }
     Ok(Lumped8Scene {
-        law: s.choice("law", &raw.law, &[("normal", Law::Normal), ("projected", Law::Projected)])?,
+        law: choice!(s, raw.law)?,
         speed_fluctuation_rpm: fluctuation,
-        speed_fluctuation_hz: s.optional_of(&schema::LUMPED8, "speed_fluctuation_hz", &raw.speed_fluctuation_hz)?,
+        speed_fluctuation_hz: optional!(s, LUMPED8, raw.speed_fluctuation_hz)?,
     })
 }
 
 pub(crate) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {
-    let made = Lumped12Scene {
-        orientation_deg: s.optional_of(&schema::LUMPED12, "orientation_deg", &raw.orientation_deg)?,
-        damping_ratio: s.number_of(&schema::LUMPED12, "damping_ratio", &raw.damping_ratio)?,
-        damping_from_hz: s.number_of(&schema::LUMPED12, "damping_from_hz", &raw.damping_from_hz)?,
-        damping_to_hz: s.number_of(&schema::LUMPED12, "damping_to_hz", &raw.damping_to_hz)?,
-    };
+    let made = Lumped12Scene::read(s, raw, f64::INFINITY)?;
     match (&raw.damping_to_hz, &raw.damping_from_hz) {
         (Some(at), _) | (None, Some(at)) if made.damping_to_hz <= made.damping_from_hz => {
             let what = format!(

@@ -3,7 +3,6 @@
 mod belongs;
 mod check;
 mod impact;
-mod raw;
 mod shaft;
 mod words;
 
@@ -11,10 +10,10 @@ use serde::Serialize;
 
 pub(super) use belongs::{in_time, moves, tables};
 pub(super) use check::Rung;
-pub(super) use raw::{RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft, RawShaft18};
 pub(super) use shaft::shaft;
 pub(super) use words::{Words, words};
 
+use crate::SupportScene;
 use check::{lumped8, lumped12, mesh};
 use impact::impact;
 use shaft::shaft18;
@@ -47,26 +46,26 @@ pub struct MeshScene {
     pub line_sharing: Option<Sharing>,
 }
 
-/// Where the stiffness over the mesh cycle comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum StiffnessFrom {
-    /// The series in the scene.
-    Series,
-    /// The quasi-static cycle of the reduced model of the same scene, its error with it.
-    Reduced,
-    /// ISO 6336-1's mean, in proportion to the length of the contact lines.
-    Iso,
+choices! {
+    /// Where the stiffness over the mesh cycle comes from.
+    pub enum StiffnessFrom {
+        /// The quasi-static cycle of the reduced model of the same scene, its error with it.
+        Reduced = "reduced",
+        /// The series in the scene.
+        Series = "series",
+        /// ISO 6336-1's mean, in proportion to the length of the contact lines.
+        Iso = "iso",
+    }
 }
 
-/// How friction weighs the contact lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Sharing {
-    /// By their length.
-    Length,
-    /// Every line alike.
-    Line,
+choices! {
+    /// How friction weighs the contact lines.
+    pub enum Sharing {
+        /// By their length.
+        Length = "length",
+        /// Every line alike.
+        Line = "line",
+    }
 }
 
 /// The model with eight coordinates.
@@ -81,50 +80,14 @@ pub struct Lumped8Scene {
     pub speed_fluctuation_hz: Option<f64>,
 }
 
-/// How mesh stiffness becomes transverse and axial force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Law {
-    /// One spring along the normal.
-    Normal,
-    /// Two with projected stiffness, as seed 004 prints.
-    Projected,
-}
-
-/// The model with twelve coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Lumped12Scene {
-    /// Direction from the driver's centre to the driven gear's, degrees from +x; `None`: as the pair stands.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub orientation_deg: Option<f64>,
-    /// Ratio of Rayleigh's damping at two frequencies.
-    pub damping_ratio: f64,
-    /// The lower.
-    pub damping_from_hz: f64,
-    /// The higher.
-    pub damping_to_hz: f64,
-}
-
-/// Rigid gears, force by overlap.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ImpactScene {
-    /// K of a pair that touches over its whole face width, N/mm^e; `None`: by the formula for two balls.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_n_per_mm_to_exponent: Option<f64>,
-    /// e.
-    pub exponent: f64,
-    /// C, N s/mm.
-    pub damping_ns_per_mm: f64,
-    /// Overlap from which damping is whole, mm.
-    pub damping_depth_mm: f64,
-    /// Coefficient of friction at `static_speed_mm_per_s`.
-    pub static_friction: f64,
-    /// The same from `dynamic_speed_mm_per_s` on; both 0: no friction.
-    pub dynamic_friction: f64,
-    /// Sliding speed up to which flanks creep, mm/s.
-    pub static_speed_mm_per_s: f64,
-    /// Sliding speed from which on they slip, mm/s.
-    pub dynamic_speed_mm_per_s: f64,
+choices! {
+    /// How mesh stiffness becomes transverse and axial force.
+    pub enum Law {
+        /// One spring along the normal.
+        Normal = "normal",
+        /// Two with projected stiffness, as seed 004 prints.
+        Projected = "projected",
+    }
 }
 
 /// Both shafts of the model of shafts.
@@ -177,41 +140,22 @@ pub struct DiscScene {
     pub keeps: Vec<Kept>,
 }
 
-/// A coordinate of a station on a shaft.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kept {
-    /// Along x.
-    X,
-    /// Along y.
-    Y,
-    /// Along the axis.
-    Z,
-    /// Tilt about x.
-    Rx,
-    /// Tilt about y.
-    Ry,
-    /// Turn about the axis.
-    Rz,
-}
-
-/// A bearing on a shaft; what is 0 does not hold.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the keys say direction and unit
-pub struct SupportScene {
-    pub at_mm: f64,
-    pub stiffness_x_n_per_mm: f64,
-    pub stiffness_y_n_per_mm: f64,
-    pub stiffness_z_n_per_mm: f64,
-    pub stiffness_rx_nmm_per_rad: f64,
-    pub stiffness_ry_nmm_per_rad: f64,
-    pub stiffness_rz_nmm_per_rad: f64,
-    pub damping_x_ns_per_mm: f64,
-    pub damping_y_ns_per_mm: f64,
-    pub damping_z_ns_per_mm: f64,
-    pub damping_rx_nmms_per_rad: f64,
-    pub damping_ry_nmms_per_rad: f64,
-    pub damping_rz_nmms_per_rad: f64,
+choices! {
+    /// A coordinate of a station on a shaft.
+    pub enum Kept {
+        /// Along x.
+        X = "x",
+        /// Along y.
+        Y = "y",
+        /// Along the axis.
+        Z = "z",
+        /// Tilt about x.
+        Rx = "rx",
+        /// Tilt about y.
+        Ry = "ry",
+        /// Turn about the axis.
+        Rz = "rz",
+    }
 }
 
 impl SupportScene {

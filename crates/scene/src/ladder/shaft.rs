@@ -3,17 +3,14 @@
 use toml::Spanned;
 
 use super::check::list;
-use super::raw::{RawDisc, RawShaft, RawShaft18};
-use super::{DiscScene, Kept, Shaft18Scene, ShaftScene, SupportScene};
-use crate::motion::{Matrix, RawSupport};
-use crate::raw::Number;
+use super::{DiscScene, Kept, Shaft18Scene, ShaftScene};
+use crate::raw::{Number, Rows};
+use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport};
 use crate::source::Source;
-use crate::{SceneError, schema};
+use crate::{SceneError, SupportScene};
 
 type Checked<T> = Result<T, SceneError>;
 
-const KEPT: [(&str, Kept); 6] =
-    [("x", Kept::X), ("y", Kept::Y), ("z", Kept::Z), ("rx", Kept::Rx), ("ry", Kept::Ry), ("rz", Kept::Rz)];
 /// What a disc keeps that says nothing: of a coupled end what its mass moves most.
 const ENDS: [Kept; 3] = [Kept::X, Kept::Y, Kept::Rz];
 
@@ -28,8 +25,8 @@ pub(crate) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene>
         }
     };
     Ok(Shaft18Scene {
-        mass_damping_per_s: s.number_of(&schema::SHAFT18, "mass_damping_per_s", &raw.mass_damping_per_s)?,
-        stiffness_damping_s: s.number_of(&schema::SHAFT18, "stiffness_damping_s", &raw.stiffness_damping_s)?,
+        mass_damping_per_s: value!(s, SHAFT18, raw.mass_damping_per_s)?,
+        stiffness_damping_s: value!(s, SHAFT18, raw.stiffness_damping_s)?,
         gravity_m_per_s2,
     })
 }
@@ -55,14 +52,14 @@ pub(crate) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftS
         gear_at_mm,
         torque_at_mm: s.number("torque_at_mm", &raw.torque_at_mm, gear_at_mm, 0.0, length)?,
         nodes_mm,
-        run_out_um: s.number_of(&schema::SHAFT, "run_out_um", &raw.run_out_um)?,
-        run_out_phase_deg: s.number_of(&schema::SHAFT, "run_out_phase_deg", &raw.run_out_phase_deg)?,
+        run_out_um: value!(s, SHAFT, raw.run_out_um)?,
+        run_out_phase_deg: value!(s, SHAFT, raw.run_out_phase_deg)?,
         discs: raw.discs.iter().map(|d| disc(s, d, length)).collect::<Checked<_>>()?,
         supports: raw.supports.iter().map(|b| support(s, b, length)).collect::<Checked<_>>()?,
     })
 }
 
-fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Matrix) -> Checked<Vec<[f64; 3]>> {
+fn segments(s: &Source<'_>, table: &Spanned<RawShaft>, raw: &Rows) -> Checked<Vec<[f64; 3]>> {
     let advice = "rows of length, outer and inner diameter, as in [[113.8, 38.5, 0.0], [96.6, 25.77, 0.0]]";
     let Some(rows) = raw.as_ref().filter(|rows| !rows.get_ref().is_empty()) else {
         return Err(s.conflict(&table.span(), "a shaft without `segments_mm`", advice));
@@ -86,23 +83,12 @@ fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscSc
     if raw.at_mm.is_none() {
         return Err(s.conflict(&table.span(), "a disc without `at_mm`", "say where on the shaft it sits"));
     }
-    let mut keeps = Vec::new();
-    for word in raw.keeps.iter().flatten() {
-        let kept = s.one_of("keeps", word, &KEPT)?;
-        if !keeps.contains(&kept) {
-            keeps.push(kept);
-        }
-    }
     Ok(DiscScene {
         at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
-        mass_kg: s.number_of(&schema::DISC, "mass_kg", &raw.mass_kg)?,
-        polar_inertia_kg_m2: s.number_of(&schema::DISC, "polar_inertia_kg_m2", &raw.polar_inertia_kg_m2)?,
-        transverse_inertia_kg_m2: s.number_of(
-            &schema::DISC,
-            "transverse_inertia_kg_m2",
-            &raw.transverse_inertia_kg_m2,
-        )?,
-        keeps: if raw.keeps.is_some() { keeps } else { ENDS.to_vec() },
+        mass_kg: value!(s, DISC, raw.mass_kg)?,
+        polar_inertia_kg_m2: value!(s, DISC, raw.polar_inertia_kg_m2)?,
+        transverse_inertia_kg_m2: value!(s, DISC, raw.transverse_inertia_kg_m2)?,
+        keeps: if raw.keeps.is_some() { s.choices_of("keeps", &raw.keeps)? } else { ENDS.to_vec() },
     })
 }
 
@@ -111,20 +97,5 @@ fn support(s: &Source<'_>, table: &Spanned<RawSupport>, length: f64) -> Checked<
     if raw.at_mm.is_none() {
         return Err(s.conflict(&table.span(), "a support without `at_mm`", "say where on the shaft it is"));
     }
-    let of = |key: &str, value: &Number| s.number_of(&schema::SUPPORT, key, value);
-    Ok(SupportScene {
-        at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
-        stiffness_x_n_per_mm: of("stiffness_x_n_per_mm", &raw.stiffness_x_n_per_mm)?,
-        stiffness_y_n_per_mm: of("stiffness_y_n_per_mm", &raw.stiffness_y_n_per_mm)?,
-        stiffness_z_n_per_mm: of("stiffness_z_n_per_mm", &raw.stiffness_z_n_per_mm)?,
-        stiffness_rx_nmm_per_rad: of("stiffness_rx_nmm_per_rad", &raw.stiffness_rx_nmm_per_rad)?,
-        stiffness_ry_nmm_per_rad: of("stiffness_ry_nmm_per_rad", &raw.stiffness_ry_nmm_per_rad)?,
-        stiffness_rz_nmm_per_rad: of("stiffness_rz_nmm_per_rad", &raw.stiffness_rz_nmm_per_rad)?,
-        damping_x_ns_per_mm: of("damping_x_ns_per_mm", &raw.damping_x_ns_per_mm)?,
-        damping_y_ns_per_mm: of("damping_y_ns_per_mm", &raw.damping_y_ns_per_mm)?,
-        damping_z_ns_per_mm: of("damping_z_ns_per_mm", &raw.damping_z_ns_per_mm)?,
-        damping_rx_nmms_per_rad: of("damping_rx_nmms_per_rad", &raw.damping_rx_nmms_per_rad)?,
-        damping_ry_nmms_per_rad: of("damping_ry_nmms_per_rad", &raw.damping_ry_nmms_per_rad)?,
-        damping_rz_nmms_per_rad: of("damping_rz_nmms_per_rad", &raw.damping_rz_nmms_per_rad)?,
-    })
+    SupportScene::read(s, raw, length)
 }

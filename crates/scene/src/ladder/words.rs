@@ -2,11 +2,11 @@
 
 use toml::Spanned;
 
-use super::{ImpactScene, Lumped8Scene, Lumped12Scene, MeshScene, Rung, Shaft18Scene};
+use super::{Lumped8Scene, MeshScene, Rung, Shaft18Scene};
 use super::{impact, lumped8, lumped12, mesh, shaft18};
-use crate::raw::RawScene;
+use crate::schema::RawScene;
 use crate::source::Source;
-use crate::{Model, SceneError};
+use crate::{ImpactScene, Lumped12Scene, Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 

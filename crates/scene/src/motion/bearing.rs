@@ -1,39 +1,30 @@
 //! Bodies of the gears, and what holds them.
 
-use super::raw::{Matrix, RawBearing, RawBody};
 use super::{Axis, BearingScene, BodyScene};
-use crate::raw::Number;
+use crate::SceneError;
+use crate::raw::{Number, Rows};
+use crate::schema::{BEARING, RawBearing, RawBody};
 use crate::source::Source;
-use crate::{SceneError, schema};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
-const AXES: [(&str, Axis); 5] = [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z), ("rx", Axis::Rx), ("ry", Axis::Ry)];
-
 pub(crate) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
-    let mut free = Vec::new();
     for word in raw.free.iter().flatten() {
         if word.get_ref() == "turn" {
             let what = "`free` lists \"turn\", which is no choice";
             let advice = "leave it out: the driven gear's turn is always free, the driver's when a torque drives it";
             return Err(s.conflict(&word.span(), what, advice));
         }
-        let axis = s.one_of("free", word, &AXES)?;
-        if !free.contains(&axis) {
-            free.push(axis);
-        }
+        s.meaning_of::<Axis>("free", word)?;
     }
+    let mut free: Vec<Axis> = s.choices_of("free", &raw.free)?;
     free.sort_by_key(|a| a.number());
     Ok(BodyScene {
-        mass_kg: s.optional_of(&schema::BODY, "mass_kg", &raw.mass_kg)?,
-        transverse_inertia_kg_m2: s.optional_of(
-            &schema::BODY,
-            "transverse_inertia_kg_m2",
-            &raw.transverse_inertia_kg_m2,
-        )?,
-        polar_inertia_kg_m2: s.optional_of(&schema::BODY, "polar_inertia_kg_m2", &raw.polar_inertia_kg_m2)?,
-        added_inertia_kg_m2: s.number_of(&schema::BODY, "added_inertia_kg_m2", &raw.added_inertia_kg_m2)?,
+        mass_kg: optional!(s, BODY, raw.mass_kg)?,
+        transverse_inertia_kg_m2: optional!(s, BODY, raw.transverse_inertia_kg_m2)?,
+        polar_inertia_kg_m2: optional!(s, BODY, raw.polar_inertia_kg_m2)?,
+        added_inertia_kg_m2: value!(s, BODY, raw.added_inertia_kg_m2)?,
         free,
     })
 }
@@ -65,18 +56,14 @@ pub(crate) fn bearing(
     one_way(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad, &stiffness)?;
     one_way(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad, &damping)?;
     held(s, raw, [&stiffness, &damping], (free, free_at), whose)?;
-    let of = |list: &[(&str, &Number); 5], i: usize| s.optional_of(&schema::BEARING, list[i].0, list[i].1);
+    let of = |list: &[(&str, &Number); 5], i: usize| s.optional_up_to(&BEARING, list[i].0, list[i].1, f64::INFINITY);
     Ok(BearingScene {
         stiffness_x_n_per_mm: of(&stiffness, 0)?,
         stiffness_y_n_per_mm: of(&stiffness, 1)?,
         stiffness_z_n_per_mm: of(&stiffness, 2)?,
         stiffness_rx_nmm_per_rad: of(&stiffness, 3)?,
         stiffness_ry_nmm_per_rad: of(&stiffness, 4)?,
-        stiffness_rz_nmm_per_rad: s.optional_of(
-            &schema::BEARING,
-            "stiffness_rz_nmm_per_rad",
-            &raw.stiffness_rz_nmm_per_rad,
-        )?,
+        stiffness_rz_nmm_per_rad: optional!(s, BEARING, raw.stiffness_rz_nmm_per_rad)?,
         damping_ratio: match (free.is_empty(), &raw.damping_ratio) {
             (true, Some(value)) => {
                 let what = format!("`damping_ratio` has nothing to damp: no coordinate of the {whose} is free");
@@ -84,18 +71,14 @@ pub(crate) fn bearing(
                 return Err(s.conflict(&value.span(), what, advice));
             }
             (true, None) => None,
-            (false, ratio) => Some(s.number_of(&schema::BEARING, "damping_ratio", ratio)?),
+            (false, ratio) => Some(s.number_of(&BEARING, "damping_ratio", ratio)?),
         },
         damping_x_ns_per_mm: of(&damping, 0)?,
         damping_y_ns_per_mm: of(&damping, 1)?,
         damping_z_ns_per_mm: of(&damping, 2)?,
         damping_rx_nmms_per_rad: of(&damping, 3)?,
         damping_ry_nmms_per_rad: of(&damping, 4)?,
-        damping_rz_nmms_per_rad: s.optional_of(
-            &schema::BEARING,
-            "damping_rz_nmms_per_rad",
-            &raw.damping_rz_nmms_per_rad,
-        )?,
+        damping_rz_nmms_per_rad: optional!(s, BEARING, raw.damping_rz_nmms_per_rad)?,
         stiffness_matrix_n_mm_rad: matrix(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad)?,
         damping_matrix_ns_mm_rad: matrix(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad)?,
     })
@@ -123,14 +106,14 @@ fn held(
         for (key, value) in [stiffness[i], damping[i]] {
             if let Some(value) = value.as_ref().filter(|_| !is_free) {
                 let what = format!("`{key}` holds a coordinate of the {whose} that is not free");
-                let advice = format!("add \"{}\" to `free` in [{whose}.body], or leave it out", AXES[i].0);
+                let advice = format!("add \"{}\" to `free` in [{whose}.body], or leave it out", Axis::WORDS[i]);
                 return Err(s.conflict(&value.span(), what, advice));
             }
         }
         if let (true, None, None, Some(span)) =
             (is_free, stiffness[i].1, &raw.stiffness_matrix_n_mm_rad, free_at.as_ref())
         {
-            let what = format!("\"{}\" of the {whose} is free, but no bearing holds it", AXES[i].0);
+            let what = format!("\"{}\" of the {whose} is free, but no bearing holds it", Axis::WORDS[i]);
             return Err(s.conflict(span, what, format!("give `{}` in [{whose}.bearing]", stiffness[i].0)));
         }
     }
@@ -138,7 +121,7 @@ fn held(
 }
 
 /// A matrix says it all, or single values do.
-fn one_way(s: &Source<'_>, key: &str, matrix: &Matrix, single: &[(&str, &Number); 5]) -> Checked<()> {
+fn one_way(s: &Source<'_>, key: &str, matrix: &Rows, single: &[(&str, &Number); 5]) -> Checked<()> {
     let Some(matrix) = matrix else { return Ok(()) };
     match single.iter().find(|(_, value)| value.is_some()) {
         None => Ok(()),
@@ -151,7 +134,7 @@ fn one_way(s: &Source<'_>, key: &str, matrix: &Matrix, single: &[(&str, &Number)
 }
 
 /// Five rows of five finite numbers, symmetric, with no negative value on the diagonal.
-fn matrix(s: &Source<'_>, key: &str, raw: &Matrix) -> Checked<Option<[[f64; 5]; 5]>> {
+fn matrix(s: &Source<'_>, key: &str, raw: &Rows) -> Checked<Option<[[f64; 5]; 5]>> {
     let Some(rows) = raw else { return Ok(None) };
     let bad = |span: &Span, what: &str| {
         let advice = "five rows of five numbers, in the order x, y, z, rx, ry";

@@ -2,11 +2,11 @@
 
 use toml::Spanned;
 
-use super::raw::{RawMotion, RawRamp, RawSweep};
-use super::{Integration, MotionScene, RampScene, Run, SteadyBy, SweepScene, SweepWay};
+use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
 use crate::raw::{Number, Whole};
+use crate::schema::{RawMotion, RawRamp, RawSweep};
 use crate::source::Source;
-use crate::{SceneError, schema};
+use crate::{RampScene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
@@ -30,7 +30,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
 }
 
 pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
-    let run = s.choice("run", &raw.run, &[STEADY, SHOOTING, SPAN, RAMP, SWEEP])?;
+    let run = choice!(s, raw.run)?;
     belongs(s, raw, run, cycles)?;
     let method = method(s, raw)?;
     if let (Some(_), Some(per_length)) = (&raw.mesh_damping_ratio, &raw.mesh_damping_ns_per_mm2) {
@@ -44,30 +44,22 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         run,
         method,
         spectral_radius: (method == Integration::GeneralisedAlpha)
-            .then(|| s.number_of(&schema::MOTION, "spectral_radius", &raw.spectral_radius))
+            .then(|| value!(s, MOTION, raw.spectral_radius))
             .transpose()?,
-        steps_per_mesh_cycle: s.whole_of(&schema::MOTION, "steps_per_mesh_cycle", &raw.steps_per_mesh_cycle)?,
-        steps_per_resonance: s.whole_of(&schema::MOTION, "steps_per_resonance", &raw.steps_per_resonance)?,
-        error_tolerance: s.optional_of(&schema::MOTION, "error_tolerance", &raw.error_tolerance)?,
-        stop_at_events: raw.stop_at_events.as_ref().is_some_and(|on| *on.get_ref()),
+        steps_per_mesh_cycle: value!(s, MOTION, raw.steps_per_mesh_cycle)?,
+        steps_per_resonance: value!(s, MOTION, raw.steps_per_resonance)?,
+        error_tolerance: optional!(s, MOTION, raw.error_tolerance)?,
+        stop_at_events: value!(s, MOTION, raw.stop_at_events)?,
         mesh_damping_ratio: match raw.mesh_damping_ns_per_mm2 {
             Some(_) => None,
-            None => Some(s.number_of(&schema::MOTION, "mesh_damping_ratio", &raw.mesh_damping_ratio)?),
+            None => Some(value!(s, MOTION, raw.mesh_damping_ratio)?),
         },
-        mesh_damping_ns_per_mm2: s.optional_of(
-            &schema::MOTION,
-            "mesh_damping_ns_per_mm2",
-            &raw.mesh_damping_ns_per_mm2,
-        )?,
-        periodic_tolerance: settles
-            .then(|| s.number_of(&schema::MOTION, "periodic_tolerance", &raw.periodic_tolerance))
-            .transpose()?,
-        warm_up_cycles: settles
-            .then(|| s.whole_of(&schema::MOTION, "warm_up_cycles", &raw.warm_up_cycles))
-            .transpose()?,
-        duration_s: s.optional_of(&schema::MOTION, "duration_s", &raw.duration_s)?,
+        mesh_damping_ns_per_mm2: optional!(s, MOTION, raw.mesh_damping_ns_per_mm2)?,
+        periodic_tolerance: settles.then(|| value!(s, MOTION, raw.periodic_tolerance)).transpose()?,
+        warm_up_cycles: settles.then(|| value!(s, MOTION, raw.warm_up_cycles)).transpose()?,
+        duration_s: optional!(s, MOTION, raw.duration_s)?,
         checkpoint_every_cycles: matches!(run, Run::Steady | Run::Span | Run::Ramp)
-            .then(|| s.whole_of(&schema::MOTION, "checkpoint_every_cycles", &raw.checkpoint_every_cycles))
+            .then(|| value!(s, MOTION, raw.checkpoint_every_cycles))
             .transpose()?,
         ramp: (run == Run::Ramp)
             .then(|| ramp(s, raw.ramp.as_ref().map_or(&ramp_words, |r| r.get_ref()), span(&raw.run)))
@@ -100,17 +92,7 @@ fn belongs(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked
 
 /// The method, with what belongs to it alone.
 fn method(s: &Source<'_>, raw: &RawMotion) -> Checked<Integration> {
-    let method = s.choice(
-        "method",
-        &raw.method,
-        &[
-            ("energy", Integration::Energy),
-            ("generalised-alpha", Integration::GeneralisedAlpha),
-            ("newmark", Integration::Newmark),
-            ("dormand-prince", Integration::DormandPrince),
-            ("rk4", Integration::RungeKutta4),
-        ],
-    )?;
+    let method = choice!(s, raw.method)?;
     let alpha = method == Integration::GeneralisedAlpha;
     if let (false, Some(rho)) = (alpha, &raw.spectral_radius) {
         let what = "`spectral_radius` belongs to `method = \"generalised-alpha\"`";
@@ -132,41 +114,26 @@ fn needed(s: &Source<'_>, table: &str, keys: &[(&str, &Number)], run: Option<Spa
 fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> {
     let keys = [("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm), ("duration_s", &raw.duration_s)];
     needed(s, "ramp", &keys, run)?;
-    Ok(RampScene {
-        from_rpm: s.number_of(&schema::RAMP, "from_rpm", &raw.from_rpm)?,
-        to_rpm: s.number_of(&schema::RAMP, "to_rpm", &raw.to_rpm)?,
-        duration_s: s.number_of(&schema::RAMP, "duration_s", &raw.duration_s)?,
-        before_s: s.number_of(&schema::RAMP, "before_s", &raw.before_s)?,
-        after_s: s.number_of(&schema::RAMP, "after_s", &raw.after_s)?,
-        waterfall_cycles: s.whole_of(&schema::RAMP, "waterfall_cycles", &raw.waterfall_cycles)?,
-    })
+    RampScene::read(s, raw, f64::INFINITY)
 }
 
 fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScene> {
     needed(s, "sweep", &[("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm)], run)?;
-    let from_rpm = s.number_of(&schema::SWEEP, "from_rpm", &raw.from_rpm)?;
-    let to_rpm = s.number_of(&schema::SWEEP, "to_rpm", &raw.to_rpm)?;
+    let from_rpm = value!(s, SWEEP, raw.from_rpm)?;
+    let to_rpm = value!(s, SWEEP, raw.to_rpm)?;
     if let (Some(to), true) = (&raw.to_rpm, to_rpm <= from_rpm) {
         let what = format!("`to_rpm` is {to_rpm}, not above `from_rpm`, {from_rpm}");
         return Err(s.conflict(&to.span(), what, "the way is said by `ways`"));
     }
-    const WAYS: [(&str, SweepWay); 3] = [("apart", SweepWay::Apart), ("up", SweepWay::Up), ("down", SweepWay::Down)];
-    let mut ways = Vec::new();
-    for word in raw.ways.iter().flatten() {
-        let way = s.one_of("ways", word, &WAYS)?;
-        if !ways.contains(&way) {
-            ways.push(way);
-        }
-    }
+    let mut ways = s.choices_of("ways", &raw.ways)?;
     if ways.is_empty() {
         ways = vec![SweepWay::Up, SweepWay::Down];
     }
-    let by = [("running", SteadyBy::Running), ("shooting", SteadyBy::Shooting)];
     Ok(SweepScene {
         from_rpm,
         to_rpm,
-        speeds: s.whole_of(&schema::SWEEP, "speeds", &raw.speeds)?,
+        speeds: value!(s, SWEEP, raw.speeds)?,
         ways,
-        steady_by: s.choice("steady_by", &raw.steady_by, &by)?,
+        steady_by: choice!(s, raw.steady_by)?,
     })
 }

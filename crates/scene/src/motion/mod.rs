@@ -3,16 +3,16 @@
 mod bearing;
 mod check;
 mod modes;
-mod raw;
 mod torque;
 
 use serde::Serialize;
 
+use crate::RampScene;
+
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
+pub(super) use modes::modes;
 pub use modes::{Boundary, ModesScene};
-pub(super) use modes::{RawModes, modes};
-pub(super) use raw::{Matrix, RawBearing, RawBody, RawDrive, RawLoad, RawMotion, RawSupport};
 pub(super) use torque::{drive, load};
 
 /// Rigid body of a gear with what turns with it.
@@ -33,20 +33,20 @@ pub struct BodyScene {
     pub free: Vec<Axis>,
 }
 
-/// A rigid coordinate of a gear's centre.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Axis {
-    /// Along the line of centres.
-    X,
-    /// Across it.
-    Y,
-    /// Along the axis.
-    Z,
-    /// Tilt about x.
-    Rx,
-    /// Tilt about y.
-    Ry,
+choices! {
+    /// A rigid coordinate of a gear's centre.
+    pub enum Axis {
+        /// Along the line of centres.
+        X = "x",
+        /// Across it.
+        Y = "y",
+        /// Along the axis.
+        Z = "z",
+        /// Tilt about x.
+        Rx = "rx",
+        /// Tilt about y.
+        Ry = "ry",
+    }
 }
 
 impl Axis {
@@ -138,14 +138,14 @@ pub struct DriveScene {
     pub torque: TorqueScene,
 }
 
-/// What is given of the driver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum DriveBy {
-    /// Its speed.
-    Speed,
-    /// Its torque; it starts at `speed_rpm`.
-    Torque,
+choices! {
+    /// What is given of the driver.
+    pub enum DriveBy {
+        /// Its torque; it starts at `speed_rpm`.
+        Torque = "torque",
+        /// Its speed.
+        Speed = "speed",
+    }
 }
 
 /// A torque over time. A table replaces mean, amplitude, frequency and phase.
@@ -220,57 +220,36 @@ pub struct MotionScene {
     pub sweep: Option<SweepScene>,
 }
 
-/// An analysis in time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Run {
-    /// At constant speed until the motion repeats itself, then the cycles asked for.
-    Steady,
-    /// The same, the periodic state found directly.
-    Shooting,
-    /// So many cycles or seconds from the quasi-static start.
-    Span,
-    /// Run-up or run-down.
-    Ramp,
-    /// Steady states at many speeds.
-    Sweep,
+choices! {
+    /// An analysis in time.
+    pub enum Run {
+        /// At constant speed until the motion repeats itself, then the cycles asked for.
+        Steady = "steady",
+        /// The same, the periodic state found directly.
+        Shooting = "shooting",
+        /// So many cycles or seconds from the quasi-static start.
+        Span = "span",
+        /// Run-up or run-down.
+        Ramp = "ramp",
+        /// Steady states at many speeds.
+        Sweep = "sweep",
+    }
 }
 
-/// Method of integration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum Integration {
-    /// Implicit midpoint rule with a discrete gradient.
-    #[serde(rename = "energy")]
-    Energy,
-    /// Generalised-alpha.
-    #[serde(rename = "generalised-alpha")]
-    GeneralisedAlpha,
-    /// Newmark's constant average acceleration.
-    #[serde(rename = "newmark")]
-    Newmark,
-    /// Dormand-Prince 5(4), explicit.
-    #[serde(rename = "dormand-prince")]
-    DormandPrince,
-    /// Runge-Kutta's classical method of fourth order, explicit.
-    #[serde(rename = "rk4")]
-    RungeKutta4,
-}
-
-/// Speed of the driver that changes by a smooth step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct RampScene {
-    /// At first, 1/min.
-    pub from_rpm: f64,
-    /// In the end, 1/min.
-    pub to_rpm: f64,
-    /// How long the change takes, s.
-    pub duration_s: f64,
-    /// Time at the first speed before, s.
-    pub before_s: f64,
-    /// Time at the last speed afterwards, s.
-    pub after_s: f64,
-    /// Mesh cycles of one spectrum of the waterfall.
-    pub waterfall_cycles: u32,
+choices! {
+    /// Method of integration.
+    pub enum Integration {
+        /// Implicit midpoint rule with a discrete gradient.
+        Energy = "energy",
+        /// Generalised-alpha.
+        GeneralisedAlpha = "generalised-alpha",
+        /// Newmark's constant average acceleration.
+        Newmark = "newmark",
+        /// Dormand-Prince 5(4), explicit.
+        DormandPrince = "dormand-prince",
+        /// Runge-Kutta's classical method of fourth order, explicit.
+        RungeKutta4 = "rk4",
+    }
 }
 
 /// Speeds of the driver.
@@ -297,24 +276,24 @@ impl SweepScene {
     }
 }
 
-/// Which way a sweep goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SweepWay {
-    /// Each speed from its own quasi-static start.
-    Apart,
-    /// Upwards, the state carried from speed to speed.
-    Up,
-    /// Downwards.
-    Down,
+choices! {
+    /// Which way a sweep goes.
+    pub enum SweepWay {
+        /// Each speed from its own quasi-static start.
+        Apart = "apart",
+        /// Upwards, the state carried from speed to speed.
+        Up = "up",
+        /// Downwards.
+        Down = "down",
+    }
 }
 
-/// How a steady state is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SteadyBy {
-    /// By waiting.
-    Running,
-    /// By shooting.
-    Shooting,
+choices! {
+    /// How a steady state is found.
+    pub enum SteadyBy {
+        /// By waiting.
+        Running = "running",
+        /// By shooting.
+        Shooting = "shooting",
+    }
 }

@@ -2,18 +2,18 @@
 
 use toml::Spanned;
 
-use super::raw::{Matrix, RawDrive, RawLoad};
 use super::{DriveBy, DriveScene, TorqueScene};
-use crate::raw::Number;
+use crate::raw::{Number, Rows};
+use crate::schema::{Choice, DRIVE, RawDrive, RawLoad};
 use crate::source::Source;
-use crate::{Model, SceneError, schema};
+use crate::{Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
 /// What drives the driver of a model. Flanks of elastic gears turn both gears freely unless the scene holds the driver; the others prescribe its speed, or know no difference.
 pub(crate) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
-    let mut words = [("torque", DriveBy::Torque), ("speed", DriveBy::Speed)];
+    let mut words = DriveBy::CHOICES.to_vec();
     if !model.is_reduced() {
         words.reverse();
     }
@@ -34,7 +34,7 @@ pub(crate) fn load(s: &Source<'_>, raw: &RawLoad) -> Checked<TorqueScene> {
     torque(s, [&None, &raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)
 }
 
-fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], table: &Matrix) -> Checked<TorqueScene> {
+fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], table: &Rows) -> Checked<TorqueScene> {
     let all = [("torque_nm", mean), ("amplitude_nm", amplitude), ("frequency_hz", frequency), ("phase_deg", phase)];
     let said = |(key, value): &(&'static str, &Number)| value.as_ref().map(|v| (*key, v.span()));
     if let (Some(_), Some((key, span))) = (table, all.iter().find_map(said)) {
@@ -46,16 +46,17 @@ fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], tab
         let what = format!("`{key}` alone makes no harmonic torque");
         return Err(s.conflict(&span, what, "give `amplitude_nm` and `frequency_hz` (and `phase_deg`)"));
     }
+    let number = |key, value: &Number| s.optional_up_to(&DRIVE, key, value, f64::INFINITY);
     Ok(TorqueScene {
-        torque_nm: s.optional_of(&schema::DRIVE, "torque_nm", mean)?,
-        amplitude_nm: s.optional_of(&schema::DRIVE, "amplitude_nm", amplitude)?,
-        frequency_hz: s.optional_of(&schema::DRIVE, "frequency_hz", frequency)?,
-        phase_deg: amplitude.as_ref().map(|_| s.number_of(&schema::DRIVE, "phase_deg", phase)).transpose()?,
+        torque_nm: number("torque_nm", mean)?,
+        amplitude_nm: number("amplitude_nm", amplitude)?,
+        frequency_hz: number("frequency_hz", frequency)?,
+        phase_deg: amplitude.as_ref().map(|_| s.number_of(&DRIVE, "phase_deg", phase)).transpose()?,
         table_s_nm: time_table(s, table)?,
     })
 }
 
-fn time_table(s: &Source<'_>, raw: &Matrix) -> Checked<Option<Vec<[f64; 2]>>> {
+fn time_table(s: &Source<'_>, raw: &Rows) -> Checked<Option<Vec<[f64; 2]>>> {
     let Some(rows) = raw else { return Ok(None) };
     let advice = "rows of time (s, ascending) and torque (N m): table_s_nm = [[0.0, 150.0], [0.1, -20.0]]";
     let bad = |span: &Span, what: String| Err(s.conflict(span, what, advice));

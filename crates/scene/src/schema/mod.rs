@@ -3,7 +3,8 @@
 //! | module | tables |
 //! |---|---|
 //! | `scene` | the file itself, pair, load, contact, analysis, output |
-//! | `gear` | a gear with mesh, material and micro-geometry |
+//! | `gear` | a gear with mesh and material |
+//! | `crate::modification` | micro-geometry: rows, checks, and what geometry they are |
 //! | `motion` | bodies, bearings, torques, integration, analyses in time |
 //! | `ladder` | cheaper models |
 //! | `json` | all of them as JSON Schema |
@@ -14,11 +15,38 @@ mod ladder;
 mod motion;
 mod scene;
 
-pub(super) use gear::{GEAR, MATERIAL, MESHER, MODIFICATION};
+pub(crate) use gear::*;
 pub use json::json_schema;
-pub(super) use ladder::{DISC, IMPACT, LUMPED8, LUMPED12, MESH, SHAFT, SHAFT18, SUPPORT};
-pub(super) use motion::{BEARING, BODY, DRIVE, MODES, MOTION, RAMP, SWEEP};
-pub(super) use scene::{ANALYSIS, CONTACT, OPERATION, OUTPUT, PAIR, SCENE};
+pub(crate) use ladder::*;
+pub use ladder::{ImpactScene, Lumped12Scene, SupportScene};
+pub use motion::RampScene;
+pub(crate) use motion::*;
+pub(crate) use scene::*;
+pub use scene::{MisalignmentScene, Operation};
+
+pub(crate) const INF: f64 = f64::INFINITY;
+
+/// An enum of which each value is a word of the scene file.
+pub(crate) trait Choice: Copy + 'static {
+    /// Words and values; the first one is the default.
+    const CHOICES: &'static [(&'static str, Self)];
+}
+
+/// A field of a checked table.
+pub(crate) trait Field {
+    /// Whether the written scene leaves it out.
+    fn is_absent(&self) -> bool {
+        false
+    }
+}
+
+impl Field for f64 {}
+impl Field for u32 {}
+impl<T> Field for Option<T> {
+    fn is_absent(&self) -> bool {
+        self.is_none()
+    }
+}
 
 /// A table of the scene file.
 #[derive(Debug)]
@@ -67,76 +95,82 @@ pub(crate) enum Kind {
     Tables(&'static Table),
 }
 
-const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
+pub(crate) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, kind, about }
 }
 
 /// A number with a default.
-const fn number(name: &'static str, low: f64, high: f64, default: f64, about: &'static str) -> Key {
+pub(crate) const fn number(name: &'static str, low: f64, high: f64, default: f64, about: &'static str) -> Key {
     key(name, Kind::Number { low, high, default: Some(default) }, about)
 }
 
+/// A number that must be there.
+pub(crate) const fn must(name: &'static str, low: f64, high: f64, about: &'static str) -> Key {
+    bare(name, low, high, about)
+}
+
 /// A number without.
-const fn bare(name: &'static str, low: f64, high: f64, about: &'static str) -> Key {
+pub(crate) const fn bare(name: &'static str, low: f64, high: f64, about: &'static str) -> Key {
     key(name, Kind::Number { low, high, default: None }, about)
 }
 
-const fn whole(name: &'static str, low: u32, high: u32, default: u32, about: &'static str) -> Key {
+pub(crate) const fn whole(name: &'static str, low: u32, high: u32, default: u32, about: &'static str) -> Key {
     key(name, Kind::Whole { low, high, default: Some(default) }, about)
 }
 
-const fn bare_whole(name: &'static str, low: u32, high: u32, about: &'static str) -> Key {
+pub(crate) const fn bare_whole(name: &'static str, low: u32, high: u32, about: &'static str) -> Key {
     key(name, Kind::Whole { low, high, default: None }, about)
 }
 
-const fn word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+pub(crate) const fn word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
     key(name, Kind::Word { choices, first_is_default: true }, about)
 }
 
 /// A word whose default depends on other keys.
-const fn bare_word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+pub(crate) const fn bare_word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
     key(name, Kind::Word { choices, first_is_default: false }, about)
 }
 
-const fn words(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+pub(crate) const fn words(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
     key(name, Kind::Words { choices }, about)
 }
 
-const fn switch(name: &'static str, default: bool, about: &'static str) -> Key {
+pub(crate) const fn switch(name: &'static str, default: bool, about: &'static str) -> Key {
     key(name, Kind::Switch { default }, about)
 }
 
-const fn text(name: &'static str, about: &'static str) -> Key {
+pub(crate) const fn text(name: &'static str, about: &'static str) -> Key {
     key(name, Kind::Text, about)
 }
 
-const fn numbers(name: &'static str, about: &'static str) -> Key {
+pub(crate) const fn numbers(name: &'static str, about: &'static str) -> Key {
     key(name, Kind::Numbers, about)
 }
 
-const fn rows(name: &'static str, columns: usize, about: &'static str) -> Key {
+pub(crate) const fn rows(name: &'static str, columns: usize, about: &'static str) -> Key {
     key(name, Kind::Rows { columns }, about)
 }
 
-const fn table(name: &'static str, of: &'static Table) -> Key {
+pub(crate) const fn table(name: &'static str, of: &'static Table) -> Key {
     key(name, Kind::Table(of), of.about)
 }
 
-const fn list(name: &'static str, of: &'static Table) -> Key {
+pub(crate) const fn list(name: &'static str, of: &'static Table) -> Key {
     key(name, Kind::Tables(of), of.about)
 }
 
-const fn keys(about: &'static str, keys: &'static [Key]) -> Table {
-    Table { about, keys, needed: &[] }
-}
-
 impl Table {
-    /// Range and default of a number. A key that has no row may be any number: the tests let none be forgotten.
+    /// Range and default of a number; `value!` names no key that has no row.
     pub fn number(&self, name: &str) -> (f64, f64, Option<f64>) {
         match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
             Some(&Kind::Number { low, high, default }) => (low, high, default),
             _ => (f64::NEG_INFINITY, f64::INFINITY, None),
         }
+    }
+
+    /// Whether a switch is on where nothing is written.
+    pub fn switch(&self, name: &str) -> bool {
+        self.keys.iter().any(|k| k.name == name && matches!(k.kind, Kind::Switch { default: true }))
     }
 
     /// What a key says; none of one that stands in another table.
@@ -235,7 +269,7 @@ mod tests {
     fn the_tables_are_the_words_that_are_read() {
         for (path, table) in every_table() {
             let text = scene_with(&path, "zzz_unknown = 1");
-            let error = toml::from_str::<crate::raw::RawScene>(&text).expect_err(&text);
+            let error = toml::from_str::<crate::schema::RawScene>(&text).expect_err(&text);
             let said = error.message().to_owned();
             let rest = said.strip_prefix("unknown field `zzz_unknown`").unwrap_or_else(|| panic!("[{path}]: {said}"));
             let mut known: Vec<&str> = rest.split('`').skip(1).step_by(2).collect();
