@@ -45,7 +45,9 @@ pub use gear::{GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
 use inputs::Origin;
 pub use keys::{Tables, nearest};
-pub use ladder::{DiscScene, Kept, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene, Sharing, StiffnessFrom};
+pub use ladder::{
+    DiscScene, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene, Sharing, StiffnessFrom,
+};
 pub use modification::{FlankScene, ModificationScene, Shape};
 pub use motion::{
     Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, Run, SteadyBy,

@@ -8,7 +8,7 @@ mod together;
 
 use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, schema::RawScene, source::Source};
 use gear::{Hand, gear, material, pair, steel};
-use motion::{belongs_to_motion, bodies, drive, in_time, load, normal_modes, shaft};
+use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
 use tables::{analysis, contact, operation, output};
 use together::together;
 
@@ -25,16 +25,17 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let hand = Hand::Against(pinion.helix_angle_deg);
     let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
     let analysis = analysis(source, &raw.analysis)?;
-    ladder::tables(source, &raw, analysis.model)?;
+    ladder::check_tables(source, &raw, analysis.model)?;
     let dynamic = analysis.kind == Kind::Dynamic;
     if dynamic {
         bodies(source, &raw, analysis.model, [&mut pinion, &mut wheel])?;
     } else {
-        belongs_to_motion(source, &raw)?;
+        refuse_motion_tables(source, &raw)?;
     }
     let modes = normal_modes(source, &raw, analysis.model)?;
     let in_time = dynamic.then(|| in_time(source, &raw, analysis.model)).transpose()?;
-    let ladder::Words { mesh, lumped8, lumped12, shaft18, impact } = ladder::words(source, &raw, analysis.model)?;
+    let ladder::ModelTables { mesh, lumped8, lumped12, shaft18, impact } =
+        ladder::model_tables(source, &raw, analysis.model)?;
     if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
         pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
         wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);

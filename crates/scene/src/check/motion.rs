@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// What a table says, if it is there.
-fn words<T>(table: &Option<Spanned<T>>) -> Option<&T> {
+fn table_of<T>(table: &Option<Spanned<T>>) -> Option<&T> {
     table.as_ref().map(Spanned::get_ref)
 }
 
@@ -18,14 +18,14 @@ fn words<T>(table: &Option<Spanned<T>>) -> Option<&T> {
 pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut GearScene; 2]) -> Checked<()> {
     let rung = ladder::Rung::of(model);
     for (of, (said, whose)) in gears.into_iter().zip([(&raw.pinion, "pinion"), (&raw.wheel, "wheel")]) {
-        let mut body = words(&said.body).map(|b| motion::body(s, b)).transpose()?.unwrap_or_default();
+        let mut body = table_of(&said.body).map(|b| motion::body(s, b)).transpose()?.unwrap_or_default();
         let mut free_at = said.body.as_ref().map(Spanned::span);
         if let Some((rung, moves)) = rung.and_then(|r| Some((r, r.moves?))) {
-            ladder::moves(s, said, rung, &body)?;
+            ladder::check_free_coordinates(s, said, rung, &body)?;
             body.free = moves.to_vec();
             free_at = raw.analysis.model.as_ref().map(Spanned::span);
         }
-        of.bearing = motion::bearing(s, words(&said.bearing), &body.free, free_at, whose)?;
+        of.bearing = motion::bearing(s, table_of(&said.bearing), &body.free, free_at, whose)?;
         if model == Model::Lumped12 {
             // Its damping is Rayleigh's.
             of.bearing.damping_ratio = None;
@@ -37,7 +37,7 @@ pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut 
 
 /// The table on motion, as the model takes it.
 pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<MotionScene> {
-    let said = motion::motion(s, words(&raw.motion).unwrap_or(&Default::default()), &raw.analysis.cycles)?;
+    let said = motion::motion(s, table_of(&raw.motion).unwrap_or(&Default::default()), &raw.analysis.cycles)?;
     // Only a mesh that says so has a damping of its own.
     let damped = ladder::Rung::of(model).is_none_or(|r| r.mesh_damping);
     Ok(MotionScene { mesh_damping_ratio: said.mesh_damping_ratio.filter(|_| damped), ..said })
@@ -45,12 +45,12 @@ pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<M
 
 /// What drives the driver.
 pub(super) fn drive(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<DriveScene> {
-    motion::drive(s, words(&raw.drive).unwrap_or(&Default::default()), model)
+    motion::drive(s, table_of(&raw.drive).unwrap_or(&Default::default()), model)
 }
 
 /// What the torque on the driven gear is beside its mean.
 pub(super) fn load(s: &Source<'_>, raw: &RawScene) -> Checked<TorqueScene> {
-    motion::load(s, words(&raw.load).unwrap_or(&Default::default()))
+    motion::load(s, table_of(&raw.load).unwrap_or(&Default::default()))
 }
 
 /// The shaft of a gear, which the model of shafts wants.
@@ -80,7 +80,7 @@ pub(super) fn normal_modes(s: &Source<'_>, raw: &RawScene, model: Model) -> Chec
 }
 
 /// Tables on motion mean nothing to an analysis without time.
-pub(super) fn belongs_to_motion(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+pub(super) fn refuse_motion_tables(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
     let tables = [
         ("[pinion.body]", raw.pinion.body.as_ref().map(Spanned::span)),
         ("[pinion.bearing]", raw.pinion.bearing.as_ref().map(Spanned::span)),

@@ -105,7 +105,7 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let rung = ladder::Rung::of(scene.analysis.model);
     possible(s, raw, scene, rung.is_some())?;
     if let Some(rung) = rung {
-        ladder::in_time(s, raw, scene, rung)?;
+        ladder::check_in_time(s, raw, scene, rung)?;
     }
     let linear = rung.is_some_and(|r| r.mesh && !r.backlash);
     if let (Some(torque), true, false) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0, linear) {

@@ -1,17 +1,17 @@
 //! What a scene says to the cheaper models of the pair, beside what it says to all: one table each, and one for the mesh.
 
-mod belongs;
 mod check;
 mod impact;
+mod model_tables;
 mod shaft;
-mod words;
+mod without_effect;
 
 use serde::Serialize;
 
-pub(super) use belongs::{in_time, moves, tables};
 pub(super) use check::Rung;
+pub(super) use model_tables::{ModelTables, model_tables};
 pub(super) use shaft::shaft;
-pub(super) use words::{Words, words};
+pub(super) use without_effect::{check_free_coordinates, check_in_time, check_tables};
 
 use crate::SupportScene;
 use check::{lumped8, lumped12, mesh};
@@ -137,12 +137,12 @@ pub struct DiscScene {
     /// About an axis across, kg m^2.
     pub transverse_inertia_kg_m2: f64,
     /// Coordinates that remain; the others follow statically.
-    pub keeps: Vec<Kept>,
+    pub keeps: Vec<ShaftCoordinate>,
 }
 
 choices! {
     /// A coordinate of a station on a shaft.
-    pub enum Kept {
+    pub enum ShaftCoordinate {
         /// Along x.
         X = "x",
         /// Along y.

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::check::list;
-use super::{DiscScene, Kept, Shaft18Scene, ShaftScene};
+use super::{DiscScene, Shaft18Scene, ShaftCoordinate, ShaftScene};
 use crate::raw::{Number, Rows};
 use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport};
 use crate::source::Source;
@@ -12,7 +12,7 @@ use crate::{SceneError, SupportScene};
 type Checked<T> = Result<T, SceneError>;
 
 /// What a disc keeps that says nothing: of a coupled end what its mass moves most.
-const ENDS: [Kept; 3] = [Kept::X, Kept::Y, Kept::Rz];
+const ENDS: [ShaftCoordinate; 3] = [ShaftCoordinate::X, ShaftCoordinate::Y, ShaftCoordinate::Rz];
 
 pub(crate) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene> {
     let gravity = list(s, "gravity_m_per_s2", &raw.gravity_m_per_s2)?;

@@ -31,7 +31,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
 
 pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
     let run = choice!(s, raw.run)?;
-    belongs(s, raw, run, cycles)?;
+    check_keys_of_run(s, raw, run, cycles)?;
     let method = method(s, raw)?;
     if let (Some(_), Some(per_length)) = (&raw.mesh_damping_ratio, &raw.mesh_damping_ns_per_mm2) {
         let what = "`mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped";
@@ -71,7 +71,7 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
 }
 
 /// Keys go with the run that they say something of.
-fn belongs(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
+fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
     for (key, at, allowed) in [
         ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP][..]),
         ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP][..]),

@@ -1,7 +1,7 @@
 //! Cheaper models of the same pair.
 
 use super::INF;
-use crate::{Kept, Law, Sharing, StiffnessFrom};
+use crate::{Law, ShaftCoordinate, Sharing, StiffnessFrom};
 
 table! {
     /// `[mesh]`
@@ -80,7 +80,7 @@ table! {
         mass_kg: number(0.0, 1e9, 0.0), "mass, kg";
         polar_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia about the shaft's axis, kg m^2";
         transverse_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia about an axis across, kg m^2";
-        keeps: words(Kept), "coordinates that remain; default: x, y, rz";
+        keeps: words(ShaftCoordinate), "coordinates that remain; default: x, y, rz";
     }
 }
 

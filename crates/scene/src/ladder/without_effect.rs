@@ -1,4 +1,4 @@
-//! What belongs to which model: nothing in a scene is read and ignored.
+//! Keys and tables that would have no effect on the scene's model: they are refused, not read and ignored.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
 }
 
 /// Tables of models that are not the scene's.
-pub(crate) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
+pub(crate) fn check_tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
     let meshed = Rung::of(model).is_some_and(|r| r.mesh);
     let all = [
         ("mesh", span(&raw.mesh), meshed, "the models \"lumped8\", \"lumped12\" and \"shaft18\""),
@@ -38,7 +38,7 @@ pub(crate) fn tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()
 }
 
 /// A model whose gears move along fixed coordinates: `free` may say the same, and no more.
-pub(crate) fn moves(s: &Source<'_>, raw: &RawGear, rung: Rung, body: &BodyScene) -> Checked<()> {
+pub(crate) fn check_free_coordinates(s: &Source<'_>, raw: &RawGear, rung: Rung, body: &BodyScene) -> Checked<()> {
     let listed = raw.body.as_ref().and_then(|b| b.get_ref().free.as_ref()).and_then(|free| free.first());
     match (listed, rung.moves) {
         (Some(word), Some(moves)) if body.free != moves => {
@@ -77,7 +77,7 @@ fn turning(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
 }
 
 /// What an analysis in time with a cheaper model can do.
-pub(crate) fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
+pub(crate) fn check_in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
     let name = rung.name;
     let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
     if !fed {

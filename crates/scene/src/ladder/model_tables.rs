@@ -11,7 +11,7 @@ use crate::{ImpactScene, Lumped12Scene, Model, SceneError};
 type Checked<T> = Result<T, SceneError>;
 
 /// Tables, each set exactly for the models that have it.
-pub(crate) struct Words {
+pub(crate) struct ModelTables {
     pub mesh: Option<MeshScene>,
     pub lumped8: Option<Lumped8Scene>,
     pub lumped12: Option<Lumped12Scene>,
@@ -19,10 +19,10 @@ pub(crate) struct Words {
     pub impact: Option<ImpactScene>,
 }
 
-/// What a scene says to its model.
-pub(crate) fn words(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<Words> {
+/// The tables of a scene's model, checked.
+pub(crate) fn model_tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<ModelTables> {
     let meshed = Rung::of(model).filter(|r| r.mesh);
-    Ok(Words {
+    Ok(ModelTables {
         mesh: match meshed {
             Some(rung) => table(&raw.mesh, true, |w| mesh(s, w, rung))?,
             None => None,
