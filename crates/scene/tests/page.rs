@@ -77,7 +77,8 @@ fn the_page_has_the_defaults_and_ranges_of_the_table_of_keys() {
         } else if columns[0] == "key" && !tables.is_empty() && !line.starts_with("|---") {
             let row = cells(line);
             let of = |name: &str| columns.iter().position(|c| c == name).and_then(|c| row.get(c)).copied();
-            let keys: Vec<&str> = code(row[0]).collect();
+            // Lists of tables have a row of their own that names no key.
+            let keys: Vec<&str> = code(row[0]).filter(|c| !c.starts_with('[')).collect();
             // Several keys in one row have one default, or one each.
             let defaults: Vec<&str> = of("default").map(|d| d.split(", ").collect()).unwrap_or_default();
             for (k, key) in keys.iter().enumerate() {
@@ -89,7 +90,8 @@ fn the_page_has_the_defaults_and_ranges_of_the_table_of_keys() {
                 let default = of("default").map(|all| if defaults.len() == keys.len() { defaults[k] } else { all });
                 let default = default.and_then(|d| default_fault(&property, d));
                 let range = of("allowed").or(of("range")).and_then(|r| range_fault(&property, r));
-                faults.extend(default.into_iter().chain(range).map(|f| format!("docs/scene.md:{}: `{key}`: {f}", i + 1)));
+                faults
+                    .extend(default.into_iter().chain(range).map(|f| format!("docs/scene.md:{}: `{key}`: {f}", i + 1)));
                 seen += 1;
             }
         }
