@@ -1,7 +1,6 @@
 //! One message, one hint, one exit status.
 
-use std::fmt::Display;
-use std::path::Path;
+use std::{fmt::Display, path::Path};
 
 use crate::scene::SceneError;
 

@@ -1,13 +1,13 @@
 //! The nominal tooth root stress of ISO 6336-3 of a scene's pair, to stand beside what finite elements say.
 
 use geometry::{Gear, GearPair};
-use lumped::LumpedError;
-use lumped::iso::{IsoRoot, IsoRootPair};
+use lumped::{
+    LumpedError,
+    iso::{IsoRoot, IsoRootPair},
+};
 use serde::Serialize;
 
-use crate::facts::Facts;
-use crate::iso_model::base_force;
-use crate::scene::Scene;
+use crate::{facts::Facts, iso_model::base_force, scene::Scene};
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";

@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`scene`] | reads and checks what the user wrote |
+//! | [`resolution`] | how many slices a scene's contact is cut into |
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
 //! | `ladder` | cheaper models of the same pair, in time |
@@ -37,20 +38,18 @@ pub mod parameter_study;
 pub mod pattern;
 pub mod phases;
 pub mod run;
-pub mod scene;
+pub use ::scene;
 pub mod starter;
 pub mod talk;
 
 mod gears;
-mod geometry_fault;
-mod input_text;
 mod iso_model;
 pub mod iso_root;
 mod ladder;
 pub mod meshes;
 mod partial;
 pub mod reduce;
-mod resolution;
+pub mod resolution;
 pub mod rexs;
 mod room;
 pub mod view;

@@ -1,7 +1,5 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use std::path::Path;
-
 use geometry::{Gear, GearPair, Side, Vec3};
 use mesh::{
     DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, MshFormat, Severity,
@@ -166,26 +164,13 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, Comma
     Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
 }
 
-/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
-pub(crate) fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
-    let mesh = Mesh::parse(content, file).ok()?;
-    let [low, high] = radii(&mesh, &mesh.surface(&names.bore)?.nodes());
-    Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
-}
-
-/// Least and largest distance of some nodes from the axis, mm.
-fn radii(mesh: &Mesh, nodes: &[u32]) -> [f64; 2] {
-    let radius = |&n: &u32| mesh.nodes[n as usize][0].hypot(mesh.nodes[n as usize][1]);
-    nodes.iter().map(radius).fold([f64::INFINITY, 0.0], |[low, high], r| [low.min(r), high.max(r)])
-}
-
 /// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.
 const BORE_AGREES: f64 = 1e-3;
 
 /// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia where no mesh is needed.
 fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
     let stated = exact.data().bore_diameter;
-    let [low, high] = radii(found.mesh(), found.bore_nodes()).map(|r| 2.0 * r);
+    let [low, high] = found.mesh().radii(found.bore_nodes()).map(|r| 2.0 * r);
     if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
         return Ok(());
     }

@@ -7,10 +7,8 @@ use geometry::{Flank, GearPair, Side};
 use ltca::{StaticHistory, StaticPosition};
 use study::{FlankPattern, StudyError, Touch};
 
-use crate::{
-    output::pair_in_cycle,
-    scene::{Method, Model, Scene},
-};
+use crate::output::pair_in_cycle;
+use crate::scene::Scene;
 
 /// Steps of the pattern along the profile: less than the half-width of a usual band each.
 const PROFILE_STEPS: usize = 40;
@@ -43,11 +41,6 @@ impl GearPattern {
 /// d = 2 r_b sqrt(1 + u^2), mm.
 pub(crate) fn diameter(base_radius: f64, roll: f64) -> f64 {
     2.0 * base_radius * roll.hypot(1.0)
-}
-
-/// Whether a scene's contact is made of slices, which a pattern needs.
-pub fn has_slices(scene: &Scene) -> bool {
-    matches!(scene.analysis.model, Model::Reduced | Model::Full) && scene.contact.method == Method::Slice
 }
 
 /// Patterns of pinion and wheel.

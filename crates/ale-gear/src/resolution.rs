@@ -12,8 +12,6 @@ use crate::{
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
-/// Keys of the numbers of elements along the faces.
-const FACE_ELEMENTS: [&str; 2] = ["pinion.mesher.elements_face", "wheel.mesher.elements_face"];
 /// A stated count is remarked on from this many times on what a chosen one may be off by.
 const COARSE: f64 = 2.0;
 /// So is a stated number of face elements that is this many times smaller than the chosen one.
@@ -43,19 +41,8 @@ fn is_sliced(scene: &Scene) -> bool {
     (model.is_reduced() || matches!(model, Model::Full | Model::Impact) || feeds) && scene.contact.slices.is_some()
 }
 
-fn face_elements_needed(scene: &Scene, order: u32) -> u32 {
-    mesh::face_elements(scene.pair.face_width_mm, scene.pair.normal_module_mm, order, scene.output.root_stress)
-}
-
-/// The scene with the slices and face elements that it asks for, unless it says how many.
-pub(crate) fn settled(mut scene: Scene) -> Scene {
-    let stated = FACE_ELEMENTS.map(|key| scene.place_of(&[key]).is_some());
-    let needed = scene.gears().map(|gear| gear.mesher.map(|m| face_elements_needed(&scene, m.order)));
-    for ((gear, stated), needed) in [&mut scene.pinion, &mut scene.wheel].into_iter().zip(stated).zip(needed) {
-        if let (Some(mesher), Some(needed), false) = (&mut gear.mesher, needed, stated) {
-            mesher.elements_face = needed;
-        }
-    }
+/// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many.
+pub fn with_slices(mut scene: Scene) -> Scene {
     if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
         // A pair that cannot be made is complained about where it is made.
         if let Ok(pair) = gears::pair(&scene) {
@@ -81,7 +68,7 @@ pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions
     let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
     let would_do = scene.gears().map(|gear| {
         let order = gear.mesher.map_or(2, |m| m.order);
-        elastic.then(|| face_elements_needed(scene, order))
+        elastic.then(|| scene.face_elements(order))
     });
     let mut said = Vec::new();
     if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen)

@@ -194,7 +194,7 @@ mod tests {
     /// What fits is let through, and one row more is not: the law is the product of counts times what a row takes.
     #[test]
     fn a_demand_is_refused_where_it_begins_to_be_too_large() {
-        let scene = Scene::default_scene().unwrap();
+        let scene = crate::resolution::with_slices(Scene::default_scene().unwrap());
         let factors = vec![("analysis.cycles".to_owned(), 10.0), ("analysis.positions_per_cycle".to_owned(), 32.0)];
         let demand = Demand { what: "positions", factors, bytes_each: 1e6 };
         assert!(demand.within(&scene, 320e6).is_ok());

@@ -134,6 +134,12 @@ impl Mesh {
     pub fn surface(&self, name: &str) -> Option<&SurfaceGroup> {
         self.surfaces.iter().find(|s| s.name == name)
     }
+
+    /// Least and largest distance of some nodes from the z axis, mm; infinity and 0 of none.
+    pub fn radii(&self, nodes: &[u32]) -> [f64; 2] {
+        let radius = |&n: &u32| self.nodes[n as usize][0].hypot(self.nodes[n as usize][1]);
+        nodes.iter().map(radius).fold([f64::INFINITY, 0.0], |[low, high], r| [low.min(r), high.max(r)])
+    }
 }
 
 impl SurfaceGroup {

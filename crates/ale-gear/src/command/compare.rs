@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::json;
 
-use crate::compare::{Axis, ResultFolder, headline_rows, input_rows, overlays};
-use crate::error::CommandError;
-use crate::output::{
-    ResultDirectory, compare_charts, compare_table, write_compare_csv, write_compare_report, write_curves_csv,
+use crate::{
+    compare::{Axis, ResultFolder, headline_rows, input_rows, overlays},
+    error::CommandError,
+    output::{
+        ResultDirectory, compare_charts, compare_table, write_compare_csv, write_compare_report, write_curves_csv,
+    },
 };
 
 /// Words of `ale-gear compare`.

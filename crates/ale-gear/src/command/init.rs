@@ -1,18 +1,21 @@
 //! `ale-gear init`: a commented scene to begin with.
 
-use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::{
+    io::{IsTerminal, Write},
+    path::{Path, PathBuf},
+};
 
 use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 
-use crate::error::CommandError;
-use crate::gears;
-use crate::input_text;
-use crate::rexs::read_pair;
-use crate::scene::{Kind, Scene};
-use crate::starter::Starter;
-use crate::talk::{Loudness, colours_on_stderr, say};
+use crate::{
+    error::CommandError,
+    gears,
+    rexs::read_pair,
+    scene::{Kind, Scene},
+    starter::Starter,
+    talk::{Loudness, colours_on_stderr, say},
+};
 
 /// Words of `ale-gear init`.
 ///
@@ -106,7 +109,7 @@ impl InitArgs {
     fn of_file(&self) -> Result<Starter, CommandError> {
         let default = Starter::default();
         let Some(file) = &self.rexs else { return Ok(default) };
-        let text = input_text::read(file).map_err(|e| {
+        let text = crate::scene::read_text(file).map_err(|e| {
             let hint = Some("is the path right, as seen from here?".into());
             CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
         })?;

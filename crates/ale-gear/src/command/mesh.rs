@@ -1,14 +1,14 @@
 //! `ale-gear mesh`: look at, check or make meshes.
 
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::Write,
+    path::{Path, PathBuf},
+};
 
 use clap::{Subcommand, ValueEnum};
 use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Numbered, Severity};
 
-use crate::error::CommandError;
-use crate::scene::Scene;
-use crate::{gears, meshes};
+use crate::{error::CommandError, gears, meshes, scene::Scene};
 
 /// Subcommands of `ale-gear mesh`.
 #[derive(Debug, Subcommand)]

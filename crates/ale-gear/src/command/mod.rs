@@ -14,12 +14,16 @@ mod shell;
 mod study;
 mod sweep;
 
-use clap::error::{ContextKind, ContextValue};
-use clap::{ArgAction, Args, Parser, Subcommand};
+use clap::{
+    ArgAction, Args, Parser, Subcommand,
+    error::{ContextKind, ContextValue},
+};
 use clap_complete::Shell;
 
-use crate::error::CommandError;
-use crate::talk::{Loudness, read_progress_after, set_loudness};
+use crate::{
+    error::CommandError,
+    talk::{Loudness, read_progress_after, set_loudness},
+};
 
 /// Reduced finite-element contact of helical gears
 ///

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use crate::scene::{Scene, SceneError, Setting};
+use crate::{
+    resolution::with_slices,
+    scene::{Scene, SceneError, Setting},
+};
 
 /// Keys of the scene, instead of the file's.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -33,6 +36,6 @@ impl Overrides {
     /// # Errors
     /// As of [`Scene::read_with`].
     pub fn read(&self, scene: &Path) -> Result<Scene, SceneError> {
-        Scene::read_with(scene, &self.settings()?)
+        Scene::read_with(scene, &self.settings()?).map(with_slices)
     }
 }

@@ -1,18 +1,24 @@
 //! `ale-gear reduce`: gears condensed to their flanks, without a run.
 
-use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::Write,
+    path::{Path, PathBuf},
+};
 
 use fem::Material;
 use mesh::{GearMesh, Mesh};
 use serde_json::json;
 
-use super::cache_args::CacheArgs;
-use super::mesh::{GroupArgs, complaint};
-use super::overrides::Overrides;
-use crate::error::CommandError;
-use crate::phases::Phases;
-use crate::reduce::{ReducedRow, reduce_mesh, reduce_scene};
+use super::{
+    cache_args::CacheArgs,
+    mesh::{GroupArgs, complaint},
+    overrides::Overrides,
+};
+use crate::{
+    error::CommandError,
+    phases::Phases,
+    reduce::{ReducedRow, reduce_mesh, reduce_scene},
+};
 
 /// Words of `ale-gear reduce`.
 #[derive(Debug, clap::Args)]

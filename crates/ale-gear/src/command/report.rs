@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::compare::ResultFolder;
-use crate::error::CommandError;
-use crate::output::report_again;
+use crate::{compare::ResultFolder, error::CommandError, output::report_again};
 
 /// Words of `ale-gear report`.
 #[derive(Debug, clap::Args)]

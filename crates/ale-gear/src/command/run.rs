@@ -3,19 +3,22 @@
 use std::path::PathBuf;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
-use crate::cache::Cache;
-use crate::certificate::Written;
-use crate::error::CommandError;
-use crate::facts::{Cost, Solved};
-use crate::motion::{self, Progression};
-use crate::output::{
-    ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report, write_summary,
+use crate::{
+    cache::Cache,
+    certificate::Written,
+    error::CommandError,
+    facts::{Cost, Solved},
+    motion::{self, Progression},
+    output::{
+        ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report,
+        write_summary,
+    },
+    phases::Phases,
+    resolution::with_slices,
+    room, run,
+    scene::{Kind, Model, Run, Scene},
+    talk::{self, Loudness},
 };
-use crate::phases::Phases;
-use crate::room;
-use crate::run;
-use crate::scene::{Kind, Model, Run, Scene};
-use crate::talk::{self, Loudness};
 
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
@@ -72,7 +75,7 @@ impl RunArgs {
                     self.out.display()
                 )
             });
-            Scene::default_scene()?
+            with_slices(Scene::default_scene()?)
         } else {
             self.overrides.read(&self.scene)?
         };

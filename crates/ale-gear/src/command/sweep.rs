@@ -8,6 +8,7 @@ use crate::{
     ladder::{self, Once, SweepRequest},
     output::ResultDirectory,
     phases::Phases,
+    resolution::with_slices,
     room,
     scene::{Kind, Scene, Setting, SweepWay},
 };
@@ -123,12 +124,12 @@ impl SweepArgs {
     fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepRequest), CommandError> {
         let (values, settings) = (self.values()?, self.overrides.settings()?);
         // As it stands first: what is wrong with the scene is not wrong with the key.
-        self.fits(&Scene::read_with(&self.scene, &settings)?)?;
+        self.fits(&with_slices(Scene::read_with(&self.scene, &settings)?))?;
         let mut scenes = Vec::with_capacity(values.len());
         for value in values {
             let own = Setting::number(&self.key, value)?.called(&format!("--key {} = {value}", self.key));
             let all: Vec<Setting> = settings.iter().cloned().chain([own]).collect();
-            let mut scene = Scene::read_with(&self.scene, &all)?;
+            let mut scene = with_slices(Scene::read_with(&self.scene, &all)?);
             self.fits(&scene)?;
             if let Some(motion) = &mut scene.motion {
                 let settle = self.settle.or(motion.warm_up_cycles).unwrap_or(SETTLE);

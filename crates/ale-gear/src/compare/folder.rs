@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::error::CommandError;
-use crate::motion::Columns;
-use crate::output::SUMMARY_SCHEMA;
+use crate::{error::CommandError, motion::Columns, output::SUMMARY_SCHEMA};
 
 /// Files of rows that can be laid over each other, in the order in which they are looked for.
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];

@@ -6,12 +6,10 @@ use super::{
     ResultDirectory, contact_pattern_svg, heat_map::contact_pattern_figure, write_contact_lines, write_contact_pattern,
     write_pattern_vtu,
 };
-use crate::{
-    error::CommandError,
-    gears,
-    pattern::{GearPattern, has_slices, patterns},
-    scene::Scene,
-};
+use crate::error::CommandError;
+use crate::gears;
+use crate::pattern::{GearPattern, patterns};
+use crate::scene::Scene;
 
 /// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.
 ///
@@ -22,7 +20,7 @@ pub fn write_contact(
     history: &StaticHistory,
     results: &ResultDirectory,
 ) -> Result<Option<String>, CommandError> {
-    if !has_slices(scene) {
+    if !scene.has_slices() {
         return Ok(None);
     }
     let pair = gears::pair(scene)?;

@@ -9,7 +9,7 @@ use super::{
     pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values},
     root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
 };
-use crate::{pattern::has_slices, scene::Scene};
+use crate::scene::Scene;
 
 const LEADING: &[&str] = &[
     "time_s",
@@ -69,7 +69,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
         row.extend(columns.iter().map(|&k| pairs::force(p, k, pitch)));
         let c = &p.certificate;
         row.push(p.max_pressure);
-        if has_slices(scene) {
+        if scene.has_slices() {
             row.extend(place_values(base_radius_mm(scene, 0), p.pairs.iter().flat_map(|pair| &pair.slices)));
         }
         row.extend([
@@ -104,7 +104,7 @@ pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
     }
     names.extend(pairs.iter().map(|k| format!("normal_force_pair_{k}_n")));
     names.push(PRESSURE.to_owned());
-    if has_slices(scene) {
+    if scene.has_slices() {
         names.extend(PLACE_COLUMNS.map(str::to_owned));
     }
     names.extend(TRAILING.iter().map(|&n| n.to_owned()));

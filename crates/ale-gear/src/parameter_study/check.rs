@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::columns;
 use super::file::{Case, Follow, FullRun, OverTime, Quantity, Study, Take};
 use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use crate::resolution::with_slices;
 use crate::scene::{Run, Scene, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
@@ -55,7 +56,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<Case> {
     let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
+    let scene = Scene::read_with(&path, &settings).map(with_slices).map_err(|e| match e {
         SceneError::Read { file, source } => {
             let what = format!("{} cannot be read: {source}", file.display());
             s.conflict(&word.span(), what, "paths are relative to the study file")

@@ -6,10 +6,7 @@ use serde::Serialize;
 
 use super::check::check;
 use super::raw::{RawStudy, tables};
-use crate::{
-    input_text,
-    scene::{Scene, SceneError, Source},
-};
+use crate::scene::{Scene, SceneError, Source, read_text};
 
 /// A checked study.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +100,7 @@ impl Study {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the study file or in a scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = input_text::read(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
         Self::parse(&text, file)
     }
 

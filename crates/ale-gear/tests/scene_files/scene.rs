@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::util::{ISO_SCENE, repository};
+use ale_gear::resolution::with_slices;
 use ale_gear::scene::{Driver, Model, Rotation, Scene};
 use geometry::Side;
 
@@ -50,7 +51,7 @@ fn slices_and_face_elements_follow_the_pair() {
         )
     };
     let counts = |text: &str| {
-        let scene = Scene::parse(text, Path::new("a.toml")).unwrap();
+        let scene = with_slices(Scene::parse(text, Path::new("a.toml")).unwrap());
         let again = Scene::parse(&scene.to_toml(), Path::new("a.toml")).unwrap();
         assert_eq!(scene, again);
         (scene.contact.slices.unwrap(), scene.pinion.mesher.unwrap().elements_face)

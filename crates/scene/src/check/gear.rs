@@ -1,0 +1,235 @@
+//! The gears, and what they share.
+
+use std::path::{Path, PathBuf};
+
+use geometry::GearData;
+use mesh::{GroupNames, Mesh};
+
+use super::Checked;
+use super::pitch_errors::pitch_errors;
+use crate::{
+    GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
+    raw::Word,
+    schema::{MATERIAL, MESHER, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
+    source::Source,
+};
+
+/// Default bore over reference diameter.
+const BORE_RATIO: f64 = 0.55;
+
+/// What a gear is of where nothing is said.
+pub(super) fn steel() -> Material {
+    let of = |key| MATERIAL.number(key).2.unwrap_or(0.0);
+    Material { young_mpa: of("young_mpa"), poisson: of("poisson"), density_kg_m3: of("density_kg_m3") }
+}
+
+pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
+    let or = |key, value, default| {
+        let (low, high, _) = MATERIAL.number(key);
+        s.number(key, value, default, low, high)
+    };
+    Ok(Material {
+        young_mpa: or("young_mpa", &raw.young_mpa, default.young_mpa)?,
+        poisson: or("poisson", &raw.poisson, default.poisson)?,
+        density_kg_m3: or("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3)?,
+    })
+}
+
+pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
+    let face_width_mm = value!(s, PAIR, raw.face_width_mm)?;
+    let mut pair = PairScene {
+        normal_module_mm: value!(s, PAIR, raw.normal_module_mm)?,
+        normal_pressure_angle_deg: value!(s, PAIR, raw.normal_pressure_angle_deg)?,
+        face_width_mm,
+        centre_distance_mm: optional!(s, PAIR, raw.centre_distance_mm)?,
+        addendum_coefficient: value!(s, PAIR, raw.addendum_coefficient)?,
+        dedendum_coefficient: value!(s, PAIR, raw.dedendum_coefficient)?,
+        root_radius_coefficient: value!(s, PAIR, raw.root_radius_coefficient)?,
+        misalignment: match &raw.misalignment {
+            None => Default::default(),
+            Some(table) =>
+            // Each at most 0.01 rad: more than that is no misalignment but another gear drive.
+            {
+                MisalignmentScene::read(s, table.get_ref(), 10.0 * face_width_mm)?
+            }
+        },
+    };
+    if raw.root_radius_coefficient.is_none() {
+        pair.root_radius_coefficient = fitting_root_radius(&pair);
+    }
+    Ok(pair)
+}
+
+/// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is less: 0.3178 at 25 degrees.
+/// A rack that has room for none keeps the default, and the geometry says why there is no gear.
+fn fitting_root_radius(pair: &PairScene) -> f64 {
+    let data = GearData {
+        normal_module: pair.normal_module_mm,
+        normal_pressure_angle: pair.normal_pressure_angle(),
+        dedendum_coefficient: pair.dedendum_coefficient,
+        thickness_allowance: 0.0,
+        ..GearData::default()
+    };
+    let largest = (1e4 * data.largest_root_radius_coefficient()).floor() / 1e4;
+    if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
+}
+
+/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
+fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
+    let mesh = Mesh::parse(content, file).ok()?;
+    let [low, high] = mesh.radii(&mesh.surface(&names.bore)?.nodes());
+    Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
+}
+
+/// Whether a gear states its helix angle or follows the mating one.
+pub(super) enum Hand {
+    Own,
+    Against(f64),
+}
+
+pub(super) fn gear(
+    s: &Source<'_>,
+    raw: &RawGear,
+    hand: Hand,
+    pair: &PairScene,
+    shared: Material,
+    face_elements: impl Fn(u32) -> u32,
+) -> Checked<GearScene> {
+    let teeth = value!(s, GEAR, raw.teeth)?;
+    let helix_angle_deg = match hand {
+        Hand::Own => value!(s, GEAR, raw.helix_angle_deg)?,
+        Hand::Against(other) => against(s, raw, other)?,
+    };
+    let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
+    let widest_arc = 0.25 * pair.normal_module_mm;
+    let bore_limit = reference.max(1e-3);
+    let (mesh, mesher) = mesh_source(s, raw, teeth, face_elements)?;
+    let groups = groups(s, &raw.groups)?;
+    let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
+    let bore_of_mesh = match &mesh {
+        // A mesh in another unit, or of another gear, is told where it is read.
+        Some(path) if raw.bore_diameter_mm.is_none() => {
+            let content = inputs::content(s.origin, s.file, path).ok();
+            content.and_then(|mesh| bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
+        }
+        _ => None,
+    };
+    let (pitch_errors_um, pitch_errors_file) = pitch_errors(s, raw, teeth)?;
+    Ok(GearScene {
+        teeth,
+        helix_angle_deg,
+        bore_diameter_mm: s.number(
+            "bore_diameter_mm",
+            &raw.bore_diameter_mm,
+            bore_of_mesh.unwrap_or(BORE_RATIO * reference),
+            1e-3,
+            bore_limit,
+        )?,
+        profile_shift: value!(s, GEAR, raw.profile_shift)?,
+        tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
+        tip_diameter_mm: match raw.tip_diameter_mm {
+            None => None,
+            Some(_) => {
+                Some(s.number("tip_diameter_mm", &raw.tip_diameter_mm, 0.0, reference * 0.5, reference * 2.0)?)
+            }
+        },
+        thickness_allowance_mm: s.number(
+            "thickness_allowance_mm",
+            &raw.thickness_allowance_mm,
+            0.0,
+            0.0,
+            0.5 * pair.normal_module_mm,
+        )?,
+        pitch_errors_um,
+        pitch_errors_file,
+        mesh,
+        mesher,
+        groups,
+        material: material(s, &raw.material, shared)?,
+        modification: match &raw.modification {
+            None => Default::default(),
+            Some(table) => ModificationScene::read(s, table.get_ref(), pair.face_width_mm)?,
+        },
+        body: None,
+        bearing: Default::default(),
+        shaft: None,
+    })
+}
+
+/// The wheel of an external pair has the other hand; stated, it must agree.
+fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64) -> Checked<f64> {
+    // `0.0 - x` and not `-x`: a spur wheel has helix angle 0, not -0.
+    let follows = 0.0 - pinion_deg;
+    match &raw.helix_angle_deg {
+        Some(own) if (own.get_ref() - follows).abs() > 1e-9 => Err(s.conflict(
+            &own.span(),
+            format!(
+                "the wheel's `helix_angle_deg` is {}, but the pinion's is {pinion_deg}: they do not mesh",
+                own.get_ref()
+            ),
+            "leave it out: the wheel's helix angle follows from the pinion's",
+        )),
+        _ => Ok(follows),
+    }
+}
+
+fn mesh_source(
+    s: &Source<'_>,
+    raw: &RawGear,
+    teeth: u32,
+    face_elements: impl Fn(u32) -> u32,
+) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
+    match (&raw.mesh, &raw.mesher) {
+        (Some(_), Some(mesher)) => Err(s.conflict(
+            &mesher.span(),
+            "a gear has both a `mesh` and a `mesher` table",
+            "keep `mesh` to read a file, or the `mesher` table to have one made",
+        )),
+        (Some(mesh), None) => Ok((Some(inputs::named(s, "mesh", mesh)?), None)),
+        (None, mesher) => {
+            let none = RawMesher::default();
+            Ok((None, Some(mesher_options(s, mesher.as_ref().map_or(&none, |m| m.get_ref()), teeth, face_elements)?)))
+        }
+    }
+}
+
+fn mesher_options(
+    s: &Source<'_>,
+    raw: &RawMesher,
+    teeth: u32,
+    face_elements: impl Fn(u32) -> u32,
+) -> Checked<MesherScene> {
+    let order = value!(s, MESHER, raw.order)?;
+    let (least, most, _) = MESHER.whole("elements_face");
+    Ok(MesherScene {
+        order,
+        elements_profile: value!(s, MESHER, raw.elements_profile)?,
+        elements_fillet: value!(s, MESHER, raw.elements_fillet)?,
+        elements_thickness: value!(s, MESHER, raw.elements_thickness)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, face_elements(order), least, most)?,
+        elements_rim: value!(s, MESHER, raw.elements_rim)?,
+        sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
+    })
+}
+
+/// The mesh's own names; those of flanks need a place for the tooth number.
+fn groups(s: &Source<'_>, raw: &RawGroups) -> Checked<GroupNames> {
+    let ours = GroupNames::default();
+    let name = |word: &Word, default: String| word.as_ref().map_or(default, |w| w.get_ref().clone());
+    for (key, word) in [("flank_left", &raw.flank_left), ("flank_right", &raw.flank_right)] {
+        if let Some(word) = word.as_ref().filter(|w| !w.get_ref().contains("{k}")) {
+            return Err(s.conflict(
+                &word.span(),
+                format!("`{key}` is \"{}\", which has no place for the tooth number", word.get_ref()),
+                format!("write {{k}} where the number stands, as in {key} = \"Left_{{k}}\""),
+            ));
+        }
+    }
+    Ok(GroupNames {
+        bore: name(&raw.bore, ours.bore),
+        flank_left: name(&raw.flank_left, ours.flank_left),
+        flank_right: name(&raw.flank_right, ours.flank_right),
+        cut_0: name(&raw.cut_0, ours.cut_0),
+        cut_1: name(&raw.cut_1, ours.cut_1),
+    })
+}

@@ -1,0 +1,86 @@
+//! From words to a scene: ranges, defaults, what goes together, what this version cannot do.
+
+mod gear;
+mod motion;
+mod pitch_errors;
+mod tables;
+mod together;
+
+use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, schema::RawScene, source::Source};
+use gear::{Hand, gear, material, pair, steel};
+use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
+use tables::{analysis, contact, operation, output};
+use together::together;
+
+type Checked<T> = Result<T, SceneError>;
+
+/// Every complaint is made here, before any work starts or any file is written.
+pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
+    all_given(source, &raw)?;
+    let shared = material(source, &raw.material, steel())?;
+    let pair = pair(source, &raw.pair)?;
+    let root_stress = raw.output.root_stress.as_ref().is_some_and(|on| *on.get_ref());
+    let face_elements = |order| pair.face_elements(order, root_stress);
+    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared, face_elements)?;
+    let hand = Hand::Against(pinion.helix_angle_deg);
+    let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
+    let analysis = analysis(source, &raw.analysis)?;
+    ladder::check_tables(source, &raw, analysis.model)?;
+    let dynamic = analysis.kind == Kind::Dynamic;
+    if dynamic {
+        bodies(source, &raw, analysis.model, [&mut pinion, &mut wheel])?;
+    } else {
+        refuse_motion_tables(source, &raw)?;
+    }
+    let modes = normal_modes(source, &raw, analysis.model)?;
+    let in_time = dynamic.then(|| in_time(source, &raw, analysis.model)).transpose()?;
+    let ladder::ModelTables { mesh, lumped8, lumped12, shaft18, impact } =
+        ladder::model_tables(source, &raw, analysis.model)?;
+    if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
+        pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
+        wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);
+    }
+    let in_seconds = in_time.as_ref().is_some_and(|m| m.run == Run::Ramp || m.duration_s.is_some());
+    let cycles = if in_seconds { 0 } else { analysis.cycles };
+    let scene = Scene {
+        name: raw.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| default_name(source)),
+        file: source.file.to_owned(),
+        written: Written::new(source),
+        set: Vec::new(),
+        operation: operation(source, &raw.operation)?,
+        contact: contact(source, &raw.contact, analysis.kind)?,
+        drive: dynamic.then(|| drive(source, &raw, analysis.model)).transpose()?,
+        load: dynamic.then(|| load(source, &raw)).transpose()?,
+        analysis: Analysis { cycles, ..analysis },
+        modes,
+        motion: in_time,
+        mesh,
+        lumped8,
+        lumped12,
+        impact,
+        shaft18,
+        output: output(source, &raw.output)?,
+        pinion,
+        wheel,
+        pair,
+    };
+    together(source, &raw, &scene)?;
+    Ok(scene)
+}
+
+fn all_given(source: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let needed = [
+        ("`[pinion] teeth`", raw.pinion.teeth.is_none()),
+        ("`[pinion] helix_angle_deg`", raw.pinion.helix_angle_deg.is_none()),
+        ("`[wheel] teeth`", raw.wheel.teeth.is_none()),
+        ("`[pair] normal_module_mm`", raw.pair.normal_module_mm.is_none()),
+        ("`[pair] face_width_mm`", raw.pair.face_width_mm.is_none()),
+        ("`[operation] torque_nm`", raw.operation.torque_nm.is_none()),
+    ];
+    let keys: Vec<String> = needed.into_iter().filter(|(_, gone)| *gone).map(|(key, _)| key.to_owned()).collect();
+    if keys.is_empty() { Ok(()) } else { Err(SceneError::Missing { file: source.file.to_owned(), keys }) }
+}
+
+fn default_name(source: &Source<'_>) -> String {
+    source.file.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
+}

@@ -1,0 +1,101 @@
+//! Bodies, bearings and shafts of the gears, and what else goes with a motion.
+
+use toml::Spanned;
+
+use super::Checked;
+use crate::{
+    DriveScene, GearScene, Model, ModesScene, MotionScene, ShaftScene, TorqueScene, ladder, motion,
+    schema::{RawGear, RawScene},
+    source::Source,
+};
+
+/// What a table says, if it is there.
+fn table_of<T>(table: &Option<Spanned<T>>) -> Option<&T> {
+    table.as_ref().map(Spanned::get_ref)
+}
+
+/// Bodies and bearings of both gears.
+pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut GearScene; 2]) -> Checked<()> {
+    let rung = ladder::Rung::of(model);
+    for (of, (said, whose)) in gears.into_iter().zip([(&raw.pinion, "pinion"), (&raw.wheel, "wheel")]) {
+        let mut body = table_of(&said.body).map(|b| motion::body(s, b)).transpose()?.unwrap_or_default();
+        let mut free_at = said.body.as_ref().map(Spanned::span);
+        if let Some((rung, moves)) = rung.and_then(|r| Some((r, r.moves?))) {
+            ladder::check_free_coordinates(s, said, rung, &body)?;
+            body.free = moves.to_vec();
+            free_at = raw.analysis.model.as_ref().map(Spanned::span);
+        }
+        of.bearing = motion::bearing(s, table_of(&said.bearing), &body.free, free_at, whose)?;
+        if model == Model::Lumped12 {
+            // Its damping is Rayleigh's.
+            of.bearing.damping_ratio = None;
+        }
+        of.body = Some(body);
+    }
+    Ok(())
+}
+
+/// The table on motion, as the model takes it.
+pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<MotionScene> {
+    let said = motion::motion(s, table_of(&raw.motion).unwrap_or(&Default::default()), &raw.analysis.cycles)?;
+    // Only a mesh that says so has a damping of its own.
+    let damped = ladder::Rung::of(model).is_none_or(|r| r.mesh_damping);
+    Ok(MotionScene { mesh_damping_ratio: said.mesh_damping_ratio.filter(|_| damped), ..said })
+}
+
+/// What drives the driver.
+pub(super) fn drive(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<DriveScene> {
+    motion::drive(s, table_of(&raw.drive).unwrap_or(&Default::default()), model)
+}
+
+/// What the torque on the driven gear is beside its mean.
+pub(super) fn load(s: &Source<'_>, raw: &RawScene) -> Checked<TorqueScene> {
+    motion::load(s, table_of(&raw.load).unwrap_or(&Default::default()))
+}
+
+/// The shaft of a gear, which the model of shafts wants.
+pub(super) fn shaft(s: &Source<'_>, raw: &RawGear, whose: &str, model: &Spanned<String>) -> Checked<ShaftScene> {
+    match &raw.shaft {
+        Some(table) => ladder::shaft(s, table),
+        None => Err(s.conflict(
+            &model.span(),
+            format!("the model \"shaft18\" wants the shaft of the {whose}"),
+            format!("give [{whose}.shaft] with `segments_mm`, `gear_at_mm` and supports"),
+        )),
+    }
+}
+
+/// The table of modes goes with the model that keeps them, and with no other.
+pub(super) fn normal_modes(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<Option<ModesScene>> {
+    match (model, &raw.modes) {
+        (Model::ReducedModes, None) => motion::modes(s, &Default::default()).map(Some),
+        (Model::ReducedModes, Some(words)) => motion::modes(s, words.get_ref()).map(Some),
+        (_, None) => Ok(None),
+        (_, Some(words)) => Err(s.conflict(
+            &words.span(),
+            "[modes] belongs to `model = \"reduced+modes\"`",
+            "leave it out, or say so in [analysis]",
+        )),
+    }
+}
+
+/// Tables on motion mean nothing to an analysis without time.
+pub(super) fn refuse_motion_tables(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let tables = [
+        ("[pinion.body]", raw.pinion.body.as_ref().map(Spanned::span)),
+        ("[pinion.bearing]", raw.pinion.bearing.as_ref().map(Spanned::span)),
+        ("[wheel.body]", raw.wheel.body.as_ref().map(Spanned::span)),
+        ("[wheel.bearing]", raw.wheel.bearing.as_ref().map(Spanned::span)),
+        ("[drive]", raw.drive.as_ref().map(Spanned::span)),
+        ("[load]", raw.load.as_ref().map(Spanned::span)),
+        ("[motion]", raw.motion.as_ref().map(Spanned::span)),
+    ];
+    match tables.into_iter().find_map(|(name, span)| Some((name, span?))) {
+        None => Ok(()),
+        Some((name, span)) => Err(s.conflict(
+            &span,
+            format!("{name} belongs to an analysis in time"),
+            "leave it out, or say `kind = \"dynamic\"` in [analysis]",
+        )),
+    }
+}

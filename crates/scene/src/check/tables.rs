@@ -1,0 +1,99 @@
+//! Load, contact, analysis and output: tables that stand for themselves.
+
+use super::Checked;
+use crate::{
+    Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
+    schema::{ANALYSIS, CONTACT, Choice, RawAnalysis, RawContact, RawOperation, RawOutput},
+    source::Source,
+};
+
+/// Slices of a pair that asks for no more, and of models that do not ask.
+const LEAST_SLICES: u32 = 32;
+
+pub(super) fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
+    Operation::read(s, raw, f64::INFINITY)
+}
+
+pub(super) fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<ContactScene> {
+    let method = choice!(s, raw.method)?;
+    let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
+    let (least, most, _) = CONTACT.whole("slices");
+    // Where none are said and the pair is to be cut, its own number follows once the scene is checked.
+    let slices = s.whole("slices", &raw.slices, LEAST_SLICES, least, most)?;
+    let gap = choice!(s, raw.gap)?;
+    let points = value!(s, CONTACT, raw.points_per_face_edge)?;
+    Ok(ContactScene {
+        method,
+        slices: sliced.then_some(slices),
+        corner_contact: sliced.then_some(raw.corner_contact.as_ref().is_none_or(|c| *c.get_ref())),
+        friction: value!(s, CONTACT, raw.friction)?,
+        penalty_mpa_per_mm: optional!(s, CONTACT, raw.penalty_mpa_per_mm)?,
+        gap: nodal.then_some(gap),
+        points_per_face_edge: nodal.then_some(points),
+        // What moves may part and come back on the other side.
+        flanks: match (kind, &raw.flanks) {
+            (Kind::Dynamic, None) => Flanks::Both,
+            _ => choice!(s, raw.flanks)?,
+        },
+    })
+}
+
+pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
+    let model: Model = choice!(s, raw.model)?;
+    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.is_reduced()) {
+        return Err(s.conflict(
+            &word.span(),
+            "`reduction` belongs to `model = \"reduced\"`",
+            "leave it out: this model reduces nothing",
+        ));
+    }
+    let rung = ladder::Rung::of(model);
+    let kind = match (&raw.kind, rung) {
+        (None, Some(_)) => Kind::Dynamic,
+        _ => choice!(s, raw.kind)?,
+    };
+    if let (Kind::Static, Some(word), Some(rung)) = (kind, &raw.kind, rung) {
+        return Err(s.conflict(
+            &word.span(),
+            format!("the model \"{}\" is one of motion", rung.name),
+            "leave `kind` out, or use `model = \"reduced\"`, \"full\" or \"iso\"",
+        ));
+    }
+    if let (Some(word), Model::ReducedModes, Kind::Static) = (&raw.model, model, kind) {
+        return Err(s.conflict(
+            &word.span(),
+            "`model = \"reduced+modes\"` needs `kind = \"dynamic\"`: modes are motion, and nothing moves here",
+            "say `kind = \"dynamic\"` in [analysis], or use `model = \"reduced\"`: at rest both are the same",
+        ));
+    }
+    let reduction = choice!(s, raw.reduction)?;
+    Ok(Analysis {
+        kind,
+        model,
+        reduction: model.is_reduced().then_some(reduction),
+        positions_per_cycle: value!(s, ANALYSIS, raw.positions_per_cycle)?,
+        cycles: {
+            let (low, high, _) = ANALYSIS.whole("cycles");
+            s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, low, high)?
+        },
+        window_teeth: match raw.window_teeth {
+            None => None,
+            Some(_) => Some(value!(s, ANALYSIS, raw.window_teeth)?),
+        },
+    })
+}
+
+pub(super) fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
+    let fields = match &raw.fields {
+        None => FieldName::CHOICES.iter().map(|(_, field)| *field).collect(),
+        words => s.choices_of("fields", words)?,
+    };
+    Ok(OutputScene {
+        root_stress: value!(s, OUTPUT, raw.root_stress)?,
+        contact_lines: value!(s, OUTPUT, raw.contact_lines)?,
+        parquet: value!(s, OUTPUT, raw.parquet)?,
+        vtu: value!(s, OUTPUT, raw.vtu)?,
+        fields,
+        vtu_every: value!(s, OUTPUT, raw.vtu_every)?,
+    })
+}

@@ -1,0 +1,204 @@
+//! What goes together.
+
+use toml::Spanned;
+
+use super::Checked;
+use crate::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
+
+/// What can only be judged with the whole scene in view.
+pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if scene.analysis.model == Model::Iso {
+        nominal_flanks(s, raw)?;
+    }
+    if scene.analysis.kind == Kind::Dynamic {
+        in_time(s, raw, scene)?;
+    }
+    window(s, raw, scene)?;
+    of_method(s, raw, scene)?;
+    of_model(s, raw, scene)
+}
+
+/// A window has no more teeth than the gears.
+fn window(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if let (Some(window), Some(word)) = (scene.analysis.window_teeth, &raw.analysis.window_teeth) {
+        let teeth = scene.pinion.teeth.min(scene.wheel.teeth);
+        if window > teeth {
+            return Err(s.conflict(
+                &word.span(),
+                format!("`window_teeth` is {window}, but the smaller gear has {teeth} teeth"),
+                "leave it out: the window follows from the contact ratio",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// What belongs to one method of contact.
+fn of_method(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let nodal_only = [
+        ("penalty_mpa_per_mm", raw.contact.penalty_mpa_per_mm.as_ref().map(Spanned::span)),
+        ("gap", raw.contact.gap.as_ref().map(Spanned::span)),
+        ("points_per_face_edge", raw.contact.points_per_face_edge.as_ref().map(Spanned::span)),
+    ];
+    let nodal_key = nodal_only.into_iter().find_map(|(key, span)| Some((key, span?)));
+    if let (Method::Slice, Some((key, span))) = (scene.contact.method, nodal_key) {
+        return Err(s.conflict(
+            &span,
+            format!("`{key}` means nothing to slices"),
+            "leave it out, or use `method = \"nodal\"`",
+        ));
+    }
+    if let (Method::Nodal, Some(slices)) = (scene.contact.method, &raw.contact.slices) {
+        return Err(s.conflict(
+            &slices.span(),
+            "`slices` means nothing to the method \"nodal\"",
+            "leave it out, or use `method = \"slice\"`",
+        ));
+    }
+    if let Some(word) = raw.output.contact_lines.as_ref().filter(|w| *w.get_ref() && !scene.has_slices()) {
+        return Err(s.conflict(
+            &word.span(),
+            "`contact_lines` lists slices, and this scene has none",
+            "leave it out, or use the method \"slice\" and the model \"reduced\" or \"full\"",
+        ));
+    }
+    if let (Method::Nodal, Some(corner)) = (scene.contact.method, &raw.contact.corner_contact) {
+        return Err(s.conflict(
+            &corner.span(),
+            "`corner_contact` means nothing to the method \"nodal\", whose points press wherever the flanks touch",
+            "leave it out, or use `method = \"slice\"`",
+        ));
+    }
+    Ok(())
+}
+
+/// What belongs to some models.
+fn of_model(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if let (Some(friction), Model::Full | Model::Iso) = (&raw.contact.friction, scene.analysis.model)
+        && scene.contact.friction != 0.0
+    {
+        return Err(s.conflict(
+            &friction.span(),
+            "only the model \"reduced\" has friction",
+            "leave it out, or use `model = \"reduced\"`",
+        ));
+    }
+    if let (Some(asked), true, Model::Iso) = (&raw.output.root_stress, scene.output.root_stress, scene.analysis.model) {
+        return Err(s.conflict(
+            &asked.span(),
+            "`root_stress` needs a mesh, and the model \"iso\" has none",
+            "leave it out, or use `model = \"reduced\"`",
+        ));
+    }
+    if let (Some(penalty), Model::Iso) = (&raw.contact.penalty_mpa_per_mm, scene.analysis.model) {
+        return Err(s.conflict(
+            &penalty.span(),
+            "`penalty_mpa_per_mm` means nothing to the model \"iso\", which has no contact points",
+            "leave it out, or use `model = \"reduced\"`",
+        ));
+    }
+    Ok(())
+}
+
+/// An analysis in time.
+fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let rung = ladder::Rung::of(scene.analysis.model);
+    possible(s, raw, scene, rung.is_some())?;
+    if let Some(rung) = rung {
+        ladder::check_in_time(s, raw, scene, rung)?;
+    }
+    let linear = rung.is_some_and(|r| r.mesh && !r.backlash);
+    if let (Some(torque), true, false) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0, linear) {
+        return Err(s.conflict(
+            &torque.span(),
+            "`torque_nm` is 0: a motion begins under load, and its scales are taken from it",
+            "give the torque that the motion begins with; `table_s_nm` in [load] may take it away later",
+        ));
+    }
+    of_run(s, raw, scene)
+}
+
+/// What this version can do in time.
+fn possible(s: &Source<'_>, raw: &RawScene, scene: &Scene, on_ladder: bool) -> Checked<()> {
+    if let (Some(word), true, false) = (&raw.analysis.model, !scene.analysis.model.is_reduced(), on_ladder) {
+        return Err(not_yet(s, "model", word, "another model in time", "use `model = \"reduced\"`"));
+    }
+    if let (Some(word), Method::Nodal) = (&raw.contact.method, scene.contact.method) {
+        return Err(not_yet(s, "method", word, "pressed points in time", "use `method = \"slice\"`"));
+    }
+    // Of quasi-static elasticity the forces on the flanks tell all; normal modes bend teeth besides.
+    let stress = scene.output.root_stress && scene.analysis.model != Model::Reduced;
+    let fields = [
+        ("root_stress", stress, raw.output.root_stress.as_ref().map(Spanned::span)),
+        ("contact_lines", scene.output.contact_lines, raw.output.contact_lines.as_ref().map(Spanned::span)),
+        ("vtu", scene.output.vtu, raw.output.vtu.as_ref().map(Spanned::span)),
+    ];
+    if let Some((key, _, Some(span))) = fields.into_iter().find(|(_, asked, _)| *asked) {
+        return Err(SceneError::NotYet {
+            place: s.place(&span),
+            key: format!("{key} = true"),
+            what: "fields and stresses of an analysis in time".into(),
+            instead: "leave it out, or use `kind = \"static\"` for them".into(),
+        });
+    }
+    Ok(())
+}
+
+/// What the run asked for can have.
+fn of_run(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    if let (Some(asked), true, Some(Run::Sweep)) =
+        (&raw.output.parquet, scene.output.parquet, scene.motion.as_ref().map(|m| m.run))
+    {
+        return Err(s.conflict(
+            &asked.span(),
+            "`parquet` writes the history, and a sweep has none",
+            "leave it out: resonance.csv has a row a speed",
+        ));
+    }
+    of_drive(s, raw, scene)
+}
+
+/// Shooting, ramps and sweeps say the speed: a torque that balances the load holds it, one of its own does not.
+fn of_drive(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let sweeps = scene.motion.as_ref().filter(|m| m.run != Run::Steady && m.run != Run::Span);
+    let (Some(_), Some(drive), Some(table)) = (sweeps, &scene.drive, &raw.drive) else { return Ok(()) };
+    // Lumped gears turn freely against each other, and their torques balance; rigid ones would lose speed to friction.
+    let own = if scene.impact.is_some() { true } else { scene.analysis.model.is_reduced() && !drive.torque.is_none() };
+    if drive.by == DriveBy::Torque && own {
+        let balances = if scene.impact.is_some() { "" } else { ", or leave the torque out: it then balances the load" };
+        return Err(s.conflict(
+            &table.span(),
+            "shooting, ramps and sweeps give the speed of the driver, and here a torque drives it",
+            format!("use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`{balances}"),
+        ));
+    }
+    Ok(())
+}
+
+/// The model "iso" knows nominal flanks on parallel axes only.
+fn nominal_flanks(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let tables = [("modification", &raw.pinion.modification), ("modification", &raw.wheel.modification)];
+    let tables = tables.into_iter().filter_map(|(key, table)| table.as_ref().map(|t| (key, t.span())));
+    let misaligned = raw.pair.misalignment.iter().map(|t| ("misalignment", t.span()));
+    let lists = [&raw.pinion, &raw.wheel].into_iter().filter_map(|g| g.pitch_errors_um.as_ref());
+    let files = [&raw.pinion, &raw.wheel].into_iter().filter_map(|g| g.pitch_errors_file.as_ref());
+    let lists = lists.map(|l| ("pitch_errors_um", l.span()));
+    let files = files.map(|f| ("pitch_errors_file", f.span()));
+    match tables.chain(misaligned).chain(lists).chain(files).next() {
+        None => Ok(()),
+        Some((key, span)) => Err(s.conflict(
+            &span,
+            format!("`{key}` means nothing to the model \"iso\", which takes nominal flanks on parallel axes"),
+            "leave it out, or use `model = \"reduced\"`",
+        )),
+    }
+}
+
+fn not_yet(s: &Source<'_>, key: &str, word: &Spanned<String>, what: &str, instead: &str) -> SceneError {
+    SceneError::NotYet {
+        place: s.place(&word.span()),
+        key: format!("{key} = \"{}\"", word.get_ref()),
+        what: what.into(),
+        instead: instead.into(),
+    }
+}

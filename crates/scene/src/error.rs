@@ -1,0 +1,220 @@
+//! What can be wrong with a scene, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use geometry::GeometryError;
+use geometry::modification::DataFileError;
+
+/// Where a value was said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a file; boxed, as every check hands a place about.
+    Line(Box<Line>),
+    /// Beside the file.
+    Setting {
+        /// As `--set operation.torque_nm`.
+        label: Box<str>,
+    },
+}
+
+/// A line of a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// The file as the user named it.
+    pub file: PathBuf,
+    /// Counted from 1.
+    pub number: usize,
+    /// The line itself with a mark below what is meant: two lines of text.
+    pub excerpt: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "{}:{}", line.file.display(), line.number),
+            Self::Setting { label } => f.write_str(label),
+        }
+    }
+}
+
+impl Place {
+    /// The line with a mark below what is meant; none beside a file.
+    pub fn excerpt(&self) -> Option<&str> {
+        match self {
+            Self::Line(line) => Some(&line.excerpt),
+            Self::Setting { .. } => None,
+        }
+    }
+}
+
+/// A complaint about a scene file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", file.display())]
+    Read {
+        /// The scene.
+        file: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// It is no TOML.
+    #[error("{place}: {message}")]
+    Syntax {
+        /// Where reading stopped.
+        place: Place,
+        /// What was expected.
+        message: String,
+        /// What may have been meant.
+        advice: Option<&'static str>,
+    },
+    /// A key that no table of this name has.
+    #[error("{place}: unknown key `{key}`")]
+    UnknownKey {
+        /// Where it stands.
+        place: Place,
+        /// As written.
+        key: String,
+        /// What may have been meant.
+        advice: String,
+    },
+    /// A value of another type.
+    #[error("{place}: `{key}` must be {expected}, found {found}")]
+    WrongType {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// The type wanted.
+        expected: String,
+        /// What stands there.
+        found: String,
+        /// How to write it.
+        advice: String,
+    },
+    /// A value that makes no sense.
+    #[error("{place}: `{key}` is {value}, allowed is {allowed}")]
+    OutOfRange {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// As written.
+        value: String,
+        /// Range or list.
+        allowed: String,
+        /// What may have been meant.
+        advice: Option<String>,
+    },
+    /// Keys without a default that are not there.
+    #[error("{}: missing {}", file.display(), keys.join(", "))]
+    Missing {
+        /// The scene.
+        file: PathBuf,
+        /// Each as `` `[table] key` ``.
+        keys: Vec<String>,
+    },
+    /// Something this version cannot do; never ignored.
+    #[error("{place}: `{key}` asks for {what}, which this version cannot do")]
+    NotYet {
+        /// Where it stands.
+        place: Place,
+        /// Its key.
+        key: String,
+        /// What it asks for.
+        what: String,
+        /// What to do instead.
+        instead: String,
+    },
+    /// A key set beside the file that cannot be read.
+    #[error("{label}: {what}")]
+    Setting {
+        /// As the user wrote it.
+        label: String,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// What a scene made in code sets is no key.
+    #[error("`{key}` is no key")]
+    NoKey {
+        /// As the program says it.
+        key: String,
+    },
+    /// Two keys that do not go together, or a value against the rest of the scene.
+    #[error("{place}: {what}")]
+    Conflict {
+        /// Where the second of them stands.
+        place: Place,
+        /// The contradiction.
+        what: String,
+        /// The way out.
+        advice: String,
+    },
+    /// No running pair can be made of the data.
+    #[error("{}: [{table}]: {source}", at(place.as_ref(), file))]
+    Geometry {
+        /// The key at fault, where it is written.
+        place: Option<Place>,
+        /// The scene.
+        file: PathBuf,
+        /// `pinion`, `wheel` or `pair`.
+        table: &'static str,
+        /// What the geometry says.
+        source: GeometryError,
+    },
+    /// A topography or a list of pitch errors that cannot be read.
+    #[error(transparent)]
+    DataFile(#[from] DataFileError),
+}
+
+/// The place, or the file where none is known.
+fn at(place: Option<&Place>, file: &Path) -> String {
+    place.map_or_else(|| file.display().to_string(), ToString::to_string)
+}
+
+impl SceneError {
+    /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
+    pub fn excerpt(&self) -> Option<&str> {
+        match self {
+            Self::Read { .. }
+            | Self::Missing { .. }
+            | Self::Setting { .. }
+            | Self::NoKey { .. }
+            | Self::DataFile(_) => None,
+            Self::Geometry { place, .. } => place.as_ref()?.excerpt(),
+            Self::Syntax { place, .. }
+            | Self::UnknownKey { place, .. }
+            | Self::WrongType { place, .. }
+            | Self::OutOfRange { place, .. }
+            | Self::NotYet { place, .. }
+            | Self::Conflict { place, .. } => place.excerpt(),
+        }
+    }
+
+    /// What the user can do next; the command prints it as `hint: ...`.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Read { source, .. } if source.kind() == std::io::ErrorKind::InvalidData => {
+                Some("a scene is plain text: save it as UTF-8".into())
+            }
+            Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
+            Self::Syntax { advice, .. } => {
+                Some(advice.unwrap_or("a scene is a TOML file: `[table]` lines and `key = value` lines").into())
+            }
+            Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } | Self::WrongType { advice, .. } => {
+                Some(advice.clone())
+            }
+            Self::OutOfRange { advice, .. } => advice.clone(),
+            Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
+            Self::Setting { .. } => Some(
+                "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value".into(),
+            ),
+            Self::NoKey { .. } => Some("tables and key with dots between them, as `operation.torque_nm`".into()),
+            Self::NotYet { instead, .. } => Some(instead.clone()),
+            Self::Geometry { source, .. } => source.hint(),
+            Self::DataFile(error) => error.hint(),
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The gears, and what they share.
+
+use std::path::PathBuf;
+
+use mesh::GroupNames;
+use serde::Serialize;
+
+use super::{BearingScene, BodyScene, MisalignmentScene, ModificationScene, ShaftScene};
+
+/// One gear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GearScene {
+    /// Number of teeth.
+    pub teeth: u32,
+    /// Helix angle at the reference cylinder, right hand positive, degrees.
+    pub helix_angle_deg: f64,
+    /// Diameter of the rigid bore, mm.
+    pub bore_diameter_mm: f64,
+    /// Profile shift coefficient.
+    pub profile_shift: f64,
+    /// Tip diameter, mm; `None`: from addendum and profile shift.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_diameter_mm: Option<f64>,
+    /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
+    pub tip_edge_radius_mm: f64,
+    /// Thinning of the tooth in the normal section, mm.
+    pub thickness_allowance_mm: f64,
+    /// Cumulative pitch deviation of each tooth, um; empty: none, or in a file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pitch_errors_um: Vec<f64>,
+    /// File of them, as written in the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pitch_errors_file: Option<PathBuf>,
+    /// Mesh file as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<PathBuf>,
+    /// The built-in mesher; set exactly when `mesh` is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesher: Option<MesherScene>,
+    /// The mesh's own names for the parts of the gear.
+    pub groups: GroupNames,
+    /// What it is made of.
+    pub material: Material,
+    /// Micro-geometry of the flanks.
+    #[serde(skip_serializing_if = "ModificationScene::is_none")]
+    pub modification: ModificationScene,
+    /// Rigid body; set exactly when the analysis is dynamic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<BodyScene>,
+    /// What holds its free coordinates.
+    #[serde(skip_serializing_if = "BearingScene::is_none")]
+    pub bearing: BearingScene,
+    /// The shaft it sits on; set exactly for the model of shafts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaft: Option<ShaftScene>,
+}
+
+/// Options of the structured mesher.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct MesherScene {
+    /// 1: hex8, 2: hex20.
+    pub order: u32,
+    /// Elements along the active flank.
+    pub elements_profile: u32,
+    /// Elements along the root fillet.
+    pub elements_fillet: u32,
+    /// Elements across the tooth.
+    pub elements_thickness: u32,
+    /// Elements along the face width.
+    pub elements_face: u32,
+    /// Elements from the root circle to the bore.
+    pub elements_rim: u32,
+    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth, cut faces free.
+    pub sector_teeth: u32,
+}
+
+/// Linear elastic and isotropic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Material {
+    /// Young's modulus, MPa.
+    pub young_mpa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density, kg/m^3.
+    pub density_kg_m3: f64,
+}
+
+/// What both gears share.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PairScene {
+    /// Normal module, mm.
+    pub normal_module_mm: f64,
+    /// Normal pressure angle, degrees.
+    pub normal_pressure_angle_deg: f64,
+    /// Face width of both gears, mm.
+    pub face_width_mm: f64,
+    /// Working centre distance, mm; `None`: the nominal one that follows from the profile shifts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_distance_mm: Option<f64>,
+    /// Addendum of the basic rack over the normal module.
+    pub addendum_coefficient: f64,
+    /// Dedendum of the basic rack over the normal module.
+    pub dedendum_coefficient: f64,
+    /// Tip radius of the basic rack over the normal module.
+    pub root_radius_coefficient: f64,
+    /// Deviation of the axes from each other.
+    #[serde(skip_serializing_if = "MisalignmentScene::is_none")]
+    pub misalignment: MisalignmentScene,
+}
+
+impl MisalignmentScene {
+    /// Whether the axes are parallel.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl Material {
+    /// Density, t/mm^3.
+    pub fn density(&self) -> f64 {
+        self.density_kg_m3 * 1e-12
+    }
+}
+
+impl GearScene {
+    /// Helix angle, rad.
+    pub fn helix_angle(&self) -> f64 {
+        self.helix_angle_deg.to_radians()
+    }
+}
+
+impl PairScene {
+    /// Normal pressure angle, rad.
+    pub fn normal_pressure_angle(&self) -> f64 {
+        self.normal_pressure_angle_deg.to_radians()
+    }
+
+    /// Elements along the face that a mesh of this order asks for, with root stress or without.
+    pub(crate) fn face_elements(&self, order: u32, root_stress: bool) -> u32 {
+        mesh::face_elements(self.face_width_mm, self.normal_module_mm, order, root_stress)
+    }
+}

@@ -1,0 +1,54 @@
+//! From a scene to the exact geometry of its pair: gear data, micro-geometry, pitch errors.
+
+use geometry::modification::{DataFileError, read_pitch_errors};
+use geometry::{Gear, GearData, GearModifications, GearPair, Side};
+
+use crate::{GearScene, Scene, SceneError};
+
+impl Scene {
+    /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors.
+    ///
+    /// # Errors
+    /// [`SceneError::Geometry`] when no running pair can be made of the data, [`SceneError::DataFile`] when a topography or
+    /// a list of pitch errors cannot be read.
+    pub fn gear_pair(&self) -> Result<GearPair, SceneError> {
+        let gear = |whose: &'static str, of: &GearScene| {
+            let nominal = Gear::new(data(self, of)).map_err(|e| self.geometry_fault(whose, e))?;
+            nominal.with_modifications(modifications(self, of)?).map_err(|e| self.geometry_fault(whose, e))
+        };
+        let pinion = gear("pinion", &self.pinion)?;
+        let wheel = gear("wheel", &self.wheel)?;
+        GearPair::new(pinion, wheel, self.pair.centre_distance_mm).map_err(|e| self.geometry_fault("pair", e))
+    }
+}
+
+/// Gear data of pinion and wheel in the program's own units.
+fn data(scene: &Scene, gear: &GearScene) -> GearData {
+    GearData {
+        teeth: gear.teeth,
+        normal_module: scene.pair.normal_module_mm,
+        normal_pressure_angle: scene.pair.normal_pressure_angle(),
+        helix_angle: gear.helix_angle(),
+        face_width: scene.pair.face_width_mm,
+        profile_shift: gear.profile_shift,
+        thickness_allowance: gear.thickness_allowance_mm,
+        addendum_coefficient: scene.pair.addendum_coefficient,
+        dedendum_coefficient: scene.pair.dedendum_coefficient,
+        root_radius_coefficient: scene.pair.root_radius_coefficient,
+        tip_diameter: gear.tip_diameter_mm,
+        tip_edge_radius: gear.tip_edge_radius_mm,
+        bore_diameter: gear.bore_diameter_mm,
+    }
+}
+
+/// Micro-geometry of a gear: the driving flanks are on the same side of both gears.
+fn modifications(scene: &Scene, gear: &GearScene) -> Result<GearModifications, DataFileError> {
+    let drive = gear.modification.drive.in_geometry(scene)?;
+    let coast = gear.modification.coast.in_geometry(scene)?;
+    let (left, right) = if scene.side() == Side::Left { (drive, coast) } else { (coast, drive) };
+    let pitch_errors = match &gear.pitch_errors_file {
+        Some(file) => read_pitch_errors(&scene.resolve(file))?,
+        None => gear.pitch_errors_um.iter().map(|e| 1e-3 * e).collect(),
+    };
+    Ok(GearModifications { left, right, pitch_errors })
+}

@@ -1,0 +1,21 @@
+//! Words on the impact of rigid gears.
+
+use crate::schema::RawImpact;
+use crate::source::Source;
+use crate::{ImpactScene, SceneError};
+
+pub(crate) fn impact(s: &Source<'_>, raw: &RawImpact) -> Result<ImpactScene, SceneError> {
+    // The formula for the stiffness belongs to the exponent 1.5.
+    let made = ImpactScene::read(s, raw, f64::INFINITY)?;
+    let ascending = made.dynamic_speed_mm_per_s > made.static_speed_mm_per_s;
+    match raw.dynamic_speed_mm_per_s.as_ref().or(raw.static_speed_mm_per_s.as_ref()) {
+        Some(at) if !ascending => {
+            let what = format!(
+                "`dynamic_speed_mm_per_s` is {}, not above `static_speed_mm_per_s`, {}",
+                made.dynamic_speed_mm_per_s, made.static_speed_mm_per_s
+            );
+            Err(s.conflict(&at.span(), what, "flanks stick below the one and slip above the other"))
+        }
+        _ => Ok(made),
+    }
+}

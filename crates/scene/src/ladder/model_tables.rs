@@ -1,0 +1,47 @@
+//! The tables of a scene's model, those that are not written by their defaults.
+
+use toml::Spanned;
+
+use super::{Lumped8Scene, MeshScene, Rung, Shaft18Scene};
+use super::{impact, lumped8, lumped12, mesh, shaft18};
+use crate::schema::RawScene;
+use crate::source::Source;
+use crate::{ImpactScene, Lumped12Scene, Model, SceneError};
+
+type Checked<T> = Result<T, SceneError>;
+
+/// Tables, each set exactly for the models that have it.
+pub(crate) struct ModelTables {
+    pub mesh: Option<MeshScene>,
+    pub lumped8: Option<Lumped8Scene>,
+    pub lumped12: Option<Lumped12Scene>,
+    pub shaft18: Option<Shaft18Scene>,
+    pub impact: Option<ImpactScene>,
+}
+
+/// The tables of a scene's model, checked.
+pub(crate) fn model_tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<ModelTables> {
+    let meshed = Rung::of(model).filter(|r| r.mesh);
+    Ok(ModelTables {
+        mesh: match meshed {
+            Some(rung) => table(&raw.mesh, true, |w| mesh(s, w, rung))?,
+            None => None,
+        },
+        lumped8: table(&raw.lumped8, model == Model::Lumped8, |w| lumped8(s, w))?,
+        lumped12: table(&raw.lumped12, model == Model::Lumped12, |w| lumped12(s, w))?,
+        shaft18: table(&raw.shaft18, model == Model::Shaft18, |w| shaft18(s, w))?,
+        impact: table(&raw.impact, model == Model::Impact, |w| impact(s, w))?,
+    })
+}
+
+fn table<R: Default, T>(
+    raw: &Option<Spanned<R>>,
+    wanted: bool,
+    checked: impl FnOnce(&R) -> Checked<T>,
+) -> Checked<Option<T>> {
+    match raw {
+        _ if !wanted => Ok(None),
+        Some(table) => checked(table.get_ref()).map(Some),
+        None => checked(&R::default()).map(Some),
+    }
+}

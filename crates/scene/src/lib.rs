@@ -1,0 +1,223 @@
+//! The scene: what a user wrote, read and checked before any work starts.
+//!
+//! Two steps, so that every complaint can name file, line, key, value and allowed range:
+//! typed words as they stand in the file (`raw`), then the checked [`Scene`] with every default filled in.
+//! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
+
+#[macro_use]
+mod macros;
+
+mod analysis;
+mod builder;
+mod check;
+mod contact;
+mod error;
+mod excerpt;
+mod gear;
+mod gear_pair;
+mod geometry_fault;
+mod hints;
+mod input_text;
+mod inputs;
+mod keys;
+mod ladder;
+mod modification;
+mod motion;
+mod operation;
+mod output;
+mod raw;
+mod schema;
+mod setting;
+mod source;
+mod written;
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use geometry::Side;
+use serde::Serialize;
+
+pub use analysis::{Analysis, Kind, Model, Reduction};
+pub use builder::{SceneBuilder, Value};
+pub use contact::{ContactScene, Flanks, Gap, Method};
+pub use error::{Line, Place, SceneError};
+pub use gear::{GearScene, Material, MesherScene, PairScene};
+pub use input_text::read_text;
+use inputs::Origin;
+pub use keys::{Tables, nearest};
+pub use ladder::{
+    DiscScene, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene, Sharing, StiffnessFrom,
+};
+pub use modification::{FlankScene, ModificationScene, Shape};
+pub use motion::{
+    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, Run, SteadyBy,
+    SweepScene, SweepWay, TorqueScene,
+};
+pub use operation::{Driver, Rotation};
+pub use output::{FieldName, OutputScene};
+pub use raw::{Number, Whole, Word};
+pub use schema::{
+    ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys, json_schema,
+};
+pub use setting::Setting;
+pub use source::Source;
+pub use written::Written;
+
+/// A checked scene. Serialised it is the scene file again, with every default written out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Scene {
+    /// Name of the case, for titles.
+    pub name: String,
+    /// Where the scene stands; paths in it are relative to its folder.
+    #[serde(skip)]
+    pub file: PathBuf,
+    /// What was written.
+    #[serde(skip)]
+    pub written: Written,
+    /// Words of a command line that set keys beside the file.
+    #[serde(skip)]
+    pub set: Vec<String>,
+    /// Gear 1.
+    pub pinion: GearScene,
+    /// Gear 2.
+    pub wheel: GearScene,
+    /// What both share.
+    pub pair: PairScene,
+    /// Load and motion.
+    pub operation: Operation,
+    /// How flanks press on each other.
+    pub contact: ContactScene,
+    /// What drives the driver; set exactly when the analysis is dynamic, as the next two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drive: Option<DriveScene>,
+    /// What the torque on the driven gear is beside its mean.
+    #[serde(skip_serializing_if = "load_is_steady")]
+    pub load: Option<TorqueScene>,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// Normal modes; set exactly with the model that keeps them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes: Option<ModesScene>,
+    /// Motion in time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionScene>,
+    /// Mesh of a model that has a stiffness instead of flanks; set exactly for these.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshScene>,
+    /// The model with eight coordinates; set exactly for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped8: Option<Lumped8Scene>,
+    /// The model with twelve; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lumped12: Option<Lumped12Scene>,
+    /// Rigid gears on their true flanks; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub impact: Option<ImpactScene>,
+    /// Lumped shafts; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaft18: Option<Shaft18Scene>,
+    /// Which files are written beside the three that always are.
+    pub output: OutputScene,
+}
+
+fn load_is_steady(load: &Option<TorqueScene>) -> bool {
+    load.as_ref().is_none_or(TorqueScene::is_none)
+}
+
+impl Scene {
+    /// Reads and checks a scene file.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::read_with(file, &[])
+    }
+
+    /// Reads and checks a scene file with some of its keys set otherwise; of two settings of a key the last one holds.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        Self::parse_with(&text, file, settings)
+    }
+
+    /// Checks the text of a scene; `file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::parse_with(text, file, &[])
+    }
+
+    /// The same with some of its keys set otherwise.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        Self::parse_from(text, file, settings, Origin::Disk)
+    }
+
+    fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
+        let (all, ranges) = setting::below(text, settings);
+        let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
+        let scene = check::scene(&source, raw::read(&source)?)?;
+        Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
+    }
+
+    /// The scene file that says the same with every default written out.
+    pub fn to_toml(&self) -> String {
+        // A struct of numbers, strings and tables: there is nothing that TOML could refuse.
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// The path that a path written in the scene stands for.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        inputs::resolved(&self.file, path)
+    }
+
+    /// Pinion and wheel.
+    pub fn gears(&self) -> [&GearScene; 2] {
+        [&self.pinion, &self.wheel]
+    }
+
+    /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
+    pub fn side(&self) -> Side {
+        match (self.operation.driver, self.operation.rotation) {
+            (Driver::Pinion, Rotation::Ccw) | (Driver::Wheel, Rotation::Cw) => Side::Left,
+            (Driver::Pinion, Rotation::Cw) | (Driver::Wheel, Rotation::Ccw) => Side::Right,
+        }
+    }
+
+    /// Teeth of the gear that drives.
+    pub fn driver_teeth(&self) -> u32 {
+        match self.operation.driver {
+            Driver::Pinion => self.pinion.teeth,
+            Driver::Wheel => self.wheel.teeth,
+        }
+    }
+
+    /// Whether the scene's contact is made of slices of its own, which a contact pattern needs.
+    pub fn has_slices(&self) -> bool {
+        matches!(self.analysis.model, Model::Reduced | Model::Full) && self.contact.method == Method::Slice
+    }
+
+    /// Elements along the face that a mesh of this order asks for; the default of `elements_face`.
+    pub fn face_elements(&self, order: u32) -> u32 {
+        self.pair.face_elements(order, self.output.root_stress)
+    }
+
+    /// Gear ratio z2/z1.
+    pub fn ratio(&self) -> f64 {
+        f64::from(self.wheel.teeth) / f64::from(self.pinion.teeth)
+    }
+
+    /// Angular speed of the pinion, rad/s, positive in the sense of rotation.
+    pub fn pinion_speed(&self) -> f64 {
+        let driver = self.operation.speed_rpm * PI / 30.0;
+        match self.operation.driver {
+            Driver::Pinion => driver,
+            Driver::Wheel => driver * self.ratio(),
+        }
+    }
+}

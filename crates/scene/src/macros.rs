@@ -1,0 +1,171 @@
+//! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the value, a field of what is checked.
+
+/// A table of the scene file: its rows make the [`Table`](super::Table) and the struct of what is written. With `=> Checked` they make the struct of
+/// what is meant as well, and `read`, which takes it from what is written.
+///
+/// ```text
+/// table! { STATIC, RawStruct [=> Checked [Default]]: "what it is about", needed ["key", ...]; { key: kind(range and default), "meaning"; ... } }
+/// ```
+macro_rules! table {
+    (
+        $(#[$meta:meta])* $table:ident, $raw:ident $(=> $checked:ident $($derive:ident)?)?: $about:literal
+        $(, needed [$($needed:literal),*])?; $rows:tt
+    ) => {
+        static_table! { $(#[$meta])* $table: $about [$($($needed),*)?] $rows }
+        raw_table! { $raw $rows }
+        $(checked_table! { $checked $($derive)?, $raw, $table: $about $rows })?
+    };
+}
+
+macro_rules! static_table {
+    ($(#[$meta:meta])* $table:ident: $about:literal [$($needed:literal),*]
+        { $($name:ident: $kind:ident($($args:tt)*) $(, $meaning:literal)?;)* }) => {
+        $(#[$meta])*
+        pub(crate) static $table: $crate::schema::Table = $crate::schema::Table {
+            about: $about,
+            keys: &[$(key!($name $kind ($($args)*) $($meaning)?)),*],
+            needed: &[$($needed),*],
+        };
+    };
+}
+
+macro_rules! raw_table {
+    ($raw:ident { $($name:ident: $kind:ident($($args:tt)*) $(, $meaning:literal)?;)* }) => {
+        #[derive(Debug, Default, Clone, serde::Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub(crate) struct $raw {
+            $(pub $name: raw!($kind ($($args)*)),)*
+        }
+    };
+}
+
+macro_rules! checked_table {
+    ($checked:ident $($derive:ident)?, $raw:ident, $table:ident: $about:literal
+        { $($name:ident: $kind:ident($($args:tt)*) , $meaning:literal;)* }) => {
+        #[doc = concat!("Checked table of the scene: ", $about, ".")]
+        #[derive(Debug, Clone, Copy, PartialEq, $($derive,)? serde::Serialize)]
+        pub struct $checked {
+            $(
+                #[doc = concat!($meaning, ".")]
+                #[serde(skip_serializing_if = "crate::schema::Field::is_absent")]
+                pub $name: checked!($kind ($($args)*)),
+            )*
+        }
+
+        impl $checked {
+            /// Each key within its range; an infinite end of a range is `end`.
+            pub(crate) fn read(
+                s: &$crate::source::Source<'_>,
+                raw: &$raw,
+                end: f64,
+            ) -> Result<Self, $crate::SceneError> {
+                Ok(Self { $($name: read_as!($kind, s, $table, raw.$name, end),)* })
+            }
+        }
+    };
+}
+
+/// The key of a row.
+macro_rules! key {
+    ($name:ident table ($of:ident: $raw:ident)) => { $crate::schema::table(stringify!($name), &$of) };
+    ($name:ident always ($of:ident: $raw:ident)) => { $crate::schema::table(stringify!($name), &$of) };
+    ($name:ident list ($of:ident: $raw:ident)) => { $crate::schema::list(stringify!($name), &$of) };
+    ($name:ident word ($choice:ident) $about:literal) => {
+        $crate::schema::word(stringify!($name), $choice::WORDS, $about)
+    };
+    ($name:ident bare_word ($choice:ident) $about:literal) => {
+        $crate::schema::bare_word(stringify!($name), $choice::WORDS, $about)
+    };
+    ($name:ident words ($choice:ident) $about:literal) => {
+        $crate::schema::words(stringify!($name), $choice::WORDS, $about)
+    };
+    ($name:ident $kind:ident ($($args:expr),*) $about:literal) => {
+        $crate::schema::$kind(stringify!($name), $($args,)* $about)
+    };
+}
+
+/// What is read of a row.
+macro_rules! raw {
+    (table ($of:ident: $raw:ident)) => { Option<toml::Spanned<$raw>> };
+    (always ($of:ident: $raw:ident)) => { $raw };
+    (list ($of:ident: $raw:ident)) => { Vec<toml::Spanned<$raw>> };
+    (word $args:tt) => { $crate::raw::Word };
+    (bare_word $args:tt) => { $crate::raw::Word };
+    (text $args:tt) => { $crate::raw::Word };
+    (shape $args:tt) => { $crate::raw::Word };
+    (path $args:tt) => { $crate::raw::Word };
+    (words $args:tt) => { $crate::raw::Words };
+    (whole $args:tt) => { $crate::raw::Whole };
+    (bare_whole $args:tt) => { $crate::raw::Whole };
+    (switch $args:tt) => { $crate::raw::Switch };
+    (numbers $args:tt) => { $crate::raw::Numbers };
+    (rows $args:tt) => { $crate::raw::Rows };
+    ($number:ident $args:tt) => { $crate::raw::Number };
+}
+
+/// What a row is when it is checked.
+macro_rules! checked {
+    (word ($choice:ident)) => { $choice };
+    (whole $args:tt) => { u32 };
+    (number $args:tt) => { f64 };
+    (must $args:tt) => { f64 };
+    (bare $args:tt) => { Option<f64> };
+}
+
+/// The checked value of a row.
+macro_rules! read_as {
+    (word, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
+        $s.choice_of(stringify!($name), &$raw.$name)?
+    };
+    (whole, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
+        $s.whole_of(&$table, stringify!($name), &$raw.$name)?
+    };
+    (bare, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
+        $s.optional_up_to(&$table, stringify!($name), &$raw.$name, $end)?
+    };
+    ($number:ident, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
+        $s.number_up_to(&$table, stringify!($name), &$raw.$name, $end)?
+    };
+}
+
+/// The value of a key with range and default of its row; the names of key and field are one.
+macro_rules! value {
+    ($s:expr, $table:ident, $raw:ident.$key:ident) => {
+        $crate::source::Entry::value(&$raw.$key, $s, &$crate::schema::$table, stringify!($key))
+    };
+}
+
+/// The same where it is written, else nothing.
+macro_rules! optional {
+    ($s:expr, $table:ident, $raw:ident.$key:ident) => {
+        $raw.$key.is_some().then(|| value!($s, $table, $raw.$key)).transpose()
+    };
+}
+
+/// The choice that a word stands for; the first one where none is written.
+macro_rules! choice {
+    ($s:expr, $raw:ident.$key:ident) => {
+        $s.choice_of(stringify!($key), &$raw.$key)
+    };
+}
+
+/// An enum each of whose values is a word of the scene file; the first one is the default where a default does not depend on other keys.
+macro_rules! choices {
+    ($(#[$meta:meta])* pub enum $name:ident { $($(#[$of:meta])* $variant:ident = $word:literal,)* }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+        pub enum $name {
+            $($(#[$of])* #[serde(rename = $word)] $variant,)*
+        }
+
+        impl $name {
+            pub(crate) const WORDS: &'static [&'static str] = &[$($word),*];
+        }
+
+        impl $crate::schema::Choice for $name {
+            const CHOICES: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),*];
+        }
+
+        impl $crate::schema::Field for $name {}
+    };
+}

@@ -1,0 +1,139 @@
+//! From the words of the tables on motion to what they mean.
+
+use toml::Spanned;
+
+use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
+use crate::raw::{Number, Whole};
+use crate::schema::{RawMotion, RawRamp, RawSweep};
+use crate::source::Source;
+use crate::{RampScene, SceneError};
+
+type Checked<T> = Result<T, SceneError>;
+type Span = std::ops::Range<usize>;
+
+const STEADY: (&str, Run) = ("steady", Run::Steady);
+const SHOOTING: (&str, Run) = ("shooting", Run::Shooting);
+const SPAN: (&str, Run) = ("span", Run::Span);
+const RAMP: (&str, Run) = ("ramp", Run::Ramp);
+const SWEEP: (&str, Run) = ("sweep", Run::Sweep);
+
+/// Which analyses a key belongs to.
+fn only(s: &Source<'_>, key: &str, span: Option<Span>, run: Run, allowed: &[(&'static str, Run)]) -> Checked<()> {
+    let Some(span) = span.filter(|_| allowed.iter().all(|(_, r)| *r != run)) else { return Ok(()) };
+    let names: Vec<String> = allowed.iter().map(|(name, _)| format!("`run = \"{name}\"`")).collect();
+    let what = format!("`{key}` belongs to {}", names.join(" or "));
+    Err(s.conflict(&span, what, "leave it out, or say so in `run`"))
+}
+
+fn span<T>(value: &Option<Spanned<T>>) -> Option<Span> {
+    value.as_ref().map(Spanned::span)
+}
+
+pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked<MotionScene> {
+    let run = choice!(s, raw.run)?;
+    check_keys_of_run(s, raw, run, cycles)?;
+    let method = method(s, raw)?;
+    if let (Some(_), Some(per_length)) = (&raw.mesh_damping_ratio, &raw.mesh_damping_ns_per_mm2) {
+        let what = "`mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped";
+        return Err(s.conflict(&per_length.span(), what, "keep one of them"));
+    }
+    let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep);
+    let ramp_words = RawRamp::default();
+    let sweep_words = RawSweep::default();
+    Ok(MotionScene {
+        run,
+        method,
+        spectral_radius: (method == Integration::GeneralisedAlpha)
+            .then(|| value!(s, MOTION, raw.spectral_radius))
+            .transpose()?,
+        steps_per_mesh_cycle: value!(s, MOTION, raw.steps_per_mesh_cycle)?,
+        steps_per_resonance: value!(s, MOTION, raw.steps_per_resonance)?,
+        error_tolerance: optional!(s, MOTION, raw.error_tolerance)?,
+        stop_at_events: value!(s, MOTION, raw.stop_at_events)?,
+        mesh_damping_ratio: match raw.mesh_damping_ns_per_mm2 {
+            Some(_) => None,
+            None => Some(value!(s, MOTION, raw.mesh_damping_ratio)?),
+        },
+        mesh_damping_ns_per_mm2: optional!(s, MOTION, raw.mesh_damping_ns_per_mm2)?,
+        periodic_tolerance: settles.then(|| value!(s, MOTION, raw.periodic_tolerance)).transpose()?,
+        warm_up_cycles: settles.then(|| value!(s, MOTION, raw.warm_up_cycles)).transpose()?,
+        duration_s: optional!(s, MOTION, raw.duration_s)?,
+        checkpoint_every_cycles: matches!(run, Run::Steady | Run::Span | Run::Ramp)
+            .then(|| value!(s, MOTION, raw.checkpoint_every_cycles))
+            .transpose()?,
+        ramp: (run == Run::Ramp)
+            .then(|| ramp(s, raw.ramp.as_ref().map_or(&ramp_words, |r| r.get_ref()), span(&raw.run)))
+            .transpose()?,
+        sweep: (run == Run::Sweep)
+            .then(|| sweep(s, raw.sweep.as_ref().map_or(&sweep_words, |r| r.get_ref()), span(&raw.run)))
+            .transpose()?,
+    })
+}
+
+/// Keys go with the run that they say something of.
+fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
+    for (key, at, allowed) in [
+        ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP][..]),
+        ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP][..]),
+        ("duration_s", span(&raw.duration_s), &[SPAN][..]),
+        ("checkpoint_every_cycles", span(&raw.checkpoint_every_cycles), &[STEADY, SPAN, RAMP][..]),
+        ("ramp", span(&raw.ramp), &[RAMP][..]),
+        ("sweep", span(&raw.sweep), &[SWEEP][..]),
+        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP][..]),
+    ] {
+        only(s, key, at, run, allowed)?;
+    }
+    if let (Some(duration), Some(_)) = (&raw.duration_s, cycles) {
+        let what = "`duration_s` and `cycles` both say how long the span is";
+        return Err(s.conflict(&duration.span(), what, "keep one of them"));
+    }
+    Ok(())
+}
+
+/// The method, with what belongs to it alone.
+fn method(s: &Source<'_>, raw: &RawMotion) -> Checked<Integration> {
+    let method = choice!(s, raw.method)?;
+    let alpha = method == Integration::GeneralisedAlpha;
+    if let (false, Some(rho)) = (alpha, &raw.spectral_radius) {
+        let what = "`spectral_radius` belongs to `method = \"generalised-alpha\"`";
+        return Err(s.conflict(&rho.span(), what, "leave it out: this method has none"));
+    }
+    Ok(method)
+}
+
+/// Keys of a table that have no default.
+fn needed(s: &Source<'_>, table: &str, keys: &[(&str, &Number)], run: Option<Span>) -> Checked<()> {
+    let gone: Vec<String> = keys.iter().filter(|(_, v)| v.is_none()).map(|(key, _)| format!("`{key}`")).collect();
+    if gone.is_empty() {
+        return Ok(());
+    }
+    let what = format!("[motion.{table}] has no {}", gone.join(", no "));
+    Err(s.conflict(&run.unwrap_or(0..0), what, "from where to where has no default"))
+}
+
+fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> {
+    let keys = [("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm), ("duration_s", &raw.duration_s)];
+    needed(s, "ramp", &keys, run)?;
+    RampScene::read(s, raw, f64::INFINITY)
+}
+
+fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScene> {
+    needed(s, "sweep", &[("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm)], run)?;
+    let from_rpm = value!(s, SWEEP, raw.from_rpm)?;
+    let to_rpm = value!(s, SWEEP, raw.to_rpm)?;
+    if let (Some(to), true) = (&raw.to_rpm, to_rpm <= from_rpm) {
+        let what = format!("`to_rpm` is {to_rpm}, not above `from_rpm`, {from_rpm}");
+        return Err(s.conflict(&to.span(), what, "the way is said by `ways`"));
+    }
+    let mut ways = s.choices_of("ways", &raw.ways)?;
+    if ways.is_empty() {
+        ways = vec![SweepWay::Up, SweepWay::Down];
+    }
+    Ok(SweepScene {
+        from_rpm,
+        to_rpm,
+        speeds: value!(s, SWEEP, raw.speeds)?,
+        ways,
+        steady_by: choice!(s, raw.steady_by)?,
+    })
+}

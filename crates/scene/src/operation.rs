@@ -1,0 +1,40 @@
+//! Load and sense of rotation.
+
+use crate::Operation;
+
+choices! {
+    /// The gear that drives.
+    pub enum Driver {
+        /// Gear 1.
+        Pinion = "pinion",
+        /// Gear 2.
+        Wheel = "wheel",
+    }
+}
+
+choices! {
+    /// Sense of rotation seen from +z.
+    pub enum Rotation {
+        /// Counter-clockwise.
+        Ccw = "ccw",
+        /// Clockwise.
+        Cw = "cw",
+    }
+}
+
+impl Rotation {
+    /// +1 counter-clockwise, -1 clockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Ccw => 1.0,
+            Self::Cw => -1.0,
+        }
+    }
+}
+
+impl Operation {
+    /// Torque on the driven gear, N mm.
+    pub fn torque(&self) -> f64 {
+        self.torque_nm * 1e3
+    }
+}

@@ -1,0 +1,37 @@
+//! Which files are written.
+
+use serde::Serialize;
+
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+/// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OutputScene {
+    /// Stress in the root fillets at every position.
+    pub root_stress: bool,
+    /// The contact lines slice by slice.
+    pub contact_lines: bool,
+    /// The history column by column as well, in `history.parquet`.
+    #[serde(skip_serializing_if = "is_false")]
+    pub parquet: bool,
+    /// ParaView files.
+    pub vtu: bool,
+    /// Fields in them.
+    pub fields: Vec<FieldName>,
+    /// One ParaView file every so many positions.
+    pub vtu_every: u32,
+}
+
+choices! {
+    /// A field of the ParaView files.
+    pub enum FieldName {
+        /// Displacement of every node, mm.
+        Displacement = "displacement",
+        /// Contact pressure at flank nodes, MPa.
+        Pressure = "pressure",
+        /// Stress tensor and von Mises stress, MPa.
+        Stress = "stress",
+    }
+}

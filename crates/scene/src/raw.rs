@@ -1,0 +1,53 @@
+//! The words of a scene file with their types and places, nothing checked yet.
+
+use serde::Deserialize;
+use toml::{Spanned, de::DeTable};
+
+use super::SceneError;
+use super::schema::RawScene;
+use super::setting;
+use super::source::Source;
+
+/// A number as written.
+pub type Number = Option<Spanned<f64>>;
+/// A whole number as written; signed, so that `-3` is out of range and not of a wrong type.
+pub type Whole = Option<Spanned<i64>>;
+/// A word as written.
+pub type Word = Option<Spanned<String>>;
+
+/// Words as written.
+pub(crate) type Words = Option<Vec<Spanned<String>>>;
+/// On or off as written.
+pub(crate) type Switch = Option<Spanned<bool>>;
+/// A list of numbers as written.
+pub(crate) type Numbers = Option<Spanned<Vec<Spanned<f64>>>>;
+/// Rows of numbers as written.
+pub(crate) type Rows = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
+
+/// The words of a scene file.
+///
+/// # Errors
+/// Syntax, unknown keys and wrong types, each with its line.
+pub(super) fn read(source: &Source<'_>) -> Result<RawScene, SceneError> {
+    let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
+    with_tables(source, |root| RawScene::deserialize(toml::Deserializer::from(root)).map_err(explain))
+}
+
+/// Hands on the file's tables with what was set beside it put in; places are those of the source's text.
+///
+/// # Errors
+/// Syntax, with its line, and what `work` complains of.
+pub(super) fn with_tables<T>(
+    source: &Source<'_>,
+    work: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, SceneError>,
+) -> Result<T, SceneError> {
+    let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
+    let file_end = source.ranges.first().map_or(source.text.len(), |r| r.start - 1);
+    // Each setting is read on its own, as far from the beginning as its line is: so its spans are those of the text.
+    let padded: Vec<String> = source.ranges.iter().map(|r| " ".repeat(r.start) + &source.text[r.clone()]).collect();
+    let mut root = DeTable::parse(&source.text[..file_end]).map_err(explain)?;
+    for (setting, padded) in source.settings.iter().zip(&padded) {
+        setting::put(root.get_mut(), padded, setting.key()).map_err(explain)?;
+    }
+    work(root)
+}

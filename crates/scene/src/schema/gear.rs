@@ -1,0 +1,65 @@
+//! A gear: data, mesh, material. Its micro-geometry has rows of its own, in `modification`.
+
+use super::ladder::{RawShaft, SHAFT};
+use super::motion::{BEARING, BODY, RawBearing, RawBody};
+use super::{INF, Table};
+use crate::modification::{MODIFICATION, RawModification};
+
+table! {
+    /// `[pinion]`
+    GEAR, RawGear: "gear 1", needed ["teeth", "helix_angle_deg"]; {
+        teeth: bare_whole(5, 2000), "number of teeth";
+        helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; the wheel's follows from the pinion's";
+        bore_diameter_mm: bare(1e-3, INF), "diameter of the rigid bore, mm, below the reference diameter; default: 55 % of that";
+        profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient";
+        tip_diameter_mm: bare(0.0, INF), "tip diameter, mm, 0.5 to 2 reference diameters; default: from addendum and profile shift";
+        tip_edge_radius_mm: number(0.0, INF, 0.0), "radius of the arc that rounds the tip edges, mm, at most a quarter of the module; 0: sharp";
+        thickness_allowance_mm: number(0.0, INF, 0.0), "thinning of the tooth in the normal section, mm, at most half the module";
+        pitch_errors_um: numbers(), "cumulative pitch deviation of each tooth, um, -1000 .. 1000, tooth 0 first";
+        pitch_errors_file: text(), "file of them";
+        mesh: text(), "Gmsh mesh file of the gear, instead of the built-in mesher";
+        mesher: table(MESHER: RawMesher);
+        groups: always(GROUPS: RawGroups);
+        material: always(MATERIAL: RawMaterial);
+        modification: table(MODIFICATION: RawModification);
+        body: table(BODY: RawBody);
+        bearing: table(BEARING: RawBearing);
+        shaft: table(SHAFT: RawShaft);
+    }
+}
+
+/// `[wheel]`
+pub(super) static WHEEL: Table = Table { about: "gear 2", keys: GEAR.keys, needed: &["teeth"] };
+
+table! {
+    /// `[pinion.mesher]`
+    MESHER, RawMesher: "the built-in structured mesher"; {
+        order: whole(1, 2, 2), "1: hex8, 2: hex20";
+        elements_profile: whole(1, 500, 6), "elements along the active flank";
+        elements_fillet: whole(2, 500, 6), "elements along fillet and root land";
+        elements_thickness: whole(1, 500, 4), "elements across the tooth";
+        elements_face: bare_whole(1, 2000), "elements along the face width; default: as many as it asks for, at least 6";
+        elements_rim: whole(1, 500, 5), "elements from the root to the bore";
+        sector_teeth: whole(0, u32::MAX, 0), "0: whole gear; 1: periodic sector, which stands for the whole gear; k: open sector of k teeth, cut faces free, less than the gear has";
+    }
+}
+
+table! {
+    /// `[pinion.groups]`
+    GROUPS, RawGroups: "the mesh's own names of the parts of the gear; {k} stands for the tooth number"; {
+        bore: text(), "the bore; default: bore";
+        flank_left: text(), "counter-clockwise side of each tooth, seen from +z; default: flank_left_{k}";
+        flank_right: text(), "clockwise side; default: flank_right_{k}";
+        cut_0: text(), "clockwise cut face of a sector; default: cut_0";
+        cut_1: text(), "counter-clockwise cut face; default: cut_1";
+    }
+}
+
+table! {
+    /// `[material]`; a gear's own table takes its defaults from this one.
+    MATERIAL, RawMaterial: "linear elastic material"; {
+        young_mpa: number(1.0, 1e7, 2.06e5), "Young's modulus, MPa";
+        poisson: number(-0.9, 0.499, 0.3), "Poisson's ratio";
+        density_kg_m3: number(1.0, 1e5, 7850.0), "density, kg/m^3";
+    }
+}

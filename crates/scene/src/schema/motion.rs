@@ -1,0 +1,112 @@
+//! Motion in time: bodies, bearings, torques, modes, integration, analyses.
+
+use crate::{Axis, Boundary, DriveBy, Integration, Run, SteadyBy, SweepWay};
+
+table! {
+    /// `[pinion.body]`
+    BODY, RawBody: "rigid body of the gear (analyses in time)"; {
+        mass_kg: bare(1e-9, 1e9), "mass, kg; default: of the mesh";
+        transverse_inertia_kg_m2: bare(1e-15, 1e12), "inertia about an axis across the gear's own, kg m^2; default: of the mesh";
+        polar_inertia_kg_m2: bare(1e-15, 1e12), "inertia about the gear's own axis, kg m^2; default: of the mesh";
+        added_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of engine, load or shaft on the same axis, kg m^2";
+        free: words(Axis), "coordinates that are free beside the turn";
+    }
+}
+
+table! {
+    /// `[pinion.bearing]`
+    BEARING, RawBearing: "what holds the gear's centre (analyses in time)"; {
+        stiffness_x_n_per_mm: bare(1e-6, 1e15), "stiffness along the line of centres, N/mm";
+        stiffness_y_n_per_mm: bare(1e-6, 1e15), "stiffness across it, N/mm";
+        stiffness_z_n_per_mm: bare(1e-6, 1e15), "stiffness along the axis, N/mm";
+        stiffness_rx_nmm_per_rad: bare(1e-6, 1e15), "stiffness against tilt about x, N mm/rad";
+        stiffness_ry_nmm_per_rad: bare(1e-6, 1e15), "stiffness against tilt about y, N mm/rad";
+        stiffness_rz_nmm_per_rad: bare(1e-6, 1e15), "stiffness against the turn off the nominal one, N mm/rad (lumped8, lumped12)";
+        damping_ratio: number(0.0, 10.0, 0.02), "damping ratio of every free direction without damping of its own";
+        damping_x_ns_per_mm: bare(0.0, 1e15), "damping along x, N s/mm";
+        damping_y_ns_per_mm: bare(0.0, 1e15), "damping along y, N s/mm";
+        damping_z_ns_per_mm: bare(0.0, 1e15), "damping along z, N s/mm";
+        damping_rx_nmms_per_rad: bare(0.0, 1e15), "damping of the tilt about x, N mm s/rad";
+        damping_ry_nmms_per_rad: bare(0.0, 1e15), "damping of the tilt about y, N mm s/rad";
+        damping_rz_nmms_per_rad: bare(0.0, 1e15), "damping of the turn off the nominal one, N mm s/rad (lumped8)";
+        stiffness_matrix_n_mm_rad: rows(5), "in place of single stiffnesses: five rows of five, order x, y, z, rx, ry; N/mm, N/rad, N mm/rad";
+        damping_matrix_ns_mm_rad: rows(5), "in place of single dampings: N s/mm, N s/rad, N mm s/rad";
+    }
+}
+
+table! {
+    /// `[drive]`
+    DRIVE, RawDrive: "what drives the driver (analyses in time)"; {
+        by: bare_word(DriveBy), "what is given of the driver; default: its torque, with the models impact, lumped8, lumped12 and shaft18 its speed";
+        torque_nm: bare(-1e9, 1e9), "torque of the driver in the running sense, N m; default: in balance with the load, which holds the mean speed";
+        amplitude_nm: bare(0.0, 1e9), "amplitude of a harmonic part, N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in place of the others: rows of time, s, ascending, and torque, N m";
+    }
+}
+
+table! {
+    /// `[load]`
+    LOAD, RawLoad: "torque on the driven gear beside its mean (analyses in time)"; {
+        amplitude_nm: bare(0.0, 1e9), "amplitude of a harmonic part, N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in place of the others: rows of time, s, ascending, and torque, N m";
+    }
+}
+
+table! {
+    /// `[modes]`
+    MODES, RawModes: "which normal modes of the gears move (model reduced+modes)"; {
+        count: whole(1, 1000, 12), "the lowest so many modes of each gear";
+        below_hz: bare(1.0, 1e9), "in place of count: all modes up to this frequency, Hz";
+        boundary: word(Boundary), "whether the flanks have inertia of their own";
+        fixed_modes: whole(0, 100, 2), "modes with the flanks held behind a consistent boundary";
+        damping_ratio: number(0.0, 1.0, 0.01), "damping ratio of every mode";
+    }
+}
+
+table! {
+    /// `[motion]`
+    MOTION, RawMotion: "integration and analysis in time"; {
+        run: word(Run), "what is run";
+        method: word(Integration), "method of integration";
+        spectral_radius: number(0.0, 1.0, 0.9), "spectral radius at infinite frequency (generalised-alpha)";
+        steps_per_mesh_cycle: whole(8, 100_000, 64), "rows in a mesh cycle, and least number of steps";
+        steps_per_resonance: whole(0, 100_000, 16), "least number of steps in a period of the mesh resonance; 0: rows are the steps";
+        error_tolerance: bare(1e-12, 0.1), "local error of a step over the static deflection; default: steps of equal length";
+        stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
+        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of the mesh";
+        mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a period over the peak to peak that counts as none (steady, shooting, sweep)";
+        warm_up_cycles: whole(0, 100_000_000, 1000), "mesh cycles to wait for the periodic state at the most (the same)";
+        duration_s: bare(1e-9, 1e9), "length of a span, s, in place of cycles";
+        checkpoint_every_cycles: whole(0, 100_000_000, 0), "a checkpoint every so many mesh cycles; 0: none (steady, span, ramp)";
+        ramp: table(RAMP: RawRamp);
+        sweep: table(SWEEP: RawSweep);
+    }
+}
+
+table! {
+    /// `[motion.ramp]`
+    RAMP, RawRamp => RampScene: "run-up or run-down: the driver's speed changes by a smooth step", needed ["from_rpm", "to_rpm", "duration_s"]; {
+        from_rpm: must(0.0, 1e7), "speed at first, 1/min; 0: from rest";
+        to_rpm: must(1e-3, 1e7), "speed in the end, 1/min";
+        duration_s: must(1e-6, 1e6), "how long the change takes, s";
+        before_s: number(0.0, 1e6, 0.0), "time at the first speed before, s";
+        after_s: number(0.0, 1e6, 0.0), "time at the last speed afterwards, s";
+        waterfall_cycles: whole(4, 100_000, 16), "mesh cycles of one spectrum of the waterfall";
+    }
+}
+
+table! {
+    /// `[motion.sweep]`
+    SWEEP, RawSweep: "steady states at many speeds of the driver", needed ["from_rpm", "to_rpm"]; {
+        from_rpm: bare(1e-3, 1e7), "lowest speed, 1/min";
+        to_rpm: bare(1e-3, 1e7), "highest speed, 1/min";
+        speeds: whole(2, 100_000, 41), "how many speeds, evenly spaced";
+        ways: words(SweepWay), "which way they are gone through; default: up and down";
+        steady_by: word(SteadyBy), "how each steady state is found";
+    }
+}

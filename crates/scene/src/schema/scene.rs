@@ -1,0 +1,105 @@
+//! The file itself, and the tables on pair, load, contact, analysis and output.
+
+use super::INF;
+use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};
+use super::ladder::{
+    IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
+};
+use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};
+use crate::{Driver, FieldName, Flanks, Gap, Kind, Method, Model, Reduction, Rotation};
+
+table! {
+    /// The whole file.
+    SCENE, RawScene: "A scene of ale-gear: a pair of helical gears, its load, and what is computed. Every key has its unit in its name", needed ["pinion", "wheel", "pair", "operation"]; {
+        name: text(), "title of the case; default: the file's name";
+        pinion: always(GEAR: RawGear);
+        wheel: always(WHEEL: RawGear);
+        pair: always(PAIR: RawPair);
+        material: always(MATERIAL: RawMaterial);
+        operation: always(OPERATION: RawOperation);
+        contact: always(CONTACT: RawContact);
+        drive: table(DRIVE: RawDrive);
+        load: table(LOAD: RawLoad);
+        analysis: always(ANALYSIS: RawAnalysis);
+        modes: table(MODES: RawModes);
+        motion: table(MOTION: RawMotion);
+        mesh: table(MESH: RawMesh);
+        lumped8: table(LUMPED8: RawLumped8);
+        lumped12: table(LUMPED12: RawLumped12);
+        impact: table(IMPACT: RawImpact);
+        shaft18: table(SHAFT18: RawShaft18);
+        output: always(OUTPUT: RawOutput);
+    }
+}
+
+table! {
+    /// `[pair]`
+    PAIR, RawPair: "what both gears share", needed ["normal_module_mm", "face_width_mm"]; {
+        normal_module_mm: bare(0.01, 200.0), "normal module, mm";
+        normal_pressure_angle_deg: number(5.0, 40.0, 20.0), "normal pressure angle, degrees";
+        face_width_mm: bare(0.01, 1e4), "face width of both gears, mm";
+        centre_distance_mm: bare(0.01, 1e5), "working centre distance, mm; default: the one that follows from the profile shifts";
+        addendum_coefficient: number(0.1, 2.0, 1.0), "addendum of the basic rack over the normal module";
+        dedendum_coefficient: number(0.1, 2.5, 1.25), "dedendum of the basic rack over the normal module";
+        root_radius_coefficient: number(0.0, 1.0, 0.38), "tip radius of the basic rack over the normal module";
+        misalignment: table(MISALIGNMENT: RawMisalignment);
+    }
+}
+
+table! {
+    /// `[pair.misalignment]`
+    MISALIGNMENT, RawMisalignment => MisalignmentScene Default: "deviation of the wheel's axis; each at most 10 um a mm of face width"; {
+        deviation_um: number(-INF, INF, 0.0), "f_Sigma_beta: deviation of the wheel's axis across the plane of axes, um over the face width";
+        inclination_um: number(-INF, INF, 0.0), "f_Sigma_delta: deviation of the wheel's axis in the plane of axes, um over the face width";
+        in_plane_of_action_um: number(-INF, INF, 0.0), "deviation in the plane of action of the driving flanks, um over the face width";
+        across_plane_of_action_um: number(-INF, INF, 0.0), "deviation across it, um over the face width";
+    }
+}
+
+table! {
+    /// `[operation]`
+    OPERATION, RawOperation => Operation: "load and motion", needed ["torque_nm"]; {
+        driver: word(Driver), "the gear that drives";
+        rotation: word(Rotation), "sense of rotation of the pinion, seen from +z";
+        torque_nm: must(0.0, 1e9), "torque on the driven gear, N m, against its motion; `driver` and `rotation` say which flanks it presses";
+        speed_rpm: number(1e-6, 1e7, 1000.0), "speed of the driver, 1/min";
+    }
+}
+
+table! {
+    /// `[contact]`
+    CONTACT, RawContact: "how flanks press on each other"; {
+        method: word(Method), "contact unknowns: one line load an axial slice, or pressed points of the flank mesh";
+        slices: bare_whole(4, 1000), "slices over the face width (method slice); default: as width, load and micro-geometry ask for, at least 32";
+        penalty_mpa_per_mm: bare(1.0, 1e15), "pressure a mm of penetration, MPa/mm, instead of exact contact (method nodal)";
+        gap: word(Gap), "surface that the gaps come from (method nodal): the exact helicoid, or the flat faces of the mesh";
+        points_per_face_edge: whole(1, 20, 6), "quadrature points along each edge of a flank face (method nodal)";
+        flanks: bare_word(Flanks), "which flanks may touch; default: driving, in time both";
+        friction: number(0.0, 1.0, 0.0), "coefficient of friction";
+        corner_contact: switch(true), "whether tip edges may press off the line of action (method slice)";
+    }
+}
+
+table! {
+    /// `[analysis]`
+    ANALYSIS, RawAnalysis: "what is computed"; {
+        kind: bare_word(Kind), "equilibrium at every position, or motion in time; default: static, for models of motion dynamic";
+        model: word(Model), "which model of the pair";
+        reduction: word(Reduction), "one sector where the gear is cyclic, else the whole gear; or always the whole gear";
+        positions_per_cycle: whole(1, 100_000, 32), "positions in one mesh cycle, its end left out";
+        cycles: bare_whole(1, 100_000_000), "mesh cycles; default: 1, in time 8";
+        window_teeth: bare_whole(1, 25), "teeth whose flanks are kept; default: as the contact ratio and the load ask for";
+    }
+}
+
+table! {
+    /// `[output]`
+    OUTPUT, RawOutput: "what is computed and written on request"; {
+        root_stress: switch(false), "stress in the root fillets at every position";
+        contact_lines: switch(false), "contact_lines.csv: every loaded slice of every position";
+        parquet: switch(false), "history.parquet: the columns of history.csv for long runs";
+        vtu: switch(false), "ParaView files";
+        fields: words(FieldName), "fields of the ParaView files; default: all";
+        vtu_every: whole(1, 1_000_000, 1), "one ParaView file every so many positions";
+    }
+}
