@@ -82,7 +82,10 @@ fn the_page_has_the_defaults_and_ranges_of_the_table_of_keys() {
             // Several keys in one row have one default, or one each.
             let defaults: Vec<&str> = of("default").map(|d| d.split(", ").collect()).unwrap_or_default();
             for (k, key) in keys.iter().enumerate() {
-                let found = tables.iter().map(|t| table(&schema, t)["properties"][*key].clone()).find(|p| !p.is_null());
+                // Where a heading names several tables, keys bear the name of theirs.
+                let (own, key) = key.rsplit_once('.').map_or((None, *key), |(table, key)| (Some(table), key));
+                let named = tables.iter().map(String::as_str).filter(|t| own.is_none_or(|own| own == *t));
+                let found = named.map(|t| table(&schema, t)["properties"][key].clone()).find(|p| !p.is_null());
                 let Some(property) = found else {
                     faults.push(format!("docs/scene.md:{}: `{key}` is no key of {tables:?}", i + 1));
                     continue;
