@@ -162,11 +162,17 @@ pub enum SceneError {
         /// `pinion`, `wheel` or `pair`.
         table: &'static str,
         /// What the geometry says.
-        source: GeometryError,
+        source: Box<GeometryError>,
     },
     /// A topography or a list of pitch errors that cannot be read.
     #[error(transparent)]
-    DataFile(#[from] DataFileError),
+    DataFile(Box<DataFileError>),
+}
+
+impl From<DataFileError> for SceneError {
+    fn from(error: DataFileError) -> Self {
+        Self::DataFile(Box::new(error))
+    }
 }
 
 /// The place, or the file where none is known.

@@ -10,7 +10,7 @@ impl Scene {
         let keys = keys(table, &source);
         // A gear's heading says less than a key, but more than the file.
         let names: Vec<&str> = keys.iter().map(String::as_str).chain([table]).collect();
-        SceneError::Geometry { place: self.place_of(&names), file: self.file.clone(), table, source }
+        SceneError::Geometry { place: self.place_of(&names), file: self.file.clone(), table, source: Box::new(source) }
     }
 }
 

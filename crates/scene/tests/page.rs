@@ -79,17 +79,22 @@ fn the_page_has_the_defaults_and_ranges_of_the_table_of_keys() {
             let of = |name: &str| columns.iter().position(|c| c == name).and_then(|c| row.get(c)).copied();
             // Lists of tables have a row of their own that names no key.
             let keys: Vec<&str> = code(row[0]).filter(|c| !c.starts_with('[')).collect();
-            // Several keys in one row have one default, or one each.
-            let defaults: Vec<&str> = of("default").map(|d| d.split(", ").collect()).unwrap_or_default();
+            // Several keys in one row have one default and one range, or one each.
+            let own = |cell: Option<&str>, k: usize| -> Option<String> {
+                let parts: Vec<&str> = cell?.split(", ").collect();
+                Some(if parts.len() == keys.len() { parts[k] } else { cell? }.to_owned())
+            };
             for (k, key) in keys.iter().enumerate() {
-                let found = tables.iter().map(|t| table(&schema, t)["properties"][*key].clone()).find(|p| !p.is_null());
+                // Where a heading names several tables, keys bear the name of theirs.
+                let (whose, key) = key.rsplit_once('.').map_or((None, *key), |(table, key)| (Some(table), key));
+                let named = tables.iter().map(String::as_str).filter(|t| whose.is_none_or(|whose| whose == *t));
+                let found = named.map(|t| table(&schema, t)["properties"][key].clone()).find(|p| !p.is_null());
                 let Some(property) = found else {
                     faults.push(format!("docs/scene.md:{}: `{key}` is no key of {tables:?}", i + 1));
                     continue;
                 };
-                let default = of("default").map(|all| if defaults.len() == keys.len() { defaults[k] } else { all });
-                let default = default.and_then(|d| default_fault(&property, d));
-                let range = of("allowed").or(of("range")).and_then(|r| range_fault(&property, r));
+                let default = own(of("default"), k).and_then(|d| default_fault(&property, &d));
+                let range = own(of("allowed").or(of("range")), k).and_then(|r| range_fault(&property, &r));
                 faults
                     .extend(default.into_iter().chain(range).map(|f| format!("docs/scene.md:{}: `{key}`: {f}", i + 1)));
                 seen += 1;
