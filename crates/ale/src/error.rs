@@ -34,9 +34,38 @@ pub enum AleError {
         /// Pairs of the window.
         window: usize,
     },
-    /// The reduced gear could not be expanded.
-    #[error(transparent)]
-    Reduction(#[from] reduction::ReductionError),
+    /// A pair outside the window would touch.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
+    )]
+    Starved {
+        /// Mesh cycle.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Running number of the pair.
+        pair: i64,
+        /// Teeth of the window.
+        window: usize,
+        /// Overlap of the undeformed flanks at the loaded pose, um.
+        overlap_um: f64,
+        /// Torque, N m.
+        torque_nm: f64,
+    },
+    /// The gears turn farther in a step than the window can follow.
+    #[error(
+        "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
+    )]
+    Leapt {
+        /// Mesh cycle at the step's end.
+        cycle: i64,
+        /// Phase, 0 .. 1.
+        phase: f64,
+        /// Teeth that the window is behind.
+        teeth: f64,
+        /// Teeth of the window.
+        window: usize,
+    },
 }
 
 impl AleError {
@@ -46,7 +75,15 @@ impl AleError {
             Self::LoadedTooth { .. } => Some("use a wider window (analysis.window_teeth) or less torque".into()),
             Self::TooWide { teeth, .. } => Some(format!("use at most {teeth} teeth in the window")),
             Self::WrongCount { .. } => None,
-            Self::Reduction(e) => e.hint(),
+            Self::Starved { window, .. } => Some(format!(
+                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
+                window + 1
+            )),
+            Self::Leapt { .. } => Some(
+                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them; \
+                 is every torque in N m, and the inertia in kg m^2?"
+                    .into(),
+            ),
         }
     }
 }

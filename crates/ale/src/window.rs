@@ -61,6 +61,11 @@ impl ToothWindow {
         [self.teeth_of(self.first)[0], self.teeth_of(last)[1]]
     }
 
+    /// Running numbers of the two pairs beside the window.
+    pub fn beside(&self) -> [i64; 2] {
+        [self.first - 1, self.first + self.count as i64]
+    }
+
     /// The pair that would leave at a change in this sense.
     pub fn outgoing(&self, sense: Sense) -> i64 {
         match sense {
@@ -86,15 +91,6 @@ impl ToothWindow {
             return Err(AleError::LoadedTooth { pair, pinion_tooth, wheel_tooth, force_n });
         }
         Ok(Self { first: self.first - sense.sign(), ..*self })
-    }
-
-    /// A window with one more pair on the oncoming side.
-    ///
-    /// # Errors
-    /// [`AleError::TooWide`].
-    pub fn grown(&self, sense: Sense) -> Result<Self, AleError> {
-        let first = if sense == Sense::Ccw { self.first - 1 } else { self.first };
-        Self::new(first, self.count + 1, self.teeth)
     }
 }
 

@@ -24,6 +24,7 @@ mod pose;
 mod result;
 mod set;
 mod slice;
+mod window;
 
 pub use complementarity::{
     Balance, DenseProblem, DenseSolver, Equality, HeldSolution, Law, LinearContact, Problem, Solution,
@@ -52,6 +53,8 @@ pub use slice::{
     ContactWork, FlankPair, MeshContact, MeshForce, NearestPlace, RigidFlanks, Slice, SliceFlank, SliceHint,
     SlicePlace, SliceSet, ToothLayer, Want, slice,
 };
+
+pub use window::WindowContact;
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use integrate::{Ledger, MotionError, Periodicity, State};
-use ltca::StaticError;
 use rayon::prelude::*;
 
 use crate::{
@@ -161,7 +160,7 @@ fn standing(
     state: Option<&State>,
 ) -> (SweepOutcome, Option<State>) {
     // Teeth missing beside the window are no matter of the start.
-    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source: StaticError::Starved { .. }, .. });
+    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source, .. } if source.is_starved());
     let carried = state.map(|state| one(system, plan, way, speed, Some(state)));
     let found = match carried {
         Some(Ok(found)) => Ok(found),

@@ -4,13 +4,13 @@
 //! comes out does not depend on how many are. Tooth changes are then brought into order: where a change had to wait for its tooth to be free,
 //! so that the next group began in another window than the one before ended in, it is solved again from there.
 
-use ale::{Station, ToothWindow};
+use ale::{SlidingWindow, Station, ToothWindow};
 use contact::ContactSet;
 use rayon::prelude::*;
 
 use crate::{
     Equilibrium, StaticError, StaticPosition,
-    walk::{Fixed, Walk},
+    cycle_solver::{CycleSolver, Fixed},
 };
 
 /// Stations of a group: the first one costs about twice as much as those that start from their neighbour.
@@ -18,93 +18,96 @@ const GROUP: usize = 8;
 /// Stations that are solved before any is reported.
 const WAVE: usize = 8 * GROUP;
 
-/// Where a walk stood when a station was solved.
+/// Where the solver was when a station was solved.
 #[derive(Debug)]
-pub(crate) struct Stood {
-    window: ToothWindow,
+pub(crate) struct SolverState {
+    window: SlidingWindow,
     set: ContactSet,
     last: Option<Equilibrium>,
     changes: u64,
 }
 
-pub(crate) type Solved = Result<(StaticPosition, Stood), StaticError>;
+pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
 
-impl Walk {
-    /// Stands where a station was solved, so that the next one goes on from there.
-    pub fn stand(&mut self, stood: Stood) {
-        let Stood { window, set, last, changes } = stood;
+impl CycleSolver {
+    /// Goes back to where a station was solved, so that the next one goes on from there.
+    pub fn resume(&mut self, fixed: &Fixed<'_>, state: SolverState) -> Result<(), StaticError> {
+        let SolverState { window, set, last, changes } = state;
         if self.window != window {
-            if let Some(mesh) = &mut self.mesh {
-                mesh.enter(set.clone());
-            }
-            (self.window, self.set) = (window, set);
+            self.contact.enter(fixed.pair, fixed.gears, window.window(), set, &fixed.options.contact)?;
+            self.window = window;
         }
         (self.last, self.changes) = (last, changes);
+        Ok(())
     }
 }
 
 /// How many stations to solve at a time: one where each takes long or windows have matrices of their own.
-pub(crate) fn wave(fixed: &Fixed<'_>, walk: &Walk) -> usize {
-    let next = walk.window.first() + 1;
+pub(crate) fn wave(fixed: &Fixed<'_>, solver: &CycleSolver) -> usize {
+    let window = solver.window.window();
     let teeth = [fixed.pair.pinion.teeth(), fixed.pair.wheel.teeth()];
-    let shared = ToothWindow::new(next, walk.window.count(), teeth)
-        .is_ok_and(|window| walk.set.clone().move_to(fixed.gears, &window).is_ok_and(|moved| moved));
-    if walk.mesh.is_some() && shared { WAVE } else { 1 }
+    let shared = ToothWindow::new(window.first() + 1, window.count(), teeth)
+        .is_ok_and(|next| solver.contact.set.clone().move_to(fixed.gears, &next).is_ok_and(|moved| moved));
+    if solver.contact.slices.is_some() && shared { WAVE } else { 1 }
 }
 
 /// Results of some stations in order, up to the first that cannot be solved.
-pub(crate) fn solve(fixed: &Fixed<'_>, walk: &mut Walk, stations: &[Station]) -> Vec<Solved> {
+pub(crate) fn solve(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
     let groups: Vec<&[Station]> = stations.chunks(GROUP).collect();
     // Where each group but the first begins: in the window of the station before it.
     let starts: Option<Vec<Start>> =
-        groups.windows(2).map(|w| w[0].last().and_then(|before| Start::new(fixed, walk, before))).collect();
+        groups.windows(2).map(|w| w[0].last().and_then(|before| Start::new(fixed, solver, before))).collect();
     let Some(starts) = starts else {
-        return one_by_one(fixed, walk, stations);
+        return one_by_one(fixed, solver, stations);
     };
     let (first, rest) = groups.split_first().map_or((&[][..], &[][..]), |(f, r)| (*f, r));
     let (mut all, others) = rayon::join(
-        || one_by_one(fixed, walk, first),
+        || one_by_one(fixed, solver, first),
         || {
             let fresh = |(group, start): (&&[Station], &Start)| {
-                let mut walk = match Walk::new(fixed, start.window, start.set.clone()) {
-                    Ok(walk) => walk,
+                let mut solver = match CycleSolver::new(fixed, start.window, start.set.clone()) {
+                    Ok(solver) => solver,
                     Err(e) => return vec![Err(e)],
                 };
-                one_by_one(fixed, &mut walk, group)
+                one_by_one(fixed, &mut solver, group)
             };
             rest.par_iter().zip(&starts).map(fresh).collect::<Vec<_>>()
         },
     );
     for ((group, start), mut solved) in rest.iter().zip(&starts).zip(others) {
         let (window, changes) = match all.last() {
-            Some(Ok((_, stood))) => (stood.window, stood.changes),
+            Some(Ok((_, state))) => (state.window, state.changes),
             _ => return all,
         };
         if window == start.window {
-            for (position, stood) in solved.iter_mut().flatten() {
+            for (position, state) in solved.iter_mut().flatten() {
                 position.tooth_changes += changes;
-                stood.changes += changes;
+                state.changes += changes;
             }
         } else {
-            walk.last = None;
-            solved = one_by_one(fixed, walk, group);
+            solver.last = None;
+            solved = one_by_one(fixed, solver, group);
         }
-        // The walk goes on from here, should the next group have to be solved again.
-        if let Some(Ok((_, stood))) = solved.last() {
-            let (window, set, changes) = (stood.window, stood.set.clone(), stood.changes);
-            walk.stand(Stood { window, set, last: None, changes });
+        // The solver goes on from here, should the next group have to be solved again.
+        if let Some(Ok((_, state))) = solved.last() {
+            let (window, set, changes) = (state.window, state.set.clone(), state.changes);
+            if let Err(error) = solver.resume(fixed, SolverState { window, set, last: None, changes }) {
+                all.extend(solved);
+                all.push(Err(error));
+                return all;
+            }
         }
         all.extend(solved);
     }
     all
 }
 
-fn one_by_one(fixed: &Fixed<'_>, walk: &mut Walk, stations: &[Station]) -> Vec<Solved> {
+fn one_by_one(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
     let mut all = Vec::with_capacity(stations.len());
     for &station in stations {
-        let solved = walk.advance(fixed, station, |_| ()).map(|position| {
-            let (window, set, last) = (walk.window, walk.set.clone(), walk.last.clone());
-            (position, Stood { window, set, last, changes: walk.changes })
+        let solved = solver.advance(fixed, station, |_| ()).map(|position| {
+            let (window, set, last) = (solver.window, solver.contact.set.clone(), solver.last.clone());
+            (position, SolverState { window, set, last, changes: solver.changes })
         });
         let failed = solved.is_err();
         all.push(solved);
@@ -117,22 +120,17 @@ fn one_by_one(fixed: &Fixed<'_>, walk: &mut Walk, stations: &[Station]) -> Vec<S
 
 /// Where a group begins.
 struct Start {
-    window: ToothWindow,
+    window: SlidingWindow,
     set: ContactSet,
 }
 
 impl Start {
     /// In the window that the station before asks for; `None` where its flanks or matrices are not those at hand.
-    fn new(fixed: &Fixed<'_>, walk: &Walk, before: &Station) -> Option<Self> {
-        let count = walk.window.count();
+    fn new(fixed: &Fixed<'_>, solver: &CycleSolver, before: &Station) -> Option<Self> {
+        let count = solver.window.window().count();
         let teeth = [fixed.pair.pinion.teeth(), fixed.pair.wheel.teeth()];
-        let window = ToothWindow::new(
-            ToothWindow::nominal_first(before.centre(fixed.options.contact.sense), count),
-            count,
-            teeth,
-        )
-        .ok()?;
-        let mut set = walk.set.clone();
-        set.move_to(fixed.gears, &window).ok()?.then_some(Self { window, set })
+        let window = SlidingWindow::at(*before, count, teeth, fixed.options.contact.sense).ok()?;
+        let mut set = solver.contact.set.clone();
+        set.move_to(fixed.gears, window.window()).ok()?.then_some(Self { window, set })
     }
 }

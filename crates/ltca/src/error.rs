@@ -47,24 +47,6 @@ pub enum StaticError {
         /// Normal module, mm.
         module_mm: f64,
     },
-    /// A pair outside the window would touch.
-    #[error(
-        "at mesh phase {phase:.6} of cycle {cycle}: pair {pair} outside the window of {window} teeth overlaps by {overlap_um:.3} um under {torque_nm} N m"
-    )]
-    Starved {
-        /// Mesh cycle.
-        cycle: i64,
-        /// Phase, 0 .. 1.
-        phase: f64,
-        /// Running number of the pair.
-        pair: i64,
-        /// Teeth of the window.
-        window: usize,
-        /// Overlap of the undeformed flanks at the loaded pose, um.
-        overlap_um: f64,
-        /// Torque, N m.
-        torque_nm: f64,
-    },
     /// Teeth have gone through each other.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: teeth have passed through each other: along the line of action flanks are {distance_mm:.3e} mm beyond touching (negative: apart), teeth are {thickness_mm:.3} mm thick there"
@@ -78,20 +60,6 @@ pub enum StaticError {
         distance_mm: f64,
         /// Half a base pitch, mm.
         thickness_mm: f64,
-    },
-    /// The gears turn farther in a step than the window can follow.
-    #[error(
-        "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
-    )]
-    Leapt {
-        /// Mesh cycle at the step's end.
-        cycle: i64,
-        /// Phase, 0 .. 1.
-        phase: f64,
-        /// Teeth that the window is behind.
-        teeth: f64,
-        /// Teeth of the window.
-        window: usize,
     },
     /// No flanks face each other.
     #[error(
@@ -128,6 +96,11 @@ impl From<reduction::ReductionError> for StaticError {
 }
 
 impl StaticError {
+    /// Whether the window has too few teeth: a wider one may do.
+    pub fn is_starved(&self) -> bool {
+        matches!(self, Self::Window(ale::AleError::Starved { .. }))
+    }
+
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {
@@ -138,13 +111,8 @@ impl StaticError {
             Self::Overloaded { .. } => Some(
                 "elasticity here is linear and holds for small deflections: is the torque in N m, the face width in mm, Young's modulus in MPa, a penalty in MPa per mm?".into(),
             ),
-            Self::Starved { window, .. } => Some(format!(
-                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
-                window + 1
-            )),
             Self::PassedThrough { distance_mm, .. } if *distance_mm < 0.0 => Some(format!("{SMALLER_STEPS}; where the torque may turn round, `flanks = \"both\"` lets the coast flanks hold")),
             Self::PassedThrough { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m?")),
-            Self::Leapt { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m, and the inertia in kg m^2?")),
             Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
             Self::Window(e) => e.hint(),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),

@@ -4,6 +4,7 @@
 //! over mesh cycles, with tooth changes in between.
 
 mod cycle;
+mod cycle_solver;
 mod equilibrium;
 mod error;
 mod kinematic;
@@ -16,7 +17,6 @@ mod result;
 mod root_stress;
 mod slice_count;
 mod statics;
-mod walk;
 
 pub use equilibrium::Equilibrium;
 pub use error::StaticError;

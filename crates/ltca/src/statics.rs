@@ -1,13 +1,13 @@
 //! Station by station through mesh cycles, with tooth changes.
 
-use ale::{Station, ToothWindow};
+use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, Method, check_offsets};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
     Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, cycle,
-    walk::{Fixed, Walk},
+    cycle_solver::{CycleSolver, Fixed},
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -28,7 +28,7 @@ pub struct StaticModel {
     gears: [ElasticGear; 2],
     options: StaticOptions,
     root: Option<RootStress>,
-    walk: Walk,
+    solver: CycleSolver,
 }
 
 impl StaticModel {
@@ -37,7 +37,7 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the window is wider than a gear.
     pub fn first_teeth(pair: &GearPair, options: &StaticOptions) -> Result<[u32; 2], StaticError> {
-        Ok(first_window(pair, options)?.first_teeth())
+        Ok(first_window(pair, options)?.window().first_teeth())
     }
 
     /// A model at the start of cycle 0.
@@ -71,16 +71,16 @@ impl StaticModel {
         }
         check_offsets(&pair, &options.contact)?;
         let window = first_window(&pair, &options)?;
-        let set = ContactSet::new(&pair, &gears, &window, &options.contact)?;
+        let set = ContactSet::new(&pair, &gears, window.window(), &options.contact)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
         let fixed = Fixed { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
-        let walk = Walk::new(&fixed, window, set)?;
-        Ok(Self { pair, gears, options, root, walk })
+        let solver = CycleSolver::new(&fixed, window, set)?;
+        Ok(Self { pair, gears, options, root, solver })
     }
 
-    fn split(&mut self) -> (Fixed<'_>, &mut Walk) {
-        let Self { pair, gears, options, root, walk } = self;
-        (Fixed { pair, gears, options, root: root.as_ref() }, walk)
+    fn split(&mut self) -> (Fixed<'_>, &mut CycleSolver) {
+        let Self { pair, gears, options, root, solver } = self;
+        (Fixed { pair, gears, options, root: root.as_ref() }, solver)
     }
 
     /// The pair.
@@ -105,26 +105,26 @@ impl StaticModel {
 
     /// The window as it stands.
     pub fn window(&self) -> &ToothWindow {
-        &self.walk.window
+        self.solver.window.window()
     }
 
     /// Flanks and matrices of the window as it stands.
     pub fn contact_set(&self) -> &ContactSet {
-        &self.walk.set
+        &self.solver.contact.set
     }
 
     /// The last solved contact.
     pub fn last(&self) -> Option<&Equilibrium> {
-        self.walk.last.as_ref()
+        self.solver.last.as_ref()
     }
 
     /// Solves a station with the window as it stands.
     ///
     /// # Errors
-    /// [`StaticError`], among them [`StaticError::Starved`] when a pair outside the window would touch.
+    /// [`StaticError`], among them [`ale::AleError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, walk) = self.split();
-        walk.solve(&fixed, station)
+        let (fixed, solver) = self.split();
+        solver.solve(&fixed, station)
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
@@ -132,8 +132,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, walk) = self.split();
-        walk.change(&fixed, before, station)
+        let (fixed, solver) = self.split();
+        solver.change(&fixed, before, station)
     }
 
     /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
@@ -142,8 +142,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError`].
     pub fn advance(&mut self, station: Station, seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
-        let (fixed, walk) = self.split();
-        walk.advance(&fixed, station, seen)
+        let (fixed, solver) = self.split();
+        solver.advance(&fixed, station, seen)
     }
 
     /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told of each result in order (for progress), the model standing
@@ -164,17 +164,18 @@ impl StaticModel {
             .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
             .collect();
         let start = first_window(&self.pair, &self.options)?;
-        let (fixed, walk) = self.split();
-        walk.begin(&fixed, start)?;
+        let (fixed, solver) = self.split();
+        solver.begin(&fixed, start)?;
         let mut history = StaticHistory::default();
         let mut left = &stations[..];
         while !left.is_empty() {
-            let (fixed, walk) = self.split();
-            let (wave, rest) = left.split_at(cycle::wave(&fixed, walk).min(left.len()));
+            let (fixed, solver) = self.split();
+            let (wave, rest) = left.split_at(cycle::wave(&fixed, solver).min(left.len()));
             left = rest;
-            for solved in cycle::solve(&fixed, walk, wave) {
-                let (position, stood) = solved?;
-                self.walk.stand(stood);
+            for solved in cycle::solve(&fixed, solver, wave) {
+                let (position, state) = solved?;
+                let (fixed, solver) = self.split();
+                solver.resume(&fixed, state)?;
                 let i = history.positions.len();
                 seen(i, &position, self);
                 history.positions.push(position);
@@ -184,11 +185,7 @@ impl StaticModel {
     }
 }
 
-fn first_window(pair: &GearPair, options: &StaticOptions) -> Result<ToothWindow, StaticError> {
-    let count = options.window_teeth(pair);
-    let start = Station { cycle: 0, phase: 0.0 };
+fn first_window(pair: &GearPair, options: &StaticOptions) -> Result<SlidingWindow, StaticError> {
     let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
-    // Half a pitch is a tie between two windows; the first one serves the cycle that starts.
-    let inward = -1e-9 * options.contact.sense.sign() as f64;
-    Ok(ToothWindow::new(ToothWindow::nominal_first(start.centre(options.contact.sense) + inward, count), count, teeth)?)
+    Ok(SlidingWindow::at_start(options.window_teeth(pair), teeth, options.contact.sense)?)
 }

@@ -4,7 +4,6 @@
 use std::time::Instant;
 
 use geometry::GearData;
-use ltca::StaticError;
 use mesh::Extent;
 use verification::{Case, quadratic};
 
@@ -52,7 +51,7 @@ fn runs(name: &str, case: &Case, positions: usize, steepest: impl Fn(f64, f64) -
     let history = loop {
         match model.run(positions, 3, |_, _, _| ()) {
             Ok(history) => break history,
-            Err(StaticError::Starved { .. }) if options.window.is_none() => {
+            Err(error) if error.is_starved() && options.window.is_none() => {
                 options.window = Some(options.window_teeth(&case.pair) + 1);
                 started = Instant::now();
                 model = case.reduced(options.clone());

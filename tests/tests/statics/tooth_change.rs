@@ -1,7 +1,7 @@
 //! A tooth change is bookkeeping: STE, pair forces and strain energy may not jump.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use ale::{AleError, Station, ToothWindow, carry_coordinates};
+use ale::{AleError, Station, ToothWindow};
 use geometry::Sense;
 use ltca::{StaticError, StaticOptions};
 use mesh::GearMesh;
@@ -63,7 +63,7 @@ fn coordinates_before_and_after(case: &Case) -> ([Vec<f64>; 2], [f64; 2], f64) {
     let forces: Vec<f64> = before.pairs.iter().map(|p| p.normal_force).collect();
     let next = model.window().change(Sense::Cw, &forces).unwrap_or_else(|e| panic!("{forces:?}: {e}"));
     let to = gear.window(next.first_teeth()[0]).unwrap();
-    let carried = carry_coordinates(gear, &from, &to, &u).unwrap();
+    let carried = gear.carry(&from, &to, &u).unwrap();
     let mut naive = carried.clone();
     // The naive change: the oncoming tooth starts from zero.
     let incoming = gear.gear().flank((to.reduced.teeth[2]) % 30, model.options().side()).unwrap();
@@ -139,5 +139,5 @@ fn a_starved_window_is_an_error() {
     let options = StaticOptions { window: Some(2), ..case.options() }.with_contact(|c| c.points_per_face_edge = 4);
     let refused = case.reduced(options).run(8, 1, |_, _, _| ()).unwrap_err();
     println!("{refused}");
-    assert!(matches!(refused, StaticError::Starved { window: 2, .. }), "{refused}");
+    assert!(matches!(refused, StaticError::Window(AleError::Starved { window: 2, .. })), "{refused}");
 }

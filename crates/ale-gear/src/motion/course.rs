@@ -225,9 +225,7 @@ fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance:
 /// Contact that another window may cure, or the end.
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
     match error {
-        PairMotionError::Mechanism { source: source @ ltca::StaticError::Starved { .. }, .. } => {
-            Failure::Static(source)
-        }
+        PairMotionError::Mechanism { source, .. } if source.is_starved() => Failure::Static(source),
         other => {
             let hint = match &other {
                 PairMotionError::Mechanism { source, .. } => source.hint(),

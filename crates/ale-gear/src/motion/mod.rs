@@ -42,6 +42,7 @@ mod sweep;
 mod table;
 mod write;
 
+use ale::solve_widening;
 use std::path::{Path, PathBuf};
 
 use course::{Finished, Places};
@@ -71,7 +72,7 @@ use crate::{
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
-    run::{Failure, complaint},
+    run::Failure,
     scene::{MotionScene, Scene, SweepScene},
     talk::{self, Loudness},
 };
@@ -185,28 +186,26 @@ fn through_windows(
         }
         from.as_ref().map_or(Ok(()), |stored| stored.check_meshes(scene, &meshes))?;
     }
-    let mut window = from.as_ref().map(|f| f.window);
     let mut widened = Vec::new();
-    loop {
-        match attempt(&inputs, phases, results, (checkpoints, stop_after), window, from.take()) {
-            Ok(Attempt::Stopped { cycles }) => return Ok(Outcome::Stopped { cycles }),
-            Ok(Attempt::Motion(mut prepared, done)) => {
-                prepared.warnings.extend(widened);
-                return write_motion(scene, words, phases, results, &prepared, &done).map(Outcome::Finished);
-            }
-            Ok(Attempt::Sweep(mut prepared, points, sweep)) => {
-                prepared.warnings.extend(widened);
-                let written = write_sweep(scene, (words, sweep), phases, results, &prepared, &points)?;
-                return Ok(Outcome::Finished(written));
-            }
-            Err(Failure::Command(e)) => return Err(e),
-            Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
-                Some(teeth) => {
-                    widened.push(format!("{e}; the window was widened to {teeth} teeth and the motion begun again"));
-                    window = Some(teeth);
-                }
-                None => return Err(complaint(scene, &e)),
-            },
+    let solved = solve_widening(
+        from.as_ref().map(|f| f.window),
+        |window| attempt(&inputs, phases, results, (checkpoints, stop_after), window, from.take()),
+        |window, failure| {
+            let Failure::Static(e) = failure else { return None };
+            let teeth = prepare::wider(&inputs, window, e)?;
+            widened.push(format!("{e}; the window was widened to {teeth} teeth and the motion begun again"));
+            Some(teeth)
+        },
+    );
+    match solved.map_err(|e| e.complaint(scene))? {
+        Attempt::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
+        Attempt::Motion(mut prepared, done) => {
+            prepared.warnings.extend(widened);
+            write_motion(scene, words, phases, results, &prepared, &done).map(Outcome::Finished)
+        }
+        Attempt::Sweep(mut prepared, points, sweep) => {
+            prepared.warnings.extend(widened);
+            write_sweep(scene, (words, sweep), phases, results, &prepared, &points).map(Outcome::Finished)
         }
     }
 }
@@ -223,25 +222,21 @@ pub(crate) fn rows_of(
 ) -> Result<Columns, CommandError> {
     let cache = Cache::off();
     let inputs = Inputs::new(scene, words, phases, &cache)?;
-    let mut window = None;
-    loop {
+    let solve = |window| {
         let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
-        let done = prepare(&inputs, phases, window).and_then(|prepared| {
-            doubts::unstable(scene, &prepared)?;
-            let done = course::run(scene, words, &prepared, phases, places)?;
-            let rows = Columns::read(&folder.join(rows::HISTORY))?;
-            let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
-            Ok(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
-        });
-        match done {
-            Ok(()) => return Columns::read(&folder.join(rows::HISTORY)),
-            Err(Failure::Command(e)) => return Err(e),
-            Err(Failure::Static(e)) => match prepare::wider(&inputs, window, &e) {
-                Some(teeth) => window = Some(teeth),
-                None => return Err(complaint(scene, &e)),
-            },
-        }
-    }
+        let prepared = prepare(&inputs, phases, window)?;
+        doubts::unstable(scene, &prepared)?;
+        let done = course::run(scene, words, &prepared, phases, places)?;
+        let rows = Columns::read(&folder.join(rows::HISTORY))?;
+        let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
+        Ok::<_, Failure>(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
+    };
+    let wider = |window, failure: &Failure| match failure {
+        Failure::Static(e) => prepare::wider(&inputs, window, e),
+        Failure::Command(_) => None,
+    };
+    solve_widening(None, solve, wider).map_err(|e| e.complaint(scene))?;
+    Columns::read(&folder.join(rows::HISTORY))
 }
 
 /// One width of the window.

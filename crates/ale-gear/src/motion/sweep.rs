@@ -107,7 +107,7 @@ pub(crate) struct SweepHeadline {
 /// The error of teeth missing beside the window, which a wider one may cure.
 fn starved(error: &PairMotionError) -> Option<&StaticError> {
     match error {
-        MotionError::Mechanism { source: source @ StaticError::Starved { .. }, .. } => Some(source),
+        MotionError::Mechanism { source, .. } if source.is_starved() => Some(source),
         _ => None,
     }
 }

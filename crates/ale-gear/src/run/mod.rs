@@ -6,6 +6,7 @@ mod doubts;
 mod foreseen;
 mod options;
 
+use ale::solve_widening;
 use doubts::doubts;
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
@@ -73,23 +74,22 @@ fn solve_scene(
     let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
     let mut warnings = gears::doubts(&pair);
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
-    let mut options = options(scene, &pair);
+    let options = options(scene, &pair);
     let (resolution, said) = resolution(scene, &pair, &options);
     warnings.extend(said);
     let inputs = Inputs { scene, results, cache, pair: &pair, meshes: &meshes };
-    let Attempt { model, mut history, first_result_s, recorder } = loop {
-        match attempt(inputs, phases, &options) {
-            Ok(solved) => break solved,
-            Err(Failure::Command(e)) => return Err(e),
-            Err(Failure::Static(e)) => match wider_window(scene, &pair, &meshes, &options, &e) {
-                Some(teeth) => {
-                    warnings.push(format!("{e}; the window was widened to {teeth} teeth"));
-                    options.window = Some(teeth);
-                }
-                None => return Err(complaint(scene, &e)),
-            },
-        }
-    };
+    let with = |window| StaticOptions { window, ..options.clone() };
+    let solved = solve_widening(
+        options.window,
+        |window| attempt(inputs, phases, &with(window)),
+        |window, failure| {
+            let Failure::Static(e) = failure else { return None };
+            let teeth = wider_window(scene, &pair, &meshes, &with(window), e)?;
+            warnings.push(format!("{e}; the window was widened to {teeth} teeth"));
+            Some(teeth)
+        },
+    );
+    let Attempt { model, mut history, first_result_s, recorder } = solved.map_err(|e| e.complaint(scene))?;
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     let mut facts = Facts {
         geometry: gears::geometry_facts(&pair),
@@ -146,6 +146,16 @@ impl From<CommandError> for Failure {
     }
 }
 
+impl Failure {
+    /// What the user is told.
+    pub(crate) fn complaint(self, scene: &Scene) -> CommandError {
+        match self {
+            Self::Command(e) => e,
+            Self::Static(e) => complaint(scene, &e),
+        }
+    }
+}
+
 impl From<StaticError> for Failure {
     fn from(e: StaticError) -> Self {
         Self::Static(e)
@@ -161,7 +171,7 @@ pub(crate) fn wider_window(
     error: &StaticError,
 ) -> Option<usize> {
     let teeth = options.window_teeth(pair) + 1;
-    let starved = matches!(error, StaticError::Starved { .. });
+    let starved = error.is_starved();
     let available = |m: &SceneMesh| {
         if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
     };
@@ -249,7 +259,7 @@ pub(crate) fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
 pub(crate) fn complaint(scene: &Scene, error: &StaticError) -> CommandError {
     let keys: &[&str] = match error {
         StaticError::Overloaded { .. } => &["operation.torque_nm"],
-        StaticError::Starved { .. } => &["analysis.window_teeth"],
+        error if error.is_starved() => &["analysis.window_teeth"],
         _ => &[],
     };
     let place = scene.place_of(keys);

@@ -148,23 +148,14 @@ pub struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// Running numbers of the two pairs beside the window.
-    fn beside(&self) -> [i64; 2] {
-        let pairs = self.window.pairs();
-        [pairs.start - 1, pairs.end]
-    }
-
     /// Least gap of the two pairs beside the window, mm, undeformed.
-    pub fn gap_beside(&self) -> f64 {
-        self.beside().into_iter().map(|running| outside_gap(self, running)).fold(f64::INFINITY, f64::min)
+    pub fn least_gap(&self) -> f64 {
+        self.window.beside().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The first of the two pairs beside the window whose undeformed flanks overlap by more than `allowed` (mm), and by how much.
-    pub fn overlap_beside(&self, allowed: f64) -> Option<(i64, f64)> {
-        self.beside()
-            .into_iter()
-            .map(|running| (running, -outside_gap(self, running)))
-            .find(|(_, overlap)| *overlap > allowed)
+    /// Least gap of a pair that the window does not hold, mm, undeformed smooth flanks at the loaded pose.
+    pub fn gap(&self, running: i64) -> f64 {
+        outside_gap(self, running)
     }
 }
 

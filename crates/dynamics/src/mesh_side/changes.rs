@@ -1,9 +1,9 @@
 //! Tooth changes of one side: when the window moves, and what that leaves behind.
 
-use ale::{Station, ToothWindow};
-use contact::{Beside, ContactSet, MeshContact, Pose};
+use ale::{SlidingWindow, Station, ToothWindow};
+use contact::{Beside, ContactSet, Pose};
 use geometry::GearPair;
-use ltca::StaticError;
+use ltca::{StaticError, StaticOptions};
 use serde::{Deserialize, Serialize};
 
 use super::MeshSide;
@@ -30,100 +30,63 @@ pub struct SidePlace {
 impl MeshSide {
     /// Where the window stands.
     pub fn place(&self) -> SidePlace {
-        SidePlace { first: self.window.first(), changes: self.changes }
+        SidePlace { first: self.window.window().first(), changes: self.changes }
     }
 
     /// Puts the window where it stood.
     pub fn stand(&mut self, pair: &GearPair, place: SidePlace) -> Result<(), StaticError> {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
-        let window = ToothWindow::new(place.first, self.window.count(), teeth)?;
-        self.enter(pair, window, self.home.1.clone())?;
+        let window = ToothWindow::new(place.first, self.window.window().count(), teeth)?;
+        self.enter(pair, self.window.with_window(window), self.home.1.clone())?;
         self.changes = place.changes;
         Ok(())
     }
 
     /// Goes over to a window, with the matrices of `set` where they serve it.
-    fn enter(&mut self, pair: &GearPair, window: ToothWindow, mut set: ContactSet) -> Result<(), StaticError> {
-        if set.move_to(&self.gears, &window)? {
-            self.contact.enter(set);
-        } else {
-            let set = ContactSet::new(pair, &self.gears, &window, &self.options.contact)?;
-            self.contact = MeshContact::new(pair, set, &self.options.contact)?;
-        }
+    fn enter(&mut self, pair: &GearPair, window: SlidingWindow, set: ContactSet) -> Result<(), StaticError> {
+        self.contact.enter_window(pair, &self.gears, window.window(), set, &self.options.contact)?;
         self.window = window;
-        self.enter_modes()
+        Ok(())
     }
 
-    /// A pair beside the window whose undeformed flanks overlap, by the poses of the last evaluation.
+    /// Refuses a window beside which a pair overlaps, by the poses of the last evaluation.
     ///
     /// # Errors
-    /// [`StaticError::Starved`].
+    /// [`ale::AleError::Starved`].
     pub fn check_beside(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
         // Nothing is pressed where nothing overlaps, and a pair beside the window comes last.
         let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
         if deepest == 0.0 {
             return Ok(());
         }
-        let Self { options, window, ahead, contact, .. } = self;
-        let set = contact.contact_set().clone();
+        let Self { options: StaticOptions { contact: options, torque, .. }, window: sliding, ahead, contact, .. } =
+            self;
+        let (set, window) = (contact.contact_set().clone(), sliding.window());
         let station = Station::at_cycles(cycles + *ahead);
-        let gap = |poses: &[Pose; 2]| {
-            Beside { pair, options: &options.contact, set: &set, window, station, poses }.gap_beside()
-        };
+        let gap = |poses: &[Pose; 2]| Beside { pair, options, set: &set, window, station, poses }.least_gap();
         if contact.gap_beside(poses, gap) > -1e-3 * deepest {
             return Ok(());
         }
-        let standing = Beside { pair, options: &options.contact, set: &set, window, station, poses };
-        match standing.overlap_beside(1e-3 * deepest) {
-            None => Ok(()),
-            Some((running, overlap)) => Err(StaticError::Starved {
-                cycle: station.cycle,
-                phase: station.phase,
-                pair: running,
-                window: window.count(),
-                overlap_um: 1e3 * overlap,
-                torque_nm: 1e-3 * options.torque,
-            }),
-        }
+        let beside = Beside { pair, options, set: &set, window, station, poses };
+        Ok(sliding.check_beside(station, *torque, 1e-3 * deepest, |running| beside.gap(running))?)
     }
 
-    /// Refuses gears that have turned past the whole window since it moved last: it follows tooth by tooth, and what happened in between nobody has seen.
+    /// Refuses gears that have turned past the whole window since it moved last.
     ///
     /// # Errors
-    /// [`StaticError::Leapt`].
+    /// [`ale::AleError::Leapt`].
     pub fn check_pace(&self, cycles: f64) -> Result<(), StaticError> {
-        let (station, window) = (Station::at_cycles(cycles + self.ahead), self.window.count());
-        let due = ToothWindow::nominal_first(station.centre(self.options.contact.sense), window);
-        // Running numbers as floats: a turn that is no number is far from any of them.
-        let teeth = (due as f64 - self.window.first() as f64).abs();
-        if teeth <= window as f64 && cycles.is_finite() {
-            return Ok(());
-        }
-        Err(StaticError::Leapt { cycle: station.cycle, phase: station.phase, teeth, window })
+        Ok(self.window.check_pace(cycles + self.ahead)?)
     }
 
-    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last evaluation; `cycles` are those that
-    /// the gears have turned.
+    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last
+    /// evaluation; `cycles` are those that the gears have turned.
     ///
-    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change leaves no trace
-    /// in the motion as long as no force is dropped.
+    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change leaves no
+    /// trace in the motion as long as no force is dropped.
     pub fn follow(&mut self, pair: &GearPair, cycles: f64) -> Result<bool, StaticError> {
         let station = Station::at_cycles(cycles + self.ahead);
-        let due = ToothWindow::nominal_first(station.centre(self.options.contact.sense), self.window.count());
-        let sense = self.options.contact.sense;
-        if due == self.window.first() {
-            return Ok(false);
-        }
-        let back = (due - self.window.first()) * sense.sign() > 0;
-        let going = if back { opposite(sense) } else { sense };
-        let outgoing = self.window.outgoing(going);
-        let forces = self.contact.force().pair_forces.clone();
-        let index = usize::try_from(outgoing - self.window.first()).unwrap_or(0);
-        let carried = forces.get(index).copied().unwrap_or(0.0);
-        if carried != 0.0 {
-            return Ok(false);
-        }
-        let next = self.window.change(going, &forces)?;
+        let Some(next) = self.window.due_change(station, &self.contact.force().pair_forces)? else { return Ok(false) };
         self.enter(pair, next, self.contact.contact_set().clone())?;
         self.changes.count += 1;
         Ok(true)
@@ -133,12 +96,5 @@ impl MeshSide {
     pub fn book_jump(&mut self, before: f64) {
         let after = self.contact.force().pair_forces.iter().sum::<f64>();
         self.changes.jump = self.changes.jump.max((after - before).abs());
-    }
-}
-
-fn opposite(sense: geometry::Sense) -> geometry::Sense {
-    match sense {
-        geometry::Sense::Ccw => geometry::Sense::Cw,
-        geometry::Sense::Cw => geometry::Sense::Ccw,
     }
 }

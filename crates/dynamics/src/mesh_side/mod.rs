@@ -6,8 +6,8 @@ mod forces;
 
 use std::sync::Arc;
 
-use ale::{Station, ToothWindow};
-use contact::{ContactSet, MeshContact, ModalFlanks, Pose, frames, reference_angle, slice_result};
+use ale::{SlidingWindow, Station, ToothWindow};
+use contact::{ContactSet, MeshContact, Pose, frames, reference_angle, slice_result};
 use geometry::GearPair;
 use ltca::{FilletStress, Parts, RootStress, StaticError, StaticOptions};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -23,17 +23,15 @@ pub(super) use forces::SideForce;
 pub(super) struct MeshSide {
     options: StaticOptions,
     gears: Arc<[ElasticGear; 2]>,
-    window: ToothWindow,
+    window: SlidingWindow,
     contact: MeshContact,
     /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from there.
-    home: (ToothWindow, ContactSet),
+    home: (SlidingWindow, ContactSet),
     /// Mesh cycles that this side is ahead of the pair's counting.
     ahead: f64,
     /// Turn of the wheel from where these flanks touch to where the driving ones do, rad: backlash on the coast side.
     slack: f64,
     changes: Changes,
-    /// Normal modes of both gears that are coordinates of their own.
-    modes: Option<[Arc<GearModes>; 2]>,
 }
 
 impl MeshSide {
@@ -57,26 +55,16 @@ impl MeshSide {
         let slack = (theta[1] - theta[0]) - ((theta[1] - theta[0]) / of_wheel).round() * of_wheel;
         let count = options.window_teeth(pair);
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
-        let first = ToothWindow::nominal_first(own.centre(options.contact.sense), count);
-        let window = ToothWindow::new(first, count, teeth)?;
-        let set = ContactSet::new(pair, &gears, &window, &options.contact)?;
+        let window = SlidingWindow::at(own, count, teeth, options.contact.sense)?;
+        let set = ContactSet::new(pair, &gears, window.window(), &options.contact)?;
         let contact = MeshContact::new(pair, set.clone(), &options.contact)?;
         let home = (window, set);
-        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default(), modes: None })
+        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default() })
     }
 
     /// Takes normal modes of both gears for coordinates of their own.
     pub fn keep_modes(&mut self, modes: [Arc<GearModes>; 2]) -> Result<(), StaticError> {
-        self.modes = Some(modes);
-        self.enter_modes()
-    }
-
-    /// The modes on the flanks of the window as it is.
-    fn enter_modes(&mut self) -> Result<(), StaticError> {
-        let Some([a, b]) = &self.modes else { return Ok(()) };
-        let modal = ModalFlanks::new(&self.gears, [a, b], self.contact.contact_set())?;
-        self.contact.keep_modes(modal);
-        Ok(())
+        Ok(self.contact.keep_modes(&self.gears, modes)?)
     }
 
     /// The same side at its beginning, with the same gears and tables.
@@ -91,15 +79,16 @@ impl MeshSide {
             ahead: self.ahead,
             slack: self.slack,
             changes: Changes::default(),
-            modes: self.modes.clone(),
         };
-        again.enter_modes()?;
+        if let Some(modes) = self.contact.modes() {
+            again.keep_modes(modes.clone())?;
+        }
         Ok(again)
     }
 
     /// Forgets forces and places of the last solution: what comes then depends on the state alone.
     pub fn forget(&mut self) {
-        self.contact.enter(self.contact.contact_set().clone());
+        self.contact.forget_places();
     }
 
     /// The fillets of both gears, for [`MeshSide::root_stress`].
@@ -114,7 +103,7 @@ impl MeshSide {
         loaded
             .filter(|(_, f)| **f > 0.0)
             .map(|((row, slice), &f)| PressedSlice {
-                pair: self.window.first() + set.pair_of(row.patches.0) as i64,
+                pair: self.window.window().first() + set.pair_of(row.patches.0) as i64,
                 slice: slice_result(slice, set.side(row.patches.0), f),
             })
             .collect()
@@ -131,7 +120,7 @@ impl MeshSide {
         let set = self.contact.contact_set();
         let displacements =
             (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
-        let parts = Parts { pair, gears: &self.gears, set, window: &self.window, options: &self.options };
+        let parts = Parts { pair, gears: &self.gears, set, window: self.window.window(), options: &self.options };
         roots.of(&parts, displacements.as_ref())
     }
 
@@ -151,7 +140,7 @@ impl MeshSide {
         let station = Station::at_cycles(cycles + self.ahead);
         let turns = [d[COORDINATES - 1], d[2 * COORDINATES - 1] + self.slack];
         let set = self.contact.contact_set();
-        let nominal = frames(pair, set, &self.window, &self.options.contact, station, turns);
+        let nominal = frames(pair, set, self.window.window(), &self.options.contact, station, turns);
         [0, 1].map(|g| {
             let at = COORDINATES * g;
             let moved = Vector3::new(d[at], d[at + 1], d[at + 2]);
@@ -168,6 +157,6 @@ impl MeshSide {
 
     /// The window, and how often it has moved.
     pub fn window(&self) -> (&ToothWindow, u64) {
-        (&self.window, self.changes.count)
+        (self.window.window(), self.changes.count)
     }
 }

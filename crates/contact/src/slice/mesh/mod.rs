@@ -7,10 +7,13 @@ mod near;
 mod search;
 mod work;
 
+use ale::ToothWindow;
 use cell::Kept;
 use faer::MatRef;
 use found::{Found, NEAR, opening};
 use geometry::GearPair;
+use reduction::{ElasticGear, GearModes};
+use std::sync::Arc;
 
 use crate::{
     Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
@@ -71,7 +74,8 @@ pub struct MeshContact {
     work: [TableWork; 2],
     solver: DenseSolver,
     force: MeshForce,
-    /// Normal modes that are coordinates of their own.
+    /// Normal modes that are coordinates of their own, and these on the flanks of the window.
+    modes: Option<[Arc<GearModes>; 2]>,
     modal: Option<ModalFlanks>,
 }
 
@@ -113,6 +117,7 @@ impl MeshContact {
             work,
             solver: DenseSolver::new(most),
             force,
+            modes: None,
             modal: None,
             pairs,
             set,
@@ -124,8 +129,36 @@ impl MeshContact {
         &self.set
     }
 
-    /// Goes over to another window with the same flanks; forces are forgotten, they belong to other pairs there.
-    pub fn enter(&mut self, set: ContactSet) {
+    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears, serves
+    /// it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on the new flanks.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the window cannot be set up.
+    pub fn enter_window(
+        &mut self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        mut set: ContactSet,
+        options: &ContactOptions,
+    ) -> Result<(), ContactError> {
+        if set.move_to(gears, window)? {
+            self.enter(set);
+        } else {
+            let modes = self.modes.take();
+            *self = Self::new(pair, ContactSet::new(pair, gears, window, options)?, options)?;
+            self.modes = modes;
+        }
+        self.enter_modes(gears)
+    }
+
+    /// Forgets forces and places of the last solution.
+    pub fn forget_places(&mut self) {
+        self.enter(self.set.clone());
+    }
+
+    /// Goes over to another window with the same flanks.
+    fn enter(&mut self, set: ContactSet) {
         self.memory.fill(0.0);
         self.hints.fill(SliceHint::default());
         self.stood = None;
@@ -140,11 +173,27 @@ impl MeshContact {
         self.set = set;
     }
 
-    /// Takes normal modes of both gears on the flanks of this window out of the compliance; they then deform the gears by the amplitudes given.
-    pub fn keep_modes(&mut self, modal: ModalFlanks) {
-        // Other teeth move in other ways.
+    /// Takes normal modes of both gears out of the compliance; they then deform the gears by the amplitudes given.
+    ///
+    /// # Errors
+    /// [`ContactError`] for modes of other gears.
+    pub fn keep_modes(&mut self, gears: &[ElasticGear; 2], modes: [Arc<GearModes>; 2]) -> Result<(), ContactError> {
+        self.modes = Some(modes);
+        self.enter_modes(gears)
+    }
+
+    /// The modes that are kept.
+    pub fn modes(&self) -> Option<&[Arc<GearModes>; 2]> {
+        self.modes.as_ref()
+    }
+
+    /// The modes on the flanks of the window as it is: other teeth move in other ways.
+    fn enter_modes(&mut self, gears: &[ElasticGear; 2]) -> Result<(), ContactError> {
+        let Some([a, b]) = &self.modes else { return Ok(()) };
+        let modal = ModalFlanks::new(gears, [a, b], &self.set)?;
         self.drop_cells();
         self.modal = Some(modal);
+        Ok(())
     }
 
     /// Sets the amplitudes of the modes, of pinion and wheel in turn.

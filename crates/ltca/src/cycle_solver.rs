@@ -1,7 +1,7 @@
-//! A pair on its way: window, contact and last solution, station by station.
+//! A pair from station to station: window, contact and last solution.
 
-use ale::{Station, ToothWindow};
-use contact::{Beside, ContactSet, MeshContact};
+use ale::{SlidingWindow, Station};
+use contact::{Beside, ContactSet, WindowContact};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
@@ -19,30 +19,28 @@ pub(crate) struct Fixed<'a> {
     pub root: Option<&'a RootStress>,
 }
 
-/// What goes along.
+/// What goes from station to station.
 #[derive(Debug)]
-pub(crate) struct Walk {
-    pub window: ToothWindow,
-    pub set: ContactSet,
-    /// Solver of slices on reduced gears.
-    pub mesh: Option<MeshContact>,
+pub(crate) struct CycleSolver {
+    pub window: SlidingWindow,
+    pub contact: WindowContact,
     pub last: Option<Equilibrium>,
     pub changes: u64,
 }
 
-impl Walk {
+impl CycleSolver {
     /// At rest, in a window with the given flanks and matrices.
     ///
     /// # Errors
     /// [`StaticError`] when the contact cannot be set up.
-    pub fn new(fixed: &Fixed<'_>, window: ToothWindow, set: ContactSet) -> Result<Self, StaticError> {
-        let mesh = mesh_contact(fixed, &set)?;
-        Ok(Self { window, set, mesh, last: None, changes: 0 })
+    pub fn new(fixed: &Fixed<'_>, window: SlidingWindow, set: ContactSet) -> Result<Self, StaticError> {
+        let contact = WindowContact::new(fixed.pair, set, &fixed.options.contact)?;
+        Ok(Self { window, contact, last: None, changes: 0 })
     }
 
     fn parts<'a>(&'a self, fixed: &Fixed<'a>) -> Parts<'a> {
         let Fixed { pair, gears, options, .. } = *fixed;
-        Parts { pair, gears, set: &self.set, window: &self.window, options }
+        Parts { pair, gears, set: &self.contact.set, window: self.window.window(), options }
     }
 
     /// Solves a station with the window as it stands.
@@ -53,13 +51,13 @@ impl Walk {
             return Ok(StaticPosition { root_stress, ..self.unloaded(fixed, station)? });
         }
         let guess = self.last.take();
-        let Self { set, window, mesh, .. } = self;
-        let parts = Parts { pair, gears, set, window, options };
-        let e = equilibrium(&parts, mesh.as_mut(), station, guess.as_ref())?;
+        let Self { contact: WindowContact { set, slices }, window, .. } = self;
+        let parts = Parts { pair, gears, set, window: window.window(), options };
+        let e = equilibrium(&parts, slices.as_mut(), station, guess.as_ref())?;
         let result = self.position(fixed, &e)?;
-        let starved = self.starved(fixed, &e);
+        let fed = self.check_beside(fixed, &e);
         self.last = Some(e);
-        starved.map_or(Ok(result), Err)
+        fed.map(|()| result)
     }
 
     /// Everything the results hold of a solved station.
@@ -71,23 +69,16 @@ impl Walk {
     /// Stress in the fillets of both windows, when it is asked for.
     fn root_stress(&self, fixed: &Fixed<'_>, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
         let Some(root) = fixed.root else { return Ok(Default::default()) };
-        root.of(&self.parts(fixed), e.map(|e| e.displacements_on(&self.set)).as_ref())
+        root.of(&self.parts(fixed), e.map(|e| e.displacements_on(&self.contact.set)).as_ref())
     }
 
-    /// A pair beside the window that overlaps at the loaded pose.
-    fn starved(&self, fixed: &Fixed<'_>, e: &Equilibrium) -> Option<StaticError> {
+    /// Refuses a window beside which a pair overlaps at the loaded pose.
+    fn check_beside(&self, fixed: &Fixed<'_>, e: &Equilibrium) -> Result<(), StaticError> {
         let Fixed { pair, options, .. } = *fixed;
-        let Self { set, window, .. } = self;
-        let standing = Beside { pair, options: &options.contact, set, window, station: e.station, poses: &e.poses };
-        let (running, overlap) = standing.overlap_beside(1e-3 * e.elastic_error().abs())?;
-        Some(StaticError::Starved {
-            cycle: e.station.cycle,
-            phase: e.station.phase,
-            pair: running,
-            window: window.count(),
-            overlap_um: 1e3 * overlap,
-            torque_nm: 1e-3 * options.torque,
-        })
+        let (set, window) = (&self.contact.set, self.window.window());
+        let beside = Beside { pair, options: &options.contact, set, window, station: e.station, poses: &e.poses };
+        let allowed = 1e-3 * e.elastic_error().abs();
+        Ok(self.window.check_beside(e.station, options.torque, allowed, |running| beside.gap(running))?)
     }
 
     /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
@@ -100,11 +91,12 @@ impl Walk {
         let middle = station.middle_pair(fixed.options.contact.sense);
         let mut pairs: Vec<_> = self
             .window
+            .window()
             .pairs()
             .map(|running| {
                 let nominal = lines.iter().find(|l| l.tooth == running - middle).map_or(0.0, |l| l.length);
                 let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
-                let [pinion_tooth, wheel_tooth] = self.window.teeth_of(running);
+                let [pinion_tooth, wheel_tooth] = self.window.window().teeth_of(running);
                 crate::PairResult {
                     pair: fixed.options.contact.sense.sign() * running,
                     pinion_tooth,
@@ -148,9 +140,7 @@ impl Walk {
         before: &StaticPosition,
         station: Station,
     ) -> Result<StaticPosition, StaticError> {
-        let forces: Vec<f64> = self.window.pairs().map(|running| self.force_of(fixed, before, running)).collect();
-        let next = self.window.change(fixed.options.contact.sense, &forces)?;
-        self.enter(fixed, next)?;
+        self.enter(fixed, self.window.change(&self.forces(fixed, before))?)?;
         self.changes += 1;
         // The patches of the window have other numbers now: points are not remembered across a change.
         if let Some(last) = &mut self.last {
@@ -159,36 +149,33 @@ impl Walk {
         self.solve(fixed, station)
     }
 
-    /// Normal force of the pair of a running number, N; results number pairs in the sense of rotation.
-    fn force_of(&self, fixed: &Fixed<'_>, position: &StaticPosition, running: i64) -> f64 {
-        let number = fixed.options.contact.sense.sign() * running;
-        position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
+    /// Normal forces of the window's pairs, N, ascending in running numbers; results number pairs in the sense of rotation.
+    fn forces(&self, fixed: &Fixed<'_>, position: &StaticPosition) -> Vec<f64> {
+        let force = |running: i64| {
+            let number = fixed.options.contact.sense.sign() * running;
+            position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
+        };
+        self.window.window().pairs().map(force).collect()
     }
 
     /// Back to a window to begin from, nothing remembered: a run does not depend on those before it.
     ///
     /// # Errors
     /// [`StaticError`] when the window cannot be entered.
-    pub fn begin(&mut self, fixed: &Fixed<'_>, window: ToothWindow) -> Result<(), StaticError> {
+    pub fn begin(&mut self, fixed: &Fixed<'_>, window: SlidingWindow) -> Result<(), StaticError> {
         if self.window != window {
             self.enter(fixed, window)?;
         }
-        if let Some(mesh) = &mut self.mesh {
-            mesh.forget();
+        if let Some(slices) = &mut self.contact.slices {
+            slices.forget();
         }
         (self.last, self.changes) = (None, 0);
         Ok(())
     }
 
-    fn enter(&mut self, fixed: &Fixed<'_>, window: ToothWindow) -> Result<(), StaticError> {
-        if self.set.move_to(fixed.gears, &window)? {
-            if let Some(mesh) = &mut self.mesh {
-                mesh.enter(self.set.clone());
-            }
-        } else {
-            self.set = ContactSet::new(fixed.pair, fixed.gears, &window, &fixed.options.contact)?;
-            self.mesh = mesh_contact(fixed, &self.set)?;
-        }
+    fn enter(&mut self, fixed: &Fixed<'_>, window: SlidingWindow) -> Result<(), StaticError> {
+        let set = self.contact.set.clone();
+        self.contact.enter(fixed.pair, fixed.gears, window.window(), set, &fixed.options.contact)?;
         self.window = window;
         Ok(())
     }
@@ -204,30 +191,24 @@ impl Walk {
         station: Station,
         mut seen: impl FnMut(&Change),
     ) -> Result<StaticPosition, StaticError> {
-        let due = ToothWindow::nominal_first(station.centre(fixed.options.contact.sense), self.window.count());
         let mut result = self.solve(fixed, station);
-        while (due - self.window.first()) * fixed.options.contact.sense.sign() < 0 {
+        while self.window.teeth_behind(station) > 0 {
             let before = match &result {
                 Ok(position) => position.clone(),
                 // A pair that comes in early is what the change is for; the outgoing tooth decides.
-                Err(StaticError::Starved { .. }) => match &self.last {
+                Err(e) if e.is_starved() => match &self.last {
                     Some(e) => self.position(fixed, e)?,
                     None => break,
                 },
                 Err(_) => break,
             };
-            if self.force_of(fixed, &before, self.window.outgoing(fixed.options.contact.sense)) != 0.0 {
+            if self.window.due_change(station, &self.forces(fixed, &before))?.is_none() {
                 break;
             }
             let after = self.change(fixed, &before, station)?;
-            seen(&Change { before, after: after.clone(), window: self.window });
+            seen(&Change { before, after: after.clone(), window: *self.window.window() });
             result = Ok(after);
         }
         result
     }
-}
-
-fn mesh_contact(fixed: &Fixed<'_>, set: &ContactSet) -> Result<Option<MeshContact>, StaticError> {
-    let sliced = set.slices().is_some() && set.windows().is_some();
-    Ok(sliced.then(|| MeshContact::new(fixed.pair, set.clone(), &fixed.options.contact)).transpose()?)
 }

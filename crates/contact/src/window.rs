@@ -1,0 +1,55 @@
+//! Flanks, matrices and solver of a window that slides.
+
+use ale::ToothWindow;
+use geometry::GearPair;
+use reduction::ElasticGear;
+
+use crate::{ContactError, ContactOptions, ContactSet, MeshContact};
+
+/// The contact of one window: its flanks, and the solver of slices on reduced gears.
+#[derive(Debug)]
+pub struct WindowContact {
+    /// Flanks and matrices.
+    pub set: ContactSet,
+    /// Solver; none for points, and for gears with all their degrees of freedom.
+    pub slices: Option<MeshContact>,
+}
+
+impl WindowContact {
+    /// With the flanks and matrices of a window.
+    ///
+    /// # Errors
+    /// [`ContactError`].
+    pub fn new(pair: &GearPair, set: ContactSet, options: &ContactOptions) -> Result<Self, ContactError> {
+        let sliced = set.slices().is_some() && set.windows().is_some();
+        let slices = sliced.then(|| MeshContact::new(pair, set.clone(), options)).transpose()?;
+        Ok(Self { set, slices })
+    }
+
+    /// Goes over to another window, with the flanks and matrices of `set` where they serve it.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the window cannot be set up.
+    pub fn enter(
+        &mut self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        set: ContactSet,
+        options: &ContactOptions,
+    ) -> Result<(), ContactError> {
+        match &mut self.slices {
+            Some(slices) => {
+                slices.enter_window(pair, gears, window, set, options)?;
+                self.set = slices.contact_set().clone();
+            }
+            None => {
+                self.set = set;
+                if !self.set.move_to(gears, window)? {
+                    self.set = ContactSet::new(pair, gears, window, options)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
