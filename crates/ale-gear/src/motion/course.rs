@@ -1,5 +1,6 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
+use analysis::Progress;
 use dynamics::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
 use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ use super::{
 use crate::{
     error::CommandError,
     pattern::GearPattern,
-    phases::{Phases, Progress},
+    phases::Phases,
     run::Failure,
     scene::{MotionScene, Run, Scene},
 };
@@ -171,7 +172,7 @@ fn settle(
     course: &mut CourseState,
     rows: &mut Rows,
     (tolerance, most): (f64, u64),
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     while motion.cycle() < most {
         let swing = motion.run_cycle(None).map_err(|e| failure(keep.scene, e))?;
@@ -196,7 +197,7 @@ fn record(
     course: &mut CourseState,
     rows: &mut Rows,
     goal: Goal,
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     let tolerance = goal.settle.map_or(1e-6, |(tolerance, _)| tolerance);
     while course.recorded < goal.cycles && motion.goes_on() {
