@@ -102,14 +102,15 @@ impl SlidingWindow {
     ///
     /// # Errors
     /// [`AleError::Starved`].
-    pub fn check_beside(
+    pub fn check_neighbours(
         &self,
         station: Station,
         torque: f64,
         allowed: f64,
         gap: impl Fn(i64) -> f64,
     ) -> Result<(), AleError> {
-        let overlapping = self.window.beside().into_iter().map(|pair| (pair, -gap(pair))).find(|(_, o)| *o > allowed);
+        let overlapping =
+            self.window.neighbours().into_iter().map(|pair| (pair, -gap(pair))).find(|(_, o)| *o > allowed);
         match overlapping {
             None => Ok(()),
             Some((pair, overlap)) => Err(AleError::Starved {
@@ -192,11 +193,11 @@ mod tests {
     #[test]
     fn a_starved_window_names_the_pair() {
         let window = SlidingWindow::at_start(3, TEETH, Sense::Ccw).unwrap();
-        let [_, behind] = window.window().beside();
+        let [_, behind] = window.window().neighbours();
         let gap = |pair: i64| if pair == behind { -2e-3 } else { 1.0 };
         let station = Station::at_cycles(0.0);
-        assert!(window.check_beside(station, 1e3, 3e-3, gap).is_ok());
-        match window.check_beside(station, 1e3, 1e-3, gap) {
+        assert!(window.check_neighbours(station, 1e3, 3e-3, gap).is_ok());
+        match window.check_neighbours(station, 1e3, 1e-3, gap) {
             Err(AleError::Starved { pair, window: 3, overlap_um, .. }) => {
                 assert_eq!(pair, behind);
                 assert!((overlap_um - 2.0).abs() < 1e-12, "{overlap_um} um");

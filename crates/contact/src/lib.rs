@@ -27,10 +27,10 @@ mod slice;
 mod window;
 
 pub use complementarity::{
-    Balance, DenseProblem, DenseSolver, Equality, HeldSolution, Law, LinearContact, Problem, Solution,
+    Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, SavedSolution, Solution,
 };
 pub use compliance::{
-    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePlace, TableWork, opening,
+    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
 };
 pub use error::ContactError;
 pub use flank::{
@@ -38,7 +38,7 @@ pub use flank::{
 };
 pub use friction::{Friction, friction_work};
 pub use line::{
-    Beside, LineStation, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
+    LineStation, NeighbourPairs, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
     nodal_contact_line, nodal_pressures, slice_line,
 };
 pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
@@ -50,8 +50,8 @@ pub use pose::{Misalignment, Offset, check_offsets, frames, gear_centre, gear_po
 pub use result::{Site, SliceResult, Wrench, local_energy, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
-    ContactWork, FlankPair, MeshContact, MeshForce, NearestPlace, RigidFlanks, Slice, SliceFlank, SliceHint,
-    SlicePlace, SliceSet, ToothLayer, Want, slice,
+    ContactWork, EvaluationLevel, FlankPair, MeshContact, MeshForce, NearestPoint, RigidFlanks, Slice, SliceFlank,
+    SliceHint, SlicePoint, SliceSet, ToothLayer, slice,
 };
 
 pub use window::WindowContact;

@@ -40,7 +40,7 @@ pub struct Instant {
     /// Tooth changes so far.
     pub tooth_changes: u64,
     /// Slices that carry load on the driving side, pair by pair, ascending in z; elastic part of the force.
-    pub slices: Vec<PressedSlice>,
+    pub slices: Vec<LoadedSlice>,
     /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side; empty when not
     /// asked for ([`ltca::StaticOptions::root_stress`]).
     pub root_stress: [Vec<FilletStress>; 2],
@@ -48,7 +48,7 @@ pub struct Instant {
 
 /// A slice that carries load, with its pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PressedSlice {
+pub struct LoadedSlice {
     /// Running number of the tooth pair.
     pub pair: i64,
     /// Where it is pressed, and how hard.

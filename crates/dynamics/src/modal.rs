@@ -13,7 +13,7 @@ use std::{f64::consts::TAU, sync::Arc};
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
 use reduction::GearModes;
 
-use crate::{COORDINATES, Displacement, Moment, mesh_side::SideForce};
+use crate::{COORDINATES, Displacement, NominalState, mesh_side::SideForce};
 
 /// Normal modes of a gear with their damping.
 #[derive(Debug, Clone)]
@@ -27,7 +27,7 @@ pub struct GearVibration {
 
 /// Place or velocity of a pair: rigid displacements of both gears and amplitudes q of their modes.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Posture {
+pub(super) struct ElasticDisplacement {
     pub d: Displacement,
     pub q: DVector<f64>,
 }
@@ -168,10 +168,10 @@ impl<'a> ModalBalance<'a> {
     }
 
     /// Adds the inertia of a nominal motion that is not steady, -L D a, which is returned.
-    pub fn accelerate(&mut self, coupling: &DMatrix<f64>, moment: &Moment) -> DVector<f64> {
+    pub fn accelerate(&mut self, coupling: &DMatrix<f64>, nominal: &NominalState) -> DVector<f64> {
         let mut force = DVector::zeros(self.modal.count());
         for g in 0..2 {
-            force -= coupling.column(COORDINATES * (g + 1) - 1) * moment.acceleration[g];
+            force -= coupling.column(COORDINATES * (g + 1) - 1) * nominal.acceleration[g];
         }
         self.other += &force;
         force

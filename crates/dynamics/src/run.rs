@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::{Instant, PairMechanism, Place};
+use crate::{Instant, MechanismState, PairMechanism};
 use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 use ltca::StaticError;
 
@@ -13,7 +13,7 @@ use ltca::StaticError;
 pub type PairMotionError = MotionError<StaticError>;
 
 /// Who gets the rows of a motion, with the energy so far.
-pub type Seen<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
+pub type RowObserver<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
 
 /// How a pair's motion is integrated.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +57,7 @@ pub struct Checkpoint {
     /// Energy.
     pub ledger: Ledger,
     /// Windows and extremes.
-    pub place: Place,
+    pub place: MechanismState,
     /// What else was counted.
     pub counts: Counts,
 }
@@ -108,7 +108,7 @@ impl Motion {
             return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
         }
         let Checkpoint { cycle, state, ledger, place, counts } = from;
-        system.stand(&place).map_err(|source| MotionError::Mechanism { time: state.time, source })?;
+        system.restore(&place).map_err(|source| MotionError::Mechanism { time: state.time, source })?;
         Ok(Self { system, settings, state, ledger: Some(ledger), cycle, counts })
     }
 
@@ -118,7 +118,7 @@ impl Motion {
             cycle: self.cycle,
             state: self.state.clone(),
             ledger: self.ledger?,
-            place: self.system.place(),
+            place: self.system.mechanism_state(),
             counts: self.counts,
         })
     }
@@ -164,10 +164,10 @@ impl Motion {
     }
 
     /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
-    pub(super) fn rewind(&mut self, start: &Place, state: State) -> Result<(), PairMotionError> {
+    pub(super) fn rewind(&mut self, start: &MechanismState, state: State) -> Result<(), PairMotionError> {
         let time = state.time;
         let fail = |source| MotionError::Mechanism { time, source };
-        self.system.stand(start).map_err(fail)?;
+        self.system.restore(start).map_err(fail)?;
         (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
         if self.carries_acceleration() {
             let State { q, v, .. } = &self.state;
@@ -199,7 +199,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
-    pub fn run_cycle(&mut self, mut seen: Option<Seen<'_>>) -> Result<Envelope, PairMotionError> {
+    pub fn run_cycle(&mut self, mut seen: Option<RowObserver<'_>>) -> Result<Envelope, PairMotionError> {
         let Some(end) = self.end_of_cycle() else {
             return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
         };

@@ -13,7 +13,7 @@ use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::{Motion, PairMotionError, Place};
+use crate::{MechanismState, Motion, PairMotionError};
 
 /// Differences of coordinates over their scales.
 const STEP: f64 = 1e-4;
@@ -57,7 +57,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         ));
     };
     let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
-    let mut search = Search { start: motion.system().place(), period, back, periods: 0 };
+    let mut search = Search { start: motion.system().mechanism_state(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
     motion.rewind(&search.start, here.clone())?;
@@ -101,7 +101,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
 
 /// The map over a period.
 struct Search {
-    start: Place,
+    start: MechanismState,
     period: u64,
     /// Turn of the coordinates back by a period.
     back: DMatrix<f64>,

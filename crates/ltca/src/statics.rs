@@ -7,12 +7,12 @@ use reduction::ElasticGear;
 
 use crate::{
     Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, cycle,
-    cycle_solver::{CycleSolver, Fixed},
+    cycle_solver::{CycleInputs, CycleSolver},
 };
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
 #[derive(Debug, Clone)]
-pub struct Change {
+pub struct ToothChange {
     /// Result with the old window.
     pub before: StaticPosition,
     /// Result with the new window.
@@ -73,14 +73,14 @@ impl StaticModel {
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
-        let fixed = Fixed { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
-        let solver = CycleSolver::new(&fixed, window, set)?;
+        let inputs = CycleInputs { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
+        let solver = CycleSolver::new(&inputs, window, set)?;
         Ok(Self { pair, gears, options, root, solver })
     }
 
-    fn split(&mut self) -> (Fixed<'_>, &mut CycleSolver) {
+    fn split(&mut self) -> (CycleInputs<'_>, &mut CycleSolver) {
         let Self { pair, gears, options, root, solver } = self;
-        (Fixed { pair, gears, options, root: root.as_ref() }, solver)
+        (CycleInputs { pair, gears, options, root: root.as_ref() }, solver)
     }
 
     /// The pair.
@@ -123,8 +123,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError`], among them [`ale::AleError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.solve(&fixed, station)
+        let (inputs, solver) = self.split();
+        solver.solve(&inputs, station)
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
@@ -132,8 +132,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.change(&fixed, before, station)
+        let (inputs, solver) = self.split();
+        solver.change(&inputs, before, station)
     }
 
     /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
@@ -141,9 +141,9 @@ impl StaticModel {
     ///
     /// # Errors
     /// [`StaticError`].
-    pub fn advance(&mut self, station: Station, seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.advance(&fixed, station, seen)
+    pub fn advance(&mut self, station: Station, seen: impl FnMut(&ToothChange)) -> Result<StaticPosition, StaticError> {
+        let (inputs, solver) = self.split();
+        solver.advance(&inputs, station, seen)
     }
 
     /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told of each result in order (for progress), the model standing
@@ -164,18 +164,18 @@ impl StaticModel {
             .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
             .collect();
         let start = first_window(&self.pair, &self.options)?;
-        let (fixed, solver) = self.split();
-        solver.begin(&fixed, start)?;
+        let (inputs, solver) = self.split();
+        solver.begin(&inputs, start)?;
         let mut history = StaticHistory::default();
         let mut left = &stations[..];
         while !left.is_empty() {
-            let (fixed, solver) = self.split();
-            let (wave, rest) = left.split_at(cycle::wave(&fixed, solver).min(left.len()));
+            let (inputs, solver) = self.split();
+            let (wave, rest) = left.split_at(cycle::wave(&inputs, solver).min(left.len()));
             left = rest;
-            for solved in cycle::solve(&fixed, solver, wave) {
+            for solved in cycle::solve(&inputs, solver, wave) {
                 let (position, state) = solved?;
-                let (fixed, solver) = self.split();
-                solver.resume(&fixed, state)?;
+                let (inputs, solver) = self.split();
+                solver.resume(&inputs, state)?;
                 let i = history.positions.len();
                 seen(i, &position, self);
                 history.positions.push(position);

@@ -11,7 +11,7 @@ use crate::{
 
 /// Constant c of a half tooth under a line load, along the profile.
 ///
-/// When everything but the half between the loaded flank and the tooth's centre surface is clamped (as in [`crate::HalfTooth`]), a Hertzian line
+/// When everything but the half between the loaded flank and the tooth's centre surface is clamped (as in [`crate::LocalCompliance`]), a Hertzian line
 /// load q with half-width a dents the flank by
 ///
 /// ```text

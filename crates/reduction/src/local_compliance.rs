@@ -18,7 +18,7 @@ use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general
 /// Free are the nodes above the root circle on the loaded side of the centre surface.
 /// W - W_c is positive semi-definite, because clamping only takes compliance away.
 #[derive(Debug, Clone)]
-pub struct HalfTooth {
+pub struct LocalCompliance {
     /// Flank nodes, numbers of the mesh, ascending.
     pub nodes: Vec<u32>,
     /// W_c, mm/N, 3 n x 3 n, coordinates as in [`crate::ReducedGear`]; a clamped node's rows are 0.
@@ -33,7 +33,7 @@ pub struct HalfTooth {
 /// Distances below this count as on the surface, relative to the normal module.
 const ON_SURFACE: f64 = 1e-3;
 
-impl HalfTooth {
+impl LocalCompliance {
     /// The half of tooth `tooth` behind its flank on `side`.
     ///
     /// # Errors

@@ -1,6 +1,8 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
-use dynamics::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
+use dynamics::{
+    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, quasi_static_start, shoot,
+};
 use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
 
@@ -114,7 +116,9 @@ pub(super) fn run(
             motion = Motion::new(own, settings.clone(), start);
             shot = None;
             if let (Run::Shooting, Some((tolerance, _))) = (words.run, goal.settle) {
-                shot = Some(phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOTS)).map_err(fail)?);
+                shot = Some(
+                    phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)).map_err(fail)?,
+                );
             }
             let returns = Recurrence::from(motion.state());
             course = CourseState { recording: goal.settle.is_none(), recorded: 0, returns, periodicity: None };

@@ -53,7 +53,7 @@ pub struct DenseSolver {
     pub(super) scratch: MemBuffer,
     pub(super) symmetric: bool,
     /// Whether the factor is that of a solution that was put away.
-    pub(super) held: bool,
+    pub(super) saved: bool,
     pub(super) rotation: f64,
     pub(super) stiffness: f64,
     pub(super) iterations: usize,
@@ -87,7 +87,7 @@ impl DenseSolver {
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(cholesky.or(lu).or(solve)),
             symmetric: true,
-            held: false,
+            saved: false,
             rotation: 0.0,
             stiffness: 0.0,
             iterations: 0,
@@ -189,7 +189,7 @@ impl DenseSolver {
                 return Ok(());
             }
         }
-        self.carefully(problem, local)
+        self.solve_by_active_set(problem, local)
     }
 
     /// Rows that touch first, with a force that is not far off.

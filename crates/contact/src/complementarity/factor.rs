@@ -14,7 +14,7 @@ impl DenseSolver {
     /// Factor of S + diag(slopes) on the active rows.
     pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
-        self.held = false;
+        self.saved = false;
         self.factor.clear();
         for &j in &self.active {
             let column = problem.compliance.col(j);

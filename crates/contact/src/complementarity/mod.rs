@@ -9,7 +9,7 @@
 //! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
 //! for the rotation and the gaps is unique.
 
-mod careful;
+mod active_set_fallback;
 mod dense;
 mod factor;
 mod near;
@@ -21,7 +21,7 @@ mod tangent;
 use crate::{ContactError, ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
-pub use near::HeldSolution;
+pub use near::SavedSolution;
 pub use proximal::solve;
 pub use slices::solve_slices;
 

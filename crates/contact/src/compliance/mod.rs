@@ -7,7 +7,7 @@ mod condensed;
 mod full;
 mod modal;
 
-pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
+pub use bulk_table::{BulkCompliance, BulkTable, TablePoint, TableWork};
 pub use condensed::{Condensed, opening};
 pub use full::FullContact;
 pub(crate) use modal::ModalRows;

@@ -3,7 +3,7 @@
 use faer::Mat;
 use reduction::{ElasticGear, GearModes};
 
-use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePlace, opening};
+use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePoint, opening};
 
 /// Modes of both gears on the rows of a contact.
 ///
@@ -146,7 +146,7 @@ impl ModalFlanks {
     }
 
     /// Takes the openings of a gear's places in its table, or its loads.
-    pub(crate) fn read_places(&self, of: &mut ModalRows, gear: usize, places: &[TablePlace], loads: bool) {
+    pub(crate) fn read_places(&self, of: &mut ModalRows, gear: usize, places: &[TablePoint], loads: bool) {
         let (m, start) = (self.count().max(1), if gear == 0 { 0 } else { self.counts[0] });
         let Shapes::Table(samples) = &self.shapes[gear] else { return };
         let list = if loads { &mut of.loads } else { &mut of.openings };

@@ -113,7 +113,7 @@ pub fn slice_line(
         (solved[point], hints[point]) = (Some(station), SliceHint::near(&slice));
     }
     let gap = |near: usize, z: f64| {
-        let found = flanks.place(z, &mut hints[near]);
+        let found = flanks.nearest_point(z, &mut hints[near]);
         let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
         touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
     };
@@ -132,7 +132,7 @@ pub fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f6
 
 /// A window at given poses, for a look at the pairs beside it.
 #[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+pub struct NeighbourPairs<'a> {
     /// The pair.
     pub pair: &'a GearPair,
     /// Flanks and offsets.
@@ -147,10 +147,10 @@ pub struct Beside<'a> {
     pub poses: &'a [Pose; 2],
 }
 
-impl Beside<'_> {
+impl NeighbourPairs<'_> {
     /// Least gap of the two pairs beside the window, mm, undeformed.
     pub fn least_gap(&self) -> f64 {
-        self.window.beside().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
+        self.window.neighbours().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
     }
 
     /// Least gap of a pair that the window does not hold, mm, undeformed smooth flanks at the loaded pose.
@@ -160,8 +160,8 @@ impl Beside<'_> {
 }
 
 /// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
-fn outside_gap(beside: &Beside<'_>, running: i64) -> f64 {
-    let Beside { pair, options, set, window, station, poses } = *beside;
+fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
+    let NeighbourPairs { pair, options, set, window, station, poses } = *neighbours;
     let side = options.side();
     let [f1, f2] = set.first_teeth();
     let last = window.first() + window.count() as i64 - 1;

@@ -40,8 +40,8 @@ impl PairMechanism {
     /// [`StaticError`].
     pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
         let options = MotionOptions { drive, ..self.options.clone() };
-        let drive_side = self.drive_side.again(&self.pair)?;
-        let coast_side = self.coast_side.as_ref().map(|side| side.again(&self.pair)).transpose()?;
+        let drive_side = self.drive_side.copy_at_start(&self.pair)?;
+        let coast_side = self.coast_side.as_ref().map(|side| side.copy_at_start(&self.pair)).transpose()?;
         let mut other = Self::of(self.pair.clone(), drive_side, coast_side, options, self.means);
         if let Some(modal) = self.modal.clone() {
             other.add_modes(modal);

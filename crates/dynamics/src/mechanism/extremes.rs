@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::PairMechanism;
-use crate::{Displacement, mesh_side::MeshSide, modal::Posture};
+use crate::{Displacement, mesh_side::MeshSide, modal::ElasticDisplacement};
 use ltca::StaticError;
 
 /// What is worth knowing of a whole motion, gathered step by step.
@@ -23,10 +23,16 @@ pub struct Extremes {
 
 impl PairMechanism {
     /// Extremes of the step that has just been taken; and whether a pair beside a window ought to carry load.
-    pub(super) fn gather(&mut self, t: f64, at: &Posture, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
+    pub(super) fn update_extremes(
+        &mut self,
+        t: f64,
+        at: &ElasticDisplacement,
+        rate: &Displacement,
+        turned: f64,
+    ) -> Result<(), StaticError> {
         let (cycles, d) = (self.cycles(t), &at.d);
         let poses = self.drive_side.poses(&self.pair, cycles, d);
-        self.drive_side.check_beside(&self.pair, turned, &poses)?;
+        self.drive_side.check_neighbours(&self.pair, turned, &poses)?;
         let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
         let mut least = f64::INFINITY;
         if touches(&self.drive_side) {
@@ -43,7 +49,7 @@ impl PairMechanism {
             && touches(side)
         {
             let poses = side.poses(&self.pair, cycles, d);
-            side.check_beside(&self.pair, turned, &poses)?;
+            side.check_neighbours(&self.pair, turned, &poses)?;
             least = least.min(side.normal_forces(&poses, rate, self.damping)[1]);
             self.extremes.steps_on_coast += 1;
         }

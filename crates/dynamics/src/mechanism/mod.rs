@@ -6,16 +6,17 @@ mod external;
 mod extremes;
 mod observe;
 mod passage;
-mod touching;
+mod side_contacts;
 
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Changes, Coordinates, Displacement, MeshResonance, Moment, MotionOptions, Nominal, SidePlace,
+    COORDINATES, Coordinates, Displacement, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
+    ToothChanges,
     mesh_side::MeshSide,
-    modal::{Modal, Posture},
+    modal::{ElasticDisplacement, Modal},
 };
 use ltca::{RootStress, StaticError};
 
@@ -23,7 +24,7 @@ pub use build::equivalent_mass;
 pub use extremes::Extremes;
 
 use build::{equivalent_mass_of, masses_on_base_circles};
-use touching::Touching;
+use side_contacts::SideContacts;
 
 /// A pair of gears as an integrator sees it.
 ///
@@ -49,7 +50,7 @@ pub struct PairMechanism {
     /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
     means: [f64; 2],
     modal: Option<Modal>,
-    last: Option<Touching>,
+    last: Option<SideContacts>,
     extremes: Extremes,
     /// Fillets, where their stress is asked for; none with normal modes.
     roots: Option<RootStress>,
@@ -57,11 +58,11 @@ pub struct PairMechanism {
 
 /// Where both windows stand and what has been gathered: with a [`integrate::State`] all that a motion is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct MechanismState {
     /// Driving flanks.
-    pub driving: SidePlace,
+    pub driving: SideState,
     /// Coast flanks.
-    pub coast: Option<SidePlace>,
+    pub coast: Option<SideState>,
     /// Gathered so far.
     pub extremes: Extremes,
 }
@@ -77,21 +78,21 @@ impl PairMechanism {
     }
 
     /// Where the windows stand.
-    pub fn place(&self) -> Place {
-        let coast = self.coast_side.as_ref().map(MeshSide::place);
-        Place { driving: self.drive_side.place(), coast, extremes: self.extremes }
+    pub fn mechanism_state(&self) -> MechanismState {
+        let coast = self.coast_side.as_ref().map(MeshSide::state);
+        MechanismState { driving: self.drive_side.state(), coast, extremes: self.extremes }
     }
 
     /// Puts the windows where they stood; what contact remembers is forgotten.
     ///
     /// # Errors
     /// [`StaticError`].
-    pub fn stand(&mut self, place: &Place) -> Result<(), StaticError> {
-        self.drive_side.stand(&self.pair, place.driving)?;
-        if let (Some(side), Some(place)) = (&mut self.coast_side, place.coast) {
-            side.stand(&self.pair, place)?;
+    pub fn restore(&mut self, state: &MechanismState) -> Result<(), StaticError> {
+        self.drive_side.restore(&self.pair, state.driving)?;
+        if let (Some(side), Some(coast)) = (&mut self.coast_side, state.coast) {
+            side.restore(&self.pair, coast)?;
         }
-        (self.last, self.extremes) = (None, place.extremes);
+        (self.last, self.extremes) = (None, state.extremes);
         Ok(())
     }
 
@@ -106,8 +107,8 @@ impl PairMechanism {
     }
 
     /// Tooth changes of the driving flanks.
-    pub fn changes(&self) -> Changes {
-        self.drive_side.place().changes
+    pub fn changes(&self) -> ToothChanges {
+        self.drive_side.state().changes
     }
 
     /// What is asked of the motion.
@@ -193,7 +194,7 @@ impl PairMechanism {
         self.nominal.cycles(&self.pair, &self.options.statics, t)
     }
 
-    fn moment(&self, t: f64) -> Moment {
+    fn nominal_state(&self, t: f64) -> NominalState {
         self.nominal.at(&self.pair, &self.options.statics, t)
     }
 
@@ -219,12 +220,12 @@ impl PairMechanism {
     }
 
     /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.
-    fn posture(&self, t: f64, q: &DVector<f64>) -> Posture {
+    fn elastic_displacement(&self, t: f64, q: &DVector<f64>) -> ElasticDisplacement {
         let d = self.coordinates.displacement(q);
         let q = match &self.modal {
             None => DVector::zeros(0),
             Some(modal) => modal.amplitudes(&self.coupling(t), &d, &q.as_slice()[self.coordinates.count()..]),
         };
-        Posture { d, q }
+        ElasticDisplacement { d, q }
     }
 }

@@ -7,7 +7,7 @@ use super::MeshSide;
 use crate::{COORDINATES, Displacement};
 
 /// A slice that carries force.
-struct Pressed {
+struct DampedSlice {
     /// Normal force, N.
     force: f64,
     /// Damping, N s/mm.
@@ -18,7 +18,7 @@ struct Pressed {
     opening: f64,
 }
 
-impl Pressed {
+impl DampedSlice {
     /// Force against the approach (N, positive where flanks part), its slope, and its power.
     fn resisted(&self) -> [f64; 3] {
         let Self { force, damping, opening, .. } = *self;
@@ -29,12 +29,12 @@ impl Pressed {
 
 impl MeshSide {
     /// Slices that carry force, with the gears at `poses` moving at `rate`.
-    fn pressed<'a>(
+    fn damped_slices<'a>(
         &'a self,
         poses: &'a [Pose; 2],
         rate: &'a Displacement,
         per_length: f64,
-    ) -> impl Iterator<Item = Pressed> + 'a {
+    ) -> impl Iterator<Item = DampedSlice> + 'a {
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
         rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| {
             let mut j = Displacement::zeros();
@@ -45,7 +45,7 @@ impl MeshSide {
                     j[COORDINATES * g + 3 + i] = sign * moment[i];
                 }
             }
-            Pressed { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
+            DampedSlice { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
         })
     }
 
@@ -67,7 +67,7 @@ impl MeshSide {
         mut matrix: Option<&mut SMatrix<f64, 12, 12>>,
     ) -> (Displacement, f64) {
         let (mut total, mut taken) = (Displacement::zeros(), 0.0);
-        for slice in self.pressed(poses, rate, per_length) {
+        for slice in self.damped_slices(poses, rate, per_length) {
             let [force, slope, power] = slice.resisted();
             total -= force * slice.j;
             taken += power;
@@ -81,7 +81,7 @@ impl MeshSide {
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
     pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
-        for slice in self.pressed(poses, rate, per_length) {
+        for slice in self.damped_slices(poses, rate, per_length) {
             let total = slice.force - slice.resisted()[0];
             sum += total;
             least = least.min(total);

@@ -26,7 +26,7 @@ use mesh::{Face, Mesh, RootFillets};
 use reduction::{ElasticGear, ReducedGear, ReductionError, StressModes};
 use serde::Serialize;
 
-use crate::{Parts, StaticError};
+use crate::{StaticError, WindowedPair};
 
 /// What is called root stress; said wherever one is handed on.
 pub const ROOT_STRESS_DEFINITION: &str = "largest hill of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
@@ -122,14 +122,19 @@ enum StressMap {
 }
 
 impl StressMap {
-    fn new(parts: &Parts, i: usize, nodes: &[u32], faces: Option<&[Vec<Face>]>) -> Result<Self, ReductionError> {
+    fn new(
+        windowed: &WindowedPair,
+        i: usize,
+        nodes: &[u32],
+        faces: Option<&[Vec<Face>]>,
+    ) -> Result<Self, ReductionError> {
         let operator = |mesh: &Mesh, material: &Material, elements: &ElementOptions, dofs: &DofMap| {
             Ok(Self::Operator(match faces {
                 None => StressOperator::new(mesh, material, elements, dofs, nodes)?,
                 Some(faces) => StressOperator::on_surface(mesh, material, dofs, faces, nodes)?,
             }))
         };
-        match (&parts.gears[i], parts.set.windows()) {
+        match (&windowed.gears[i], windowed.set.windows()) {
             (ElasticGear::Reduced(gear), Some(windows)) => {
                 let modes = match faces {
                     None => gear.stress_modes(&windows[i], nodes)?,
@@ -172,39 +177,39 @@ impl RootStress {
     /// `displacements` are those of an equilibrium; without any the gears are at rest.
     pub fn of(
         &self,
-        parts: &Parts,
+        windowed: &WindowedPair,
         displacements: Option<&[Vec<f64>; 2]>,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
         let mut both = [Vec::new(), Vec::new()];
         for (i, result) in both.iter_mut().enumerate() {
             let fail = |source| ContactError::Reduction { gear: NAMES[i], source };
-            let roots = self.window(parts, i).map_err(fail)?;
+            let roots = self.window(windowed, i).map_err(fail)?;
             let stress = match displacements {
                 Some(u) => roots.stress(&u[i]).map_err(fail)?,
                 None => [(); 2].map(|()| vec![[0.0; 6]; roots.nodes.len()]),
             };
-            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, parts, i)).collect();
+            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, windowed, i)).collect();
         }
         Ok(both)
     }
 
-    fn window(&self, parts: &Parts, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
-        let key = (i, parts.set.first_teeth()[i], parts.window.count());
+    fn window(&self, windowed: &WindowedPair, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
+        let key = (i, windowed.set.first_teeth()[i], windowed.window.count());
         let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(roots) = windows.get(&key).filter(|roots| roots.serves(parts, i)) {
+        if let Some(roots) = windows.get(&key).filter(|roots| roots.serves(windowed, i)) {
             return Ok(roots.clone());
         }
-        let roots = Arc::new(WindowRoots::new(&self.fillets[i], self.fallback[i], parts, i)?);
+        let roots = Arc::new(WindowRoots::new(&self.fillets[i], self.fallback[i], windowed, i)?);
         windows.insert(key, roots.clone());
         Ok(roots)
     }
 }
 
 impl WindowRoots {
-    fn new(found: &RootFillets, fallback: f64, parts: &Parts, i: usize) -> Result<Self, ReductionError> {
-        let elastic = &parts.gears[i];
+    fn new(found: &RootFillets, fallback: f64, windowed: &WindowedPair, i: usize) -> Result<Self, ReductionError> {
+        let elastic = &windowed.gears[i];
         let z = elastic.gear().tooth_count();
-        let (first, count) = (parts.set.first_teeth()[i], parts.window.count() as u32);
+        let (first, count) = (windowed.set.first_teeth()[i], windowed.window.count() as u32);
         let (mut fillets, mut nodes) = (Vec::new(), Vec::new());
         let about = Surroundings::new(found, elastic.gear().mesh(), fallback);
         let mut add = |tooth: u32, side: Side, needed: bool| {
@@ -228,14 +233,14 @@ impl WindowRoots {
         if count < z {
             add(first + count, Side::Right, false)?;
         }
-        let map = |faces| StressMap::new(parts, i, &nodes, faces);
+        let map = |faces| StressMap::new(windowed, i, &nodes, faces);
         let maps = [map(Some(found.faces()))?, map(None)?];
         Ok(Self { fillets, nodes, maps })
     }
 
     /// Whether the map is that of the matrices now in use.
-    fn serves(&self, parts: &Parts, i: usize) -> bool {
-        match (&self.maps[0], parts.set.windows()) {
+    fn serves(&self, windowed: &WindowedPair, i: usize) -> bool {
+        match (&self.maps[0], windowed.set.windows()) {
             (StressMap::Modes(mine, _), Some(windows)) => Arc::ptr_eq(mine, &windows[i].reduced),
             (StressMap::Operator(_), None) => true,
             _ => false,
@@ -253,12 +258,12 @@ impl WindowRoots {
         &self,
         fillet: &Fillet,
         [surface, volume]: &[Vec<[f64; 6]>; 2],
-        parts: &Parts,
+        windowed: &WindowedPair,
         i: usize,
     ) -> Option<FilletStress> {
-        let elastic = &parts.gears[i];
+        let elastic = &windowed.gears[i];
         let mesh = elastic.gear().mesh();
-        let window = parts.set.windows().map(|w| &w[i]);
+        let window = windowed.set.windows().map(|w| &w[i]);
         let peak = |measure: fn(&[f64; 6]) -> f64, sign: f64| {
             let (at, stress) = fillet.peak(|at| measure(&surface[at]), sign)?;
             let node = self.nodes[at];

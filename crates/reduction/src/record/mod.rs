@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use geometry::Side;
 
-use crate::{HalfTooth, ReducedGear, reducer::Summary};
+use crate::{LocalCompliance, ReducedGear, reducer::Summary};
 
 pub use error::RecordError;
 pub use key::{RecordKey, record_key};
@@ -44,5 +44,5 @@ pub struct ReductionRecord {
     /// Windows; of a cyclic gear one alone.
     pub(crate) windows: Vec<Arc<ReducedGear>>,
     /// Half teeth by tooth and side.
-    pub(crate) halves: Vec<((u32, Side), Arc<HalfTooth>)>,
+    pub(crate) halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
 }

@@ -19,7 +19,7 @@ pub struct BulkCompliance<'a> {
     /// W, mm/N, 3n x 3n, node by node x, y, z.
     pub whole: MatRef<'a, f64>,
     /// W_c of each patch with the numbers its nodes have in W, ascending.
-    pub halves: Vec<(&'a [u32], MatRef<'a, f64>)>,
+    pub local: Vec<(&'a [u32], MatRef<'a, f64>)>,
     /// The body's patches.
     pub patches: &'a [FlankPatch],
 }
@@ -45,7 +45,7 @@ pub struct BulkTable {
 
 /// Points and weights of one row in a table.
 #[derive(Debug, Clone, Copy)]
-pub struct TablePlace {
+pub struct TablePoint {
     points: [u32; DIRECTIONS * CELL],
     weights: [f64; DIRECTIONS * CELL],
     count: usize,
@@ -71,9 +71,9 @@ impl BulkCompliance<'_> {
         out.resize(self.whole.nrows(), 0.0);
         load_columns(support, |dof, f| {
             out.iter_mut().zip(self.whole.col(dof).iter()).for_each(|(o, w)| *o += f * w);
-            for (numbers, half) in &self.halves {
+            for (numbers, local) in &self.local {
                 let Ok(own) = numbers.binary_search(&((dof / 3) as u32)) else { continue };
-                let column = half.col(3 * own + dof % 3);
+                let column = local.col(3 * own + dof % 3);
                 for (k, &number) in numbers.iter().enumerate() {
                     (0..3).for_each(|b| out[3 * number as usize + b] -= f * column[3 * k + b]);
                 }
@@ -157,7 +157,7 @@ impl BulkTable {
                 let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
-                if let (Some(exact), Some(place)) = (supports(flank, at), self.place(flank, patch, at, None)) {
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(flank, patch, at, None)) {
                     places.push((exact[0], place));
                 }
             }
@@ -174,7 +174,7 @@ impl BulkTable {
         worst / largest
     }
 
-    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePlace::read`] reads openings from.
+    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePoint::read`] reads openings from.
     ///
     /// ```text
     /// A u  ~  w_i' s,   s_p = a_p' u
@@ -206,16 +206,10 @@ impl BulkTable {
     }
 
     /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal if `None`).
-    pub fn place(
-        &self,
-        flank: &FlankPatch,
-        patch: usize,
-        at: [f64; 2],
-        direction: Option<&Vec3>,
-    ) -> Option<TablePlace> {
+    pub fn at(&self, flank: &FlankPatch, patch: usize, at: [f64; 2], direction: Option<&Vec3>) -> Option<TablePoint> {
         let (points, weights) = self.lines.get(patch)?.weights(at);
         let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
-        let mut place = TablePlace { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
+        let mut place = TablePoint { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
         let all = self.points() / DIRECTIONS;
         for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
             for (p, w) in points.iter().zip(weights) {
@@ -228,13 +222,13 @@ impl BulkTable {
     }
 
     /// S between two places, mm/N.
-    pub fn entry(&self, first: &TablePlace, second: &TablePlace) -> f64 {
+    pub fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
         let column = |q: u32| &self.table[q as usize * self.points()..];
         second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
     }
 }
 
-impl TablePlace {
+impl TablePoint {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub fn points(&self) -> usize {
         self.count
