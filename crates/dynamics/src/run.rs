@@ -5,12 +5,8 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::{Instant, MechanismState, PairMechanism};
+use crate::{Instant, PairMotionError, MechanismState, PairMechanism};
 use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
-use ltca::StaticError;
-
-/// Why a pair's motion could not go on.
-pub type PairMotionError = MotionError<StaticError>;
 
 /// Who gets the rows of a motion, with the energy so far.
 pub type RowObserver<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
@@ -98,17 +94,19 @@ impl Motion {
     /// Goes on from a checkpoint.
     ///
     /// # Errors
-    /// [`MotionError::Options`] for a checkpoint of another pair, [`MotionError::Mechanism`] when its windows cannot be entered.
+    /// [`PairMotionError::OtherCoordinates`] for a checkpoint of another pair, [`PairMotionError::Integration`] when its
+    /// windows cannot be entered.
     pub fn resume(
         mut system: PairMechanism,
         settings: MotionSettings,
         from: Checkpoint,
     ) -> Result<Self, PairMotionError> {
         if from.state.q.len() != system.count() {
-            return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
+            let (checkpoint, motion) = (from.state.q.len(), system.count());
+            return Err(PairMotionError::OtherCoordinates { checkpoint, motion });
         }
         let Checkpoint { cycle, state, ledger, place, counts } = from;
-        system.restore(&place).map_err(|source| MotionError::Mechanism { time: state.time, source })?;
+        system.restore(&place).map_err(|source| PairMotionError::contact(state.time, source))?;
         Ok(Self { system, settings, state, ledger: Some(ledger), cycle, counts })
     }
 
@@ -166,7 +164,7 @@ impl Motion {
     /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
     pub(super) fn rewind(&mut self, start: &MechanismState, state: State) -> Result<(), PairMotionError> {
         let time = state.time;
-        let fail = |source| MotionError::Mechanism { time, source };
+        let fail = |source| PairMotionError::contact(time, source);
         self.system.restore(start).map_err(fail)?;
         (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
         if self.carries_acceleration() {
@@ -198,10 +196,10 @@ impl Motion {
     /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same way to the last bit.
     ///
     /// # Errors
-    /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
+    /// [`PairMotionError`]; [`PairMotionError::StandsStill`] when the gears stop before the cycle ends.
     pub fn run_cycle(&mut self, mut seen: Option<RowObserver<'_>>) -> Result<Envelope, PairMotionError> {
         let Some(end) = self.end_of_cycle() else {
-            return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
+            return Err(PairMotionError::StandsStill { cycle: self.cycle });
         };
         self.system.forget();
         let begin = self.state.time;
@@ -237,7 +235,7 @@ impl Motion {
                     let State { time, q, v, .. } = progress.state;
                     match system.instant(*time, q, v) {
                         Ok(instant) => seen(&instant, progress.ledger),
-                        Err(source) => failed = Some(MotionError::Mechanism { time: *time, source }),
+                        Err(source) => failed = Some(PairMotionError::contact(*time, source)),
                     }
                 }
             })?;

@@ -2,9 +2,8 @@
 
 use nalgebra::DVector;
 
-use crate::PairMechanism;
+use crate::{PairMechanism, PairMotionError};
 use integrate::{Forces, Mechanism, MotionError, State};
-use ltca::StaticError;
 
 /// Steps of the search for equilibrium before giving up.
 const STEPS: usize = 200;
@@ -23,13 +22,13 @@ const SPAN: f64 = 1e-3;
 /// A load the other way presses the coast flanks: there the lag is about as far beyond the backlash.
 ///
 /// # Errors
-/// [`MotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
+/// [`PairMotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
 pub fn quasi_static_start(
     system: &mut PairMechanism,
     time: f64,
     guess: f64,
     scale: &DVector<f64>,
-) -> Result<State, MotionError<StaticError>> {
+) -> Result<State, PairMotionError> {
     let q = balance(system, time, guessed(system, time, guess), scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().statics, time);
     let mut v = DVector::zeros(q.len());
@@ -57,7 +56,7 @@ pub(super) fn balance(
     time: f64,
     mut q: DVector<f64>,
     scale: &DVector<f64>,
-) -> Result<DVector<f64>, MotionError<StaticError>> {
+) -> Result<DVector<f64>, PairMotionError> {
     let n = q.len();
     let held = system.coordinates().driver_turn();
     let lag = system.coordinates().lag();
@@ -65,12 +64,12 @@ pub(super) fn balance(
     let mut forces = Forces::zeros(n);
     let residual = |system: &mut PairMechanism, q: &DVector<f64>, forces: &mut Forces| {
         forces.clear();
-        system.forces(time, q, &still, forces).map_err(|source| MotionError::Mechanism { time, source })?;
+        system.forces(time, q, &still, forces).map_err(|source| PairMotionError::contact(time, source))?;
         let mut r = &forces.conservative + &forces.other;
         if let Some(i) = held {
             r[i] = 0.0;
         }
-        Ok(r)
+        Ok::<_, PairMotionError>(r)
     };
     // Work of the residual over the coordinates' sizes: one number for forces and moments.
     let size = |r: &DVector<f64>| r.component_mul(scale).norm();
@@ -112,5 +111,5 @@ pub(super) fn balance(
             added = (added * 10.0).max(1e-6);
         }
     }
-    Err(MotionError::NoStart { time, change })
+    Err(PairMotionError::NoStart { time, change })
 }

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use integrate::{Ledger, MotionError, Periodicity, State};
+use integrate::{Ledger, Periodicity, State};
+use ltca::StaticError;
 use rayon::prelude::*;
 
 use crate::{
@@ -109,16 +110,14 @@ pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 /// last that has one. `seen` is told of each, and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
 ///
 /// # Errors
-/// [`MotionError::Options`] where a torque of its own drives: the sweep says the speed.
+/// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
 pub fn sweep(
     system: &PairMechanism,
     plan: &SweepPlan,
     seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
 ) -> Result<Vec<SweepOutcome>, PairMotionError> {
     if matches!(system.options().drive, Drive::Torque { .. }) {
-        return Err(MotionError::Options(
-            "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load",
-        ));
+        return Err(PairMotionError::SweepByTorque);
     }
     let follow = |way: SweepDirection| {
         let mut state: Option<State> = None;
@@ -160,7 +159,7 @@ fn sweep_speed(
     state: Option<&State>,
 ) -> (SweepOutcome, Option<State>) {
     // Teeth missing beside the window are no matter of the start.
-    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source, .. } if source.is_starved());
+    let starved = |e: &PairMotionError| e.contact_error().is_some_and(StaticError::is_starved);
     let carried = state.map(|state| steady_state_at(system, plan, way, speed, Some(state)));
     let found = match carried {
         Some(Ok(found)) => Ok(found),
@@ -185,7 +184,7 @@ fn steady_state_at(
         Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
         _ => Drive::Speed(Speed::Constant(speed)),
     };
-    let mut own = system.with_drive(drive).map_err(|source| MotionError::Mechanism { time, source })?;
+    let mut own = system.with_drive(drive).map_err(|source| PairMotionError::contact(time, source))?;
     let own_start = state.is_none();
     let state = match state {
         Some(before) => State::new(time, before.q.clone(), before.v.clone()),

@@ -9,7 +9,7 @@ use dynamics::{
     run_to_steady, shoot,
 };
 use geometry::{Driver, Sense};
-use integrate::{MotionError, Scheme};
+use integrate::Scheme;
 use ltca::StaticError;
 use nalgebra::Matrix6;
 use verification::moving::{MovingPair, rows, swept, worst};
@@ -214,9 +214,7 @@ fn a_starved_window_is_an_error() {
     let mut motion = motion(bench, bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
     let error = (0..2).find_map(|_| motion.run_cycle(None).err()).expect("two cycles with teeth missing");
     println!("{error}");
-    let starved = matches!(
-        &error,
-        MotionError::Mechanism { source: StaticError::Window(ale::AleError::Starved { window: 3, .. }), .. }
-    );
+    let starved =
+        matches!(error.contact_error(), Some(StaticError::Window(ale::AleError::Starved { window: 3, .. })));
     assert!(starved, "{error}");
 }

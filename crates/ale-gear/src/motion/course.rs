@@ -228,15 +228,11 @@ fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance:
 
 /// Contact that another window may cure, or the end.
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
-    match error {
-        PairMotionError::Mechanism { source, .. } if source.is_starved() => Failure::Static(source),
-        other => {
-            let hint = match &other {
-                PairMotionError::Mechanism { source, .. } => source.hint(),
-                _ => None,
-            };
-            let hint = hint.unwrap_or_else(|| other.hint().to_owned());
-            Failure::Command(CommandError::failed(format_args!("{}: {other}", scene.file.display()), Some(hint)))
+    match error.contact_error() {
+        Some(source) if source.is_starved() => Failure::Static(source.clone()),
+        _ => {
+            let hint = error.hint();
+            Failure::Command(CommandError::failed(format_args!("{}: {error}", scene.file.display()), Some(hint)))
         }
     }
 }

@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use dynamics::{self, PairMotionError, SteadyOptions, SweepDirection, SweepMiss, SweepOutcome, SweepPlan, SweepPoint};
-use integrate::MotionError;
 use ltca::StaticError;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
@@ -106,10 +105,7 @@ pub(crate) struct SweepHeadline {
 
 /// The error of teeth missing beside the window, which a wider one may cure.
 fn starved(error: &PairMotionError) -> Option<&StaticError> {
-    match error {
-        MotionError::Mechanism { source, .. } if source.is_starved() => Some(source),
-        _ => None,
-    }
+    error.contact_error().filter(|source| source.is_starved())
 }
 
 /// Runs the sweep of a scene. `wider`: whether a wider window may cure an error.
