@@ -12,6 +12,7 @@
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
 pub mod complementarity;
+mod bracketing;
 mod compliance;
 mod error;
 mod flank;
@@ -29,6 +30,7 @@ mod window;
 pub use complementarity::{
     Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, SavedSolution, Solution,
 };
+pub use bracketing::last_inside;
 pub use compliance::{
     BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
 };

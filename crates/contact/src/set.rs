@@ -296,12 +296,12 @@ fn flank_mesh(elastic: &ElasticGear, tooth: u32, side: Side) -> Option<(&[[f64; 
     }
 }
 
-/// Number that a node of a flank has among the boundary nodes of a gear.
-fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> u32 {
+/// Number that a node of a flank has among the boundary nodes of a gear; `None` for a node that its matrices do not know.
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> Option<u32> {
     let position = match (window, elastic) {
         (Some(window), ElasticGear::Reduced(r)) => r.boundary_position(window, flank, node),
         (None, ElasticGear::Full(f)) => f.dofs.position(node),
         _ => None,
     };
-    position.map_or(u32::MAX, |p| p as u32)
+    position.map(|p| p as u32)
 }

@@ -63,12 +63,12 @@ impl Equilibrium {
     /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that the
     /// equilibrium was found on.
     pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
-        match set.windows() {
-            Some(_) if self.displacements.iter().all(Vec::is_empty) => {
-                set.displacements_under(&self.rows, &self.solution.forces).unwrap_or_default()
-            }
-            _ => self.displacements.clone(),
+        if self.displacements.iter().all(Vec::is_empty)
+            && let Some(found) = set.displacements_under(&self.rows, &self.solution.forces)
+        {
+            return found;
         }
+        self.displacements.clone()
     }
 
     pub(crate) fn warm_start(&self) -> WarmStart {

@@ -2,7 +2,7 @@
 
 use ale::Station;
 use contact::{
-    ContactOptions, Pose, SurfacePair, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle,
+    ContactOptions, Pose, SurfacePair, Vec3, check_offsets, contact_intervals, covered, gear_pose, last_inside, reference_angle,
 };
 use geometry::{Gear, GearPair, ModifiedFlank};
 
@@ -225,12 +225,7 @@ impl<'a> FlankGap<'a> {
         if self.at(to).is_some() {
             return to;
         }
-        let (mut inside, mut outside) = (from, to);
-        for _ in 0..GOLDEN_STEPS {
-            let middle = 0.5 * (inside + outside);
-            if self.at(middle).is_some() { inside = middle } else { outside = middle }
-        }
-        inside
+        last_inside(|z| self.at(z).is_some(), [from, to], GOLDEN_STEPS, 0.0)
     }
 
     /// Place of the least gap between `a` and `b`, ends included.

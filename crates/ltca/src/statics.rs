@@ -66,8 +66,7 @@ impl StaticModel {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
         if !options.contact.corner_contact && options.contact.method == Method::Nodal {
-            let expected = "1 (on): points cannot tell an edge from a flank";
-            return Err(StaticError::OutOfRange { name: "corner contact", value: 0.0, expected });
+            return Err(StaticError::NodalCornerContact);
         }
         check_offsets(&pair, &options.contact)?;
         let window = first_window(&pair, &options)?;

@@ -76,12 +76,11 @@ impl ModalFlanks {
     /// The modes on the flanks of a window.
     ///
     /// # Errors
-    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::OutOfRange`] for gears with all their degrees of freedom.
+    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::ModesOnFullGear`] for gears with all their degrees of freedom.
     pub fn new(gears: &[ElasticGear; 2], modes: [&GearModes; 2], set: &ContactSet) -> Result<Self, ContactError> {
         let shapes = |g: usize| -> Result<Shapes, ContactError> {
             let (ElasticGear::Reduced(reducer), Some(windows)) = (&gears[g], set.windows()) else {
-                let expected = "reduced gears";
-                return Err(ContactError::OutOfRange { name: "normal modes", value: 0.0, expected });
+                return Err(ContactError::ModesOnFullGear { gear: ["pinion", "wheel"][g] });
             };
             let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][g], source };
             let on_nodes = modes[g].on_window(reducer, &windows[g]).map_err(fail)?;

@@ -32,7 +32,7 @@ pub fn flank_grids(
             };
             let faces = gear.flank(tooth, side).ok_or_else(missing)?;
             let surface = Box::new(geometry.flank_of(side, i64::from(tooth)));
-            let patch = FlankPatch::new(i64::from(tooth), surface, &gear.mesh().nodes, faces, |n| n, tolerance)
+            let patch = FlankPatch::new(i64::from(tooth), surface, &gear.mesh().nodes, faces, Some, tolerance)
                 .map_err(|source| ContactError::Flank { gear: NAME, source: Box::new(source) })?;
             grids.insert((tooth, side), grid(&patch, counts).ok_or_else(missing)?);
         }

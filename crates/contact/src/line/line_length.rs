@@ -1,5 +1,10 @@
 //! Length of a contact line from the contact state. Theory (21).
 
+use crate::bracketing::last_inside;
+
+/// Bisections to an end of contact: to a 10^4th of a step.
+const END_BISECTIONS: usize = 14;
+
 /// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at height z, is
 /// at most `tolerance`.
 ///
@@ -8,13 +13,7 @@
 pub fn contact_intervals(gap: impl Fn(f64) -> f64, range: [f64; 2], samples: usize, tolerance: f64) -> Vec<[f64; 2]> {
     let touches = |z: f64| gap(z) <= tolerance;
     let step = (range[1] - range[0]) / (samples.max(2) - 1) as f64;
-    let end = |mut inside: f64, mut outside: f64| {
-        for _ in 0..14 {
-            let middle = 0.5 * (inside + outside);
-            if touches(middle) { inside = middle } else { outside = middle }
-        }
-        inside
-    };
+    let end = |inside: f64, outside: f64| last_inside(touches, [inside, outside], END_BISECTIONS, 0.0);
     let mut intervals = Vec::new();
     let mut open: Option<f64> = None;
     let mut before = None;

@@ -1,6 +1,6 @@
 //! Where the loaded parts of a line of slices begin and end, between its stations. Theory (21b).
 
-use crate::slice::bracket_zero_within;
+use crate::bracketing::bracket_zero_within;
 
 /// A station of a contact line as the solved contact left it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,14 @@
 //! Where two flanks are nearest at an axial station.
 
-use crate::{FlankPatch, Pose, Surface, slice::bracket_zero};
+use crate::{
+    FlankPatch, Pose, Surface,
+    bracketing::{bracket_zero, last_inside},
+};
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.
 const SCAN: usize = 24;
 /// Bisection steps to the end of the facing part: it is found to round-off.
-const STEPS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// Two smooth surfaces at the poses of their bodies.
 #[derive(Debug, Clone, Copy)]
@@ -53,12 +56,7 @@ impl SurfacePair<'_> {
             if gap_and_slope(neighbour).is_some() {
                 return neighbour;
             }
-            let (mut inside, mut outside) = (at(nearest), neighbour);
-            for _ in 0..STEPS {
-                let middle = 0.5 * (inside + outside);
-                if gap_and_slope(middle).is_some() { inside = middle } else { outside = middle }
-            }
-            inside
+            last_inside(|u| gap_and_slope(u).is_some(), [at(nearest), neighbour], BISECTIONS, 0.0)
         };
         let (a, b) = (end(at(nearest.saturating_sub(1))), end(at((nearest + 1).min(SCAN - 1))));
         let slope = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);

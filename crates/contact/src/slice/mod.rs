@@ -9,7 +9,6 @@ mod tooth_layer;
 
 pub use flank_pair::{FlankPair, Slice, SliceFlank, SliceHint, SlicePoint, slice};
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact, MeshForce};
-pub(crate) use profile_search::{bracket_zero, bracket_zero_within};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use set::SliceSet;
 pub use tooth_layer::ToothLayer;

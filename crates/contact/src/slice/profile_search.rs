@@ -2,7 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{FlankPatch, Pose, SliceHint, Vec3};
+use crate::{
+    FlankPatch, Pose, SliceHint, Vec3,
+    bracketing::{bracket_zero, last_inside},
+};
 
 /// Two patches as one sees the other: body 1's points in body 2's frame.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +51,8 @@ const NEWTON_STEPS: usize = 24;
 const RESOLUTION: f64 = 1e-13;
 /// A step longer than this is followed by another look, rad: slopes are not yet straight lines.
 const NEAR: f64 = 1e-6;
-/// Evaluations of a bracketed zero before it is taken as it is; bisection alone needs 50.
-const BRACKET_STEPS: usize = 120;
+/// Bisections to the end of the part of a profile that faces the other; some fifty reach round-off.
+const BISECTIONS: usize = 100;
 /// Turn of the normal within the last bracket that is a kink, rad.
 const KINK: f64 = 1e-7;
 
@@ -212,12 +215,7 @@ impl<'a> ProfilePair<'a> {
             if faces_at(neighbour) {
                 return (neighbour, false);
             }
-            let (mut inside, mut outside) = (at(nearest), neighbour);
-            while (outside - inside).abs() > f64::EPSILON {
-                let middle = 0.5 * (inside + outside);
-                if faces_at(middle) { inside = middle } else { outside = middle }
-            }
-            (inside, true)
+            (last_inside(faces_at, [at(nearest), neighbour], BISECTIONS, f64::EPSILON), true)
         };
         let (a, cut_a) = end(at(nearest.saturating_sub(1)));
         let (b, cut_b) = end(at((nearest + 1).min(SCAN - 1)));
@@ -239,85 +237,5 @@ impl<'a> ProfilePair<'a> {
         let turn = normal(b)? - normal(a)?;
         let middle = 0.5 * (a + b);
         Some(if turn.norm() > KINK { LeastGapPoint::OtherKink(middle) } else { LeastGapPoint::Inside(middle) })
-    }
-}
-
-/// Shrinks a bracket of a zero of `f`, or of a jump through zero, to round-off.
-///
-/// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that it is safe,
-/// bisection otherwise.
-pub(crate) fn bracket_zero(f: impl FnMut(f64) -> f64, ends: [f64; 2], values: [f64; 2]) -> [f64; 2] {
-    bracket_zero_within(f, ends, values, 0.0)
-}
-
-/// The same to a bracket as wide as `within`, or to round-off.
-pub(crate) fn bracket_zero_within(
-    mut f: impl FnMut(f64) -> f64,
-    [a, b]: [f64; 2],
-    [fa, fb]: [f64; 2],
-    within: f64,
-) -> [f64; 2] {
-    if fa == 0.0 {
-        return [a, a];
-    }
-    // x1: newest, x2: the other end of the bracket, x3: the one before.
-    let (mut x1, mut x2, mut f1, mut f2) = (b, a, fb, fa);
-    let mut t: f64 = 0.5;
-    for _ in 0..BRACKET_STEPS {
-        if f1 == 0.0 {
-            return [x1, x1];
-        }
-        let width = x2 - x1;
-        let resolution = (2.0 * f64::EPSILON * x1.abs().max(x2.abs())).max(0.5 * within);
-        if width.abs() <= 2.0 * resolution {
-            break;
-        }
-        let least = resolution / width.abs();
-        let x = x1 + t.clamp(least, 1.0 - least) * width;
-        let fx = f(x);
-        let (x3, f3) = if (fx > 0.0) == (f1 > 0.0) { (x1, f1) } else { (x2, f2) };
-        if (fx > 0.0) != (f1 > 0.0) {
-            (x2, f2) = (x1, f1);
-        }
-        (x1, f1) = (x, fx);
-        let (xi, phi) = ((x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2));
-        t = if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
-            f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
-        } else {
-            0.5
-        };
-        if t.is_nan() {
-            t = 0.5;
-        }
-    }
-    [x1, x2]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bracket_zero;
-
-    /// Smooth, flat, steep and broken functions: the bracket holds the place and is round-off wide.
-    #[test]
-    fn brackets_close_on_zeros_and_jumps() {
-        type Case = (&'static str, fn(f64) -> f64, f64);
-        let functions: [Case; 5] = [
-            ("line", |x| x - 0.3, 0.3),
-            ("cubic", |x| (x - 0.3).powi(3), 0.3),
-            ("exponential", |x| (20.0 * x).exp() - 7.0, 7f64.ln() / 20.0),
-            ("jump", |x| if x < 0.7 { -1.0 } else { 1e-3 }, 0.7),
-            ("kink", |x| if x < 0.7 { x - 0.7 } else { 50.0 * (x - 0.7) }, 0.7),
-        ];
-        for (name, f, point) in functions {
-            let mut count = 0;
-            let counted = |x: f64| {
-                count += 1;
-                f(x)
-            };
-            let [a, b] = bracket_zero(counted, [0.0, 1.0], [f(0.0), f(1.0)]);
-            let flat = if name == "cubic" { 1e-5 } else { 1e-15 };
-            assert!((a - point).abs() <= flat && (b - point).abs() <= flat, "{name}: {a} .. {b}, not {point}");
-            assert!(count <= 110, "{name}: {count} evaluations");
-        }
     }
 }

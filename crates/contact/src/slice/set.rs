@@ -28,7 +28,7 @@ pub struct SliceSet {
 #[derive(Debug)]
 struct FlankBody {
     layer: ToothLayer,
-    tooth: Arc<LocalCompliance>,
+    local: Arc<LocalCompliance>,
     /// Boundary number of each of the half tooth's nodes, ascending.
     boundary: Vec<u32>,
 }
@@ -42,7 +42,7 @@ impl SliceSet {
         pair: &GearPair,
         gears: &[ElasticGear; 2],
         flanks: [&[(u32, Side)]; 2],
-        number: impl Fn(usize, (u32, Side), u32) -> u32,
+        number: impl Fn(usize, (u32, Side), u32) -> Option<u32>,
         options: &ContactOptions,
     ) -> Result<Self, ContactError> {
         let count = options.slices.max(1);
@@ -77,7 +77,7 @@ impl SliceSet {
             let table = |i: usize| {
                 let bulk = BulkCompliance {
                     whole: windows[i].reduced.compliance.as_ref(),
-                    local: self.bodies[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
+                    local: self.bodies[i].iter().map(|h| (&h.boundary[..], h.local.compliance.as_ref())).collect(),
                     patches: patches[i],
                 };
                 BulkTable::new(&bulk, tolerance)
@@ -168,7 +168,7 @@ impl FlankBody {
 
     /// W_c A' for a unit force at the support, mm/N.
     fn displacement(&self, support: &Support) -> Vec<f64> {
-        let w = &self.tooth.compliance;
+        let w = &self.local.compliance;
         let mut u = vec![0.0; w.nrows()];
         for k in 0..support.count {
             for axis in 0..3 {
@@ -186,11 +186,11 @@ fn flank_body(
     geometry: &Gear,
     tooth: u32,
     side: Side,
-    number: impl Fn(u32) -> u32,
+    number: impl Fn(u32) -> Option<u32>,
     which: usize,
 ) -> Result<FlankBody, ContactError> {
     let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][which], source };
-    let flank_body = match gear {
+    let local = match gear {
         ElasticGear::Reduced(r) => r.local_compliance(geometry, tooth, side).map_err(fail)?,
         ElasticGear::Full(f) => {
             Arc::new(LocalCompliance::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
@@ -198,9 +198,12 @@ fn flank_body(
     };
     let material = gear.material();
     let flank = geometry.flank_of(side, i64::from(tooth));
-    let (profile, edge_radius) = (flank_body.layer.clone(), geometry.data().tip_edge_radius);
+    let (profile, edge_radius) = (local.layer.clone(), geometry.data().tip_edge_radius);
     let layer =
-        ToothLayer::new(flank, material.young_mpa(), material.poisson(), flank_body.overshoot, profile, edge_radius);
-    let boundary = flank_body.nodes.iter().map(|&n| number(n)).collect();
-    Ok(FlankBody { layer, tooth: flank_body, boundary })
+        ToothLayer::new(flank, material.young_mpa(), material.poisson(), local.overshoot, profile, edge_radius);
+    let known = |&node: &u32| {
+        number(node).ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })
+    };
+    let boundary = local.nodes.iter().map(known).collect::<Result<_, _>>()?;
+    Ok(FlankBody { layer, local, boundary })
 }

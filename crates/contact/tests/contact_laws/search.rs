@@ -39,7 +39,7 @@ fn flanks_of(order: u32, [profile, face]: [u32; 2]) -> Flanks {
         for tooth in parts.teeth() {
             let faces = parts.flank(tooth, Side::Left).unwrap();
             let surface = Box::new(gear.flank_of(Side::Left, i64::from(tooth)));
-            made.push(FlankPatch::new(i64::from(tooth), surface, &parts.mesh().nodes, faces, |n| n, 1e-9).unwrap());
+            made.push(FlankPatch::new(i64::from(tooth), surface, &parts.mesh().nodes, faces, Some, 1e-9).unwrap());
         }
         made
     });

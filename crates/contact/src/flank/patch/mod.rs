@@ -56,13 +56,14 @@ impl FlankPatch {
     /// a node may lie from the nominal smooth surface: micro-geometry ([`Surface::depth`]) is in the gaps and not in the mesh.
     ///
     /// # Errors
-    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank.
+    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank;
+    /// [`ContactError::NotOnBoundary`] for a node that `boundary` does not know.
     pub fn new(
         tooth: i64,
         surface: Box<dyn Surface>,
         mesh_nodes: &[[f64; 3]],
         faces: &[Face],
-        boundary: impl Fn(u32) -> u32,
+        boundary: impl Fn(u32) -> Option<u32>,
         tolerance: f64,
     ) -> Result<Self, ContactError> {
         let mut numbers: Vec<u32> = faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
@@ -82,7 +83,9 @@ impl FlankPatch {
             if nominal.abs() > tolerance || nominal.is_nan() {
                 return Err(off(node, nominal));
             }
-            nodes.push(PatchNode { position, at: foot.at, boundary: boundary(node) });
+            let boundary = boundary(node)
+                .ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })?;
+            nodes.push(PatchNode { position, at: foot.at, boundary });
         }
         let faces: Vec<PatchFace> = faces
             .iter()
