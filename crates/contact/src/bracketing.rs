@@ -3,8 +3,8 @@
 /// Evaluations of a bracketed zero before it is taken as it is; bisection alone needs 50.
 const BRACKET_STEPS: usize = 120;
 
-/// The place nearest to `outside` at which `holds` is still true, by at most `steps` bisections, or until the bracket is
-/// no wider than `width`. `holds` is true at `inside` and false at `outside`.
+/// The place nearest to `outside` at which `holds` is still true, by at most `steps` bisections, or until the bracket
+/// is no wider than `width`. `holds` is true at `inside` and false at `outside`.
 pub fn last_inside(holds: impl Fn(f64) -> bool, [mut inside, mut outside]: [f64; 2], steps: usize, width: f64) -> f64 {
     for _ in 0..steps {
         if (outside - inside).abs() <= width {
@@ -18,8 +18,8 @@ pub fn last_inside(holds: impl Fn(f64) -> bool, [mut inside, mut outside]: [f64;
 
 /// Shrinks a bracket of a zero of `f`, or of a jump through zero, to round-off.
 ///
-/// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that it is safe,
-/// bisection otherwise.
+/// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that
+/// it is safe, bisection otherwise.
 pub(crate) fn bracket_zero(f: impl FnMut(f64) -> f64, ends: [f64; 2], values: [f64; 2]) -> [f64; 2] {
     bracket_zero_within(f, ends, values, 0.0)
 }

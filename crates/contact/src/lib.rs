@@ -11,8 +11,8 @@
 //! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
-pub mod complementarity;
 mod bracketing;
+pub mod complementarity;
 mod compliance;
 mod error;
 mod flank;
@@ -20,6 +20,7 @@ mod friction;
 mod line;
 mod local;
 mod nodal;
+mod offset;
 mod options;
 mod pose;
 mod result;
@@ -27,16 +28,17 @@ mod set;
 mod slice;
 mod window;
 
+pub use bracketing::last_inside;
 pub use complementarity::{
     Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, SavedSolution, Solution,
 };
-pub use bracketing::last_inside;
 pub use compliance::{
     BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
 };
 pub use error::ContactError;
 pub use flank::{
-    Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, Surface, contact_points, flank_grids,
+    Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, GapSource, Surface, contact_points,
+    flank_grids,
 };
 pub use friction::{Friction, friction_work};
 pub use line::{
@@ -45,10 +47,11 @@ pub use line::{
 };
 pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
 pub use nodal::{
-    ContactRow, GapSource, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
+    ContactRow, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
 };
+pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
-pub use pose::{Misalignment, Offset, check_offsets, frames, gear_centre, gear_pose, reference_angle};
+pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};
 pub use result::{Site, SliceResult, Wrench, local_energy, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{

@@ -27,7 +27,8 @@ pub struct Instant {
     pub load_torque: f64,
     /// Forces of the bearings on both gears.
     pub bearing: Displacement,
-    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic part.
+    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic
+    /// part.
     pub pair_forces: Vec<f64>,
     /// Running number of the first pair of the window.
     pub first_pair: i64,
@@ -41,8 +42,8 @@ pub struct Instant {
     pub tooth_changes: u64,
     /// Slices that carry load on the driving side, pair by pair, ascending in z; elastic part of the force.
     pub slices: Vec<LoadedSlice>,
-    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side; empty when not
-    /// asked for ([`ltca::StaticOptions::root_stress`]).
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side;
+    /// empty when not asked for ([`ltca::StaticOptions::root_stress`]).
     pub root_stress: [Vec<FilletStress>; 2],
 }
 

@@ -1,10 +1,14 @@
-//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between them.
+//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between
+//! them.
 
 mod body;
 mod contact_line;
 mod coordinates;
 mod drive;
+mod elastic_displacement;
+mod equivalent_mass;
 mod error;
+mod extremes;
 mod instant;
 mod low_frequency;
 mod mechanism;
@@ -22,10 +26,12 @@ mod sweep;
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
+pub use equivalent_mass::equivalent_mass;
 pub use error::PairMotionError;
+pub use extremes::Extremes;
 pub use instant::{Instant, LoadedSlice};
 pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
-pub use mechanism::{Extremes, MechanismState, PairMechanism, equivalent_mass};
+pub use mechanism::{MechanismState, PairMechanism};
 pub use mesh_side::{SideState, ToothChanges};
 pub use modal::GearVibration;
 pub use nominal::{Nominal, NominalState};

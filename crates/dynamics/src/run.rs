@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::{Instant, PairMotionError, MechanismState, PairMechanism};
+use crate::{Instant, MechanismState, PairMechanism, PairMotionError};
 use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 
 /// Who gets the rows of a motion, with the energy so far.
@@ -18,7 +18,8 @@ pub struct MotionSettings {
     pub scheme: Scheme,
     /// Rows of the results in a mesh cycle, evenly spaced in time, and least number of steps, >= 1.
     pub rows: usize,
-    /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0: rows are the steps.
+    /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0:
+    /// rows are the steps.
     pub steps_per_resonance: usize,
     /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
     pub tolerance: Option<f64>,
@@ -94,8 +95,8 @@ impl Motion {
     /// Goes on from a checkpoint.
     ///
     /// # Errors
-    /// [`PairMotionError::OtherCoordinates`] for a checkpoint of another pair, [`PairMotionError::Integration`] when its
-    /// windows cannot be entered.
+    /// [`PairMotionError::OtherCoordinates`] for a checkpoint of another pair, [`PairMotionError::Integration`] when
+    /// its windows cannot be entered.
     pub fn resume(
         mut system: PairMechanism,
         settings: MotionSettings,
@@ -131,7 +132,8 @@ impl Motion {
         &self.settings
     }
 
-    /// Sizes of the coordinates that come back with every period: all but the modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
+    /// Sizes of the coordinates that come back with every period: all but the modes', whose amplitudes are in the
+    /// gears' own frames and come back after whole turns only.
     pub fn returning(&self) -> DVector<f64> {
         self.settings.scale.rows(0, self.system.coordinates().count()).into_owned()
     }
@@ -161,7 +163,8 @@ impl Motion {
         self.settings.scheme.carries_acceleration()
     }
 
-    /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
+    /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the
+    /// true one comes from the forces.
     pub(super) fn rewind(&mut self, start: &MechanismState, state: State) -> Result<(), PairMotionError> {
         let time = state.time;
         let fail = |source| PairMotionError::contact(time, source);
@@ -193,7 +196,8 @@ impl Motion {
 
     /// One mesh cycle of the nominal motion; `seen` gets every row.
     ///
-    /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same way to the last bit.
+    /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same
+    /// way to the last bit.
     ///
     /// # Errors
     /// [`PairMotionError`]; [`PairMotionError::StandsStill`] when the gears stop before the cycle ends.

@@ -3,10 +3,11 @@
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
-//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of modes are in
-//! ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
-//! period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
-//! than waiting; and it finds unstable answers, which waiting never does.
+//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of
+//! modes are in ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the
+//! integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by
+//! differences, one period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold
+//! this takes far fewer periods than waiting; and it finds unstable answers, which waiting never does.
 
 use integrate::{MotionError, State, difference};
 use ltca::StaticError;
@@ -33,7 +34,8 @@ pub struct ShootingResult {
     pub multiplier: f64,
 }
 
-/// Brings `motion`, at the start of cycle 0, onto its periodic answer of `period` mesh cycles; afterwards it stands there at the start of cycle 0.
+/// Brings `motion`, at the start of cycle 0, onto its periodic answer of `period` mesh cycles; afterwards it stands
+/// there at the start of cycle 0.
 ///
 /// Gives up after `most` Newton steps: the residual then says how far it is from repeating itself.
 ///
@@ -74,7 +76,9 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
             let next = moved(&here, &(share * &step));
             let there = match search.map(motion, &next) {
                 // Too far: not even a motion.
-                Err(e) if halving < HALVINGS && matches!(e.contact_error(), Some(StaticError::PassedThrough { .. })) => {
+                Err(e)
+                    if halving < HALVINGS && matches!(e.contact_error(), Some(StaticError::PassedThrough { .. })) =>
+                {
                     share *= 0.5;
                     continue;
                 }

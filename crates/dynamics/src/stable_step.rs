@@ -11,8 +11,9 @@ use integrate::{Forces, Mechanism, Scheme, StepLimit, Stiffest};
 /// Phases of the mesh cycle that are looked at.
 const PHASES: u32 = 16;
 
-/// Longest step with which `scheme` is stable through the first mesh cycle: the smallest limit of its phases, each in quasi-static balance, with the tangents of teeth, bearings, dampers and
-/// modes there. `guess` and `scale` as of [`crate::quasi_static_start`].
+/// Longest step with which `scheme` is stable through the first mesh cycle: the smallest limit of its phases, each in
+/// quasi-static balance, with the tangents of teeth, bearings, dampers and modes there. `guess` and `scale` as of
+/// [`crate::quasi_static_start`].
 ///
 /// `None` for implicit methods, which are stable with any step.
 ///

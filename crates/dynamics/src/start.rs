@@ -12,17 +12,20 @@ const TOLERANCE: f64 = 1e-9;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
-/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion; velocities are those of this balance.
+/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion; velocities are
+/// those of this balance.
 ///
 /// ```text
 /// f(t, q, 0) = 0,   v = [q(t + dt) - q(t - dt)] / 2 dt
 /// ```
-/// Inertia of the balance's own motion is left out: where the motion is fast, what differs from it is the motion's own transient. A driver that a torque
-/// drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm) under a load on the driving flanks, `scale` the size of each coordinate.
-/// A load the other way presses the coast flanks: there the lag is about as far beyond the backlash.
+/// Inertia of the balance's own motion is left out: where the motion is fast, what differs from it is the motion's own
+/// transient. A driver that a torque drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm)
+/// under a load on the driving flanks, `scale` the size of each coordinate. A load the other way presses the coast
+/// flanks: there the lag is about as far beyond the backlash.
 ///
 /// # Errors
-/// [`PairMotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
+/// [`PairMotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free
+/// coordinate be held by teeth or bearings.
 pub fn quasi_static_start(
     system: &mut PairMechanism,
     time: f64,
@@ -101,7 +104,8 @@ pub(super) fn balance(
             change = step.component_div(scale).amax();
             (q, r, added) = (tried, there, added * 0.1);
         } else if added > 1e6 {
-            // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is near.
+            // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is
+            // near.
             if now <= 1e3 * TOLERANCE * load {
                 return Ok(q);
             }

@@ -104,10 +104,12 @@ pub struct SweepMiss {
 /// What a sweep finds at one speed.
 pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 
-/// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same numbers for any number of threads.
+/// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same
+/// numbers for any number of threads.
 ///
-/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static equilibrium, and the speed behind one without an answer goes on from the
-/// last that has one. `seen` is told of each, and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
+/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static
+/// equilibrium, and the speed behind one without an answer goes on from the last that has one. `seen` is told of each,
+/// and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
 ///
 /// # Errors
 /// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.

@@ -1,8 +1,9 @@
 //! Stations of a mesh cycle side by side.
 //!
-//! Groups of stations start afresh, each in the window that its stations ask for; so they can be solved at the same time, and what
-//! comes out does not depend on how many are. Tooth changes are then brought into order: where a change had to wait for its tooth to be free,
-//! so that the next group began in another window than the one before ended in, it is solved again from there.
+//! Groups of stations start afresh, each in the window that its stations ask for; so they can be solved at the same
+//! time, and what comes out does not depend on how many are. Tooth changes are then brought into order: where a change
+//! had to wait for its tooth to be free, so that the next group began in another window than the one before ended in,
+//! it is solved again from there.
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::ContactSet;

@@ -86,8 +86,8 @@ impl CycleSolver {
         Ok(self.window.check_neighbours(e.station, options.torque, allowed, |running| neighbours.gap(running))?)
     }
 
-    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
-    /// their least gap is.
+    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error,
+    /// others where their least gap is.
     fn unloaded(&self, inputs: &CycleInputs<'_>, station: Station) -> Result<StaticPosition, StaticError> {
         let touch = Unloaded::new(inputs.pair, &inputs.options.contact, station)?;
         let error = touch.transmission_error();
@@ -154,7 +154,8 @@ impl CycleSolver {
         self.solve(inputs, station)
     }
 
-    /// Normal forces of the window's pairs, N, ascending in running numbers; results number pairs in the sense of rotation.
+    /// Normal forces of the window's pairs, N, ascending in running numbers; results number pairs in the sense of
+    /// rotation.
     fn forces(&self, inputs: &CycleInputs<'_>, position: &StaticPosition) -> Vec<f64> {
         let force = |running: i64| {
             let number = inputs.options.contact.sense.sign() * running;

@@ -31,8 +31,8 @@ pub struct Equilibrium {
     pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced gears, where nothing
-    /// needs them: [`contact::ContactSet::displacements`] has them then.
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced
+    /// gears, where nothing needs them: [`contact::ContactSet::displacements`] has them then.
     pub displacements: [Vec<f64>; 2],
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
@@ -60,8 +60,8 @@ pub(crate) fn poses(windowed: &WindowedPair, station: Station, rotation: f64) ->
 }
 
 impl Equilibrium {
-    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that the
-    /// equilibrium was found on.
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that
+    /// the equilibrium was found on.
     pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
         if self.displacements.iter().all(Vec::is_empty)
             && let Some(found) = set.displacements_under(&self.rows, &self.solution.forces)
@@ -89,8 +89,8 @@ impl Equilibrium {
 /// Turns the driven gear until contact balances its torque.
 ///
 /// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
-/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact. `mesh` solves it
-/// where contact is made of slices on reduced gears.
+/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact.
+/// `mesh` solves it where contact is made of slices on reduced gears.
 pub(crate) fn equilibrium(
     windowed: &WindowedPair,
     mesh: Option<&mut MeshContact>,

@@ -56,7 +56,8 @@ pub enum StaticError {
         cycle: i64,
         /// Phase, 0 .. 1.
         phase: f64,
-        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative: farther apart. mm.
+        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative:
+        /// farther apart. mm.
         distance_mm: f64,
         /// Half a base pitch, mm.
         thickness_mm: f64,

@@ -6,7 +6,8 @@ use contact::{
 
 use crate::{Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line};
 
-/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see it.
+/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see
+/// it.
 fn action_reaction(e: &Equilibrium) -> f64 {
     let total = |body: usize| {
         let mut sum = Vec3::zeros();

@@ -6,20 +6,9 @@ use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
-    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, cycle,
+    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, ToothChange, cycle,
     cycle_solver::{CycleInputs, CycleSolver},
 };
-
-/// A tooth change as it happened: the same station solved with the window before and the one after.
-#[derive(Debug, Clone)]
-pub struct ToothChange {
-    /// Result with the old window.
-    pub before: StaticPosition,
-    /// Result with the new window.
-    pub after: StaticPosition,
-    /// The new window.
-    pub window: ToothWindow,
-}
 
 /// A pair of elastic gears under torque.
 #[derive(Debug)]
@@ -145,11 +134,11 @@ impl StaticModel {
         solver.advance(&inputs, station, seen)
     }
 
-    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told of each result in order (for progress), the model standing
-    /// where that result was found.
+    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told
+    /// of each result in order (for progress), the model standing where that result was found.
     ///
-    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are the same for any number of
-    /// threads.
+    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are
+    /// the same for any number of threads.
     ///
     /// # Errors
     /// [`StaticError`] of the first station that cannot be solved.

@@ -6,9 +6,9 @@
 //! ```text
 //! Phi_IC = -K_II^-1 K_IB,  T = [I; Phi_IC],  K^ = T' K T,  M^ = T' M T,  C = K^^-1
 //! ```
-//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and joined with itself, for
-//! a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear for any other. Coordinates are three
-//! displacements a boundary node (x, y, z), mm, in the window's own frame.
+//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and
+//! joined with itself, for a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear
+//! for any other. Coordinates are three displacements a boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
 mod elastic;

@@ -214,7 +214,6 @@ fn a_starved_window_is_an_error() {
     let mut motion = motion(bench, bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
     let error = (0..2).find_map(|_| motion.run_cycle(None).err()).expect("two cycles with teeth missing");
     println!("{error}");
-    let starved =
-        matches!(error.contact_error(), Some(StaticError::Window(ale::AleError::Starved { window: 3, .. })));
+    let starved = matches!(error.contact_error(), Some(StaticError::Window(ale::AleError::Starved { window: 3, .. })));
     assert!(starved, "{error}");
 }

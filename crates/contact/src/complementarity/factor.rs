@@ -7,7 +7,7 @@ use faer::{
     perm::PermRef,
 };
 
-use super::{DenseProblem, DenseSolver, tangent::RIGID};
+use super::{DenseProblem, DenseSolver, dense::RIGID};
 use crate::ContactError;
 
 impl DenseSolver {
@@ -63,7 +63,8 @@ impl DenseSolver {
     }
 }
 
-/// Solves L L' x = b for one right-hand side in place, L lower triangular, column by column: what a general solver prepares costs more than this for some fifty rows.
+/// Solves L L' x = b for one right-hand side in place, L lower triangular, column by column: what a general solver
+/// prepares costs more than this for some fifty rows.
 fn solve_one(factor: &[f64], x: &mut [f64]) {
     let m = x.len();
     let below = |j: usize| &factor[j * m + j..(j + 1) * m];

@@ -3,8 +3,9 @@
 //! ```text
 //! F <- F - (S + diag delta'_0)^-1 (g0 + S F + delta(F))
 //! ```
-//! Newton's method with a tangent that is held. What it leaves of an error is the change of the local slopes since the tangent was made, some thousandths of it; that it has arrived is told by the same
-//! conditions as for any solution, and where it does not, or where rows come or go, Newton's own steps go on from there.
+//! Newton's method with a tangent that is held. What it leaves of an error is the change of the local slopes since the
+//! tangent was made, some thousandths of it; that it has arrived is told by the same conditions as for any solution,
+//! and where it does not, or where rows come or go, Newton's own steps go on from there.
 
 use super::{DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
 use crate::ContactError;
@@ -67,10 +68,12 @@ impl DenseSolver {
         (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
     }
 
-    /// Solves the contact of bodies that are held, from the last solution on: of the same rows with the same compliance, whose gaps have moved by little. `accuracy`: violation of
-    /// the conditions, relative to the largest approach, that counts as solved; where it is below that of any solution it is raised to that.
+    /// Solves the contact of bodies that are held, from the last solution on: of the same rows with the same
+    /// compliance, whose gaps have moved by little. `accuracy`: violation of the conditions, relative to the largest
+    /// approach, that counts as solved; where it is below that of any solution it is raised to that.
     ///
-    /// The factor remains the one that was at hand unless rows come or go, so [`DenseSolver::tangent_of`] belongs to forces near by.
+    /// The factor remains the one that was at hand unless rows come or go, so [`DenseSolver::tangent_of`] belongs to
+    /// forces near by.
     ///
     /// # Errors
     /// As [`DenseSolver::solve`].

@@ -1,5 +1,5 @@
-//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom, with
-//! normal modes beside.
+//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom,
+//! with normal modes beside.
 
 mod bulk_grid;
 mod bulk_table;

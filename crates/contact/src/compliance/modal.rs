@@ -10,7 +10,8 @@ use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePoint, openi
 /// ```text
 /// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B,   forces on the modes: H_t' F
 /// ```
-/// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as loads, friction included.
+/// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as
+/// loads, friction included.
 #[derive(Debug)]
 pub struct ModalFlanks {
     /// Modes of either gear.
@@ -76,7 +77,8 @@ impl ModalFlanks {
     /// The modes on the flanks of a window.
     ///
     /// # Errors
-    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::ModesOnFullGear`] for gears with all their degrees of freedom.
+    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::ModesOnFullGear`] for gears with all
+    /// their degrees of freedom.
     pub fn new(gears: &[ElasticGear; 2], modes: [&GearModes; 2], set: &ContactSet) -> Result<Self, ContactError> {
         let shapes = |g: usize| -> Result<Shapes, ContactError> {
             let (ElasticGear::Reduced(reducer), Some(windows)) = (&gears[g], set.windows()) else {
@@ -129,8 +131,8 @@ impl ModalFlanks {
         &self.amplitudes
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window where they are counts as one that moves them by a tenth
-    /// of what the others do.
+    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window
+    /// where they are counts as one that moves them by a tenth of what the others do.
     pub fn sizes(&self) -> &[f64] {
         &self.sizes
     }

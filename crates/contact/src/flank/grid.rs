@@ -8,12 +8,14 @@ use reduction::{FlankGrid, FlankGrids};
 
 use crate::{ContactError, FlankPatch};
 
-/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as for flank patches.
+/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as
+/// for flank patches.
 ///
 /// A grid node's load is shared among the mesh nodes of the face it lies on by that face's shape functions.
 ///
 /// # Errors
-/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on its smooth surface.
+/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on
+/// its smooth surface.
 pub fn flank_grids(
     gear: &GearMesh,
     geometry: &Gear,

@@ -21,8 +21,8 @@ pub struct ContactPoint {
 ///
 /// Every weight is positive, and a uniform pressure gives consistent nodal forces from 2 (linear) or 3 (quadratic
 /// faces) points an edge on. 6 do in every case: a band narrower than an element is then seen by several points, and on
-/// faces finer than the band the nodal pressure converges to Hertz's (`tests/tests/line_contact/hertz.rs`). A single point a face
-/// leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
+/// faces finer than the band the nodal pressure converges to Hertz's (`tests/tests/line_contact/hertz.rs`). A single
+/// point a face leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
 pub fn contact_points(patch: &FlankPatch, per_edge: usize, source: GapSource) -> Vec<ContactPoint> {
     let gauss = gauss_legendre(per_edge.max(1));
     let mut points = Vec::with_capacity(patch.face_count() * gauss.len() * gauss.len());

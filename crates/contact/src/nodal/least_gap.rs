@@ -22,8 +22,8 @@ pub struct SurfacePair<'a> {
 }
 
 impl SurfacePair<'_> {
-    /// Gap (mm) from the point at `at` of the first surface to the second, and its slope along the profile; `None` where the
-    /// foot is not on the second surface (`covers`).
+    /// Gap (mm) from the point at `at` of the first surface to the second, and its slope along the profile; `None`
+    /// where the foot is not on the second surface (`covers`).
     ///
     /// The slope is n_2 . dx_1/du, n_2 the normal at the foot; both surfaces with their micro-geometry.
     fn gap_and_slope(&self, at: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool) -> Option<(f64, f64)> {
@@ -38,12 +38,13 @@ impl SurfacePair<'_> {
         Some((foot.distance, normal.dot(&tangent)))
     }
 
-    /// First surface coordinate of the place at height `z` (mm), between those of `range`, where the gap is least, and the gap
-    /// there, mm; ends of `range` and of what `covers` the second surface (tip edges) included. `None` where no point of the
-    /// station faces the second surface.
+    /// First surface coordinate of the place at height `z` (mm), between those of `range`, where the gap is least, and
+    /// the gap there, mm; ends of `range` and of what `covers` the second surface (tip edges) included. `None` where no
+    /// point of the station faces the second surface.
     ///
-    /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not to its square
-    /// root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the jump is found as well.
+    /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not
+    /// to its square root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the
+    /// jump is found as well.
     pub fn least_gap(&self, range: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool, z: f64) -> Option<(f64, f64)> {
         let [from, to] = range;
         let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
@@ -73,8 +74,8 @@ impl SurfacePair<'_> {
     }
 }
 
-/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of the
-/// faces included. `None` where no point of the station faces `second`. See [`SurfacePair::least_gap`].
+/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of
+/// the faces included. `None` where no point of the station faces `second`. See [`SurfacePair::least_gap`].
 pub fn least_gap(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], z: f64) -> Option<[f64; 2]> {
     let [low, high] = first.range();
     // The edge nodes lie on the surface to round-off or, from Gmsh, to a nanometre: stay inside the faces.

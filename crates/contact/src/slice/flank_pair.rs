@@ -1,7 +1,7 @@
 //! Contact by axial slices: at each station the one place of the profile where two flanks are nearest.
 
 use crate::{
-    ContactRow, FacePoint, FlankPatch, LocalContact, Pose, ToothLayer,
+    ContactRow, FlankPatch, LocalContact, Pose, SliceHint, ToothLayer,
     nodal::row_at,
     slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
 };
@@ -28,13 +28,6 @@ pub struct Slice {
     pub local: LocalContact,
 }
 
-/// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct SliceHint {
-    pub(crate) roll: Option<f64>,
-    faces: [Option<FacePoint>; 2],
-}
-
 /// Two flanks at the poses of their bodies, ready to be cut into slices.
 #[derive(Debug, Clone, Copy)]
 pub struct FlankPair<'a> {
@@ -58,12 +51,12 @@ impl SlicePoint {
     }
 }
 
-/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None` where the
-/// flanks do not face each other.
+/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None`
+/// where the flanks do not face each other.
 ///
-/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip, the
-/// tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of its own.
-/// So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
+/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip,
+/// the tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of
+/// its own. So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
 pub fn slice(
     flanks: [SliceFlank; 2],
     poses: &[Pose; 2],
@@ -83,24 +76,6 @@ impl SliceHint {
     /// Near the place of a slice.
     pub fn near(slice: &Slice) -> Self {
         Self { roll: Some(slice.at[0][0]), ..Self::default() }
-    }
-
-    /// Where a search goes on from here that was at `before` a station ago: as far again.
-    #[must_use]
-    pub fn beyond(&self, before: &Self) -> Self {
-        let roll = match (self.roll, before.roll) {
-            (Some(here), Some(there)) => Some(2.0 * here - there),
-            (here, _) => here,
-        };
-        Self { roll, faces: Default::default() }
-    }
-
-    /// Follows body 1's turn about its own axis (rad): contact stays on its line in space, so the place of flank `patch` moves by as
-    /// much in roll angle.
-    pub fn turn(&mut self, side: f64, angle: f64) {
-        if let Some(roll) = &mut self.roll {
-            *roll += side * angle;
-        }
     }
 }
 
@@ -154,16 +129,16 @@ impl<'a> FlankPair<'a> {
         if rounded { local(self.flanks, at, off_line).edge_opening() } else { 0.0 }
     }
 
-    /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen there, and how far
-    /// off the line of action.
+    /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen
+    /// there, and how far off the line of action.
     fn other_edge(&self, sample: &GapSample) -> Option<([[f64; 2]; 2], GapSample, f64)> {
         let [a, b] = self.patches();
         let (edge, opposite) = opposite_edge([a, b], self.poses, sample)?;
         Some(([opposite.foot, edge], opposite, off_line([b, a], opposite.slope, [edge, opposite.foot])))
     }
 
-    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests on:
-    /// [`FlankPair::support`] finds these for who needs them.
+    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests
+    /// on: [`FlankPair::support`] finds these for who needs them.
     pub fn slice(
         &self,
         nearest: &SlicePoint,
@@ -237,8 +212,8 @@ pub(crate) fn opposite_edge(
     Some((edge, turned.sample(edge)?))
 }
 
-/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
-/// which the flanks recede from each other there.
+/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's
+/// arc: by the angle at which the flanks recede from each other there.
 ///
 /// ```text
 /// o = R epsilon,   epsilon = |dg/du| / (r_b u),   1/R: relative curvature

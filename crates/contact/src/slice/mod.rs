@@ -1,13 +1,15 @@
 //! Contact of slices: one line load an axial slice, where both profiles are nearest.
 
 mod flank_pair;
+mod hint;
 mod mesh_contact;
 mod profile_search;
 mod rigid;
 mod set;
 mod tooth_layer;
 
-pub use flank_pair::{FlankPair, Slice, SliceFlank, SliceHint, SlicePoint, slice};
+pub use flank_pair::{FlankPair, Slice, SliceFlank, SlicePoint, slice};
+pub use hint::SliceHint;
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact, MeshForce};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use set::SliceSet;

@@ -92,7 +92,8 @@ impl<'a> ProfilePair<'a> {
         [low, high]
     }
 
-    /// Where the flanks are nearest at height `z` (mm) of body 1, and what is seen from there; `None` where they do not face each other.
+    /// Where the flanks are nearest at height `z` (mm) of body 1, and what is seen from there; `None` where they do not
+    /// face each other.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
         let point = self.search(z, hint.roll)?;
         hint.roll = Some(point.roll());
@@ -113,10 +114,11 @@ impl<'a> ProfilePair<'a> {
         self.scan_search(z)
     }
 
-    /// Newton on the slope, whose derivative is the relative curvature times the square of the tangent's length, then secants.
+    /// Newton on the slope, whose derivative is the relative curvature times the square of the tangent's length, then
+    /// secants.
     ///
-    /// Slope and foot are monotonous between convex arcs, so what stands at the zero of the slope decides which end, if any, comes before it.
-    /// `Err` when something is not as it should be between convex arcs.
+    /// Slope and foot are monotonous between convex arcs, so what stands at the zero of the slope decides which end, if
+    /// any, comes before it. `Err` when something is not as it should be between convex arcs.
     fn newton_search(&self, z: f64, near: Option<f64>) -> Result<Option<LeastGapPoint>, ()> {
         let [low, high] = self.rolls(0);
         let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);

@@ -23,7 +23,8 @@ pub struct NearestPoint {
 
 /// Two rigid flanks with their bodies at given poses.
 ///
-/// Search and edges are those of [`crate::FlankPair`]; nothing is known of what stands behind the flanks, so edges are sharp.
+/// Search and edges are those of [`crate::FlankPair`]; nothing is known of what stands behind the flanks, so edges are
+/// sharp.
 #[derive(Debug, Clone, Copy)]
 pub struct RigidFlanks<'a> {
     poses: &'a [Pose; 2],
@@ -38,8 +39,8 @@ impl<'a> RigidFlanks<'a> {
 
     /// Where they are nearest at height `z` (mm, body 1's own frame); `None` where they do not face each other.
     ///
-    /// Gap and normal fit together: moving a body by a small d changes the gap by the normal's part of it, as the place is a least one or stays
-    /// on an edge.
+    /// Gap and normal fit together: moving a body by a small d changes the gap by the normal's part of it, as the place
+    /// is a least one or stays on an edge.
     pub fn nearest(&self, z: f64, hint: &mut SliceHint) -> Option<NearestPoint> {
         let (point, sample) = self.profiles.nearest_point(z, hint)?;
         let [first, second] = self.profiles.patches.map(FlankPatch::surface);

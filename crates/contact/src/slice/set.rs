@@ -1,4 +1,5 @@
-//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory (19a), (19b).
+//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory
+//! (19a), (19b).
 
 use std::sync::Arc;
 
@@ -34,7 +35,8 @@ struct FlankBody {
 }
 
 impl SliceSet {
-    /// Slices for the patches of both gears; `sides` and `teeth` name the flank of each patch, `number` a mesh node among the boundary.
+    /// Slices for the patches of both gears; `sides` and `teeth` name the flank of each patch, `number` a mesh node
+    /// among the boundary.
     ///
     /// # Errors
     /// [`ContactError::Reduction`] when a half tooth cannot be condensed.
@@ -66,7 +68,8 @@ impl SliceSet {
         Ok(Self { stations, length, bodies, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as asked.
+    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as
+    /// asked.
     pub(crate) fn with_tables(
         mut self,
         patches: [&[FlankPatch]; 2],
@@ -119,7 +122,8 @@ impl SliceSet {
         [0, 1].map(|i| SliceFlank { patch: &patches[i][number[i]], layer: &self.bodies[i][number[i]].layer })
     }
 
-    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair and height.
+    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair
+    /// and height.
     pub fn rows(
         &self,
         patches: [&[FlankPatch]; 2],
@@ -199,8 +203,7 @@ fn flank_body(
     let material = gear.material();
     let flank = geometry.flank_of(side, i64::from(tooth));
     let (profile, edge_radius) = (local.layer.clone(), geometry.data().tip_edge_radius);
-    let layer =
-        ToothLayer::new(flank, material.young_mpa(), material.poisson(), local.overshoot, profile, edge_radius);
+    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), local.overshoot, profile, edge_radius);
     let known = |&node: &u32| {
         number(node).ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })
     };

@@ -1,4 +1,5 @@
-//! The least gap of a slice = the least over a fine scan of the whole profile, modified and misaligned flanks, edges among them.
+//! The least gap of a slice = the least over a fine scan of the whole profile, modified and misaligned flanks, edges
+//! among them.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use contact::{FlankPatch, Pose, RigidFlanks, Slice, SliceFlank, SliceHint, ToothLayer, Vec3, slice};

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{PairMechanism, SideContacts, external::about_own_axis};
+use super::{PairMechanism, external::about_own_axis};
 use crate::{
     COORDINATES, Displacement,
-    mesh_side::MeshSide,
-    modal::{ElasticDisplacement, ModalBalance, expansion},
+    elastic_displacement::ElasticDisplacement,
+    mesh_side::{MeshSide, SideContacts},
+    modal::{ModalBalance, expansion},
 };
 use integrate::{Forces, Mechanism};
 use ltca::StaticError;
@@ -40,7 +41,8 @@ impl Mechanism for PairMechanism {
             let (damped, power) = side.damping(&poses, &rate, self.damping, matrix);
             other += damped;
             out.dissipated += power;
-            // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part that counts.
+            // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part
+            // that counts.
             out.dissipated -= force.friction.dot(&rate);
             match &mut modal {
                 None => stiffness += force.stiffness,

@@ -39,7 +39,8 @@ impl PairMechanism {
         g
     }
 
-    /// Torque of a driver that balances the load, about +z, N mm: no force is left along the turn of both gears in the ratio of their teeth; normal forces do no work there. Theory (45b).
+    /// Torque of a driver that balances the load, about +z, N mm: no force is left along the turn of both gears in the
+    /// ratio of their teeth; normal forces do no work there. Theory (45b).
     ///
     /// `other`: all forces but those, on the twelve coordinates. Nothing with another drive.
     pub(super) fn balancing_torque(&self, other: &Displacement) -> f64 {
@@ -52,7 +53,8 @@ impl PairMechanism {
         teeth[1 - driven] / teeth[driven] * turn(driven) - turn(1 - driven)
     }
 
-    /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed. `mesh`: forces of the mesh, `losses` friction and damping among them.
+    /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed. `mesh`: forces
+    /// of the mesh, `losses` friction and damping among them.
     pub(super) fn drive_torque(
         &self,
         t: f64,

@@ -13,18 +13,14 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
+    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
     ToothChanges,
-    mesh_side::MeshSide,
-    modal::{ElasticDisplacement, Modal},
+    elastic_displacement::ElasticDisplacement,
+    equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
+    mesh_side::{MeshSide, SideContacts},
+    modal::Modal,
 };
 use ltca::{RootStress, StaticError};
-
-pub use build::equivalent_mass;
-pub use extremes::Extremes;
-
-use build::{equivalent_mass_of, masses_on_base_circles};
-use side_contacts::SideContacts;
 
 /// A pair of gears as an integrator sees it.
 ///
@@ -32,9 +28,9 @@ use side_contacts::SideContacts;
 /// M q'' = T' [w(d) + w_f(d) + w_d(d, d') - K_b d - C_b d' + gyroscopic + load + drive - M a_nominal],   d = T q
 /// V = strain energy of teeth and bodies + d' K_b d / 2
 /// ```
-/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w. Coordinates are
-/// deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With [`PairMechanism::with_modes`] coordinates of
-/// normal modes of both gears come behind the rigid ones.
+/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w.
+/// Coordinates are deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With
+/// [`PairMechanism::with_modes`] coordinates of normal modes of both gears come behind the rigid ones.
 #[derive(Debug)]
 pub struct PairMechanism {
     pair: GearPair,
@@ -68,7 +64,8 @@ pub struct MechanismState {
 }
 
 impl PairMechanism {
-    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by bit.
+    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by
+    /// bit.
     pub fn forget(&mut self) {
         self.drive_side.forget();
         if let Some(side) = &mut self.coast_side {
@@ -116,19 +113,22 @@ impl PairMechanism {
         &self.options
     }
 
-    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean tangent stiffness.
+    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
+    /// tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
         (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
     }
 
-    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of the drive.
+    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of
+    /// the drive.
     pub fn mesh_resonances_hz(&self) -> [f64; 2] {
         let inertia = self.base_circle_masses();
         let driver = 1 - self.options.statics.driven();
         [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
     }
 
-    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact lines.
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact
+    /// lines.
     pub fn mesh_resonance(&self) -> MeshResonance {
         let cos = self.pair.base_helix_angle().cos();
         let damping =
@@ -141,7 +141,8 @@ impl PairMechanism {
         masses_on_base_circles(&self.pair, &self.options.bodies)
     }
 
-    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is prescribed.
+    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is
+    /// prescribed.
     pub fn equivalent_mass(&self) -> f64 {
         equivalent_mass_of(&self.pair, &self.options)
     }
@@ -168,8 +169,10 @@ impl PairMechanism {
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
 
-    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back, amplitudes of modes, which are in the gears' own frames, are
-    /// those of gears that stand a pitch further. n x n; `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at best.
+    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back,
+    /// amplitudes of modes, which are in the gears' own frames, are those of gears that stand a pitch further. n x n;
+    /// `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at
+    /// best.
     pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);

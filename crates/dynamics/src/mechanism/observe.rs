@@ -2,11 +2,12 @@
 
 use nalgebra::DVector;
 
-use super::{PairMechanism, SideContacts};
+use super::PairMechanism;
 use crate::{
     COORDINATES, Displacement, Instant, NominalState, contact_line,
-    mesh_side::SideForce,
-    modal::{ElasticDisplacement, ModalBalance},
+    elastic_displacement::ElasticDisplacement,
+    mesh_side::{SideContacts, SideForce},
+    modal::ModalBalance,
 };
 use ltca::StaticError;
 

@@ -1,18 +1,8 @@
 //! Contact of both sides at one place, kept for those who ask again.
 
 use super::PairMechanism;
-use crate::{mesh_side::SideForce, modal::ElasticDisplacement};
+use crate::{elastic_displacement::ElasticDisplacement, mesh_side::SideContacts};
 use ltca::StaticError;
-
-/// Contact of both sides at one time and displacement.
-#[derive(Debug, Clone)]
-pub(super) struct SideContacts {
-    pub at: (f64, ElasticDisplacement),
-    pub driving: SideForce,
-    pub coast: Option<SideForce>,
-    /// Whether stiffness is among what was asked for.
-    pub tangents: bool,
-}
 
 impl PairMechanism {
     /// Contact of both sides; the last one is kept, since a step ends where several look.

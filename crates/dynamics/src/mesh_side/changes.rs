@@ -13,8 +13,8 @@ use super::MeshSide;
 pub struct ToothChanges {
     /// How many.
     pub count: u64,
-    /// Largest difference of the sum of normal forces before and after a change at the same place, N: contact is solved anew on the new window, so a force that
-    /// was dropped shows here.
+    /// Largest difference of the sum of normal forces before and after a change at the same place, N: contact is solved
+    /// anew on the new window, so a force that was dropped shows here.
     pub jump: f64,
 }
 
@@ -79,11 +79,11 @@ impl MeshSide {
         Ok(self.window.check_pace(cycles + self.ahead)?)
     }
 
-    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last
-    /// evaluation; `cycles` are those that the gears have turned.
+    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the
+    /// last evaluation; `cycles` are those that the gears have turned.
     ///
-    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change leaves no
-    /// trace in the motion as long as no force is dropped.
+    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change
+    /// leaves no trace in the motion as long as no force is dropped.
     pub fn follow(&mut self, pair: &GearPair, cycles: f64) -> Result<bool, StaticError> {
         let station = Station::at_cycles(cycles + self.ahead);
         let Some(next) = self.window.due_change(station, &self.contact.force().pair_forces)? else { return Ok(false) };

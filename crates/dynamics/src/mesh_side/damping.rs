@@ -49,16 +49,18 @@ impl MeshSide {
         })
     }
 
-    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to `matrix`.
+    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to
+    /// `matrix`.
     ///
     /// ```text
     /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
-    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no harder than they press, so that the force
-    /// does not jump where contact begins.
+    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no
+    /// harder than they press, so that the force does not jump where contact begins.
     ///
-    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole compliance of the mesh, and its ratio does not mean another
-    /// thing with every mode that is taken out of it. Modes have dampers of their own.
+    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole
+    /// compliance of the mesh, and its ratio does not mean another thing with every mode that is taken out of it. Modes
+    /// have dampers of their own.
     pub fn damping(
         &self,
         poses: &[Pose; 2],
@@ -78,7 +80,8 @@ impl MeshSide {
         (total, taken)
     }
 
-    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
+    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any
+    /// flank pulls. Zeros without contact.
     pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
         for slice in self.damped_slices(poses, rate, per_length) {

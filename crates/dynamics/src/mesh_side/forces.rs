@@ -5,7 +5,7 @@ use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::MeshSide;
-use crate::{COORDINATES, Displacement, modal::ElasticDisplacement};
+use crate::{COORDINATES, Displacement, elastic_displacement::ElasticDisplacement};
 
 /// Forces of one side on the twelve coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,16 @@ pub(crate) struct ModalForce {
     pub friction: DVector<f64>,
     /// -d(forces)/d(d, q), (12 + m) x (12 + m), where it was asked for.
     pub stiffness: Option<DMatrix<f64>>,
+}
+
+/// Contact of both sides at one time and displacement.
+#[derive(Debug, Clone)]
+pub(crate) struct SideContacts {
+    pub at: (f64, ElasticDisplacement),
+    pub driving: SideForce,
+    pub coast: Option<SideForce>,
+    /// Whether stiffness is among what was asked for.
+    pub tangents: bool,
 }
 
 impl MeshSide {
@@ -67,8 +77,8 @@ impl MeshSide {
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })
     }
 
-    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm; negative where they are apart. Then, with modes, the last evaluation
-    /// is lost.
+    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm;
+    /// negative where they are apart. Then, with modes, the last evaluation is lost.
     pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> f64 {
         // Where flanks overlap the deepest place is among the rows.
         let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));

@@ -16,7 +16,7 @@ use reduction::{ElasticGear, GearModes};
 use super::{COORDINATES, Displacement, LoadedSlice};
 
 pub use changes::{SideState, ToothChanges};
-pub(super) use forces::SideForce;
+pub(super) use forces::{SideContacts, SideForce};
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
 #[derive(Debug)]
@@ -25,7 +25,8 @@ pub(super) struct MeshSide {
     gears: Arc<[ElasticGear; 2]>,
     window: SlidingWindow,
     contact: MeshContact,
-    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from there.
+    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from
+    /// there.
     home: (SlidingWindow, ContactSet),
     /// Mesh cycles that this side is ahead of the pair's counting.
     ahead: f64,
@@ -35,7 +36,8 @@ pub(super) struct MeshSide {
 }
 
 impl MeshSide {
-    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the pair's counting.
+    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the
+    /// pair's counting.
     pub fn new(
         pair: &GearPair,
         gears: Arc<[ElasticGear; 2]>,

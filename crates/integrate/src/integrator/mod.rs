@@ -59,7 +59,8 @@ impl Integrator {
         }
     }
 
-    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its beginning tell. Theory (48a).
+    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its
+    /// beginning tell. Theory (48a).
     ///
     /// Steps that an error tolerance chooses need no such care: what grows is an error that shortens them.
     #[must_use]

@@ -3,11 +3,12 @@
 //! ```text
 //! sigma(x_i) = S_i u_B        at the surface nodes x_i of the window's fillets
 //! ```
-//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is cyclic):
-//! no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their place.
+//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is
+//! cyclic): no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their
+//! place.
 //!
-//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the Gauss points of the
-//! elements, whose distance from it says how far the mesh has settled.
+//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the
+//! Gauss points of the elements, whose distance from it says how far the mesh has settled.
 
 mod fillet;
 mod turn;
@@ -38,10 +39,12 @@ pub const ROOT_STRESS_RECOVERY: &str = "strains in the surface from the displace
 
 /// Share of the difference between the two recoveries that is the error of the better one.
 ///
-/// Both converge to the same stress, the one from Gauss points from farther off. Measured on random pairs (docs/validation.md).
+/// Both converge to the same stress, the one from Gauss points from farther off. Measured on random pairs
+/// (docs/validation.md).
 const ERROR_SHARE: f64 = 0.35;
-/// Error that both recoveries share, over stress and the square of the angle by which the surface turns within one face, 1/rad^2: where
-/// both are wrong alike, they agree. Measured there, too: six faces along a fillet turn by 15 to 18 deg, and are 1.3 % off at the most.
+/// Error that both recoveries share, over stress and the square of the angle by which the surface turns within one
+/// face, 1/rad^2: where both are wrong alike, they agree. Measured there, too: six faces along a fillet turn by 15 to
+/// 18 deg, and are 1.3 % off at the most.
 const ERROR_OF_TURN: f64 = 0.15;
 
 /// The largest of some stress measure in a fillet, and where.
@@ -49,11 +52,14 @@ const ERROR_OF_TURN: f64 = 0.15;
 pub struct StressPeak {
     /// MPa, tension positive.
     pub stress: f64,
-    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs print.
+    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs
+    /// print.
     pub from_volume: f64,
-    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces over their radius.
+    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces
+    /// over their radius.
     pub turn: f64,
-    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
+    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every
+    /// tooth has.
     pub node: u64,
     /// Distance of the node from the gear's axis, mm.
     pub radius: f64,
@@ -63,8 +69,8 @@ pub struct StressPeak {
 
 /// Stress on the surface of one root fillet, from its 20 deg tangent to the middle of the tooth space.
 ///
-/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the tooth in
-/// compression.
+/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the
+/// tooth in compression.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FilletStress {
     /// Tooth, 0 .. z-1.
@@ -82,8 +88,8 @@ pub struct FilletStress {
 impl StressPeak {
     /// Estimate of how far `stress` is from that of an infinitely fine mesh, as a share of it. 0 at rest.
     ///
-    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and what both can share:
-    /// 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
+    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and
+    /// what both can share: 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
     pub fn relative_error(&self) -> f64 {
         let off = ERROR_SHARE * (self.stress - self.from_volume).abs()
             + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
@@ -171,8 +177,8 @@ impl RootStress {
         Self { fillets, fallback, windows: Mutex::default() }
     }
 
-    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them the
-    /// fillets that share a space with the window's outermost teeth.
+    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them
+    /// the fillets that share a space with the window's outermost teeth.
     ///
     /// `displacements` are those of an equilibrium; without any the gears are at rest.
     pub fn of(

@@ -32,7 +32,8 @@ pub fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
 
 /// The rule of 2, 3 or 4 points in closed form: volume elements.
 ///
-/// [`gauss_legendre`] gives the same to some units in the last place; stiffness and mass keep the closed form to the bit.
+/// [`gauss_legendre`] gives the same to some units in the last place; stiffness and mass keep the closed form to the
+/// bit.
 pub(super) fn line(count: usize) -> Vec<(f64, f64)> {
     match count {
         2 => {

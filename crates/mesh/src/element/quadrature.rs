@@ -16,9 +16,9 @@
 use std::sync::LazyLock;
 
 use super::{
-    gauss::line,
     ElementKind::{self, Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15},
     FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6},
+    gauss::line,
 };
 
 /// A point of integration in a volume element.

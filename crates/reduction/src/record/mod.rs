@@ -22,8 +22,9 @@ const MAGIC: [u8; 16] = *b"ale-gear reduced";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the factor, which [`crate::GearReducer::from_record`] makes again when
-/// displacement fields or stress modes are asked for.
+/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the
+/// factor, which [`crate::GearReducer::from_record`] makes again when displacement fields or stress modes are asked
+/// for.
 ///
 /// File, little-endian, `docs/cache.md`:
 ///

@@ -37,7 +37,8 @@ impl GearReducer {
         Ok(Window { reduced, shift: 0 })
     }
 
-    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was meshed.
+    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was
+    /// meshed.
     ///
     /// # Errors
     /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].

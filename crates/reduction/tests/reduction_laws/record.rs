@@ -148,8 +148,8 @@ fn a_key_stands_for_one_gear() {
     }
 }
 
-/// What is not in the record comes of condensing again, when first asked for: the same field, the same stress modes. On a whole gear, on
-/// a periodic sector, and on a whole gear taken the general way.
+/// What is not in the record comes of condensing again, when first asked for: the same field, the same stress modes. On
+/// a whole gear, on a periodic sector, and on a whole gear taken the general way.
 #[test]
 fn a_gear_from_a_record_answers_as_the_reduced_one() {
     let sector = Sample::meshed(Extent::Periodic);

@@ -1,5 +1,5 @@
-//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are taken away.
-//! Theory (36).
+//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
+//! taken away. Theory (36).
 
 mod rows;
 
@@ -29,16 +29,17 @@ pub struct BulkCompliance<'a> {
 /// ```text
 /// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
 /// ```
-/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its generator; w interpolates between
-/// them, cubic along the profile and quadratic along the face, in cells that are the faces of the mesh where these form a grid: what
-/// shape functions make of D is then met almost exactly. Normal forces need the first direction alone. [`BulkTable::error`] says how
-/// far from A D A' that is.
+/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its
+/// generator; w interpolates between them, cubic along the profile and quadratic along the face, in cells that are the
+/// faces of the mesh where these form a grid: what shape functions make of D is then met almost exactly. Normal forces
+/// need the first direction alone. [`BulkTable::error`] says how far from A D A' that is.
 #[derive(Debug, Clone)]
 pub struct BulkTable {
     lines: Vec<FlankGridLines>,
     /// First point of each patch; the last entry is the number of points.
     first: Vec<usize>,
-    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
+    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the
+    /// generator.
     table: Vec<f64>,
     error: f64,
 }
@@ -98,7 +99,8 @@ fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option
     lines.iter().zip(patches).flat_map(of_patch).collect()
 }
 
-/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
+/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of
+/// reliefs are none of the mesh's.
 fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
     let normal = patch.surface().nominal_normal(at);
     let profile = patch.surface().profile_tangent(at);
@@ -108,8 +110,8 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
 }
 
 impl BulkTable {
-    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the mesh, else on uniform
-    /// grids that grow finer; `None` where none within reason is good enough.
+    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
+    /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
     pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
         let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
         let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
@@ -146,8 +148,8 @@ impl BulkTable {
         made
     }
 
-    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each place with itself and with
-    /// the places checked before it.
+    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each
+    /// place with itself and with the places checked before it.
     fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
         let mut places = Vec::new();
         for (patch, flank) in bulk.patches.iter().enumerate() {
@@ -174,12 +176,14 @@ impl BulkTable {
         worst / largest
     }
 
-    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePoint::read`] reads openings from.
+    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what
+    /// [`TablePoint::read`] reads openings from.
     ///
     /// ```text
     /// A u  ~  w_i' s,   s_p = a_p' u
     /// ```
-    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would have of the rest.
+    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would
+    /// have of the rest.
     pub fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
         let supports = grid_supports(&self.lines, patches);
         let along = |k: usize| supports.iter().map(move |s| s.as_ref().map(|s| &s[k]));
@@ -205,7 +209,8 @@ impl BulkTable {
         self.table.len() * size_of::<f64>()
     }
 
-    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal if `None`).
+    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's
+    /// normal if `None`).
     pub fn at(&self, flank: &FlankPatch, patch: usize, at: [f64; 2], direction: Option<&Vec3>) -> Option<TablePoint> {
         let (points, weights) = self.lines.get(patch)?.weights(at);
         let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));

@@ -3,8 +3,8 @@
 use super::{BulkTable, CELL, DIRECTIONS, TablePoint};
 
 impl BulkTable {
-    /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`: loads are the
-    /// openings, and the lower triangle is enough.
+    /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
+    /// loads are the openings, and the lower triangle is enough.
     pub fn add(
         &self,
         openings: &[TablePoint],
@@ -113,7 +113,8 @@ impl TableWork {
         }
     }
 
-    /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the last call.
+    /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the
+    /// last call.
     fn collect<'a>(&mut self, table: &BulkTable, places: impl Iterator<Item = &'a TablePoint>) {
         std::mem::swap(&mut self.used, &mut self.before);
         self.before.iter().for_each(|&p| self.rank[p as usize] = u32::MAX);

@@ -11,8 +11,9 @@ mod work;
 use ale::ToothWindow;
 use faer::MatRef;
 use geometry::GearPair;
+use pose_bin::LINEAR_RANGE;
 use pose_cache::PoseCache;
-use pose_contact::{LINEAR_RANGE, PoseContact, opening};
+use pose_contact::{PoseContact, opening};
 use reduction::{ElasticGear, GearModes};
 use std::sync::Arc;
 
@@ -29,14 +30,14 @@ pub use work::ContactWork;
 pub struct MeshForce {
     /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
     pub wrench: [Wrench; 2],
-    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes, in the order
-    /// pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
+    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
     ///
     /// ```text
     /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
     /// ```
-    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a thousandth of its largest entries.
-    /// Symmetric and negative semi-definite without friction.
+    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a
+    /// thousandth of its largest entries. Symmetric and negative semi-definite without friction.
     pub tangent: [[f64; 12]; 12],
     /// Normal force of each pair of the window, N, in order of running numbers.
     pub pair_forces: Vec<f64>,
@@ -48,8 +49,8 @@ pub struct MeshForce {
 
 /// The slice contact of a window: search, compliance and solution, in memory that is used again.
 ///
-/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from where they were found before, and
-/// forces from what they were; neither changes the answer but by round-off.
+/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from
+/// where they were found before, and forces from what they were; neither changes the answer but by round-off.
 #[derive(Debug)]
 pub struct MeshContact {
     set: ContactSet,
@@ -130,8 +131,9 @@ impl MeshContact {
         &self.set
     }
 
-    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears, serves
-    /// it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on the new flanks.
+    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears,
+    /// serves it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on
+    /// the new flanks.
     ///
     /// # Errors
     /// [`ContactError`] when the window cannot be set up.

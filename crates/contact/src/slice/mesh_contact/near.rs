@@ -1,7 +1,8 @@
 //! Contact at poses that come in steps and small changes of these. Theory (46a).
 //!
-//! Rows are found, and their contact is solved, in the middle of the [`PoseBin`] that the first pose of a step is in; gaps follow the motion from there to first order, forces by the tangent of
-//! the middle until they are exact. A motion that repeats itself comes through the same cells again, where all of that is known.
+//! Rows are found, and their contact is solved, in the middle of the [`PoseBin`] that the first pose of a step is in;
+//! gaps follow the motion from there to first order, forces by the tangent of the middle until they are exact. A motion
+//! that repeats itself comes through the same cells again, where all of that is known.
 
 use crate::{Balance, ContactError, Pose};
 
@@ -20,15 +21,17 @@ pub enum EvaluationLevel {
     Tangent,
 }
 
-/// Violation of the conditions, relative to the largest approach, up to which energy is good to a millionth of a millionth.
+/// Violation of the conditions, relative to the largest approach, up to which energy is good to a millionth of a
+/// millionth.
 const ENERGY_ACCURACY: f64 = 1e-6;
 
 impl MeshContact {
-    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these: rows that were found for poses next to them, up to a um away, are kept
-    /// with their places and compliance, and their gaps follow the motion to first order.
+    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these: rows that were found for
+    /// poses next to them, up to a um away, are kept with their places and compliance, and their gaps follow the motion
+    /// to first order.
     ///
-    /// Forces are then the exact derivative of the strain energy, and the tangent that of the forces in the middle of the cell. The answer depends on the poses since the last
-    /// [`MeshContact::start_anew`] alone.
+    /// Forces are then the exact derivative of the strain energy, and the tangent that of the forces in the middle of
+    /// the cell. The answer depends on the poses since the last [`MeshContact::start_anew`] alone.
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
@@ -50,8 +53,9 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Gap (mm) that flanks beside the window have at least with the gears' frames at `poses`, next to those of the last evaluation, if `gap` tells what they have at given ones: what no
-    /// motion from the middle of the cell can have closed.
+    /// Gap (mm) that flanks beside the window have at least with the gears' frames at `poses`, next to those of the
+    /// last evaluation, if `gap` tells what they have at given ones: what no motion from the middle of the cell can
+    /// have closed.
     pub fn gap_of_neighbours(&mut self, poses: &[Pose; 2], gap: impl FnOnce(&[Pose; 2]) -> f64) -> f64 {
         let motion =
             self.contact.bin.as_ref().and_then(|_| self.contact.motion_to(poses, self.radius, self.modal.as_ref()));

@@ -1,13 +1,18 @@
-//! Cells of a lattice over the poses: what was found in the middle of one serves the whole of it, and whoever comes again finds it there.
+//! Cells of a lattice over the poses: what was found in the middle of one serves the whole of it, and whoever comes
+//! again finds it there.
 //!
-//! The middle depends on the cell alone and not on who came first. So what is kept is memory of a pure function: with it or without, results are the same to the last bit.
+//! The middle depends on the cell alone and not on who came first. So what is kept is memory of a pure function: with
+//! it or without, results are the same to the last bit.
 
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 
-use super::pose_contact::LINEAR_RANGE;
 use crate::{ModalFlanks, Pose};
 
-/// Side of a cell as the flanks move over it, mm. Compliance differs by some 1e-9 of itself over it, gaps by less: what a tooth change does to the sum of forces, whose frames have cells of their own, is below 1e-9 of it.
+/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times
+/// its square over two, is a ten-thousandth of a um then.
+pub(super) const LINEAR_RANGE: f64 = 1e-3;
+/// Side of a cell as the flanks move over it, mm. Compliance differs by some 1e-9 of itself over it, gaps by less: what
+/// a tooth change does to the sum of forces, whose frames have cells of their own, is below 1e-9 of it.
 const BIN_SIZE: f64 = 1e-8;
 
 /// Number of a cell.

@@ -1,11 +1,7 @@
 //! Rows of contact that were found at some poses, and what follows from them next to these.
 
-use super::pose_bin::PoseBin;
+use super::pose_bin::{LINEAR_RANGE, PoseBin};
 use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows};
-
-/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
-/// um then.
-pub(super) const LINEAR_RANGE: f64 = 1e-3;
 
 /// Rows and their compliance at some poses.
 #[derive(Debug, Default)]
@@ -55,7 +51,8 @@ impl PoseContact {
         }
     }
 
-    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open gaps by no more than was reckoned with.
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open
+    /// gaps by no more than was reckoned with.
     pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
         let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
@@ -99,7 +96,8 @@ impl PoseContact {
     }
 }
 
-/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its normal, how they open its gap.
+/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its
+/// normal, how they open its gap.
 pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
     let mut j = [0.0; 12];
     for (body, sign) in [1.0, -1.0].into_iter().enumerate() {

@@ -5,8 +5,8 @@ use crate::{FlankPair, Pose, SliceHint};
 use super::{LINEAR_RANGE, MeshContact, PoseContact, pose_bin::PoseBin};
 
 impl MeshContact {
-    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Undeformed but for the kept modes, and with these it is
-    /// the last evaluation that is lost.
+    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Undeformed
+    /// but for the kept modes, and with these it is the last evaluation that is lost.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         if self.modal.is_some() {
             self.stash();
@@ -22,14 +22,15 @@ impl MeshContact {
         self.nearest.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
     }
 
-    /// Gap up to which a row at the places found may close, mm: the deepest overlap; modes may close a gap by up to `by_modes`, mm,
-    /// and open the one that would be the deepest overlap.
+    /// Gap up to which a row at the places found may close, mm: the deepest overlap; modes may close a gap by up to
+    /// `by_modes`, mm, and open the one that would be the deepest overlap.
     pub(super) fn reach(&self, by_modes: f64) -> f64 {
         let deepest = self.deepest();
         if self.modal.is_some() { deepest.abs() + 2.0 * (by_modes + LINEAR_RANGE) } else { deepest }
     }
 
-    /// Where the flanks are nearest, from station to station: a contact line is straight along the roll angle, or nearly so. Nothing that was found before counts.
+    /// Where the flanks are nearest, from station to station: a contact line is straight along the roll angle, or
+    /// nearly so. Nothing that was found before counts.
     pub(super) fn search_from_ends(&mut self, poses: &[Pose; 2]) {
         let Self { set, pairs, nearest, .. } = self;
         nearest.clear();
@@ -70,10 +71,11 @@ impl MeshContact {
         }
     }
 
-    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks overlap.
+    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks
+    /// overlap.
     ///
-    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by some per cent of it at most, so rows that gape by
-    /// more stay open.
+    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by
+    /// some per cent of it at most, so rows that gape by more stay open.
     pub fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         self.search_from_hints(poses);
         let by_modes = self.modal.as_ref().map_or(0.0, |modal| modal.largest());
@@ -82,7 +84,8 @@ impl MeshContact {
         self.rows_within(poses, reach, None);
     }
 
-    /// Rows of the places found that are no farther apart than `reach`, mm, and their compliance; those of a cell take nothing over from before.
+    /// Rows of the places found that are no farther apart than `reach`, mm, and their compliance; those of a cell take
+    /// nothing over from before.
     pub(super) fn rows_within(&mut self, poses: &[Pose; 2], reach: f64, bin: Option<&PoseBin>) {
         let Self { set, pairs, hints, nearest, contact, friction, .. } = self;
         let PoseContact { at, keys, rows, slices, .. } = contact;

@@ -9,7 +9,8 @@ use super::MeshContact;
 pub struct ContactWork {
     /// Data that it passes over at least once, bytes.
     pub bytes: f64,
-    /// Floating-point operations of its linear algebra: those of the search and of the local compliance, a few hundred a slice, are left out.
+    /// Floating-point operations of its linear algebra: those of the search and of the local compliance, a few hundred
+    /// a slice, are left out.
     pub flops: f64,
 }
 
