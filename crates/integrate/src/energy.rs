@@ -6,8 +6,9 @@
 //! q_1 - q_0 = h (v_0 + v_1) / 2,   M (v_1 - v_0) = h [f(t_m, q_m, v_m) + c W (q_1 - q_0)]
 //! c = -[V(t_m, q_1) - V(t_m, q_0) + f_c(q_m) . (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0),   W = M
 //! ```
-//! m: the middle of the step. Second order, no damping of its own at any frequency; forces with kinks (contact lost and gained) do no work that their
-//! potential does not know of. What V changes by itself between t_0 and t_1 is booked as parametric work.
+//! m: the middle of the step. Second order, no damping of its own at any frequency; forces with kinks (contact lost and
+//! gained) do no work that their potential does not know of. What V changes by itself between t_0 and t_1 is booked as
+//! parametric work.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -17,9 +18,11 @@ use crate::{
     stepper::{Step, Stepped, Stepper},
 };
 
-/// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
+/// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a
+/// large force.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
-/// A way shorter than this over the motion's scale has no work that V could tell from noise: a search that starts elsewhere finds another last digit.
+/// A way shorter than this over the motion's scale has no work that V could tell from noise: a search that starts
+/// elsewhere finds another last digit.
 const NO_WAY: f64 = 1e-9;
 
 /// The method; it has no parameters.
@@ -34,8 +37,8 @@ impl Stepper for DiscreteGradient {
     /// The forces that are left are those of the middle of the step.
     fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
         let Step { system, from, h, scale, forces, ledger, .. } = step;
-        // The change of c with the end of the step is left out as long as that settles: the noise of V over a small way would
-        // be in it.
+        // The change of c with the end of the step is left out as long as that settles: the noise of V over a small way
+        // would be in it.
         match iterate(system, from, h, scale, forces, ledger, false) {
             Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, ledger, true),
             done => done,
@@ -97,7 +100,8 @@ fn iterate<M: Mechanism>(
         let step = newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
         to.q -= step;
         if settled {
-            // What an earlier end would leave of the balance is work that nobody does: always of one sign, it would add up over many steps. Load and drive work over the last step as well.
+            // What an earlier end would leave of the balance is work that nobody does: always of one sign, it would add
+            // up over many steps. Load and drive work over the last step as well.
             book.supplied += h * forces.supplied - forces.other.dot(step);
             let known = book.potential;
             let after = system.potential(middle, &to.q).map_err(fail(middle))?;

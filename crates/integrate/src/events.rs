@@ -36,7 +36,8 @@ pub(crate) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DV
     (q, v)
 }
 
-/// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and false position in turns.
+/// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and
+/// false position in turns.
 pub(crate) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
     let ([mut low, mut high], [mut at_low, mut at_high]) = ([0.0, 1.0], ends);
     for i in 0..60 {

@@ -1,10 +1,12 @@
 //! Newton's method on one implicit step.
 //!
-//! Where whole steps do not settle, because a contact opens and closes or friction turns round in turns, they are followed along their lines to where the residual's work along them ends: a friction
-//! that changes its sign within a tenth of a mm/s is found between two steps that both jump over it, however short the time step is.
+//! Where whole steps do not settle, because a contact opens and closes or friction turns round in turns, they are
+//! followed along their lines to where the residual's work along them ends: a friction that changes its sign within a
+//! tenth of a mm/s is found between two steps that both jump over it, however short the time step is.
 //!
-//! The tangent is made once and kept as long as steps shrink fast with it: what such a step leaves is its own contraction times itself, so two steps tell when to stop. Where they do not
-//! shrink fast, because contact opens or closes, tangents are made anew.
+//! The tangent is made once and kept as long as steps shrink fast with it: what such a step leaves is its own
+//! contraction times itself, so two steps tell when to stop. Where they do not shrink fast, because contact opens or
+//! closes, tangents are made anew.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
@@ -20,7 +22,8 @@ const PATIENCE: usize = 10;
 const OF_LINE: f64 = 0.5;
 /// Places on a line.
 const PLACES: u32 = 12;
-/// Changes up to this many times round-off that do not fall any more are the noise of the forces themselves. Forces from a contact solver are good to some 1e-11.
+/// Changes up to this many times round-off that do not fall any more are the noise of the forces themselves. Forces
+/// from a contact solver are good to some 1e-11.
 const NOISE: f64 = 1e4;
 /// What a step must leave of the one before it for the tangent to be kept.
 const SLOW: f64 = 0.05;
@@ -32,7 +35,8 @@ const LEFT: f64 = 0.5;
 pub(crate) struct Newton {
     factor: Option<LU<f64, Dyn, Dyn>>,
     step: DVector<f64>,
-    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite after a part of a step, which says nothing of what is left.
+    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite
+    /// after a part of a step, which says nothing of what is left.
     changes: [f64; 2],
     /// The same of the last step, also of a part.
     last: f64,
@@ -61,7 +65,8 @@ impl Line {
         (work > 0.0).then(|| Self { step: step.clone(), work, share: 1.0, bracket: [0.0, f64::INFINITY], places: 0 })
     }
 
-    /// What is to be taken away from the coordinates next, with the residual where they stand; `None` where the line ends.
+    /// What is to be taken away from the coordinates next, with the residual where they stand; `None` where the line
+    /// ends.
     fn onwards(&mut self, rest: &DVector<f64>) -> Option<DVector<f64>> {
         let left = rest.dot(&self.step) / self.work;
         self.bracket[usize::from(left < 0.0)] = self.share;
@@ -99,7 +104,8 @@ impl Newton {
         forces.clear();
     }
 
-    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, made where its tangents are new, is singular or holds no numbers.
+    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, made where
+    /// its tangents are new, is singular or holds no numbers.
     pub fn step(
         &mut self,
         forces: &Forces,
@@ -132,7 +138,8 @@ impl Newton {
         self.last
     }
 
-    /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are noise.
+    /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are
+    /// noise.
     pub fn settled(&self) -> bool {
         let [last, before] = self.changes;
         let shrinks = before.is_finite() && last < 0.5 * before;

@@ -9,7 +9,8 @@ use crate::State;
 
 /// Longest period that is looked for, periods.
 pub const LONGEST_PERIOD: usize = 8;
-/// A longer period must do this much better than a shorter one: what dies away in beats is nearer to itself after some cycles than after one.
+/// A longer period must do this much better than a shorter one: what dies away in beats is nearer to itself after some
+/// cycles than after one.
 const CLEARLY: f64 = 0.03;
 /// Peak to peak below which a coordinate counts as still, over its scale.
 const STILL: f64 = 1e-6;
@@ -63,10 +64,11 @@ impl Recurrence {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
     }
 
-    /// Takes the state at the end of a period. The shortest period wins that is within `tolerance`, else the best one; a longer one only where it does clearly better.
+    /// Takes the state at the end of a period. The shortest period wins that is within `tolerance`, else the best one;
+    /// a longer one only where it does clearly better.
     ///
-    /// `scale`: sizes of the coordinates that are looked at, from the first on. The coordinate `free` has no place to return to
-    /// (a driver that a torque turns): only its velocity is looked at.
+    /// `scale`: sizes of the coordinates that are looked at, from the first on. The coordinate `free` has no place to
+    /// return to (a driver that a torque turns): only its velocity is looked at.
     pub fn judge(
         &mut self,
         state: &State,

@@ -3,8 +3,8 @@
 //! ```text
 //! M q'' + C q' + K q = 0,   q ~ exp(lambda t):   stable with steps h while |R(h lambda)| <= 1 for every lambda
 //! ```
-//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h lambda| = 2.828 and on the negative real one (damping alone) up to 2.785;
-//! Dormand-Prince 5(4) up to 0.998 and 3.307.
+//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h
+//! lambda| = 2.828 and on the negative real one (damping alone) up to 2.785; Dormand-Prince 5(4) up to 0.998 and 3.307.
 
 use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 
@@ -29,10 +29,11 @@ pub struct StepLimit {
 }
 
 impl Scheme {
-    /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M symmetric positive definite.
+    /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M
+    /// symmetric positive definite.
     ///
-    /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where nothing moves by itself, and for matrices that hold no
-    /// numbers.
+    /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where
+    /// nothing moves by itself, and for matrices that hold no numbers.
     pub fn step_limit(
         &self,
         mass: &DMatrix<f64>,
@@ -156,7 +157,8 @@ impl Guard {
         Some(Self { safe: shortest_reach(&polynomial), polynomial, found: None })
     }
 
-    /// Longest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite where that is well within it.
+    /// Longest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite where
+    /// that is well within it.
     pub fn longest(&mut self, mass: &Cholesky<f64, Dyn>, forces: &Forces, h: f64) -> f64 {
         let Some([stiffness, damping]) = per_mass(mass, [&forces.stiffness, &forces.damping]) else {
             // What is no number says nothing of steps; it shows in the motion.
@@ -184,7 +186,8 @@ mod tests {
         DMatrix::from_element(1, 1, x)
     }
 
-    /// Runge-Kutta 4: 2 sqrt 2 without damping, 2.7853 with damping alone (Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2); Dormand-Prince 5(4): a real limit of 3.3066.
+    /// Runge-Kutta 4: 2 sqrt 2 without damping, 2.7853 with damping alone (Hairer, Wanner, Solving Ordinary
+    /// Differential Equations II, IV.2); Dormand-Prince 5(4): a real limit of 3.3066.
     #[test]
     fn limits_on_the_axes_are_those_of_the_books() {
         let undamped = |s: Scheme| s.step_limit(&single(2.0), &single(2.0 * 1e8), &single(0.0)).unwrap().step * 1e4;

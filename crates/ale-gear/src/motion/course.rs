@@ -1,7 +1,9 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
 use analysis::Progress;
-use dynamics::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
+use dynamics::{
+    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, quasi_static_start, shoot,
+};
 use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
 
@@ -115,7 +117,9 @@ pub(super) fn run(
             motion = Motion::new(own, settings.clone(), start);
             shot = None;
             if let (Run::Shooting, Some((tolerance, _))) = (words.run, goal.settle) {
-                shot = Some(phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOTS)).map_err(fail)?);
+                shot = Some(
+                    phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)).map_err(fail)?,
+                );
             }
             let returns = Recurrence::from(motion.state());
             course = CourseState { recording: goal.settle.is_none(), recorded: 0, returns, periodicity: None };
@@ -225,15 +229,11 @@ fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance:
 
 /// Contact that another window may cure, or the end.
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
-    match error {
-        PairMotionError::Mechanism { source, .. } if source.is_starved() => Failure::Static(source),
-        other => {
-            let hint = match &other {
-                PairMotionError::Mechanism { source, .. } => source.hint(),
-                _ => None,
-            };
-            let hint = hint.unwrap_or_else(|| other.hint().to_owned());
-            Failure::Command(CommandError::failed(format_args!("{}: {other}", scene.file.display()), Some(hint)))
+    match error.contact_error() {
+        Some(source) if source.is_starved() => Failure::Static(source.clone()),
+        _ => {
+            let hint = error.hint();
+            Failure::Command(CommandError::failed(format_args!("{}: {error}", scene.file.display()), Some(hint)))
         }
     }
 }

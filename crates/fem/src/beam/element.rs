@@ -15,7 +15,8 @@ pub enum BeamTheory {
 
 /// Coordinates of an element: those of both nodes.
 const SIZE: usize = 12;
-/// Bending in the plane of x: displacements, and turns that are slopes. In that of y turns are slopes with the sign turned.
+/// Bending in the plane of x: displacements, and turns that are slopes. In that of y turns are slopes with the sign
+/// turned.
 const IN_X: [(usize, f64); 4] = [(0, 1.0), (4, 1.0), (6, 1.0), (10, 1.0)];
 const IN_Y: [(usize, f64); 4] = [(1, 1.0), (3, -1.0), (7, 1.0), (9, -1.0)];
 /// Four Gauss points on 0 .. 1 and their weights: exact for the products of cubics.

@@ -59,7 +59,8 @@ impl Integrator {
         }
     }
 
-    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its beginning tell. Theory (48a).
+    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its
+    /// beginning tell. Theory (48a).
     ///
     /// Steps that an error tolerance chooses need no such care: what grows is an error that shortens them.
     #[must_use]
@@ -160,22 +161,23 @@ impl Integrator {
     fn check<M: Mechanism>(&self, system: &M, state: &State) -> Result<Cholesky<f64, Dyn>, MotionError<M::Error>> {
         let n = system.mass().nrows();
         if self.scale.len() != n || state.q.len() != n || state.v.len() != n {
-            return Err(MotionError::Options("mass, scale and state are of different lengths"));
+            let (scale, coordinates, velocities) = (self.scale.len(), state.q.len(), state.v.len());
+            return Err(MotionError::Lengths { mass: n, scale, coordinates, velocities });
         }
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        let steps = match self.control {
-            StepControl::Fixed(h) => positive(h),
+        let controls = match self.control {
+            StepControl::Fixed(h) => [("step", h); 4],
             StepControl::Adaptive { tolerance, first, least, largest } => {
-                [tolerance, first, least, largest].into_iter().all(positive)
+                [("tolerance", tolerance), ("first step", first), ("least step", least), ("largest step", largest)]
             }
         };
-        if !steps || !self.scale.iter().all(|&s| positive(s)) {
-            return Err(MotionError::Options("steps, tolerance and scales must be positive"));
+        let scales = self.scale.iter().map(|&s| ("scale of a coordinate", s));
+        if let Some((name, value)) = controls.into_iter().chain(scales).find(|(_, x)| !(*x > 0.0 && x.is_finite())) {
+            return Err(MotionError::NotPositive { name, value });
         }
         if let Scheme::GeneralisedAlpha { rho } = self.scheme
             && !(0.0..=1.0).contains(&rho)
         {
-            return Err(MotionError::Options("the spectral radius of generalised-alpha lies between 0 and 1"));
+            return Err(MotionError::SpectralRadius { rho });
         }
         Cholesky::new(system.mass().clone()).ok_or(MotionError::Singular { time: state.time, which: "mass" })
     }

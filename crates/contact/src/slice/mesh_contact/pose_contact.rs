@@ -1,19 +1,15 @@
 //! Rows of contact that were found at some poses, and what follows from them next to these.
 
-use super::cell::Cell;
-use crate::{ContactRow, HeldSolution, LocalLaw, ModalFlanks, Pose, Slice, Vec3, compliance::ModalRows};
-
-/// Displacement of a point of contact, mm, up to which what was found serves: the gap's second order, curvature times its square over two, is a ten-thousandth of a
-/// um then.
-pub(super) const NEAR: f64 = 1e-3;
+use super::pose_bin::{LINEAR_RANGE, PoseBin};
+use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows};
 
 /// Rows and their compliance at some poses.
 #[derive(Debug, Default)]
-pub(super) struct Found {
+pub(super) struct PoseContact {
     /// The poses, once there are rows of them.
     pub at: Option<[Pose; 2]>,
     /// The cell whose middle they are; none for poses that were given.
-    pub cell: Option<Cell>,
+    pub bin: Option<PoseBin>,
     /// Station of each row, counted over all pairs.
     pub keys: Vec<usize>,
     pub rows: Vec<ContactRow>,
@@ -27,9 +23,9 @@ pub(super) struct Found {
     /// How modes open the rows.
     pub modal: ModalRows,
     /// Solution in the middle of the cell.
-    pub held: HeldSolution,
+    pub saved: SavedSolution,
     /// Least gap of the pairs beside the window there, mm, once it was asked for.
-    pub beside: Option<f64>,
+    pub neighbour_gap: Option<f64>,
     /// Tangent there, once it was asked for.
     pub tangent: Option<Box<Tangent>>,
 }
@@ -41,7 +37,7 @@ pub(super) struct Tangent {
     pub all: Vec<f64>,
 }
 
-impl Found {
+impl PoseContact {
     pub fn with_capacity(most: usize) -> Self {
         Self {
             keys: Vec::with_capacity(most),
@@ -55,7 +51,8 @@ impl Found {
         }
     }
 
-    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open gaps by no more than was reckoned with.
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open
+    /// gaps by no more than was reckoned with.
     pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
         let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
@@ -67,7 +64,7 @@ impl Found {
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
             motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
             let way = moved.norm() + radius * turned.norm();
-            if way > NEAR || way.is_nan() {
+            if way > LINEAR_RANGE || way.is_nan() {
                 return None;
             }
         }
@@ -75,20 +72,20 @@ impl Found {
     }
 
     /// What the rows' places say of the motion of both gears: once they are known.
-    pub fn settle(&mut self) {
-        let Self { at, rows, gaps, openings, tangent, beside, .. } = self;
+    pub fn update_openings(&mut self) {
+        let Self { at, rows, gaps, openings, tangent, neighbour_gap, .. } = self;
         let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
         gaps.clear();
         gaps.extend(rows.iter().map(|r| r.gap));
         openings.clear();
         openings.extend(rows.iter().map(|row| opening(row, &row.normal, &centres)));
-        (*tangent, *beside) = (None, None);
+        (*tangent, *neighbour_gap) = (None, None);
     }
 
     /// Size, bytes.
     pub fn bytes(&self) -> usize {
         let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<LocalLaw>() + size_of::<[f64; 12]>();
-        self.rows.len() * of_row + self.compliance.len() * size_of::<f64>() + self.held.bytes()
+        self.rows.len() * of_row + self.compliance.len() * size_of::<f64>() + self.saved.bytes()
     }
 
     /// Gaps after a small motion from here.
@@ -99,7 +96,8 @@ impl Found {
     }
 }
 
-/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its normal, how they open its gap.
+/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its
+/// normal, how they open its gap.
 pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
     let mut j = [0.0; 12];
     for (body, sign) in [1.0, -1.0].into_iter().enumerate() {

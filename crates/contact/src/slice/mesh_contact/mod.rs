@@ -1,26 +1,28 @@
 //! Contact of two gears that stand where they are told: forces and their tangent. Theory (38).
 
-mod cell;
 mod compliance;
-mod found;
 mod near;
+mod pose_bin;
+mod pose_cache;
+mod pose_contact;
 mod search;
 mod work;
 
 use ale::ToothWindow;
-use cell::Kept;
 use faer::MatRef;
-use found::{Found, NEAR, opening};
 use geometry::GearPair;
+use pose_bin::LINEAR_RANGE;
+use pose_cache::PoseCache;
+use pose_contact::{PoseContact, opening};
 use reduction::{ElasticGear, GearModes};
 use std::sync::Arc;
 
 use crate::{
     Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
-    LocalState, ModalFlanks, Pose, Slice, SliceHint, SlicePlace, TablePlace, TableWork, Wrench, wrenches,
+    LocalState, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, Wrench, wrenches,
 };
 
-pub use near::Want;
+pub use near::EvaluationLevel;
 pub use work::ContactWork;
 
 /// Forces of the mesh on both gears at given poses, and how they change as the gears move.
@@ -28,14 +30,14 @@ pub use work::ContactWork;
 pub struct MeshForce {
     /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
     pub wrench: [Wrench; 2],
-    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes, in the order
-    /// pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
+    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
     ///
     /// ```text
     /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
     /// ```
-    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a thousandth of its largest entries.
-    /// Symmetric and negative semi-definite without friction.
+    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a
+    /// thousandth of its largest entries. Symmetric and negative semi-definite without friction.
     pub tangent: [[f64; 12]; 12],
     /// Normal force of each pair of the window, N, in order of running numbers.
     pub pair_forces: Vec<f64>,
@@ -47,8 +49,8 @@ pub struct MeshForce {
 
 /// The slice contact of a window: search, compliance and solution, in memory that is used again.
 ///
-/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from where they were found before, and
-/// forces from what they were; neither changes the answer but by round-off.
+/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from
+/// where they were found before, and forces from what they were; neither changes the answer but by round-off.
 #[derive(Debug)]
 pub struct MeshContact {
     set: ContactSet,
@@ -58,19 +60,19 @@ pub struct MeshContact {
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
     /// How body 1 stood at the last search.
-    stood: Option<Pose>,
+    last_pose: Option<Pose>,
     /// Force of each station of each pair at the last solution, N.
-    memory: Vec<f64>,
-    places: Vec<(usize, SlicePlace)>,
+    last_forces: Vec<f64>,
+    nearest: Vec<(usize, SlicePoint)>,
     /// What was found at the last poses, and at others.
-    found: Found,
-    kept: Kept,
+    contact: PoseContact,
+    cache: PoseCache,
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
     /// Where the rows' openings stand in the table of a gear, and their loads where friction makes these another thing.
-    openings: Vec<TablePlace>,
-    loads: Vec<TablePlace>,
+    openings: Vec<TablePoint>,
+    loads: Vec<TablePoint>,
     work: [TableWork; 2],
     solver: DenseSolver,
     force: MeshForce,
@@ -104,11 +106,11 @@ impl MeshContact {
             friction,
             radius,
             hints: vec![SliceHint::default(); most],
-            stood: None,
-            memory: vec![0.0; most],
-            places: Vec::with_capacity(most),
-            found: Found::with_capacity(most),
-            kept: Kept::default(),
+            last_pose: None,
+            last_forces: vec![0.0; most],
+            nearest: Vec::with_capacity(most),
+            contact: PoseContact::with_capacity(most),
+            cache: PoseCache::default(),
             gaps: Vec::with_capacity(most),
             levers: Vec::with_capacity(most),
             torque_levers: Vec::with_capacity(most),
@@ -129,8 +131,9 @@ impl MeshContact {
         &self.set
     }
 
-    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears, serves
-    /// it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on the new flanks.
+    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears,
+    /// serves it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on
+    /// the new flanks.
     ///
     /// # Errors
     /// [`ContactError`] when the window cannot be set up.
@@ -159,13 +162,13 @@ impl MeshContact {
 
     /// Goes over to another window with the same flanks.
     fn enter(&mut self, set: ContactSet) {
-        self.memory.fill(0.0);
+        self.last_forces.fill(0.0);
         self.hints.fill(SliceHint::default());
-        self.stood = None;
+        self.last_pose = None;
         if self.set.shares_flanks(&set) {
             self.start_anew();
         } else {
-            self.drop_cells();
+            self.clear_cache();
         }
         if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
             self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
@@ -191,7 +194,7 @@ impl MeshContact {
     fn enter_modes(&mut self, gears: &[ElasticGear; 2]) -> Result<(), ContactError> {
         let Some([a, b]) = &self.modes else { return Ok(()) };
         let modal = ModalFlanks::new(gears, [a, b], &self.set)?;
-        self.drop_cells();
+        self.clear_cache();
         self.modal = Some(modal);
         Ok(())
     }
@@ -210,7 +213,7 @@ impl MeshContact {
 
     /// Forgets the forces of the last solution.
     pub fn forget(&mut self) {
-        self.memory.fill(0.0);
+        self.last_forces.fill(0.0);
     }
 
     /// Forces with the gears' frames at `poses`.
@@ -222,7 +225,7 @@ impl MeshContact {
         self.solve(Balance::Held, 0)?;
         self.sum_forces();
         if let Some(modal) = &mut self.modal {
-            modal.sum_forces(&self.found.modal, &self.solver);
+            modal.sum_forces(&self.contact.modal, &self.solver);
         }
         self.find_tangent();
         Ok(&self.force)
@@ -230,7 +233,7 @@ impl MeshContact {
 
     /// Resultants of the solution as it is.
     fn sum_forces(&mut self) {
-        let Self { force, found: Found { rows, at, .. }, solver, set, .. } = self;
+        let Self { force, contact: PoseContact { rows, at, .. }, solver, set, .. } = self;
         force.wrench = wrenches(&at.unwrap_or([Pose::identity(); 2]), rows, solver.forces());
         force.pair_forces.fill(0.0);
         for (row, f) in rows.iter().zip(solver.forces()) {
@@ -241,7 +244,7 @@ impl MeshContact {
 
     /// Tangent by the factor as it is, and with it forces on the modes.
     fn find_tangent(&mut self) {
-        let Self { force, found: Found { rows, at, modal: bent, .. }, solver, modal, .. } = self;
+        let Self { force, contact: PoseContact { rows, at, modal: modal_rows, .. }, solver, modal, .. } = self;
         let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
         let rigid = |i: usize| {
             let row = &rows[i];
@@ -250,7 +253,7 @@ impl MeshContact {
         match modal {
             None => force.tangent = solver.tangent(rigid),
             Some(modal) => {
-                modal.find_tangent(bent, solver, rigid);
+                modal.find_tangent(modal_rows, solver, rigid);
                 let (all, n) = (&modal.forces().tangent, 12 + modal.count());
                 force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
             }
@@ -264,7 +267,7 @@ impl MeshContact {
     /// ```
     /// This dual functional is stationary at the solution: what forces are off by shows in its square only.
     pub fn strain_energy(&self) -> f64 {
-        let Self { found: Found { slices, laws, .. }, gaps, solver, .. } = self;
+        let Self { contact: PoseContact { slices, laws, .. }, gaps, solver, .. } = self;
         let of_row = |&i: &usize| {
             let (force, length) = (solver.forces()[i], slices[i].length);
             length * laws[i].curved_energy(force / length) - force * (gaps[i] + 0.5 * solver.openings()[i])
@@ -278,10 +281,10 @@ impl MeshContact {
     }
 
     /// Gaps of the rows as they are, with what the modes open them by.
-    fn bend(&mut self) {
-        let Self { found: Found { rows, modal: bent, .. }, modal, gaps, .. } = self;
+    fn add_modal_openings(&mut self) {
+        let Self { contact: PoseContact { rows, modal: modal_rows, .. }, modal, gaps, .. } = self;
         if let Some(modal) = modal {
-            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(bent, i));
+            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(modal_rows, i));
         }
         gaps.clear();
         gaps.extend(rows.iter().map(|r| r.gap));
@@ -289,47 +292,47 @@ impl MeshContact {
 
     /// What the kept modes open a row by, mm; it is in the row's gap.
     pub fn modal_opening(&self, row: usize) -> f64 {
-        self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.found.modal, row))
+        self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.contact.modal, row))
     }
 
     /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
     pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
-        let Self { found, gaps, levers, torque_levers, memory, solver, .. } = self;
+        let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
         levers.clear();
         torque_levers.clear();
-        levers.extend(found.rows.iter().map(|r| r.levers[body]));
-        torque_levers.extend(found.rows.iter().map(|r| r.torque_levers[body]));
-        let problem = problem(found, gaps, [levers, torque_levers], self.friction.is_none(), balance);
-        let keys = &found.keys;
-        solver.solve(&problem, local(found), |i| memory[keys[i]])?;
-        memory.fill(0.0);
-        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| memory[key] = f);
+        levers.extend(contact.rows.iter().map(|r| r.levers[body]));
+        torque_levers.extend(contact.rows.iter().map(|r| r.torque_levers[body]));
+        let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
+        let keys = &contact.keys;
+        solver.solve(&problem, local(contact), |i| last_forces[keys[i]])?;
+        last_forces.fill(0.0);
+        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| last_forces[key] = f);
         Ok(())
     }
 
     /// Rows of the last solution, in order of pair and height.
     pub fn rows(&self) -> &[ContactRow] {
-        &self.found.rows
+        &self.contact.rows
     }
 
     /// The rows with the nodes that they rest on, at the poses of the last evaluation.
     pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
-        let Self { set, pairs, hints, found: Found { keys, rows, slices, .. }, .. } = self;
+        let Self { set, pairs, hints, contact: PoseContact { keys, rows, slices, .. }, .. } = self;
         let mut rows = rows.clone();
-        let Some(of_window) = set.slices() else { return rows };
+        let Some(slice_set) = set.slices() else { return rows };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         for ((row, slice), &key) in
             rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
         {
-            let numbers = pairs[key / of_window.stations().len()];
-            FlankPair::new(of_window.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
+            let numbers = pairs[key / slice_set.stations().len()];
+            FlankPair::new(slice_set.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
         }
         rows
     }
 
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
-        &self.found.slices
+        &self.contact.slices
     }
 
     /// Forces, openings and active rows of the last solution.
@@ -340,22 +343,22 @@ impl MeshContact {
 
 /// The contact of what was found, its rows with these gaps.
 fn problem<'a>(
-    found: &'a Found,
+    contact: &'a PoseContact,
     gaps: &'a [f64],
     [levers, torque_levers]: [&'a [f64]; 2],
     symmetric: bool,
     balance: Balance,
 ) -> DenseProblem<'a> {
-    let n = found.rows.len();
-    let compliance = MatRef::from_column_major_slice(&found.compliance[..], n, n);
+    let n = contact.rows.len();
+    let compliance = MatRef::from_column_major_slice(&contact.compliance[..], n, n);
     DenseProblem { compliance, symmetric, gaps, levers, torque_levers, balance }
 }
 
 /// Approach (mm) and its slope (mm/N) of each row under its force.
-fn local(found: &Found) -> impl Fn(usize, f64) -> (f64, f64) + '_ {
+fn local(contact: &PoseContact) -> impl Fn(usize, f64) -> (f64, f64) + '_ {
     move |i, force| {
-        let length = found.slices[i].length;
-        let LocalState { approach, slope, .. } = found.laws[i].under(force / length);
+        let length = contact.slices[i].length;
+        let LocalState { approach, slope, .. } = contact.laws[i].under(force / length);
         (approach, slope / length)
     }
 }

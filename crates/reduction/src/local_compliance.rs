@@ -9,22 +9,22 @@ use mesh::{ElementBlock, GearMesh, Mesh};
 
 use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general::load_compliance, load::missing};
 
-/// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface is
-/// clamped.
+/// Compliance W_c of a flank when everything but the half of its tooth between the flank and the tooth's centre surface
+/// is clamped.
 ///
-/// Pressing a point of a mesh makes a dent whose depth is the mesh's, not the gear's. The same dent is in W (the
-/// whole gear) and in W_c, so W - W_c is free of it: it is how far the centre surface of the tooth gives way, smooth and
-/// nearly the same on every mesh. The dent itself comes in closed form (crate `contact`, `LocalContact`).
-/// Free are the nodes above the root circle on the loaded side of the centre surface.
-/// W - W_c is positive semi-definite, because clamping only takes compliance away.
+/// Pressing a point of a mesh makes a dent whose depth is the mesh's, not the gear's. The same dent is in W (the whole
+/// gear) and in W_c, so W - W_c is free of it: it is how far the centre surface of the tooth gives way, smooth and
+/// nearly the same on every mesh. The dent itself comes in closed form (crate `contact`, `LocalContact`). Free are the
+/// nodes above the root circle on the loaded side of the centre surface. W - W_c is positive semi-definite, because
+/// clamping only takes compliance away.
 #[derive(Debug, Clone)]
-pub struct HalfTooth {
+pub struct LocalCompliance {
     /// Flank nodes, numbers of the mesh, ascending.
     pub nodes: Vec<u32>,
     /// W_c, mm/N, 3 n x 3 n, coordinates as in [`crate::ReducedGear`]; a clamped node's rows are 0.
     pub compliance: Mat<f64>,
-    /// How far the clamped nodes next to the free half lie past the centre surface on average, mm: 0 where the mesh has nodes
-    /// on it. The layer is deeper by as much.
+    /// How far the clamped nodes next to the free half lie past the centre surface on average, mm: 0 where the mesh has
+    /// nodes on it. The layer is deeper by as much.
     pub overshoot: f64,
     /// What a line load does to this half when its band is resolved.
     pub layer: LayerProfile,
@@ -33,7 +33,7 @@ pub struct HalfTooth {
 /// Distances below this count as on the surface, relative to the normal module.
 const ON_SURFACE: f64 = 1e-3;
 
-impl HalfTooth {
+impl LocalCompliance {
     /// The half of tooth `tooth` behind its flank on `side`.
     ///
     /// # Errors
@@ -155,7 +155,8 @@ impl Place {
         r > self.root_radius + self.tolerance && r * angle.sin() > self.tolerance && angle < self.half_pitch
     }
 
-    /// Distance past the centre surface of a clamped point of the tooth, mm; `None` for points of the rim and the next tooth.
+    /// Distance past the centre surface of a clamped point of the tooth, mm; `None` for points of the rim and the next
+    /// tooth.
     fn past_centre(&self, p: &[f64; 3]) -> Option<f64> {
         let (r, angle) = self.polar(p);
         let inside = r > self.root_radius + self.tolerance && angle.abs() < self.half_pitch;

@@ -9,7 +9,7 @@ use reduction::ElasticGear;
 
 /// A pair with the window it stands in.
 #[derive(Debug, Clone, Copy)]
-pub struct Parts<'a> {
+pub struct WindowedPair<'a> {
     /// The pair.
     pub pair: &'a GearPair,
     /// Its elastic gears.

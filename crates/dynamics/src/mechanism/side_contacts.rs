@@ -1,23 +1,18 @@
 //! Contact of both sides at one place, kept for those who ask again.
 
 use super::PairMechanism;
-use crate::{mesh_side::SideForce, modal::Posture};
+use crate::{elastic_displacement::ElasticDisplacement, mesh_side::SideContacts};
 use ltca::StaticError;
-
-/// Contact of both sides at one time and displacement.
-#[derive(Debug, Clone)]
-pub(super) struct Touching {
-    pub at: (f64, Posture),
-    pub driving: SideForce,
-    pub coast: Option<SideForce>,
-    /// Whether stiffness is among what was asked for.
-    pub tangents: bool,
-}
 
 impl PairMechanism {
     /// Contact of both sides; the last one is kept, since a step ends where several look.
-    pub(super) fn contact(&mut self, t: f64, d: &Posture, tangents: bool) -> Result<Touching, StaticError> {
-        let serves = |last: &&Touching| last.at.0 == t && last.at.1 == *d && (last.tangents || !tangents);
+    pub(super) fn contact(
+        &mut self,
+        t: f64,
+        d: &ElasticDisplacement,
+        tangents: bool,
+    ) -> Result<SideContacts, StaticError> {
+        let serves = |last: &&SideContacts| last.at.0 == t && last.at.1 == *d && (last.tangents || !tangents);
         if let Some(last) = self.last.as_ref().filter(serves) {
             return Ok(last.clone());
         }
@@ -29,13 +24,13 @@ impl PairMechanism {
         let driving = drive_side.evaluate(pair, cycles, d, tangents).map_err(fail)?;
         let coast =
             coast_side.as_mut().map(|side| side.evaluate(pair, cycles, d, tangents)).transpose().map_err(fail)?;
-        let touching = Touching { at: (t, d.clone()), driving, coast, tangents };
-        *last = Some(touching.clone());
-        Ok(touching)
+        let side_contacts = SideContacts { at: (t, d.clone()), driving, coast, tangents };
+        *last = Some(side_contacts.clone());
+        Ok(side_contacts)
     }
 
     /// Strain energy of both sides and nothing else; what was known of contact is lost.
-    pub(super) fn contact_energy(&mut self, t: f64, at: &Posture) -> Result<f64, StaticError> {
+    pub(super) fn contact_energy(&mut self, t: f64, at: &ElasticDisplacement) -> Result<f64, StaticError> {
         let cycles = self.cycles(t);
         let Self { pair, drive_side, coast_side, last, .. } = self;
         let station = ale::Station::at_cycles(cycles);

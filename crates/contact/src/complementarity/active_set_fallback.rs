@@ -8,7 +8,7 @@ use crate::ContactError;
 
 impl DenseSolver {
     /// The same with the set found for tangents that are held.
-    pub(super) fn carefully(
+    pub(super) fn solve_by_active_set(
         &mut self,
         problem: &DenseProblem<'_>,
         local: impl Fn(usize, f64) -> (f64, f64),
@@ -21,7 +21,7 @@ impl DenseSolver {
             balance: problem.balance,
         };
         let active = self.active.clone();
-        let mut bodies = Bodies { problem: *problem, solver: Self::new(problem.gaps.len()) };
+        let mut bodies = DenseBodies { problem: *problem, solver: Self::new(problem.gaps.len()) };
         let solution = newton(&mut bodies, &rows, &local, self.forces.clone(), active)?;
         self.forces.copy_from_slice(&solution.forces);
         self.openings.copy_from_slice(&solution.openings);
@@ -39,12 +39,12 @@ impl DenseSolver {
 }
 
 /// The dense compliance as elastic bodies, for the pivots.
-struct Bodies<'a> {
+struct DenseBodies<'a> {
     problem: DenseProblem<'a>,
     solver: DenseSolver,
 }
 
-impl LinearContact for Bodies<'_> {
+impl LinearContact for DenseBodies<'_> {
     fn solve(&mut self, active: &[usize], p: &Problem) -> Result<Equality, ContactError> {
         let n = p.gaps.len();
         let solver = &mut self.solver;
