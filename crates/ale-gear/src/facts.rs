@@ -3,8 +3,9 @@
 use ltca::StaticHistory;
 use serde::Serialize;
 
+use report::view::View;
+
 pub use crate::resolution::Resolution;
-use crate::view::View;
 use crate::{
     certificate::Certificate,
     iso_root::IsoRootStress,

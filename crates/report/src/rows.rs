@@ -2,11 +2,11 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use crate::{error::CommandError, output::push_row};
+use crate::{ReportError, csv::push_row};
 
 /// Columns by name.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Columns {
+pub struct Columns {
     names: BTreeMap<String, usize>,
     values: Vec<Vec<f64>>,
 }
@@ -41,13 +41,10 @@ impl Columns {
     /// Reads a file that this program has written.
     ///
     /// # Errors
-    /// Exit status 1 when it is not what it was.
-    pub fn read(path: &Path) -> Result<Self, CommandError> {
-        let text = std::fs::read_to_string(path).map_err(|e| CommandError::write(path, &e))?;
-        Self::parse(&text).ok_or_else(|| {
-            let hint = Some("does another program write into the folder?".into());
-            CommandError::failed(format_args!("{}: holds what is no number", path.display()), hint)
-        })
+    /// When it is not what it was.
+    pub fn read(path: &Path) -> Result<Self, ReportError> {
+        let text = std::fs::read_to_string(path).map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
+        Self::parse(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
     }
 
     /// The columns of a file's text; `None` where it holds what is no number.

@@ -9,9 +9,10 @@ use super::{
     rows::Rows,
     store::{Checkpoints, Stored},
 };
+use report::results::GearPattern;
+
 use crate::{
     error::CommandError,
-    pattern::GearPattern,
     phases::{Phases, Progress},
     run::Failure,
     scene::{MotionScene, Run, Scene},

@@ -4,6 +4,8 @@ use dynamics::Drive;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
+use report::Columns;
+
 use super::{
     course::Finished,
     elasticity::{ElasticHeadline, Vibration, mesh_range_hz},
@@ -12,7 +14,6 @@ use super::{
     passage::{Passage, PassageHeadline},
     prepare::Prepared,
     rows::GEARS,
-    table::Columns,
 };
 use crate::{
     output::{PLACE_COLUMNS, PressurePlace},

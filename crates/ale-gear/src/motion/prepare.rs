@@ -10,6 +10,8 @@ use super::{
     elasticity::Elasticity,
     options::{motion_options, scheme},
 };
+use report::view::{View, ViewRecorder};
+
 use crate::{
     cache::Cache,
     elastic_gears::{ElasticGears, elastic_gears},
@@ -21,7 +23,6 @@ use crate::{
     resolution::resolution,
     run::{self, Failure},
     scene::{Flanks, MotionScene, Scene},
-    view::{View, ViewRecorder},
 };
 
 /// Gears, geometry and window of a run.

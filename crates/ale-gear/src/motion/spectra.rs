@@ -2,8 +2,8 @@
 
 use study::{StudyError, Window, spectrum as record_spectrum};
 
-use super::table::Columns;
 use crate::output::push_row;
+use report::Columns;
 
 /// Quantities that have a spectrum.
 pub(crate) const SPECTRA: [&str; 5] =

@@ -2,16 +2,15 @@
 
 use dynamics::Speed;
 
-use super::{
-    campbell_chart::campbell_chart,
-    charts::{Curve, figure, line_chart, stick_chart},
-    field_map::{FieldMap, Side, share},
-    plot_data::{Numbers, embedded},
-};
-use crate::{
-    motion::{Columns, Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
-    scene::SweepWay,
+use report::{
+    Columns,
+    charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
     view::View,
+};
+
+use crate::{
+    motion::{Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
+    scene::SweepWay,
 };
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.

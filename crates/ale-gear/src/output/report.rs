@@ -4,18 +4,18 @@ use std::f64::consts::PI;
 
 use ltca::{StaticHistory, StaticPosition};
 
-use super::{
-    Headline, Rendered,
+use report::{
     charts::{Curve, line_chart},
-    page::Page,
-    pairs,
-    root_stress::MAX_PRINCIPAL,
+    page::Rendered,
+    results::{MAX_PRINCIPAL, pairs},
+    view::View,
 };
+
+use super::{Headline, page::Page};
 use crate::{
     error::CommandError,
     facts::{Cost, Facts},
     scene::Scene,
-    view::View,
 };
 
 /// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the gears in space, where

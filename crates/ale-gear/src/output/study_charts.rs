@@ -1,7 +1,10 @@
 //! Figures of a study.
 
-use super::charts::{Curve, line_chart};
-use crate::motion::Columns;
+use report::{
+    Columns,
+    charts::{Curve, line_chart},
+};
+
 use crate::parameter_study::{CaseOutcome, Findings, Follow, OverTime, Study, last_cycles};
 
 /// A figure: a sentence above its charts.

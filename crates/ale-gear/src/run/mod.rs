@@ -11,20 +11,19 @@ use doubts::doubts;
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 use reduction::{ElasticGear, GearReducer};
+use report::{paraview::FieldWriter, view::ViewRecorder};
 
 use crate::{
     cache::Cache,
     elastic_gears::{ElasticGears, elastic_gears},
     error::CommandError,
     facts::{Facts, Solved},
-    fields::FieldWriter,
     gears, iso_model, iso_root,
     meshes::{self, SceneMesh},
     output::{self, ResultDirectory},
     phases::Phases,
     resolution::resolution,
     scene::{Analysis, Model, Scene},
-    view::ViewRecorder,
 };
 
 pub(crate) use certificate::{certificate, worse};
@@ -221,11 +220,11 @@ fn attempt(inputs: Inputs<'_>, phases: &mut Phases, options: &StaticOptions) -> 
             }
         });
         match failed {
-            Some(error) => Err(Failure::Command(error)),
+            Some(error) => Err(Failure::Command(error.into())),
             None => history.map_err(Failure::Static),
         }
     })?;
-    fields.finish()?;
+    fields.finish().map_err(CommandError::from)?;
     if cache.is_on() {
         // After the run, when every window and half tooth that it took is known.
         warnings.extend(phases.run("store", || keys.save(cache, model.gears())));

@@ -2,13 +2,13 @@
 
 use study::Campbell;
 
-use super::charts::{Curve, frequency_chart};
+use super::curves::{Curve, frequency_chart};
 
 /// Lines of frequencies with names of their own at most; more are drawn alike.
 const NAMED: usize = 4;
 
 /// Natural frequencies over speed with the orders that may meet them; `orders` and `modes`: their names.
-pub(super) fn campbell_chart(d: &Campbell, orders: &[String], modes: &[String]) -> Option<String> {
+pub fn campbell_chart(d: &Campbell, orders: &[String], modes: &[String]) -> Option<String> {
     let highest = d.frequencies.iter().flatten().copied().fold(0.0, f64::max);
     let rpm = |s: f64| 60.0 * s;
     let line = |m: usize| d.speeds.iter().zip(&d.frequencies[m]).map(|(s, f)| (rpm(*s), *f)).collect();

@@ -6,14 +6,16 @@ use super::plot_data::{Plot, embedded};
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve {
+pub struct Curve {
+    /// Name in the legend; of one without a name nothing is told apart.
     pub label: String,
+    /// Abscissa and value.
     pub points: Vec<(f64, f64)>,
 }
 
 /// Colours that the colour-blind can tell apart, without the yellow, which paper swallows.
 /// Source: the first seven Okabe and Ito, Color Universal Design, 2008; the others Tol, Colour schemes, 2021 (muted).
-pub(super) const COLOURS: [RGBColor; 12] = [
+pub const COLOURS: [RGBColor; 12] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -36,31 +38,31 @@ const LEGEND_ROOM: f64 = 0.09;
 
 /// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
 /// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
-pub(super) fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+pub fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
     let curves = with_points(curves);
     let svg = picture(title, [x, y], &curves, from_zero, Marks::Lines)?;
     Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
 }
 
 /// The same with dots in place of lines: sections and bifurcation diagrams.
-pub(super) fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+pub fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     let curves = with_points(curves);
     let svg = picture(title, [x, y], &curves, false, Marks::Dots)?;
     Some(figure(&svg, &[embedded("plot", &Plot::dots(title, x, y, &curves))]))
 }
 
 /// [`dot_chart`] as SVG alone, for a file of its own.
-pub(super) fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+pub fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     picture(title, [x, y], &with_points(curves), false, Marks::Dots)
 }
 
 /// [`line_chart`] as SVG alone, likewise.
-pub(super) fn line_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+pub fn line_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     picture(title, [x, y], &with_points(curves), false, Marks::Lines)
 }
 
 /// Frequencies over speed: each order of excitation in a colour of its own, the modes all alike.
-pub(super) fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
+pub fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
     let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();
     line_chart(title, "speed of the driver [1/min]", "frequency [Hz]", &curves, true)
 }
@@ -72,20 +74,20 @@ fn with_points(curves: &[Curve]) -> Vec<Curve> {
 }
 
 /// Which of the palette's colours a curve has: one without a name is more of the last that has one.
-pub(super) fn colour_of<'a>(labels: impl Iterator<Item = &'a str>, k: usize) -> usize {
+pub fn colour_of<'a>(labels: impl Iterator<Item = &'a str>, k: usize) -> usize {
     labels.take(k + 1).enumerate().filter(|(_, label)| !label.is_empty()).last().map_or(0, |(own, _)| own)
         % COLOURS.len()
 }
 
 /// The same for the lines of a spectrum: one stick each.
-pub(super) fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
+pub fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
     let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
     let svg = picture(title, [x, y], &[Curve { label: curve.label.clone(), points: sticks }], true, Marks::Lines)?;
     Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
 }
 
 /// A picture with what the script puts in its place on a screen.
-pub(super) fn figure(svg: &str, plots: &[String]) -> String {
+pub fn figure(svg: &str, plots: &[String]) -> String {
     let wide = if plots.len() > 1 { " wide" } else { "" };
     format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
 }

@@ -16,7 +16,7 @@ const DIGITS: usize = 7;
 
 /// One side of a map.
 #[derive(Debug, Serialize)]
-pub(super) struct Side {
+pub struct Side {
     /// Quantity and unit.
     pub label: &'static str,
     /// Edges of the cells, ascending, one more than there are cells.
@@ -26,7 +26,7 @@ pub(super) struct Side {
 
 /// Values of cells.
 #[derive(Debug, Serialize)]
-pub(super) struct FieldMap<'a> {
+pub struct FieldMap<'a> {
     /// What it shows.
     pub title: String,
     /// Horizontal and vertical side.
@@ -45,7 +45,7 @@ pub(super) struct FieldMap<'a> {
 }
 
 /// Where a value stands between no colour (0) and the last one (1).
-pub(super) fn share(value: f64, largest: f64, decades: Option<f64>) -> f64 {
+pub fn share(value: f64, largest: f64, decades: Option<f64>) -> f64 {
     if largest > 0.0 && value > 0.0 {
         decades.map_or(value / largest, |d| 1.0 + (value / largest).log10() / d).clamp(0.0, 1.0)
     } else {
@@ -67,7 +67,7 @@ fn steps<S: Serializer>(shares: &[f64], serializer: S) -> Result<S::Ok, S::Error
 
 impl FieldMap<'_> {
     /// The picture as SVG: axes as lines and letters, the cells as one image.
-    pub(super) fn picture(&self) -> Option<String> {
+    pub fn picture(&self) -> Option<String> {
         let mut svg = String::new();
         let [x, y] = &self.sides;
         let ends = |side: &Side| Some((*side.edges.first()?, *side.edges.last()?));

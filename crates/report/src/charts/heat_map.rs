@@ -5,11 +5,11 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{
-    charts::figure,
+    curves::figure,
     field_map::{FieldMap, Side, share},
     plot_data::embedded,
 };
-use crate::pattern::GearPattern;
+use crate::results::GearPattern;
 
 /// Columns of a flank at most; more stations share columns, which then show the larger value.
 const COLUMNS: usize = 96;
@@ -34,7 +34,7 @@ pub fn contact_pattern_svg(patterns: &[GearPattern; 2]) -> Option<String> {
 }
 
 /// The picture with the cells of both flanks, as a part of a page.
-pub(super) fn contact_pattern_figure(svg: &str, patterns: &[GearPattern; 2]) -> String {
+pub fn contact_pattern_figure(svg: &str, patterns: &[GearPattern; 2]) -> String {
     let largest = patterns.iter().map(GearPattern::largest_pressure).fold(0.0, f64::max);
     figure(svg, &patterns.each_ref().map(|pattern| embedded("map", &field_map(pattern, largest))))
 }

@@ -2,28 +2,35 @@
 
 use plotters::{coord::Shift, prelude::*};
 
-use super::charts::COLOURS;
+use super::curves::COLOURS;
 
-pub(super) type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub(super) type Failure = Box<dyn std::error::Error>;
+/// Where a panel is drawn.
+pub type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// What drawing may fail with.
+pub type Failure = Box<dyn std::error::Error>;
 
 /// A point of a curve and what is written beside it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Labelled {
+pub struct Labelled {
+    /// Abscissa and value, both above zero.
     pub at: (f64, f64),
+    /// What is written beside it.
     pub label: Option<String>,
 }
 
 /// What stands around a panel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Captions<'a> {
+pub struct Captions<'a> {
+    /// What the panel shows.
     pub title: &'a str,
+    /// Quantity and unit of the horizontal axis.
     pub x: &'a str,
+    /// The same of the vertical one.
     pub y: &'a str,
 }
 
 /// Names of the curves in their colours, three in a line.
-pub(super) fn legend(area: &Drawing<'_>, title: &str, names: &[&str]) -> Result<(), Failure> {
+pub fn legend(area: &Drawing<'_>, title: &str, names: &[&str]) -> Result<(), Failure> {
     area.draw(&Text::new(title.to_owned(), (16, 10), ("sans-serif", 18)))?;
     const COLUMNS: i32 = 3;
     let width = area.dim_in_pixel().0 as i32;
@@ -38,7 +45,7 @@ pub(super) fn legend(area: &Drawing<'_>, title: &str, names: &[&str]) -> Result<
 }
 
 /// Curves through their points, one colour each, over whole decades.
-pub(super) fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>]) -> Result<(), Failure> {
+pub fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>]) -> Result<(), Failure> {
     let flat = || all.iter().flatten();
     if flat().next().is_none() {
         let text = format!("{}: no point", words.title);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
-use super::charts::{COLOURS, Curve, colour_of};
+use super::curves::{COLOURS, Curve, colour_of};
 
 /// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every curve.
 const PLACES: usize = 6000;
@@ -14,7 +14,7 @@ const DIGITS: [usize; 2] = [6, 9];
 /// How points are to be joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Kind {
+pub enum Kind {
     /// Lines over an abscissa that all curves share.
     Lines,
     /// A stick from zero to each value.
@@ -27,7 +27,7 @@ pub(super) enum Kind {
 
 /// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates; of dots abscissa and ordinate in turn.
 #[derive(Debug, Serialize)]
-pub(super) struct Plot<'a> {
+pub struct Plot<'a> {
     kind: Kind,
     title: &'a str,
     x: &'a str,
@@ -41,7 +41,7 @@ pub(super) struct Plot<'a> {
 impl<'a> Plot<'a> {
     /// Curves over one pair of axes; the value axis begins at zero if `zero`. A single curve that goes to and fro along the abscissa is
     /// a path.
-    pub(super) fn new(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve], zero: bool) -> Self {
+    pub fn new(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve], zero: bool) -> Self {
         let ascending: Option<Vec<Vec<(f64, f64)>>> = curves.iter().map(|c| ascending(&c.points)).collect();
         let (kind, columns) = match ascending {
             Some(curves) => (Kind::Lines, thinned(shared(&curves))),
@@ -51,7 +51,7 @@ impl<'a> Plot<'a> {
     }
 
     /// One curve of sticks.
-    pub(super) fn sticks(title: &'a str, x: &'a str, y: &'a str, curve: &'a Curve) -> Self {
+    pub fn sticks(title: &'a str, x: &'a str, y: &'a str, curve: &'a Curve) -> Self {
         // Of many lines side by side the highest one.
         let stretches = curve.points.chunks(curve.points.len().div_ceil(PLACES).max(1));
         let highest = stretches.filter_map(|part| part.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)));
@@ -60,7 +60,7 @@ impl<'a> Plot<'a> {
     }
 
     /// A dot for each point.
-    pub(super) fn dots(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
+    pub fn dots(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
         let columns = curves.iter().flat_map(|curve| path(std::slice::from_ref(curve))).collect();
         Self::of(Kind::Dots, [title, x, y], curves, false, columns)
     }
@@ -75,13 +75,13 @@ impl<'a> Plot<'a> {
 }
 
 /// A colour of the palette as the page writes it.
-pub(super) fn colour(k: usize) -> String {
+pub fn colour(k: usize) -> String {
     let plotters::style::RGBColor(r, g, b) = COLOURS[k % COLOURS.len()];
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// JSON for the script, to be put into a page as it is: nothing in it can end the element that holds it.
-pub(super) fn embedded(class: &str, data: &impl Serialize) -> String {
+pub fn embedded(class: &str, data: &impl Serialize) -> String {
     // Numbers, and texts of this program: JSON refuses none of them.
     let json = serde_json::to_string(data).unwrap_or_default().replace('<', "\\u003c");
     format!("<script type=\"application/json\" class=\"{class}\">{json}</script>")
@@ -89,7 +89,7 @@ pub(super) fn embedded(class: &str, data: &impl Serialize) -> String {
 
 /// Numbers with so many digits; `null` for what is none.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Numbers(pub Vec<f64>, pub usize);
+pub struct Numbers(pub Vec<f64>, pub usize);
 
 impl Serialize for Numbers {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,15 +1,18 @@
 //! `history.csv`: one row a position.
 
-use std::{f64::consts::PI, fmt::Write};
+use std::f64::consts::PI;
 
 use ltca::StaticHistory;
 
-use super::{
-    pairs,
-    pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values},
-    root_stress::{MAX_PRINCIPAL, Measure, VON_MISES, root_stress_columns, root_stress_row},
+use scene::Scene;
+
+use crate::{
+    csv::push_row,
+    results::{
+        MAX_PRINCIPAL, Measure, PLACE_COLUMNS, VON_MISES, base_radius_mm, pairs, place_values, root_stress_columns,
+        root_stress_row,
+    },
 };
-use crate::scene::Scene;
 
 const LEADING: &[&str] = &[
     "time_s",
@@ -97,7 +100,7 @@ pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
 }
 
 /// Names of the columns for the pairs with these numbers.
-pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
+pub fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
     let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
     for gear in GEARS {
         names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
@@ -117,27 +120,4 @@ pub(crate) fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
         }
     }
     names
-}
-
-/// One line of numbers with commas between them.
-pub(crate) fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
-    for (k, value) in row.into_iter().enumerate() {
-        if k > 0 {
-            csv.push(',');
-        }
-        push_number(csv, value);
-    }
-    csv.push('\n');
-}
-
-/// A text as one field of a file with commas: in quotes where it has to be.
-pub(crate) fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
-/// The shortest text that reads back to the same number.
-pub(super) fn push_number(text: &mut String, value: f64) {
-    let plain = value == 0.0 || !value.is_finite() || (1e-4..1e12).contains(&value.abs());
-    // Writing to a String cannot fail.
-    let _ = if plain { write!(text, "{value}") } else { write!(text, "{value:e}") };
 }

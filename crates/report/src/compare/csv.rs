@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::{compare_table::letter, history::push_number};
-use crate::compare::{NumberRow, Overlay, ResultFolder};
+use super::{NumberRow, Overlay, ResultFolder, table::letter};
+use crate::csv::push_number;
 
 /// Numbers of all runs: key, value of each run, difference and per cent of each but the first. A field without a value is empty.
 pub fn write_compare_csv(runs: &[ResultFolder], rows: &[NumberRow]) -> String {

@@ -1,7 +1,7 @@
 //! Columns that runs share, laid over each other.
 
 use super::ResultFolder;
-use crate::motion::Columns;
+use crate::Columns;
 
 /// What curves are drawn over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{error::CommandError, motion::Columns, output::SUMMARY_SCHEMA};
+use crate::{Columns, ReportError, SUMMARY_SCHEMA};
 
 /// Files of rows that can be laid over each other, in the order in which they are looked for.
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
@@ -24,8 +24,8 @@ impl ResultFolder {
     /// Reads `summary.json`, and the file of rows if there is one.
     ///
     /// # Errors
-    /// Exit status 2 when the folder is no result of this program, or of a version with other summaries.
-    pub fn read(path: &Path) -> Result<Self, CommandError> {
+    /// [`ReportError::NoResult`] when the folder is no result of this program, or of a version with other summaries.
+    pub fn read(path: &Path) -> Result<Self, ReportError> {
         let summary = summary(path)?;
         let mut parts = Vec::new();
         for name in ROWS {
@@ -69,15 +69,16 @@ impl ResultFolder {
     }
 }
 
-fn damaged(file: &Path, what: &str) -> CommandError {
-    CommandError::input(format_args!("{}: {what}", file.display()), Some("run the scene again into this folder".into()))
+fn damaged(file: &Path, what: &str) -> ReportError {
+    ReportError::NoResult { file: file.to_owned(), what: what.to_owned(), hint: "run the scene again into this folder" }
 }
 
 /// The summary of a result folder.
-pub(crate) fn summary(folder: &Path) -> Result<Value, CommandError> {
-    let refuse = |what: String, hint: &str| {
-        Err(CommandError::input(format_args!("{}: {what}", folder.display()), Some(hint.to_owned())))
-    };
+///
+/// # Errors
+/// [`ReportError::NoResult`] when it has none that this version reads.
+pub fn summary(folder: &Path) -> Result<Value, ReportError> {
+    let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
     const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
     if !folder.is_dir() {
         return refuse(if folder.exists() { "is no folder" } else { "there is no such folder" }.into(), MAKE_ONE);

@@ -2,11 +2,15 @@
 
 use minijinja::context;
 
-use super::charts::{Curve, line_chart, line_picture};
-use super::compare_table::{letter, number, per_cent};
-use super::page;
-use crate::compare::{NumberRow, Overlay, ResultFolder, WordRow};
-use crate::error::CommandError;
+use super::{
+    NumberRow, Overlay, ResultFolder, Trace, WordRow,
+    table::{letter, number, per_cent},
+};
+use crate::{
+    ReportError,
+    charts::{Curve, line_chart, line_picture},
+    page,
+};
 
 /// A chart of one quantity.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +26,7 @@ pub struct CompareChart {
 /// A chart of each quantity. A quantity without a finite value has none.
 pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
     let chart = |overlay: &Overlay| {
-        let curve = |t: &crate::compare::Trace| Curve { label: t.label.clone(), points: t.points.clone() };
+        let curve = |t: &Trace| Curve { label: t.label.clone(), points: t.points.clone() };
         let curves: Vec<Curve> = overlay.traces.iter().map(curve).collect();
         let name = overlay.name.clone();
         let figure = line_chart(&name, overlay.over, &name, &curves, false)?;
@@ -35,13 +39,13 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
 /// The page.
 ///
 /// # Errors
-/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
+/// If the template cannot be filled; that would be a fault of this program.
 pub fn write_compare_report(
     runs: &[ResultFolder],
     numbers: &[NumberRow],
     inputs: &[WordRow],
     charts: &[CompareChart],
-) -> Result<String, CommandError> {
+) -> Result<String, ReportError> {
     let name = |run: &ResultFolder| run.summary()["name"].as_str().unwrap_or_default().to_owned();
     let model =
         |run: &ResultFolder| run.summary()["inputs"]["analysis"]["model"].as_str().unwrap_or_default().to_owned();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::compare::{Difference, NumberRow, ResultFolder, WordRow};
+use super::{Difference, NumberRow, ResultFolder, WordRow};
 
 /// Width of a column of numbers.
 const WIDTH: usize = 13;

@@ -1,37 +1,39 @@
 //! ParaView files of a run: displacement, contact pressure and stress on both gears, where they stand.
 
-use std::{f64::consts::PI, io::BufWriter};
+use std::f64::consts::PI;
 
 use ltca::{Equilibrium, StaticModel, StaticPosition};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use reduction::ElasticGear;
 
-use crate::{
-    error::CommandError,
-    output::{Encoding, Field, PvdEntry, ResultDirectory, write_pvd, write_vtu},
-    scene::{FieldName, Scene},
-};
+use scene::{FieldName, Scene};
+
+use super::{Encoding, Field, PvdEntry, write_pvd, write_vtu};
+use crate::{ReportError, ResultFiles};
 
 /// Writes the files of the positions that the scene asks for.
-#[derive(Debug)]
-pub(crate) struct FieldWriter<'a> {
+pub struct FieldWriter<'a> {
     scene: &'a Scene,
-    results: &'a ResultDirectory,
+    results: &'a dyn ResultFiles,
     entries: Vec<PvdEntry>,
 }
 
 impl<'a> FieldWriter<'a> {
-    pub(crate) fn new(scene: &'a Scene, results: &'a ResultDirectory) -> Self {
+    /// No position yet.
+    pub fn new(scene: &'a Scene, results: &'a dyn ResultFiles) -> Self {
         Self { scene, results, entries: Vec::new() }
     }
 
     /// The files of one position, if it is due.
-    pub(crate) fn position(
+    ///
+    /// # Errors
+    /// When a field does not come out, or the system refuses.
+    pub fn position(
         &mut self,
         index: usize,
         position: &StaticPosition,
         model: &StaticModel,
-    ) -> Result<(), CommandError> {
+    ) -> Result<(), ReportError> {
         let output = &self.scene.output;
         if !output.vtu || !index.is_multiple_of(output.vtu_every.max(1) as usize) {
             return Ok(());
@@ -40,17 +42,19 @@ impl<'a> FieldWriter<'a> {
         let time_s = (position.pinion_angle - first) / self.scene.pinion_speed().max(f64::MIN_POSITIVE);
         for (part, name) in ["pinion", "wheel"].into_iter().enumerate() {
             let file = format!("{name}_{index:05}.vtu");
-            let path = self.results.path(&file);
-            let cannot = |e: &std::io::Error| CommandError::write(&path, e);
-            let mut out = BufWriter::new(std::fs::File::create(&path).map_err(|e| cannot(&e))?);
-            self.gear(part, position, model, &mut out)?.map_err(|e| cannot(&e))?;
+            let mut out = self.results.create(&file)?;
+            self.gear(part, position, model, &mut out)?
+                .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
             self.entries.push(PvdEntry { time_s, part, file });
         }
         Ok(())
     }
 
     /// The series, when there is one.
-    pub(crate) fn finish(self) -> Result<(), CommandError> {
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn finish(self) -> Result<(), ReportError> {
         if self.entries.is_empty() {
             return Ok(());
         }
@@ -63,7 +67,7 @@ impl<'a> FieldWriter<'a> {
         position: &StaticPosition,
         model: &StaticModel,
         out: &mut impl std::io::Write,
-    ) -> Result<std::io::Result<()>, CommandError> {
+    ) -> Result<std::io::Result<()>, ReportError> {
         let elastic = &model.gears()[part];
         let gear = elastic.gear();
         let mesh = gear.mesh();
@@ -78,8 +82,7 @@ impl<'a> FieldWriter<'a> {
                 }
                 FieldName::Pressure => values.push(("contact_pressure_mpa", 1, state.pressure.clone())),
                 FieldName::Stress => {
-                    let stress = fem::nodal_stress(mesh, elastic.material(), state.elements, &state.displacement)
-                        .map_err(|e| CommandError::failed(&e, e.hint()))?;
+                    let stress = fem::nodal_stress(mesh, elastic.material(), state.elements, &state.displacement)?;
                     values.push(("von_mises_mpa", 1, stress.iter().map(fem::von_mises).collect()));
                     values.push(("max_principal_mpa", 1, stress.iter().map(fem::max_principal).collect()));
                     values.push(("stress_mpa", 6, stress.iter().flat_map(|s| state.turn_tensor(s)).collect()));
@@ -104,7 +107,7 @@ struct GearState<'a> {
 }
 
 impl<'a> GearState<'a> {
-    fn new(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, CommandError> {
+    fn new(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, ReportError> {
         static PLAIN: std::sync::LazyLock<fem::ElementOptions> = std::sync::LazyLock::new(fem::ElementOptions::default);
         let elastic = &model.gears()[part];
         let count = elastic.gear().mesh().nodes.len();
@@ -126,14 +129,14 @@ impl<'a> GearState<'a> {
         let (displacement, nodes, frame, elements) = match (elastic, model.contact_set().windows()) {
             (ElasticGear::Reduced(r), Some(windows)) => {
                 let window = &windows[part];
-                let field = r.expand(window, boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
+                let field = r.expand(window, boundary)?;
                 (field, r.material_nodes(window), r.frame_angle(window), r.elements())
             }
             (ElasticGear::Full(f), _) => {
-                let field = f.dofs.to_nodes(boundary).map_err(|e| CommandError::failed(&e, e.hint()))?;
+                let field = f.dofs.to_nodes(boundary)?;
                 (field, f.dofs.free_nodes().to_vec(), 0.0, &f.elements)
             }
-            (ElasticGear::Reduced(_), None) => return Err(CommandError::failed("the window is lost", None)),
+            (ElasticGear::Reduced(_), None) => return Err(ReportError::NoWindow),
         };
         // The pose is that of the window's frame; the gear's own frame is turned back by the frame's angle.
         let own = e.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);

@@ -7,8 +7,9 @@ use geometry::{Flank, GearPair, Side};
 use ltca::{StaticHistory, StaticPosition};
 use study::{FlankPattern, StudyError, Touch};
 
-use crate::output::pair_in_cycle;
-use crate::scene::Scene;
+use scene::Scene;
+
+use super::pairs::in_cycle;
 
 /// Steps of the pattern along the profile: less than the half-width of a usual band each.
 const PROFILE_STEPS: usize = 40;
@@ -39,7 +40,7 @@ impl GearPattern {
 }
 
 /// d = 2 r_b sqrt(1 + u^2), mm.
-pub(crate) fn diameter(base_radius: f64, roll: f64) -> f64 {
+pub fn diameter(base_radius: f64, roll: f64) -> f64 {
     2.0 * base_radius * roll.hypot(1.0)
 }
 
@@ -58,20 +59,20 @@ pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Resu
 ///
 /// # Errors
 /// [`StudyError`] when the flank has no height.
-pub(crate) fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
+pub fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
     let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
     FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)
 }
 
 /// A grid with the flank that it lies on.
-pub(crate) fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
+pub fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
     GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid }
 }
 
 /// What a loaded slice of a pair is to the pattern of a gear.
-pub(crate) fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
+pub fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
     Touch {
         z: [slice.z, slice.wheel_z][gear],
         engagement,
@@ -102,7 +103,7 @@ fn stations(width: f64, count: usize) -> Vec<f64> {
 /// The loaded slices of a position on `side` as touches of one tooth of a gear.
 fn touches(position: &StaticPosition, side: Side, gear: usize, pitch: f64) -> impl Iterator<Item = Touch> + '_ {
     position.pairs.iter().flat_map(move |pair| {
-        let engagement = pair_in_cycle(position, pair.pair, pitch) as f64 + position.mesh_phase;
+        let engagement = in_cycle(position, pair.pair, pitch) as f64 + position.mesh_phase;
         pair.slices.iter().filter(move |s| s.side == side).map(move |s| touch(s, gear, engagement))
     })
 }

@@ -4,11 +4,12 @@ use contact::{Site, SliceResult};
 use ltca::StaticHistory;
 use serde::Serialize;
 
-use crate::{pattern::diameter, scene::Scene};
+use scene::Scene;
+
+use super::pattern::diameter;
 
 /// Columns of a history that say where the largest pressure of a row is.
-pub(crate) const PLACE_COLUMNS: [&str; 3] =
-    ["max_pressure_place", "max_pressure_z_mm", "max_pressure_pinion_diameter_mm"];
+pub const PLACE_COLUMNS: [&str; 3] = ["max_pressure_place", "max_pressure_z_mm", "max_pressure_pinion_diameter_mm"];
 
 /// Place of the largest pressure of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -85,14 +86,14 @@ fn words(site: Site) -> &'static str {
 }
 
 /// Values of [`PLACE_COLUMNS`] for the loaded slices of a row: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel; 0 and `NaN` without any.
-pub(crate) fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
+pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
     let Some(s) = SliceResult::hardest(slices) else { return [0.0, f64::NAN, f64::NAN] };
     let code = Site::ALL.iter().position(|site| *site == s.site).map_or(0, |i| i + 1);
     [code as f64, s.z, diameter(base_radius_mm, s.roll[0])]
 }
 
 /// Base radius of pinion (0) or wheel (1), mm.
-pub(crate) fn base_radius_mm(scene: &Scene, gear: usize) -> f64 {
+pub fn base_radius_mm(scene: &Scene, gear: usize) -> f64 {
     let gear = scene.gears()[gear];
     let cos = gear.helix_angle().cos();
     let transverse = (scene.pair.normal_pressure_angle().tan() / cos).atan();

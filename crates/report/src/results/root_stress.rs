@@ -40,18 +40,21 @@ pub struct Place {
 
 /// A measure of stress in a fillet; the sign says which end of it is the worst.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Measure {
+pub struct Measure {
     /// As in column names.
     pub name: &'static str,
     sign: f64,
     peak: fn(&FilletStress) -> &StressPeak,
 }
 
-pub(super) const MAX_PRINCIPAL: Measure = Measure { name: "max_principal", sign: 1.0, peak: |f| &f.max_principal };
-pub(super) const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, peak: |f| &f.min_principal };
-pub(super) const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
+/// Largest first principal stress, tension.
+pub const MAX_PRINCIPAL: Measure = Measure { name: "max_principal", sign: 1.0, peak: |f| &f.max_principal };
+/// Least third principal stress, compression.
+pub const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, peak: |f| &f.min_principal };
+/// Largest von Mises stress.
+pub const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
 /// In the order of the columns.
-pub(super) const MEASURES: [Measure; 3] = [MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES];
+pub const MEASURES: [Measure; 3] = [MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES];
 
 impl Measure {
     /// The worst of some fillets.
@@ -61,7 +64,7 @@ impl Measure {
     }
 
     /// The worst of some fillets, MPa; of one tooth when it is given. NaN where there is none.
-    pub(super) fn stress(&self, fillets: &[FilletStress], tooth: Option<u32>) -> f64 {
+    pub fn stress(&self, fillets: &[FilletStress], tooth: Option<u32>) -> f64 {
         let fillets = fillets.iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
         self.worst(fillets).map_or(f64::NAN, |f| (self.peak)(f).stress)
     }
@@ -87,13 +90,13 @@ impl Measure {
 }
 
 /// Names of a gear's columns of root stress: the worst of the whole window, and how far the largest tension may be off.
-pub(crate) fn root_stress_columns(gear: &str) -> [String; 4] {
+pub fn root_stress_columns(gear: &str) -> [String; 4] {
     let [tension, compression, von_mises] = MEASURES.map(|m| format!("{gear}_root_stress_{}_mpa", m.name));
     [tension, compression, von_mises, format!("{gear}_root_stress_estimated_error_percent")]
 }
 
 /// The values of these columns: MPa, and per cent of the largest tension.
-pub(crate) fn root_stress_row(fillets: &[FilletStress]) -> [f64; 4] {
+pub fn root_stress_row(fillets: &[FilletStress]) -> [f64; 4] {
     let [tension, compression, von_mises] = MEASURES.map(|m| m.stress(fillets, None));
     let error = MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error());
     [tension, compression, von_mises, error]
@@ -102,7 +105,7 @@ pub(crate) fn root_stress_row(fillets: &[FilletStress]) -> [f64; 4] {
 /// What a user should hear of root stresses whose mesh is too coarse for them.
 ///
 /// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
-pub(crate) fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = String> {
+pub fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = String> {
     ["pinion", "wheel"].into_iter().zip(largest).filter(|(_, (_, error))| *error > DOUBTFUL_PERCENT).map(
         |(gear, (stress, error))| {
             format!(
@@ -117,7 +120,7 @@ pub(crate) fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<It
 const DOUBTFUL_PERCENT: f64 = 3.0;
 
 /// Largest root stresses of a run that computed them.
-pub(crate) fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
+pub fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
     let gear = |i| {
         Some(GearRootStress {
             max_principal: MAX_PRINCIPAL.place(history, i)?,
@@ -131,7 +134,7 @@ pub(crate) fn root_stress_headline(history: &StaticHistory) -> Option<RootStress
 
 impl RootStressHeadline {
     /// Largest tension (MPa) of pinion and wheel and its estimated error (%).
-    pub(crate) fn largest_tensions(&self) -> [(f64, f64); 2] {
+    pub fn largest_tensions(&self) -> [(f64, f64); 2] {
         [self.pinion, self.wheel].map(|g| (g.max_principal.stress_mpa, g.max_principal.estimated_error_percent))
     }
 }

@@ -12,7 +12,8 @@ use super::{
     piece::Piece,
     record::{Recorded, RecordedGear, ViewRecorder},
 };
-use crate::{error::CommandError, scene::Scene};
+use crate::ReportError;
+use scene::Scene;
 
 /// Bytes of all fields in a page at most, before they become text.
 const BYTES: usize = 2_400_000;
@@ -26,22 +27,15 @@ const CHEAP_AGAIN: usize = 300_000;
 
 impl ViewRecorder {
     /// [`ViewRecorder::view`]; a picture that does not come out is a warning.
-    pub(crate) fn view_or_warning(
-        self,
-        scene: &Scene,
-        model: &StaticModel,
-        warnings: &mut Vec<String>,
-    ) -> Option<View> {
-        self.view(scene, model)
-            .map_err(|e| warnings.push(format!("the report has no fields in space: {}", e.message)))
-            .ok()
+    pub fn view_or_warning(self, scene: &Scene, model: &StaticModel, warnings: &mut Vec<String>) -> Option<View> {
+        self.view(scene, model).map_err(|e| warnings.push(format!("the report has no fields in space: {}", e))).ok()
     }
 
     /// What was remembered, with fields where they cost little beside what was solved.
     ///
     /// # Errors
-    /// Exit status 1 when a field does not come out.
-    pub(crate) fn view(mut self, scene: &Scene, model: &StaticModel) -> Result<View, CommandError> {
+    /// When a field does not come out.
+    pub fn view(mut self, scene: &Scene, model: &StaticModel) -> Result<View, ReportError> {
         let shown = model.gears().iter().all(is_cheap);
         if model.gears().iter().any(is_general) {
             thin(&mut self.positions, FEW);
@@ -106,7 +100,7 @@ fn piece(positions: &[Recorded], model: &StaticModel, i: usize) -> Option<Piece>
     Piece::new(gear, exact, &teeth(positions, i, gear.tooth_count()))
 }
 
-fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, CommandError> {
+fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, ReportError> {
     let gears: Vec<&RecordedGear> = positions.iter().map(|p| &p.gears[i]).collect();
     let solved = all_fields(piece, &gears, gear)?;
     let pressures: Vec<Vec<f64>> = positions.iter().filter_map(|p| pressure(piece, &p.gears[i])).collect();
@@ -125,7 +119,7 @@ fn all_fields(
     piece: &Piece,
     positions: &[&RecordedGear],
     gear: &ElasticGear,
-) -> Result<Vec<[Vec<f64>; 2]>, CommandError> {
+) -> Result<Vec<[Vec<f64>; 2]>, ReportError> {
     let mut moved = Vec::with_capacity(positions.len());
     // Neighbours in one window go through its factor together.
     for group in positions.chunk_by(|a, b| shared_window(a, b)).flat_map(|g| g.chunks(AT_A_TIME)) {
@@ -145,19 +139,19 @@ fn displacements(
     piece: &Piece,
     group: &[&RecordedGear],
     gear: &ElasticGear,
-) -> Result<Vec<Vec<[f64; 3]>>, CommandError> {
+) -> Result<Vec<Vec<[f64; 3]>>, ReportError> {
     let Some(first) = group.first() else { return Ok(Vec::new()) };
     match (gear, &first.window) {
         _ if first.displacements.is_empty() => Ok(vec![vec![[0.0; 3]; piece.nodes.len()]; group.len()]),
         (ElasticGear::Reduced(r), Some(window)) => {
             let own = Window { reduced: window.reduced.clone(), shift: 0 };
             let u: Vec<&[f64]> = group.iter().map(|at| &at.displacements[..]).collect();
-            r.expand_at(&own, &u, &piece.nodes).map_err(|e| CommandError::failed(&e, e.hint()))
+            Ok(r.expand_at(&own, &u, &piece.nodes)?)
         }
-        (ElasticGear::Reduced(_), None) => Err(CommandError::failed("the window is lost", None)),
+        (ElasticGear::Reduced(_), None) => Err(ReportError::NoWindow),
         (ElasticGear::Full(f), _) => {
-            let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, CommandError> {
-                let all = f.dofs.to_nodes(&at.displacements).map_err(|e| CommandError::failed(&e, e.hint()))?;
+            let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, ReportError> {
+                let all = f.dofs.to_nodes(&at.displacements)?;
                 Ok(piece.nodes.iter().map(|&n| all[n as usize]).collect())
             };
             group.iter().map(of).collect()
@@ -165,13 +159,12 @@ fn displacements(
     }
 }
 
-fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], CommandError> {
+fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], ReportError> {
     let elements = match gear {
         ElasticGear::Reduced(r) => r.elements(),
         ElasticGear::Full(f) => &f.elements,
     };
-    let stress = fem::nodal_stress(&piece.mesh, gear.material(), elements, moved)
-        .map_err(|e| CommandError::failed(&e, e.hint()))?;
+    let stress = fem::nodal_stress(&piece.mesh, gear.material(), elements, moved)?;
     let displacement = piece.points.iter().flat_map(|&n| moved[n as usize].map(|u| 1e3 * u)).collect();
     let root = piece.points.iter().zip(&piece.at_root);
     let stress = root.map(|(&n, at_root)| if *at_root { fem::max_principal(&stress[n as usize]) } else { f64::NAN });

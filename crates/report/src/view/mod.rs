@@ -19,12 +19,12 @@ use std::f64::consts::PI;
 use geometry::{Gear, GearPair};
 use serde::Serialize;
 
-use crate::output::Numbers;
-use crate::scene::Scene;
+use crate::charts::Numbers;
 use packed::{Packed, triangles};
+use scene::Scene;
 use sector::Surface;
 
-pub(crate) use record::ViewRecorder;
+pub use record::ViewRecorder;
 
 /// Positions of a mesh cycle at most.
 const FRAMES: usize = 32;
@@ -109,7 +109,7 @@ struct Band {
 
 impl View {
     /// The gears alone, from exact geometry, through one mesh cycle.
-    pub(crate) fn of_geometry(scene: &Scene, pair: &GearPair) -> Self {
+    pub fn of_geometry(scene: &Scene, pair: &GearPair) -> Self {
         let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
         let frames = (0..FRAMES).map(|i| {
             let phase = i as f64 / FRAMES as f64;
@@ -125,7 +125,7 @@ impl View {
 
 impl View {
     /// Of a motion: what it is drawn from is not the motion itself.
-    pub(crate) fn quasi_static(mut self) -> Self {
+    pub fn quasi_static(mut self) -> Self {
         self.note =
             format!("The quasi-static mesh cycle under the mean load, which the motion goes about. {}", self.note);
         self

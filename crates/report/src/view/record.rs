@@ -6,11 +6,12 @@ use ltca::{Equilibrium, StaticModel, StaticPosition};
 use reduction::{ElasticGear, Window};
 
 use super::{Band, DIGITS, FRAMES};
-use crate::{output::Numbers, scene::Scene};
+use crate::charts::Numbers;
+use scene::Scene;
 
 /// Remembers some positions of the first mesh cycle.
 #[derive(Debug)]
-pub(crate) struct ViewRecorder {
+pub struct ViewRecorder {
     per_cycle: usize,
     every: usize,
     pub(super) positions: Vec<Recorded>,
@@ -40,13 +41,14 @@ pub(super) struct RecordedGear {
 }
 
 impl ViewRecorder {
-    pub(crate) fn new(scene: &Scene) -> Self {
+    /// Of a scene's first mesh cycle.
+    pub fn new(scene: &Scene) -> Self {
         let per_cycle = scene.analysis.positions_per_cycle as usize;
         Self { per_cycle, every: per_cycle.div_ceil(FRAMES).max(1), positions: Vec::new() }
     }
 
     /// Takes note of a position, the model standing where it was found.
-    pub(crate) fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) {
+    pub fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) {
         if index >= self.per_cycle || !index.is_multiple_of(self.every) {
             return;
         }

@@ -12,28 +12,20 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::ResultDirectory;
-use crate::error::CommandError;
-use crate::scene::Scene;
+use crate::ReportError;
 
 const ROWS: &str = "history.csv";
 const FILE: &str = "history.parquet";
 /// Rows of a group: as many as are held in memory at a time.
 const GROUP: usize = 65_536;
 
-/// Writes `history.parquet` beside `history.csv` where the scene asks for it: the same columns in the same order, each of doubles, bit
+/// Writes `history.parquet` beside `history.csv` of a folder: the same columns in the same order, each of doubles, bit
 /// for bit. Rows are taken from the file, so that a run of any kind and length has them.
 ///
 /// # Errors
-/// Exit status 1 when a file cannot be read or written.
-pub(crate) fn write_columnar(scene: &Scene, results: &ResultDirectory) -> Result<(), CommandError> {
-    if !scene.output.parquet {
-        return Ok(());
-    }
-    convert(&results.path(ROWS), &results.path(FILE)).map_err(|e| {
-        let hint = Some("is the disk full, or the folder write-protected?".into());
-        CommandError::failed(format_args!("{FILE}: {e}"), hint)
-    })
+/// When a file cannot be read or written.
+pub fn write_parquet(folder: &Path) -> Result<(), ReportError> {
+    convert(&folder.join(ROWS), &folder.join(FILE)).map_err(|cause| ReportError::Parquet { file: FILE, cause })
 }
 
 fn convert(from: &Path, to: &Path) -> Result<(), ParquetError> {

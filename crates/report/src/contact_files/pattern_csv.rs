@@ -1,7 +1,6 @@
 //! `contact_pattern_pinion.csv`, `contact_pattern_wheel.csv`: one row a place on the flank.
 
-use super::history::push_row;
-use crate::pattern::GearPattern;
+use crate::{csv::push_row, results::GearPattern};
 
 /// A gear's pattern as CSV, station by station in z, from root to tip.
 pub fn write_contact_pattern(pattern: &GearPattern) -> String {

@@ -5,8 +5,12 @@ use std::f64::consts::PI;
 use geometry::GearPair;
 use ltca::StaticHistory;
 
-use super::{history::push_row, pairs};
-use crate::{pattern::diameter, scene::Scene};
+use scene::Scene;
+
+use crate::{
+    csv::push_row,
+    results::{diameter, pairs},
+};
 
 const COLUMNS: &str = "pinion_angle_deg,mesh_phase,pair,pinion_tooth,wheel_tooth,coast_flank,z_mm,\
                        pinion_roll_angle_deg,pinion_diameter_mm,wheel_roll_angle_deg,wheel_diameter_mm,\
