@@ -86,10 +86,10 @@ impl Columns {
         found.into_iter().map(|(_, n)| n).collect()
     }
 
-    /// Mean of a column.
+    /// Mean of a column; NaN where there is none of that name, or no row.
     pub fn mean(&self, name: &str) -> f64 {
         let all = self.get(name);
-        all.iter().sum::<f64>() / all.len().max(1) as f64
+        all.iter().sum::<f64>() / all.len() as f64
     }
 
     /// Smallest and largest of a column.

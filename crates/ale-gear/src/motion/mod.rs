@@ -60,7 +60,8 @@ pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque
 pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use report::Columns;
-pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
+pub(crate) use report::columns::GEARS;
+pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};

@@ -54,8 +54,5 @@ pub(crate) use ::report::{
     columns::history_columns,
     contact_files::write_patterns,
     csv::{push_row, quoted},
-    results::{
-        PLACE_COLUMNS, base_radius_mm, place_values, root_stress_columns, root_stress_headline, root_stress_row,
-        root_stress_warnings,
-    },
+    results::{root_stress_headline, root_stress_warnings},
 };

@@ -7,8 +7,8 @@ mod pressure_place;
 mod root_stress;
 
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
-pub use pressure_place::{PLACE_COLUMNS, PressurePlace, base_radius_mm, place_values};
+pub use pressure_place::{PressurePlace, base_radius_mm, place_values};
 pub use root_stress::{
-    GearRootStress, MAX_PRINCIPAL, Measure, Place, RootStressHeadline, VON_MISES, root_stress_columns,
-    root_stress_headline, root_stress_row, root_stress_warnings,
+    GearRootStress, MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, Place, RootStressHeadline, VON_MISES, error_percent,
+    root_stress_headline, root_stress_warnings,
 };

@@ -8,9 +8,6 @@ use scene::Scene;
 
 use super::pattern::diameter;
 
-/// Columns of a history that say where the largest pressure of a row is.
-pub const PLACE_COLUMNS: [&str; 3] = ["max_pressure_place", "max_pressure_z_mm", "max_pressure_pinion_diameter_mm"];
-
 /// Place of the largest pressure of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
@@ -85,7 +82,7 @@ fn words(site: Site) -> &'static str {
     }
 }
 
-/// Values of [`PLACE_COLUMNS`] for the loaded slices of a row: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel; 0 and `NaN` without any.
+/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row. Place: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel; 0 and `NaN` without any.
 pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
     let Some(s) = SliceResult::hardest(slices) else { return [0.0, f64::NAN, f64::NAN] };
     let code = Site::ALL.iter().position(|site| *site == s.site).map_or(0, |i| i + 1);

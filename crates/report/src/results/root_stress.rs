@@ -53,8 +53,6 @@ pub const MAX_PRINCIPAL: Measure = Measure { name: "max_principal", sign: 1.0, p
 pub const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, peak: |f| &f.min_principal };
 /// Largest von Mises stress.
 pub const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
-/// In the order of the columns.
-pub const MEASURES: [Measure; 3] = [MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES];
 
 impl Measure {
     /// The worst of some fillets.
@@ -89,17 +87,9 @@ impl Measure {
     }
 }
 
-/// Names of a gear's columns of root stress: the worst of the whole window, and how far the largest tension may be off.
-pub fn root_stress_columns(gear: &str) -> [String; 4] {
-    let [tension, compression, von_mises] = MEASURES.map(|m| format!("{gear}_root_stress_{}_mpa", m.name));
-    [tension, compression, von_mises, format!("{gear}_root_stress_estimated_error_percent")]
-}
-
-/// The values of these columns: MPa, and per cent of the largest tension.
-pub fn root_stress_row(fillets: &[FilletStress]) -> [f64; 4] {
-    let [tension, compression, von_mises] = MEASURES.map(|m| m.stress(fillets, None));
-    let error = MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error());
-    [tension, compression, von_mises, error]
+/// Estimated error of the largest tension of some fillets, %; NaN where there is none.
+pub fn error_percent(fillets: &[FilletStress]) -> f64 {
+    MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error())
 }
 
 /// What a user should hear of root stresses whose mesh is too coarse for them.
