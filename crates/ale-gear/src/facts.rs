@@ -3,12 +3,11 @@
 use ltca::StaticHistory;
 use serde::Serialize;
 
+use report::view::View;
+
 pub use analysis::facts::*;
 
-use crate::{
-    phases::{Phase, Phases},
-    view::View,
-};
+use crate::phases::{Phase, Phases};
 
 /// A solved scene.
 #[derive(Debug, Clone)]

@@ -9,8 +9,6 @@
 //! | `ladder` | cheaper models of the same pair, in time |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
-//! | [`pattern`] | contact pattern on the flanks |
-//! | [`view`] | both gears in space, for the report |
 //! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
 //! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | what must hold of a result before its numbers count |
@@ -18,7 +16,6 @@
 //! | [`starter`] | the scene that a user begins with |
 //! | [`rexs`] | gear data from REXS files |
 //! | [`chart`] | accuracy against cost of every model |
-//! | [`compare`] | result folders side by side |
 //! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
 
@@ -26,15 +23,12 @@ pub mod cache;
 pub mod certificate;
 pub mod chart;
 pub mod command;
-pub mod compare;
 pub mod error;
 pub mod facts;
-mod fields;
 pub mod memory;
 mod motion;
 pub mod output;
 pub mod parameter_study;
-pub mod pattern;
 pub mod phases;
 pub mod run;
 pub use ::scene;
@@ -46,7 +40,6 @@ mod partial;
 pub mod reduce;
 pub mod rexs;
 mod room;
-pub mod view;
 mod work_folder;
 
 pub(crate) use analysis::{elastic_gears, gears, iso_model};

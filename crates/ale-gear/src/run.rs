@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use analysis::{AnalysisError, SinkResult, StaticAnalysis, StaticResult, StaticSink};
 use ltca::{StaticError, StaticModel, StaticPosition};
+use report::{paraview::FieldWriter, view::ViewRecorder};
 
 pub(crate) use analysis::{
     body_warnings, dof_after, foreseen_s, free_dofs, options, reduced, static_certificate as certificate, time_again,
@@ -14,11 +15,9 @@ use crate::{
     cache::Cache,
     error::CommandError,
     facts::Solved,
-    fields::FieldWriter,
     output::{self, ResultDirectory},
     phases::Phases,
     scene::Scene,
-    view::ViewRecorder,
 };
 
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go there.
@@ -94,11 +93,11 @@ impl StaticSink for FileSink<'_> {
     fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult {
         self.first_result_s.get_or_insert_with(|| self.start.elapsed().as_secs_f64());
         self.recorder.position(index, position, model);
-        Ok(self.fields.position(index, position, model)?)
+        Ok(self.fields.position(index, position, model).map_err(CommandError::from)?)
     }
 
     fn finish(&mut self) -> SinkResult {
-        Ok(self.fields.finish()?)
+        Ok(self.fields.finish().map_err(CommandError::from)?)
     }
 }
 

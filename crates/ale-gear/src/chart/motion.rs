@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use report::columns::motion_history::DTE;
+
 use super::{Density, ladder_scene, plan};
 use crate::{
     cache::Cache,
@@ -117,8 +119,8 @@ fn cheap(scene: &Scene, results: &ResultDirectory) -> Result<MotionPoint, Comman
 }
 
 fn point(rows: &Columns, coordinates: usize, offline_s: f64, cycle_s: f64) -> MotionPoint {
-    let dte = rows.get("dte_um");
-    let mean_um = rows.mean("dte_um");
+    let dte = rows.get(DTE.name);
+    let mean_um = rows.mean(DTE.name);
     let squares: f64 = dte.iter().map(|x| (x - mean_um).powi(2)).sum();
     MotionPoint {
         coordinates,
@@ -126,6 +128,6 @@ fn point(rows: &Columns, coordinates: usize, offline_s: f64, cycle_s: f64) -> Mo
         cycle_s,
         mean_um,
         rms_um: (squares / dte.len().max(1) as f64).sqrt(),
-        peak_to_peak_um: rows.peak_to_peak("dte_um"),
+        peak_to_peak_um: rows.peak_to_peak(DTE.name),
     }
 }

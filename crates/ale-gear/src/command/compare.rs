@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::json;
 
-use crate::{
-    compare::{Axis, ResultFolder, headline_rows, input_rows, overlays},
-    error::CommandError,
-    output::{
-        ResultDirectory, compare_charts, compare_table, write_compare_csv, write_compare_report, write_curves_csv,
-    },
+use report::compare::{
+    Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
+    write_compare_report, write_curves_csv,
 };
+
+use crate::{error::CommandError, output::ResultDirectory};
 
 /// Words of `ale-gear compare`.
 #[derive(Debug, clap::Args)]

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{compare::ResultFolder, error::CommandError, output::report_again};
+use report::compare::ResultFolder;
+
+use crate::{error::CommandError, output::report_again};
 
 /// Words of `ale-gear report`.
 #[derive(Debug, clap::Args)]

@@ -208,7 +208,7 @@ fn write_static(
 
     let picture = phases.run("write", || {
         results.write("history.csv", write_history(scene, &history).as_bytes())?;
-        write_contact(scene, &history, results)
+        Ok::<_, CommandError>(write_contact(scene, &history, results)?)
     })?;
     let cost = Cost::of(phases);
     let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;

@@ -8,7 +8,9 @@ use std::f64::consts::TAU;
 use study::{Campbell, campbell as diagram};
 
 use super::{Model, Recipe, complaint};
-use crate::{error::CommandError, motion::Columns, scene::Driver};
+use report::Columns;
+
+use crate::{error::CommandError, scene::Driver};
 
 /// Name of the file.
 pub(super) const FILE: &str = "campbell.csv";

@@ -5,8 +5,10 @@ use integrate::{Forces, Integrator, Ledger, Mechanism, State, StepControl, StepL
 use lumped::LumpedError;
 
 use super::{model::Model, settle::Returns};
+use report::columns::{ENERGY, EnergyRecord};
+
 use crate::{
-    motion::{Columns, ENERGY, energy_row, scheme},
+    motion::{Columns, scheme},
     scene::{Analysis, MotionScene, Run, Scene},
 };
 
@@ -138,7 +140,8 @@ pub(super) fn run(
     }
     let cycles = cycles(scene, words, mesh_hz);
     let mut history = Columns::named(model.columns());
-    let (mut section, mut energy) = (history.clone(), Columns::named(ENERGY.trim_end().split(',')));
+    let energy_columns = ENERGY.sheet(&(), &[]);
+    let (mut section, mut energy) = (history.clone(), Columns::named(energy_columns.names()));
     for row in 0..cycles * per_cycle {
         let values = model.row(&state);
         if row % per_cycle == 0 {
@@ -146,12 +149,13 @@ pub(super) fn run(
             tick();
         }
         history.push(values);
-        energy.push(energy_row(state.time, &ledger(model, &integrator, &state)));
+        let ledger = ledger(model, &integrator, &state);
+        energy.push(energy_columns.row(&(), &EnergyRecord { time: state.time, ledger }));
         let until = (warm_up * per_cycle + row + 1) as f64 * period / per_cycle as f64;
         advance(model, &mut integrator, &mut state, until)?;
     }
     let ledger = ledger(model, &integrator, &state);
-    energy.push(energy_row(state.time, &ledger));
+    energy.push(energy_columns.row(&(), &EnergyRecord { time: state.time, ledger }));
     // Of a ramp the last speed is judged.
     let judged = match words.ramp {
         Some(ramp) => ((ramp.after_s * mesh_hz).floor() as u64).clamp(1, cycles),

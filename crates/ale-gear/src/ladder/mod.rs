@@ -30,6 +30,8 @@ use std::f64::consts::TAU;
 use ::lumped::LumpedError;
 use study::Window;
 
+use report::columns::motion_history::{COAST_FORCE, NORMAL_FORCE};
+
 use crate::{
     cache::Cache,
     certificate::{Certificate, Written},
@@ -227,7 +229,7 @@ fn certificate(recipe: &Recipe, course: &Course) -> Certificate {
     let mut all = vec![motion::energy_check(ledger.residual(), through, ledger.relative_residual())];
     if !rows.get("least_slice_force_n").is_empty() {
         let [least, _] = rows.extent("least_slice_force_n");
-        let largest = rows.extent("normal_force_n")[1].max(rows.extent("coast_normal_force_n")[1]);
+        let largest = rows.extent(NORMAL_FORCE.name)[1].max(rows.extent(COAST_FORCE.name)[1]);
         all.push(motion::pulling_check(least, largest));
     }
     Certificate::new(all)

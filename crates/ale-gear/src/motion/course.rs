@@ -12,9 +12,10 @@ use super::{
     rows::Rows,
     store::{Checkpoints, Stored},
 };
+use report::results::GearPattern;
+
 use crate::{
     error::CommandError,
-    pattern::GearPattern,
     phases::Phases,
     run::Failure,
     scene::{MotionScene, Run, Scene},

@@ -3,7 +3,9 @@
 use serde::Serialize;
 use study::{Campbell, StudyError, campbell};
 
-use super::{prepare::Prepared, table::Columns};
+use report::Columns;
+
+use super::prepare::Prepared;
 
 /// Name of the file.
 pub(super) const FILE: &str = "campbell.csv";

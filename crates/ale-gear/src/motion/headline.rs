@@ -4,6 +4,17 @@ use dynamics::Drive;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
+use report::{
+    Columns,
+    columns::{At, Column, MotionRows},
+};
+
+use report::columns::motion_history::{
+    BEARING_FORCE_X, BEARING_FORCE_Y, BEARING_FORCE_Z, COAST_FORCE, DTE, FORCE_X, FORCE_Y, FORCE_Z, LINE_LENGTH,
+    MAX_PRESSURE, MESH_PHASE, MOMENT_Y, NORMAL_FORCE, PINION_ANGLE, PINION_SPEED, PRESSURE_DIAMETER, PRESSURE_PLACE,
+    PRESSURE_Z, ROOT_ERROR, ROOT_TENSION, WHEEL_SPEED,
+};
+
 use super::{
     course::Finished,
     elasticity::{ElasticHeadline, Vibration, mesh_range_hz},
@@ -11,11 +22,9 @@ use super::{
     inertia::InertiaHeadline,
     passage::{Passage, PassageHeadline},
     prepare::Prepared,
-    rows::GEARS,
-    table::Columns,
 };
 use crate::{
-    output::{PLACE_COLUMNS, PressurePlace},
+    output::PressurePlace,
     scene::{MotionScene, Run, Scene},
 };
 
@@ -110,7 +119,7 @@ pub(super) fn headline(
     passage: Option<&Passage>,
 ) -> Result<MotionHeadline, StudyError> {
     let cycles = done.course.recorded;
-    let dte = rows.get("dte_um");
+    let dte = rows.get(DTE.name);
     let of_dte = cycle_statistics(dte, cycles as usize)?;
     let ste: Vec<f64> = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e).collect();
     let of_ste = cycle_statistics(&ste, 1)?;
@@ -119,19 +128,20 @@ pub(super) fn headline(
     let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.statics.driven()]);
     let speed_rpm = match &options.drive {
         Drive::Speed(_) | Drive::Balanced(_) if words.ramp.is_none() => scene.operation.speed_rpm,
-        _ => rows.mean(["pinion_speed_rpm", "wheel_speed_rpm"][1 - options.statics.driven()]).abs(),
+        _ => rows.mean([PINION_SPEED, WHEEL_SPEED][1 - options.statics.driven()].name).abs(),
     };
-    let largest = |names: &[&str]| {
+    let largest = |names: &[String]| {
         let columns: Vec<&[f64]> = names.iter().map(|n| rows.get(n)).collect();
         (0..rows.len())
             .map(|i| columns.iter().map(|c| c.get(i).map_or(0.0, |x| x * x)).sum::<f64>().sqrt())
             .fold(0.0, f64::max)
     };
-    let bearing = ["pinion", "wheel"]
-        .map(|g| [format!("{g}_bearing_force_x_n"), format!("{g}_bearing_force_y_n"), format!("{g}_bearing_force_z_n")])
-        .map(|n| largest(&[&n[0], &n[1], &n[2]]));
-    let [min_force, max_force] = rows.extent("normal_force_n");
-    let max_coast_force = rows.extent("coast_normal_force_n")[1];
+    let [pinion, wheel] = [0, 1].map(|gear| move |column: Column<MotionRows>| column.name_at(At { gear, pair: 0 }));
+    let bearing = [0, 1].map(|gear| {
+        largest(&[BEARING_FORCE_X, BEARING_FORCE_Y, BEARING_FORCE_Z].map(|c| c.name_at(At { gear, pair: 0 })))
+    });
+    let [min_force, max_force] = rows.extent(NORMAL_FORCE.name);
+    let max_coast_force = rows.extent(COAST_FORCE.name)[1];
     let static_force = prepared.quasi_static.normal_force;
     let tension = root_tension(scene, rows);
     let ramp = passage.and_then(Passage::headline);
@@ -165,20 +175,20 @@ pub(super) fn headline(
         mean_ste_um: of_ste.mean,
         peak_to_peak_ste_um: of_ste.peak_to_peak,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
-        mean_contact_line_length_mm: rows.mean("contact_line_length_mm"),
-        mean_normal_force_n: rows.mean("normal_force_n"),
+        mean_contact_line_length_mm: rows.mean(LINE_LENGTH.name),
+        mean_normal_force_n: rows.mean(NORMAL_FORCE.name),
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         mean_static_normal_force_n: static_force,
         dynamic_factor: max_force.max(max_coast_force) / static_force,
         max_coast_normal_force_n: max_coast_force,
-        mean_wheel_force_n: ["wheel_force_x_n", "wheel_force_y_n", "wheel_force_z_n"].map(|n| rows.mean(n)),
-        peak_to_peak_wheel_axial_force_n: rows.peak_to_peak("wheel_force_z_n"),
-        mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm"),
-        peak_to_peak_pinion_tilting_moment_nmm: rows.peak_to_peak("pinion_moment_y_nmm"),
-        mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
+        mean_wheel_force_n: [FORCE_X, FORCE_Y, FORCE_Z].map(|c| rows.mean(&wheel(c))),
+        peak_to_peak_wheel_axial_force_n: rows.peak_to_peak(&wheel(FORCE_Z)),
+        mean_pinion_tilting_moment_nmm: rows.mean(&pinion(MOMENT_Y)),
+        peak_to_peak_pinion_tilting_moment_nmm: rows.peak_to_peak(&pinion(MOMENT_Y)),
+        mean_wheel_tilting_moment_nmm: rows.mean(&wheel(MOMENT_Y)),
         max_bearing_force_n: bearing[0].max(bearing[1]),
-        max_pressure_mpa: rows.extent("max_pressure_mpa")[1],
+        max_pressure_mpa: rows.extent(MAX_PRESSURE.name)[1],
         max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
         max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
         max_pressure_at: hardest(rows),
@@ -191,22 +201,23 @@ pub(super) fn headline(
 
 /// Largest root tension of pinion and wheel over the rows (MPa), and its estimated error (%), when they were asked for.
 fn root_tension(scene: &Scene, rows: &Columns) -> Option<[(f64, f64); 2]> {
-    let largest = |gear: &str| {
-        let stress = rows.get(&format!("{gear}_root_stress_max_principal_mpa")).iter();
-        let all = stress.zip(rows.get(&format!("{gear}_root_stress_estimated_error_percent")));
+    let largest = |gear: usize| {
+        let at = At { gear, pair: 0 };
+        let stress = rows.get(&ROOT_TENSION.name_at(at)).iter();
+        let all = stress.zip(rows.get(&ROOT_ERROR.name_at(at)));
         // NaN where coast flanks press.
         let known = all.filter(|(stress, _)| !stress.is_nan()).map(|(stress, error)| (*stress, *error));
         known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
     };
-    scene.output.root_stress.then(|| GEARS.map(largest))
+    scene.output.root_stress.then(|| [0, 1].map(largest))
 }
 
 /// Where the pressure is largest in any row.
 fn hardest(rows: &Columns) -> Option<PressurePlace> {
-    let pressure = rows.get("max_pressure_mpa");
+    let pressure = rows.get(MAX_PRESSURE.name);
     let row = (0..pressure.len()).reduce(|best, i| if pressure[i] > pressure[best] { i } else { best })?;
-    let at = |name: &str| rows.get(name).get(row).copied().unwrap_or(f64::NAN);
-    PressurePlace::of_row(PLACE_COLUMNS.map(at), at("pinion_angle_deg"), at("mesh_phase"))
+    let at = |column: Column<MotionRows>| rows.get(column.name).get(row).copied().unwrap_or(f64::NAN);
+    PressurePlace::of_row([PRESSURE_PLACE, PRESSURE_Z, PRESSURE_DIAMETER].map(at), at(PINION_ANGLE), at(MESH_PHASE))
 }
 
 fn certificate(done: &Finished) -> MotionCertificate {

@@ -39,7 +39,6 @@ mod spectra;
 mod stable;
 mod store;
 mod sweep;
-mod table;
 mod write;
 
 use ale::solve_widening;
@@ -60,11 +59,12 @@ pub(crate) use inertia::InertiaHeadline;
 pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque};
 pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
-pub(crate) use rows::{ENERGY, ENERGY_FILE, GEARS, HISTORY, TURNING, WRENCH, column_names, energy_row};
+pub(crate) use report::Columns;
+pub(crate) use report::columns::GEARS;
+pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use stable::{Steps, refuse_unstable};
 pub(crate) use sweep::{SweepHeadline, SweepRow};
-pub(crate) use table::Columns;
 
 use crate::{
     cache::Cache,
@@ -227,7 +227,7 @@ pub(crate) fn rows_of(
         let prepared = prepare(&inputs, phases, window)?;
         doubts::unstable(scene, &prepared)?;
         let done = course::run(scene, words, &prepared, phases, places)?;
-        let rows = Columns::read(&folder.join(rows::HISTORY))?;
+        let rows = Columns::read(&folder.join(rows::HISTORY)).map_err(CommandError::from)?;
         let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
         Ok::<_, Failure>(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
     };
@@ -236,7 +236,7 @@ pub(crate) fn rows_of(
         Failure::Command(_) => None,
     };
     solve_widening(None, solve, wider).map_err(|e| e.complaint(scene))?;
-    Columns::read(&folder.join(rows::HISTORY))
+    Ok(Columns::read(&folder.join(rows::HISTORY))?)
 }
 
 /// One width of the window.

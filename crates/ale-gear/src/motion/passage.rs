@@ -4,7 +4,9 @@ use dynamics::Speed;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics};
 
-use super::{options::RPM, spectra::WaterfallLine, table::Columns};
+use report::Columns;
+
+use super::{options::RPM, spectra::WaterfallLine};
 
 /// One row a mesh cycle.
 pub(crate) const CYCLES: &str = "cycles.csv";

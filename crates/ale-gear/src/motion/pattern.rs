@@ -4,10 +4,9 @@ use dynamics::Instant;
 use geometry::GearPair;
 use study::{FlankPattern, StudyError, Touch};
 
-use crate::{
-    pattern::{GearPattern, on_flank, touch, untouched},
-    scene::{MotionScene, Scene},
-};
+use report::results::{GearPattern, on_flank, touch, untouched};
+
+use crate::scene::{MotionScene, Scene};
 
 /// Touches of the mesh cycle under way, and the grids of all cycles before it.
 #[derive(Debug, Clone)]

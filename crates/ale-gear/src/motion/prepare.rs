@@ -11,6 +11,8 @@ use super::{
     elasticity::Elasticity,
     options::{motion_options, scheme},
 };
+use report::view::{View, ViewRecorder};
+
 use crate::{
     cache::Cache,
     elastic_gears::{ElasticGears, elastic_gears},
@@ -22,7 +24,6 @@ use crate::{
     resolution::resolution,
     run::{self, Failure},
     scene::{Flanks, MotionScene, Scene},
-    view::{View, ViewRecorder},
 };
 
 /// Gears, geometry and window of a run.

@@ -2,8 +2,10 @@
 
 use study::{StudyError, Window, spectrum as record_spectrum};
 
-use super::table::Columns;
+use report::columns::motion_history::{DTE, PINION_SPEED, TIME};
+
 use crate::output::push_row;
+use report::Columns;
 
 /// Quantities that have a spectrum.
 pub(crate) const SPECTRA: [&str; 5] =
@@ -81,7 +83,7 @@ pub(crate) fn waterfall(
     stretch: usize,
     pinion_teeth: u32,
 ) -> Result<Vec<WaterfallLine>, StudyError> {
-    let (dte, time, speed) = (rows.get("dte_um"), rows.get("time_s"), rows.get("pinion_speed_rpm"));
+    let (dte, time, speed) = (rows.get(DTE.name), rows.get(TIME.name), rows.get(PINION_SPEED.name));
     let length = per_cycle * stretch.max(1).min((dte.len() / per_cycle).max(1));
     let mut lines = Vec::new();
     let mut from = 0;

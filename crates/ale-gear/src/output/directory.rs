@@ -1,7 +1,10 @@
 //! A result folder that is there as a whole or not at all.
 
 use std::fs;
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+use report::{ReportError, ResultFiles};
 
 use crate::{
     error::CommandError,
@@ -67,11 +70,7 @@ impl ResultDirectory {
     /// # Errors
     /// Exit status 1 when the system refuses.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), CommandError> {
-        debug_assert!(
-            is_ours(name),
-            "{name} is not in the list of result files: a second run would refuse its own folder"
-        );
-        fs::write(self.path(name), content).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
+        Ok(ResultFiles::write(self, name, content)?)
     }
 
     /// Folder of the files while the result is being written.
@@ -98,6 +97,24 @@ impl ResultDirectory {
     /// Exit status 1 when the system refuses; an earlier result is then still there.
     pub fn finish(self) -> Result<(), CommandError> {
         self.work.put_in_place().map_err(|e| CommandError::write(&self.wanted, &e))
+    }
+}
+
+impl ResultFiles for ResultDirectory {
+    fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError> {
+        debug_assert!(
+            is_ours(name),
+            "{name} is not in the list of result files: a second run would refuse its own folder"
+        );
+        fs::write(self.path(name), content).map_err(|cause| ReportError::Write { file: self.wanted.join(name), cause })
+    }
+
+    fn create(&self, name: &str) -> Result<Box<dyn Write + '_>, ReportError> {
+        let path = self.path(name);
+        match fs::File::create(&path) {
+            Ok(file) => Ok(Box::new(BufWriter::new(file))),
+            Err(cause) => Err(ReportError::Write { file: path, cause }),
+        }
     }
 }
 

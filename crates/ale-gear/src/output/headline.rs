@@ -4,11 +4,11 @@ use ltca::{StaticHistory, StaticPosition};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{PressurePlace, RootStressHeadline, root_stress::root_stress_headline};
 use crate::{
     run::worse,
     scene::{Driver, Scene},
 };
+use report::results::{PressurePlace, RootStressHeadline, root_stress_headline};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;

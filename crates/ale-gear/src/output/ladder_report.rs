@@ -1,16 +1,18 @@
 //! `report.html` of a cheaper model in motion.
 
+use report::{
+    Columns,
+    charts::{Curve, campbell_chart, dot_chart, line_chart},
+    page::Rendered,
+};
+
 use super::{
-    Rendered,
-    campbell_chart::campbell_chart,
-    charts::{Curve, dot_chart, line_chart},
     motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
     motion_report::render,
 };
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::ladder::{CampbellDiagram, LadderHeadline};
-use crate::motion::Columns;
 use crate::scene::Scene;
 
 /// Displacements that have a phase portrait where the model has them; their rates are named alike.

@@ -1,11 +1,11 @@
 //! What a sweep of a cheaper model shows: diagrams, page, closing table.
 
-use super::{
-    Rendered,
+use report::{
     charts::{Curve, dot_chart, dot_picture, line_chart},
-    motion_report::render,
-    table::Lines,
+    page::Rendered,
 };
+
+use super::{motion_report::render, table::Lines};
 use crate::{
     error::CommandError,
     facts::{Cost, Facts},

@@ -1,63 +1,34 @@
-//! Files and the closing table: what a user gets.
+//! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`], and is named here
+//! for the modules that write it.
 
-mod campbell_chart;
 mod chart_csv;
 mod chart_tables;
-mod charts;
 mod columnar;
-mod compare_csv;
-mod compare_report;
-mod compare_table;
-mod contact_files;
-mod contact_lines;
 mod directory;
-mod field_map;
+mod error;
 mod headline;
-mod heat_map;
-mod history;
 mod ladder_report;
 mod ladder_sweep;
 mod ladder_table;
-mod log_panel;
 mod motion_charts;
 mod motion_precision;
 mod motion_report;
 mod motion_table;
 mod page;
-mod pairs;
-mod pattern_csv;
-mod pattern_vtu;
-mod plot_data;
-mod png;
-mod pressure_place;
-mod pvd;
-mod rendered;
 mod report;
-mod root_stress;
 mod study_charts;
 mod study_report;
 mod study_tables;
 mod summary;
 mod table;
-mod vtu;
 mod work_precision_chart;
 
 pub use chart_csv::write_chart_csv;
 pub use chart_tables::chart_tables;
 pub(crate) use columnar::write_columnar;
-pub use compare_csv::{write_compare_csv, write_curves_csv};
-pub use compare_report::{CompareChart, compare_charts, write_compare_report};
-pub use compare_table::compare_table;
-pub use contact_files::write_contact;
-pub(crate) use contact_files::write_patterns;
-pub use contact_lines::write_contact_lines;
 pub(crate) use directory::CASES;
 pub use directory::ResultDirectory;
 pub use headline::{Headline, headline};
-pub use heat_map::contact_pattern_svg;
-pub(crate) use history::history_columns;
-pub use history::write_history;
-pub(crate) use history::{push_row, quoted};
 pub(crate) use ladder_report::{LadderPictures, write_ladder_report};
 pub(crate) use ladder_sweep::{bifurcation_picture, ladder_sweep_table, write_ladder_sweep_report};
 pub(crate) use ladder_table::ladder_table;
@@ -65,21 +36,23 @@ pub(crate) use motion_charts::{MotionPictures, SweepPictures};
 pub(crate) use motion_precision::{motion_precision_csv, motion_precision_svg, motion_precision_table};
 pub(crate) use motion_report::{write_motion_report, write_sweep_report};
 pub(crate) use motion_table::{motion_table, sweep_table};
-pub(crate) use pairs::in_cycle as pair_in_cycle;
-pub use pattern_csv::write_contact_pattern;
-pub use pattern_vtu::write_pattern_vtu;
-pub(crate) use plot_data::Numbers;
-pub use png::svg_to_png;
-pub use pressure_place::PressurePlace;
-pub(crate) use pressure_place::{PLACE_COLUMNS, base_radius_mm, place_values};
-pub use pvd::{PvdEntry, write_pvd};
-pub use rendered::{Rendered, report_again};
 pub use report::write_report;
-pub use root_stress::{GearRootStress, Place, RootStressHeadline};
-pub(crate) use root_stress::{root_stress_columns, root_stress_headline, root_stress_row, root_stress_warnings};
 pub(crate) use study_report::{StudyResult, write_study_report, write_study_summary};
 pub(crate) use study_tables::{study_csv, study_table};
-pub use summary::{SUMMARY_SCHEMA, write_summary};
+pub use summary::write_summary;
 pub use table::closing_table;
-pub use vtu::{Encoding, Field, write_surface, write_vtu};
 pub use work_precision_chart::work_precision_svg;
+
+pub use ::report::{
+    charts::{contact_pattern_svg, svg_to_png},
+    columns::write_history,
+    contact_files::{write_contact, write_contact_lines, write_contact_pattern},
+    page::{Rendered, report_again},
+    results::{GearRootStress, Place, PressurePlace, RootStressHeadline},
+};
+pub(crate) use ::report::{
+    columns::history_columns,
+    contact_files::write_patterns,
+    csv::{push_row, quoted},
+    results::{root_stress_headline, root_stress_warnings},
+};

@@ -2,16 +2,17 @@
 
 use dynamics::Speed;
 
-use super::{
-    campbell_chart::campbell_chart,
-    charts::{Curve, figure, line_chart, stick_chart},
-    field_map::{FieldMap, Side, share},
-    plot_data::{Numbers, embedded},
-};
-use crate::{
-    motion::{Columns, Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
-    scene::SweepWay,
+use report::{
+    Columns,
+    charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
     view::View,
+};
+
+use report::columns::motion_history::{MESH_PHASE, TIME};
+
+use crate::{
+    motion::{Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
+    scene::SweepWay,
 };
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
@@ -52,7 +53,7 @@ pub(crate) struct MotionPictures<'a> {
 pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
     let steady = of.ramp.is_none();
     let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
-    let time = &of.rows.get("time_s")[first..];
+    let time = &of.rows.get(TIME.name)[first..];
     let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
     let unit = 1e3;
     // Of a ramp everything is drawn over the speed that it is made for.
@@ -80,7 +81,7 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
         .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
         .collect();
     let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
-    let energy_time = of.energy.get("time_s");
+    let energy_time = of.energy.get(TIME.name);
     let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
         if steady { ("time [s]", &|t| t) } else { (axis, &place) };
     let residual = Curve {
@@ -155,7 +156,7 @@ fn passage_charts(of: &Passage, axis: &str) -> Vec<Option<String>> {
 
 /// The quasi-static error of one cycle under every cycle drawn.
 fn repeated(of: &MotionPictures<'_>, ste: &[f64], time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
-    let phases = of.rows.get("mesh_phase");
+    let phases = of.rows.get(MESH_PHASE.name);
     let phases = &phases[phases.len() - time.len()..];
     let n = ste.len();
     let at = |phase: f64| {

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use plotters::prelude::*;
 
-use super::log_panel::{Captions, Failure, Labelled, legend, log_panel};
 use crate::motion::{Precision, PrecisionPoint};
+use report::charts::{Captions, Failure, Labelled, legend, log_panel};
 
 const SIZE: (u32, u32) = (1040, 470);
 const HEAD: u32 = 84;

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use report::page::Rendered;
+
 use super::{
-    Rendered,
     motion_charts::{MotionPictures, SweepPictures, motion_charts, sweep_charts},
     page::Page,
 };

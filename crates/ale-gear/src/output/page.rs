@@ -1,13 +1,14 @@
-//! Pages from templates, with all that their scripts need.
+//! The page of a run, whatever its model: pair and load at a glance, its gears in space, what all analyses have.
 
-use minijinja::{Environment, Value, context, value::Serde};
+use minijinja::{context, value::Serde};
 use serde::Serialize;
 
-use super::{plot_data::embedded, rendered::Rendered, table::model_name};
+use report::{charts::embedded, page::Rendered, view::View};
+
+use super::table::model_name;
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::scene::{Driver, Scene};
-use crate::view::View;
 
 /// What a page shows of a run.
 #[derive(Debug)]
@@ -55,7 +56,7 @@ impl<H: Serialize> Page<'_, H> {
             view => view,
             warnings => warnings.to_vec(),
         };
-        Rendered::new(name, context)
+        Ok(Rendered::new(name, context)?)
     }
 }
 
@@ -95,67 +96,4 @@ fn speeds(scene: &Scene) -> String {
     let ramp = motion.and_then(|m| m.ramp.as_ref()).map(|r| [r.from_rpm, r.to_rpm]);
     let ends = ramp.or(motion.and_then(|m| m.sweep.as_ref()).map(|s| [s.from_rpm, s.to_rpm]));
     ends.map_or_else(|| scene.operation.speed_rpm.to_string(), |[from, to]| format!("{from} .. {to}"))
-}
-
-/// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
-///
-/// # Errors
-/// Exit status 1 if it cannot be filled; that would be a fault of this program.
-pub(super) fn render(name: &str, context: Value) -> Result<String, CommandError> {
-    let failed = |e: minijinja::Error| CommandError::failed(format_args!("report.html: {e}"), None);
-    let mut environment = Environment::new();
-    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
-    environment.add_function("number", number);
-    environment.add_function("science", science);
-    let parts = [
-        ("report.html", include_str!("report.html")),
-        ("motion.html", include_str!("motion.html")),
-        ("sweep.html", include_str!("sweep.html")),
-        ("ladder.html", include_str!("ladder.html")),
-        ("ladder_sweep.html", include_str!("ladder_sweep.html")),
-        ("study.html", include_str!("study.html")),
-        ("compare.html", include_str!("compare.html")),
-        ("head.html", include_str!("head.html")),
-        ("style.html", include_str!("style.html")),
-        ("warnings.html", include_str!("warnings.html")),
-        ("page.html", include_str!("page.html")),
-        ("view.html", include_str!("view.html")),
-        ("tail.html", include_str!("tail.html")),
-    ];
-    for (part, text) in parts {
-        environment.add_template(part, text).map_err(failed)?;
-    }
-    environment.get_template(name).and_then(|page| page.render(context)).map(with_scripts).map_err(failed)
-}
-
-/// The page with the scripts that its parts ask for: charts and maps, gears in space.
-fn with_scripts(mut page: String) -> String {
-    let has = |class: &str| page.contains(&format!("class=\"{class}\">"));
-    let mut scripts = String::new();
-    let in_space = has("view");
-    if in_space || has("plot") || has("map") {
-        scripts += concat!("<!-- uPlot: ", include_str!("../../assets/uPlot.LICENSE"), "-->\n");
-        scripts += concat!("<style>", include_str!("../../assets/uPlot.min.css"), "</style>\n");
-        scripts += concat!("<script>", include_str!("../../assets/uPlot.iife.min.js"), "</script>\n");
-        scripts += concat!("<script>", include_str!("charts.js"), "</script>\n");
-    }
-    if in_space {
-        scripts += concat!("<!-- three.js: ", include_str!("../../assets/three.LICENSE"), "-->\n");
-        scripts += concat!("<script>", include_str!("../../assets/three.min.js"), "</script>\n");
-        scripts += concat!("<script>", include_str!("view.js"), "</script>\n");
-    }
-    if let Some(end) = page.rfind("</body>") {
-        page.insert_str(end, &scripts);
-    }
-    page
-}
-
-/// A number with so many decimals, `-` when there is none.
-fn number(value: Option<f64>, decimals: usize) -> String {
-    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.decimals$}"))
-}
-
-/// A small number as power of ten, `-` when there is none.
-fn science(value: Option<f64>) -> String {
-    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}"))
 }

@@ -1,21 +1,25 @@
 //! `report.html`: one page that needs nothing beside itself.
 
-use std::f64::consts::PI;
+use ltca::StaticHistory;
 
-use ltca::{StaticHistory, StaticPosition};
-
-use super::{
-    Headline, Rendered,
-    charts::{Curve, line_chart},
-    page::Page,
-    pairs,
-    root_stress::MAX_PRINCIPAL,
+use report::{
+    charts::line_chart,
+    columns::{
+        At, StaticCurves,
+        static_history::{
+            FORCE_X, FORCE_Y, FORCE_Z, GEOMETRIC_LENGTH, LINE_LENGTH, PAIR_FORCE, SECANT_STIFFNESS, STE,
+            TANGENT_STIFFNESS, TOOTH_TENSION,
+        },
+    },
+    page::Rendered,
+    view::View,
 };
+
+use super::{Headline, page::Page};
 use crate::{
     error::CommandError,
     facts::{Cost, Facts},
     scene::Scene,
-    view::View,
 };
 
 /// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the gears in space, where
@@ -46,39 +50,17 @@ pub fn write_report(
 }
 
 fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
-    let curve = |label: &str, f: &dyn Fn(&StaticPosition) -> f64| Curve {
-        label: label.to_owned(),
-        points: history.positions.iter().map(|p| (p.pinion_angle.to_degrees(), f(p))).collect(),
-    };
-    let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
-    let sharing: Vec<Curve> = pairs::columns(history, pitch)
-        .into_iter()
-        .map(|k| curve(&format!("pair {k}"), &|p| pairs::force(p, k, pitch)))
-        .collect();
-    let forces: Vec<Curve> =
-        ["x", "y", "z"].iter().enumerate().map(|(k, axis)| curve(axis, &|p| p.wrench[1].force[k])).collect();
-    let length =
-        [curve("under load", &|p| p.contact_line_length), curve("unloaded, analytic", &|p| p.geometric_line_length)];
-    let stiffness =
-        [curve("secant", &|p| p.secant_stiffness * 1e-3), curve("tangent", &|p| p.tangent_stiffness * 1e-3)];
+    let curves = StaticCurves::new(scene, history);
+    let forces = [("x", FORCE_X), ("y", FORCE_Y), ("z", FORCE_Z)]
+        .map(|(axis, column)| curves.at(axis, column, At { gear: 1, pair: 0 }));
+    let length = [curves.of("under load", LINE_LENGTH), curves.of("unloaded, analytic", GEOMETRIC_LENGTH)];
+    let stiffness = [curves.of("secant", SECANT_STIFFNESS), curves.of("tangent", TANGENT_STIFFNESS)];
     // A pair's bending on either gear: the tension below the loaded flank of its teeth.
-    let bending = |gear: usize| -> Vec<Curve> {
-        let asked = if scene.output.root_stress { pairs::columns(history, pitch) } else { Vec::new() };
-        asked
-            .into_iter()
-            .map(|k| {
-                curve(&format!("pair {k}"), &|p| {
-                    pairs::teeth(p, k, pitch)
-                        .map_or(f64::NAN, |teeth| MAX_PRINCIPAL.stress(&p.root_stress[gear], Some(teeth[gear])))
-                })
-            })
-            .collect()
-    };
+    let bending = |gear| curves.by_pair(TOOTH_TENSION, gear);
     let angle = "pinion angle [deg]";
-    let ste = [curve("STE", &|p| p.transmission_error * 1e3)];
     [
-        line_chart("Static transmission error", angle, "STE [um]", &ste, false),
-        line_chart("Load sharing", angle, "normal force [N]", &sharing, true),
+        line_chart("Static transmission error", angle, "STE [um]", &[curves.of("STE", STE)], false),
+        line_chart("Load sharing", angle, "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
         line_chart("Total contact-line length", angle, "length [mm]", &length, false),
         line_chart("Mesh stiffness", angle, "stiffness [N/um]", &stiffness, false),
         line_chart("Mesh force on the wheel", angle, "force [N]", &forces, true),

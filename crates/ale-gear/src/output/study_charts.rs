@@ -1,7 +1,12 @@
 //! Figures of a study.
 
-use super::charts::{Curve, line_chart};
-use crate::motion::Columns;
+use report::{
+    Columns,
+    charts::{Curve, line_chart},
+};
+
+use report::columns::motion_history::{MESH_PHASE, TIME};
+
 use crate::parameter_study::{CaseOutcome, Findings, Follow, OverTime, Study, last_cycles};
 
 /// A figure: a sentence above its charts.
@@ -63,7 +68,7 @@ fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &Ov
         .with_result(study, runs)
         .map(|(case, run, _)| {
             let rows = last_cycles(&case.scene, &run.rows, over.cycles);
-            let time = rows.get("time_s");
+            let time = rows.get(TIME.name);
             let begin = time.first().copied().unwrap_or(0.0);
             let since: Vec<f64> = time.iter().map(|t| 1e3 * (t - begin)).collect();
             Curve { label: case.label.clone(), points: points(&since, rows.get(&over.column)) }
@@ -109,5 +114,5 @@ fn mesh_cycles(rows: &Columns) -> Vec<f64> {
         last = *phase;
         whole + phase
     };
-    rows.get("mesh_phase").iter().map(count).collect()
+    rows.get(MESH_PHASE.name).iter().map(count).collect()
 }

@@ -3,8 +3,9 @@
 use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
+use report::page::Rendered;
+
 use super::{
-    Rendered,
     directory::CASES,
     study_charts::figures,
     study_tables::{speed_up_text, step_s},
@@ -56,7 +57,7 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Ren
         .collect();
     let full = study.full.zip(speed_up);
     let speed = full.map(|(f, s)| speed_up_text(s, &study.cases[f.case].label, step_s(runs, f.case)));
-    Rendered::new(
+    let page = Rendered::new(
         "study.html",
         context! {
             name => &study.name,
@@ -68,7 +69,8 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Ren
             table => table,
             warnings => warnings.to_vec(),
         },
-    )
+    )?;
+    Ok(page)
 }
 
 /// The summary as JSON; numbers without a value are `null`.

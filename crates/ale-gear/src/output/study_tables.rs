@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{StudyResult, history::push_row, table::fixed};
+use report::csv::push_row;
+
+use super::{StudyResult, table::fixed};
 use crate::chart::SpeedUp;
 use crate::parameter_study::{CaseOutcome, Findings, Study};
 

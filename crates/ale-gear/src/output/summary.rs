@@ -1,12 +1,10 @@
 //! `summary.json`: everything about a run but its rows.
 
+use report::SUMMARY_SCHEMA;
 use serde::Serialize;
 
 use crate::facts::{Cost, Facts};
 use crate::scene::Scene;
-
-/// Grows with every change after which an older reader would misread a summary.
-pub const SUMMARY_SCHEMA: u32 = 1;
 
 #[derive(Serialize)]
 struct Summary<'a, H> {

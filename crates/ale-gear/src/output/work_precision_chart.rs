@@ -3,8 +3,8 @@
 use plotters::prelude::*;
 use study::{AnswerError, Work};
 
-use super::log_panel::{Captions, Failure, Labelled, legend, log_panel};
 use crate::chart::{Outcome, WorkPrecision};
+use report::charts::{Captions, Failure, Labelled, legend, log_panel};
 
 const WIDTH: u32 = 1040;
 /// Height of a row of panels.

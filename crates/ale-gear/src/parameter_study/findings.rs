@@ -1,7 +1,9 @@
 //! What is read off the rows of the cases.
 
 use super::{Case, CaseOutcome, CaseRun, Quantity, Study, Take, columns};
-use crate::{error::CommandError, motion::Columns, scene::Scene};
+use report::Columns;
+
+use crate::{error::CommandError, scene::Scene};
 
 /// Everything that tables and figures of a study are made of, but for the rows themselves.
 #[derive(Debug, Clone, PartialEq)]

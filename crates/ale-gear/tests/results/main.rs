@@ -12,5 +12,4 @@ mod root_stress;
 mod seed_000;
 #[path = "../util/mod.rs"]
 mod util;
-mod vtu;
 mod window;

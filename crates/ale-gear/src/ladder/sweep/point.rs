@@ -7,6 +7,8 @@ use integrate::State;
 use serde::Serialize;
 use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
 
+use report::columns::motion_history::NORMAL_FORCE;
+
 use super::{SweepRequest, free_turn::FreeTurn};
 use crate::{
     error::CommandError,
@@ -139,8 +141,8 @@ pub(super) fn run(
         periodicity: course.periodicity.map(|p| p.residual),
         warm_up_cycles: course.warm_up,
         lyapunov,
-        normal_force_n: course.history.extent("normal_force_n"),
-        rows_apart: course.history.get("normal_force_n").iter().filter(|f| **f <= 0.0).count(),
+        normal_force_n: course.history.extent(NORMAL_FORCE.name),
+        rows_apart: course.history.get(NORMAL_FORCE.name).iter().filter(|f| **f <= 0.0).count(),
         failed: None,
     };
     Ok(Found { point, end: course.end })

@@ -1,0 +1,205 @@
+//! Charts of a report: a picture that prints and needs no script, and beside it the points for the script that zooms.
+
+use plotters::prelude::*;
+
+use super::plot_data::{Plot, embedded};
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Name in the legend; of one without a name nothing is told apart.
+    pub label: String,
+    /// Abscissa and value.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Colours that the colour-blind can tell apart, without the yellow, which paper swallows.
+/// Source: the first seven Okabe and Ito, Color Universal Design, 2008; the others Tol, Colour schemes, 2021 (muted).
+pub const COLOURS: [RGBColor; 12] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+    RGBColor(51, 34, 136),
+    RGBColor(136, 34, 85),
+    RGBColor(153, 153, 51),
+    RGBColor(120, 120, 120),
+    RGBColor(110, 60, 20),
+];
+
+/// Stretches of a long record in the picture: of each the least and the largest value are drawn.
+const STRETCHES: usize = 800;
+
+/// Height of a legend's line over the height of the chart.
+const LEGEND_ROOM: f64 = 0.09;
+
+/// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
+/// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
+pub fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
+    let curves = with_points(curves);
+    let svg = picture(title, [x, y], &curves, from_zero, Marks::Lines)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
+}
+
+/// The same with dots in place of lines: sections and bifurcation diagrams.
+pub fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    let curves = with_points(curves);
+    let svg = picture(title, [x, y], &curves, false, Marks::Dots)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::dots(title, x, y, &curves))]))
+}
+
+/// [`dot_chart`] as SVG alone, for a file of its own.
+pub fn dot_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], &with_points(curves), false, Marks::Dots)
+}
+
+/// [`line_chart`] as SVG alone, likewise.
+pub fn line_picture(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
+    picture(title, [x, y], &with_points(curves), false, Marks::Lines)
+}
+
+/// Frequencies over speed: each order of excitation in a colour of its own, the modes all alike.
+pub fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Option<String> {
+    let curves: Vec<Curve> = orders.into_iter().chain(modes).collect();
+    line_chart(title, "speed of the driver [1/min]", "frequency [Hz]", &curves, true)
+}
+
+/// Curves that have something to draw.
+fn with_points(curves: &[Curve]) -> Vec<Curve> {
+    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    curves.iter().filter(seen).cloned().collect()
+}
+
+/// Which of the palette's colours a curve has: one without a name is more of the last that has one.
+pub fn colour_of<'a>(labels: impl Iterator<Item = &'a str>, k: usize) -> usize {
+    labels.take(k + 1).enumerate().filter(|(_, label)| !label.is_empty()).last().map_or(0, |(own, _)| own)
+        % COLOURS.len()
+}
+
+/// The same for the lines of a spectrum: one stick each.
+pub fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
+    let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
+    let svg = picture(title, [x, y], &[Curve { label: curve.label.clone(), points: sticks }], true, Marks::Lines)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::sticks(title, x, y, &curve))]))
+}
+
+/// A picture with what the script puts in its place on a screen.
+pub fn figure(svg: &str, plots: &[String]) -> String {
+    let wide = if plots.len() > 1 { " wide" } else { "" };
+    format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
+}
+
+/// Dots of a curve in the still picture at most.
+const DOTS: usize = 3000;
+/// Points of a curve up to which they are drawn large.
+const FEW: usize = 100;
+
+/// How points are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Marks {
+    Lines,
+    Dots,
+}
+
+/// The chart as SVG.
+fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, marks: Marks) -> Option<String> {
+    let finite = |&&(a, b): &&(f64, f64)| a.is_finite() && b.is_finite();
+    let points = || curves.iter().flat_map(|c| c.points.iter()).filter(finite);
+    points().next()?;
+    let span = |pick: fn(&(f64, f64)) -> f64, zero: bool| {
+        let start = if zero { (0.0, 0.0) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+        let (low, high) = points().map(pick).fold(start, |(lo, hi), v| (lo.min(v), hi.max(v)));
+        // A constant still needs an axis of some length.
+        let margin = match (high > low, high == 0.0) {
+            (true, _) => 0.06 * (high - low),
+            (false, true) => 1.0,
+            (false, false) => 0.05 * high.abs(),
+        };
+        (low - if zero && low == 0.0 { 0.0 } else { margin }, high + margin)
+    };
+    let (x_low, x_high) = span(|p| p.0, false);
+    let (y_low, mut y_high) = span(|p| p.1, from_zero);
+    let named = curves.iter().filter(|c| !c.label.is_empty()).count();
+    if named > 1 {
+        // Room for the legend above the curves.
+        y_high += LEGEND_ROOM * named as f64 * (y_high - y_low);
+    }
+
+    let mut svg = String::new();
+    draw(&mut svg, title, axes, curves, [x_low, x_high, y_low, y_high], marks).ok()?;
+    Some(svg)
+}
+
+/// Least and largest value of each stretch, so that a long record keeps its envelope.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= 2 * STRETCHES {
+        return points.to_vec();
+    }
+    let mut kept = Vec::with_capacity(2 * STRETCHES);
+    for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
+        let low = stretch.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let high = stretch.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        if let (Some(low), Some(high)) = (low, high) {
+            let (first, second) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+            kept.extend([*first.1, *second.1]);
+        }
+    }
+    kept
+}
+
+fn draw(
+    svg: &mut String,
+    title: &str,
+    [x, y]: [&str; 2],
+    curves: &[Curve],
+    [x_low, x_high, y_low, y_high]: [f64; 4],
+    marks: Marks,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let fail = |e: &dyn std::fmt::Display| e.to_string();
+    let root = SVGBackend::with_string(svg, (820, 360)).into_drawing_area();
+    root.fill(&WHITE).map_err(|e| fail(&e))?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(title, ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(72)
+        .build_cartesian_2d(x_low..x_high, y_low..y_high)
+        .map_err(|e| fail(&e))?;
+    chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
+    for (k, curve) in curves.iter().enumerate() {
+        let colour = COLOURS[colour_of(curves.iter().map(|c| c.label.as_str()), k)];
+        let shown = match marks {
+            Marks::Lines => thinned(&curve.points),
+            Marks::Dots => curve.points.iter().step_by(curve.points.len().div_ceil(DOTS).max(1)).copied().collect(),
+        };
+        let finite = shown.into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
+        // A few points are to be seen, many to be told apart.
+        let dot = if curve.points.len() <= FEW { 3 } else { 1 };
+        let series = match marks {
+            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
+            Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
+        };
+        let series = series.map_err(|e| fail(&e))?;
+        if curve.label.is_empty() {
+            continue;
+        }
+        series
+            .label(curve.label.as_str())
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
+    }
+    if curves.len() > 1 {
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .background_style(WHITE.mix(0.85))
+            .border_style(RGBColor(160, 160, 160))
+            .draw()
+            .map_err(|e| fail(&e))?;
+    }
+    drop(chart);
+    root.present().map_err(|e| fail(&e))?;
+    Ok(())
+}

@@ -1,0 +1,131 @@
+//! A quantity over a rectangle, in colours: a picture that prints, and the cells for the script that zooms.
+
+use base64::{Engine, prelude::BASE64_STANDARD};
+use plotters::prelude::*;
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
+use serde::{Serialize, Serializer};
+
+use super::plot_data::Numbers;
+
+/// Pixels of the picture inside its axes, of which a cell covers one or many.
+const PIXELS: [u32; 2] = [720, 320];
+/// Steps between the least colour and the largest; step 0 is no colour.
+const STEPS: f64 = 65_534.0;
+/// Digits of the cells' edges.
+const DIGITS: usize = 7;
+
+/// One side of a map.
+#[derive(Debug, Serialize)]
+pub struct Side {
+    /// Quantity and unit.
+    pub label: &'static str,
+    /// Edges of the cells, ascending, one more than there are cells.
+    #[serde(serialize_with = "short")]
+    pub edges: Vec<f64>,
+}
+
+/// Values of cells.
+#[derive(Debug, Serialize)]
+pub struct FieldMap<'a> {
+    /// What it shows.
+    pub title: String,
+    /// Horizontal and vertical side.
+    pub sides: [Side; 2],
+    /// Quantity with unit that the colours stand for.
+    pub quantity: &'a str,
+    /// Value of the last colour.
+    pub largest: f64,
+    /// Decades below it that have colours; `None`: linear from 0.
+    pub decades: Option<f64>,
+    /// A second quantity of the rows, with its unit and name: what a reader of the map wants to know too.
+    pub beside: Option<(&'a str, Numbers)>,
+    /// Row by row from the lowest, each along the horizontal side; 0 where there is nothing.
+    #[serde(rename = "cells", serialize_with = "steps")]
+    pub shares: Vec<f64>,
+}
+
+/// Where a value stands between no colour (0) and the last one (1).
+pub fn share(value: f64, largest: f64, decades: Option<f64>) -> f64 {
+    if largest > 0.0 && value > 0.0 {
+        decades.map_or(value / largest, |d| 1.0 + (value / largest).log10() / d).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+fn short<S: Serializer>(edges: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    // A copy of some hundred numbers.
+    Numbers(edges.to_vec(), DIGITS).serialize(serializer)
+}
+
+/// Two bytes a cell, low byte first, as base64: 0 for nothing, else one more than its step.
+fn steps<S: Serializer>(shares: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    let step = |s: f64| if s > 0.0 { (1.0 + s * STEPS).round() as u16 } else { 0 };
+    let bytes: Vec<u8> = shares.iter().flat_map(|&s| step(s).to_le_bytes()).collect();
+    serializer.serialize_str(&BASE64_STANDARD.encode(bytes))
+}
+
+impl FieldMap<'_> {
+    /// The picture as SVG: axes as lines and letters, the cells as one image.
+    pub fn picture(&self) -> Option<String> {
+        let mut svg = String::new();
+        let [x, y] = &self.sides;
+        let ends = |side: &Side| Some((*side.edges.first()?, *side.edges.last()?));
+        let ((left, right), (low, high)) = (ends(x)?, ends(y)?);
+        let place = draw_axes(&mut svg, &self.title, [x.label, y.label], [left, right, low, high]).ok()?;
+        let image = BASE64_STANDARD.encode(self.pixels([left, right, low, high])?.encode_png().ok()?);
+        let [at_x, at_y, width, height] = place;
+        let image = format!(
+            "<image x=\"{at_x}\" y=\"{at_y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             href=\"data:image/png;base64,{image}\"/></svg>"
+        );
+        Some(svg.trim_end().trim_end_matches("</svg>").to_owned() + &image)
+    }
+
+    fn pixels(&self, [left, right, low, high]: [f64; 4]) -> Option<Pixmap> {
+        let [width, height] = PIXELS;
+        let mut pixmap = Pixmap::new(width, height)?;
+        let middles = |count: u32, from: f64, to: f64| {
+            (0..count).map(move |i| from + (to - from) * (f64::from(i) + 0.5) / f64::from(count))
+        };
+        let cell = |side: &Side, at: f64| side.edges.partition_point(|&e| e <= at).checked_sub(1);
+        let columns: Vec<Option<usize>> = middles(width, left, right).map(|x| cell(&self.sides[0], x)).collect();
+        let per_row = self.sides[0].edges.len().saturating_sub(1);
+        for (line, y) in pixmap.pixels_mut().chunks_mut(width as usize).zip(middles(height, high, low)) {
+            let row = cell(&self.sides[1], y);
+            for (pixel, column) in line.iter_mut().zip(&columns) {
+                let share = row.zip(*column).and_then(|(r, c)| self.shares.get(r * per_row + c)).copied();
+                if let Some(share) = share.filter(|s| *s > 0.0) {
+                    let RGBColor(r, g, b) = ViridisRGB.get_color(share as f32);
+                    *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255)?;
+                }
+            }
+        }
+        Some(pixmap)
+    }
+}
+
+/// Axes without anything in them; left, top, width and height of the room inside, in units of the drawing.
+fn draw_axes(
+    svg: &mut String,
+    title: &str,
+    [x, y]: [&str; 2],
+    [left, right, low, high]: [f64; 4],
+) -> Result<[i32; 4], String> {
+    fn text(e: impl std::fmt::Display) -> String {
+        e.to_string()
+    }
+    let root = SVGBackend::with_string(svg, (820, 420)).into_drawing_area();
+    root.fill(&WHITE).map_err(text)?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(title, ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(72)
+        .build_cartesian_2d(left..right, low..high)
+        .map_err(text)?;
+    chart.configure_mesh().disable_mesh().x_desc(x).y_desc(y).draw().map_err(text)?;
+    let (across, down) = chart.plotting_area().get_pixel_range();
+    root.present().map_err(text)?;
+    Ok([across.start, down.start, across.end - across.start, down.end - down.start])
+}

@@ -1,0 +1,88 @@
+//! Panels with both axes logarithmic, as work-precision charts have them, and the legend above.
+
+use plotters::{coord::Shift, prelude::*};
+
+use super::curves::COLOURS;
+
+/// Where a panel is drawn.
+pub type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// What drawing may fail with.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// A point of a curve and what is written beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Labelled {
+    /// Abscissa and value, both above zero.
+    pub at: (f64, f64),
+    /// What is written beside it.
+    pub label: Option<String>,
+}
+
+/// What stands around a panel.
+#[derive(Debug, Clone, Copy)]
+pub struct Captions<'a> {
+    /// What the panel shows.
+    pub title: &'a str,
+    /// Quantity and unit of the horizontal axis.
+    pub x: &'a str,
+    /// The same of the vertical one.
+    pub y: &'a str,
+}
+
+/// Names of the curves in their colours, three in a line.
+pub fn legend(area: &Drawing<'_>, title: &str, names: &[&str]) -> Result<(), Failure> {
+    area.draw(&Text::new(title.to_owned(), (16, 10), ("sans-serif", 18)))?;
+    const COLUMNS: i32 = 3;
+    let width = area.dim_in_pixel().0 as i32;
+    for (k, name) in names.iter().enumerate() {
+        let (x, y) = (20 + (k as i32 % COLUMNS) * (width / COLUMNS), 44 + (k as i32 / COLUMNS) * 20);
+        let colour = COLOURS[k % COLOURS.len()];
+        area.draw(&PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(2)))?;
+        area.draw(&Circle::new((x + 12, y), 4, colour.filled()))?;
+        area.draw(&Text::new((*name).to_owned(), (x + 32, y - 7), ("sans-serif", 14)))?;
+    }
+    Ok(())
+}
+
+/// Curves through their points, one colour each, over whole decades.
+pub fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>]) -> Result<(), Failure> {
+    let flat = || all.iter().flatten();
+    if flat().next().is_none() {
+        let text = format!("{}: no point", words.title);
+        return Ok(area.draw(&Text::new(text, (40, 40), ("sans-serif", 14)))?);
+    }
+    let span = |pick: fn(&Labelled) -> f64| {
+        let (low, high) = flat().map(pick).fold((f64::INFINITY, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        // Whole decades, so that every axis has at least one labelled step.
+        (10f64.powf((low / 1.3).log10().floor()), 10f64.powf((1.3 * high).log10().ceil()))
+    };
+    let ((x0, x1), (y0, y1)) = (span(|p| p.at.0), span(|p| p.at.1));
+    let mut panel = ChartBuilder::on(area)
+        .caption(words.title, ("sans-serif", 14))
+        .margin(8)
+        .margin_right(24)
+        .x_label_area_size(40)
+        .y_label_area_size(62)
+        .build_cartesian_2d((x0..x1).log_scale(), (y0..y1).log_scale())?;
+    let label = |v: &f64| format!("{v}");
+    panel
+        .configure_mesh()
+        .max_light_lines(0)
+        .x_desc(words.x)
+        .y_desc(words.y)
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
+        .draw()?;
+    for (k, points) in all.iter().enumerate() {
+        let colour = COLOURS[k % COLOURS.len()];
+        panel.draw_series(LineSeries::new(points.iter().map(|p| p.at), colour.stroke_width(2)))?;
+        panel.draw_series(points.iter().map(|p| Circle::new(p.at, 4, colour.filled())))?;
+        for Labelled { at, label } in points {
+            if let Some(label) = label {
+                let text = Text::new(label.clone(), (6, -14), ("sans-serif", 12).into_font().color(&colour));
+                panel.draw_series(std::iter::once(EmptyElement::at(*at) + text))?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,17 @@
+//! Charts: a picture that prints and needs no script, and beside it the numbers for the script of the page.
+
+mod campbell;
+mod curves;
+mod field_map;
+mod heat_map;
+mod log_panel;
+mod plot_data;
+mod png;
+
+pub use campbell::campbell_chart;
+pub use curves::{Curve, dot_chart, dot_picture, figure, line_chart, line_picture, stick_chart};
+pub use field_map::{FieldMap, Side, share};
+pub use heat_map::{contact_pattern_figure, contact_pattern_svg};
+pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
+pub use plot_data::{Numbers, embedded};
+pub use png::svg_to_png;

@@ -1,0 +1,15 @@
+//! Columns of files of rows: one table a kind of rows, from which header, rows, charts and `docs/outputs.md` come or against which they
+//! are held.
+//!
+//! A new column is one entry of a table, and its line in the document.
+
+pub mod energy;
+pub mod motion_history;
+pub mod static_history;
+mod table;
+
+pub use energy::{ENERGY, EnergyRecord, EnergyRows};
+pub use motion_history::{MOTION_HISTORY, MotionLayout, MotionRows};
+pub use static_history::{STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, write_history};
+pub(crate) use table::columns;
+pub use table::{At, Column, GEARS, Group, Over, Rows, Sheet, Table};

@@ -1,0 +1,184 @@
+//! What a column of a file of rows is, and how files are made of them.
+
+use std::fmt::Debug;
+
+use crate::csv::push_row;
+
+/// The gears as columns and files name them.
+pub const GEARS: [&str; 2] = ["pinion", "wheel"];
+/// What stands for a gear in a name.
+const GEAR: &str = "<gear>";
+/// What stands for the number of a tooth pair in a name.
+const PAIR: &str = "<k>";
+
+/// A kind of rows.
+pub trait Rows: 'static {
+    /// What all rows of a file share.
+    type Layout;
+    /// What one row is made of.
+    type Record;
+}
+
+/// Which gear and which tooth pair a column is of, where its name has `<gear>` or `<k>`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct At {
+    /// 0 pinion, 1 wheel.
+    pub gear: usize,
+    /// Number of the pair within its mesh cycle.
+    pub pair: i64,
+}
+
+/// A column of a file, or one for each gear, pair, or both.
+pub struct Column<R: Rows> {
+    /// Name with unit; `<gear>` and `<k>` stand for what the column is repeated over.
+    pub name: &'static str,
+    /// Unit as in a text; nothing for numbers without one.
+    pub unit: &'static str,
+    /// What it says, as in the table of `docs/outputs.md`.
+    pub meaning: &'static str,
+    /// Whether files of this layout have it.
+    pub present: fn(&R::Layout, At) -> bool,
+    /// Its number in a row.
+    pub value: fn(&R::Layout, &R::Record, At) -> f64,
+}
+
+impl<R: Rows> Clone for Column<R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R: Rows> Copy for Column<R> {}
+
+impl<R: Rows> Debug for Column<R> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} [{}]", self.name, self.unit)
+    }
+}
+
+impl<R: Rows> Column<R> {
+    /// Name of the column of one gear and pair.
+    pub fn name_at(&self, at: At) -> String {
+        self.name.replace(GEAR, GEARS[at.gear]).replace(PAIR, &at.pair.to_string())
+    }
+}
+
+/// What a group of columns is repeated over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// Nothing: each column stands once.
+    File,
+    /// Pinion, then wheel.
+    Gears,
+    /// Tooth pairs, ascending.
+    Pairs,
+    /// All pairs of the pinion, then all of the wheel.
+    GearsAndPairs,
+}
+
+impl Over {
+    fn places(self, pairs: &[i64]) -> Vec<At> {
+        let gears = 0..GEARS.len();
+        match self {
+            Self::File => vec![At::default()],
+            Self::Gears => gears.map(|gear| At { gear, pair: 0 }).collect(),
+            Self::Pairs => pairs.iter().map(|&pair| At { gear: 0, pair }).collect(),
+            Self::GearsAndPairs => gears.flat_map(|gear| pairs.iter().map(move |&pair| At { gear, pair })).collect(),
+        }
+    }
+}
+
+/// Columns that are repeated together.
+#[derive(Debug)]
+pub struct Group<R: Rows> {
+    /// Over what.
+    pub over: Over,
+    /// In the order of the file.
+    pub columns: &'static [Column<R>],
+}
+
+/// All columns of a kind of rows, in the order of the file.
+#[derive(Debug)]
+pub struct Table<R: Rows> {
+    /// Groups.
+    pub groups: &'static [Group<R>],
+}
+
+impl<R: Rows> Table<R> {
+    /// The columns of a file with this layout and these pairs.
+    pub fn sheet(&self, layout: &R::Layout, pairs: &[i64]) -> Sheet<R> {
+        let mut columns = Vec::new();
+        for group in self.groups {
+            for at in group.over.places(pairs) {
+                columns.extend(group.columns.iter().filter(|c| (c.present)(layout, at)).map(|&c| (c, at)));
+            }
+        }
+        Sheet { columns }
+    }
+
+    /// Every column once, as a row of the table in `docs/outputs.md`.
+    pub fn documented(&self) -> Vec<String> {
+        let all = self.groups.iter().flat_map(|group| group.columns);
+        all.map(|c| format!("| `{}` | {} |", c.name, c.meaning)).collect()
+    }
+
+    /// Every column once.
+    pub fn columns(&self) -> impl Iterator<Item = &'static Column<R>> {
+        self.groups.iter().flat_map(|group| group.columns)
+    }
+}
+
+/// The columns of one file.
+#[derive(Debug)]
+pub struct Sheet<R: Rows> {
+    columns: Vec<(Column<R>, At)>,
+}
+
+impl<R: Rows> Sheet<R> {
+    /// Names, in the order of the file.
+    pub fn names(&self) -> Vec<String> {
+        self.columns.iter().map(|(column, at)| column.name_at(*at)).collect()
+    }
+
+    /// The first line of the file.
+    pub fn header(&self) -> String {
+        self.names().join(",") + "\n"
+    }
+
+    /// The numbers of a row.
+    pub fn row(&self, layout: &R::Layout, record: &R::Record) -> impl Iterator<Item = f64> {
+        self.columns.iter().map(move |(column, at)| (column.value)(layout, record, *at))
+    }
+
+    /// The whole file.
+    pub fn csv<'a>(&self, layout: &R::Layout, records: impl IntoIterator<Item = &'a R::Record>) -> String {
+        let mut csv = self.header();
+        records.into_iter().for_each(|record| push_row(&mut csv, self.row(layout, record)));
+        csv
+    }
+}
+
+/// Columns of a kind, each a constant, and the list of them all: so a column is written once, and a misspelt one does not compile.
+///
+/// `NAME = "name" [unit] "meaning", value;`, where `value` takes layout, record and [`At`]; `present` is for the columns that do not say
+/// `@ condition` themselves.
+macro_rules! columns {
+    ($kind:ty, $list:ident, $present:expr, {
+        $($constant:ident = $name:literal [$unit:literal] $meaning:literal, $(@ $own:expr,)? $value:expr;)*
+    }) => {
+        $(
+            #[doc = concat!("`", $name, "`: ", $meaning, ".")]
+            pub const $constant: $crate::columns::Column<$kind> = $crate::columns::Column {
+                name: $name,
+                unit: $unit,
+                meaning: $meaning,
+                present: $crate::columns::columns!(@present $present $(, $own)?),
+                value: $value,
+            };
+        )*
+        pub(crate) const $list: &[$crate::columns::Column<$kind>] = &[$($constant),*];
+    };
+    (@present $all:expr) => { $all };
+    (@present $all:expr, $own:expr) => { $own };
+}
+pub(crate) use columns;

@@ -1,0 +1,68 @@
+//! Pages from templates, with all that their scripts need.
+
+use minijinja::{Environment, Value};
+
+use crate::ReportError;
+
+/// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
+///
+/// # Errors
+/// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.
+pub fn render(name: &str, context: Value) -> Result<String, ReportError> {
+    let failed = |e: minijinja::Error| ReportError::Page { file: "report.html", cause: e.to_string() };
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.add_function("number", number);
+    environment.add_function("science", science);
+    let parts = [
+        ("report.html", include_str!("report.html")),
+        ("motion.html", include_str!("motion.html")),
+        ("sweep.html", include_str!("sweep.html")),
+        ("ladder.html", include_str!("ladder.html")),
+        ("ladder_sweep.html", include_str!("ladder_sweep.html")),
+        ("study.html", include_str!("study.html")),
+        ("compare.html", include_str!("compare.html")),
+        ("head.html", include_str!("head.html")),
+        ("style.html", include_str!("style.html")),
+        ("warnings.html", include_str!("warnings.html")),
+        ("page.html", include_str!("page.html")),
+        ("view.html", include_str!("view.html")),
+        ("tail.html", include_str!("tail.html")),
+    ];
+    for (part, text) in parts {
+        environment.add_template(part, text).map_err(failed)?;
+    }
+    environment.get_template(name).and_then(|page| page.render(context)).map(with_scripts).map_err(failed)
+}
+
+/// The page with the scripts that its parts ask for: charts and maps, gears in space.
+fn with_scripts(mut page: String) -> String {
+    let has = |class: &str| page.contains(&format!("class=\"{class}\">"));
+    let mut scripts = String::new();
+    let in_space = has("view");
+    if in_space || has("plot") || has("map") {
+        scripts += concat!("<!-- uPlot: ", include_str!("../../assets/uPlot.LICENSE"), "-->\n");
+        scripts += concat!("<style>", include_str!("../../assets/uPlot.min.css"), "</style>\n");
+        scripts += concat!("<script>", include_str!("../../assets/uPlot.iife.min.js"), "</script>\n");
+        scripts += concat!("<script>", include_str!("../charts/charts.js"), "</script>\n");
+    }
+    if in_space {
+        scripts += concat!("<!-- three.js: ", include_str!("../../assets/three.LICENSE"), "-->\n");
+        scripts += concat!("<script>", include_str!("../../assets/three.min.js"), "</script>\n");
+        scripts += concat!("<script>", include_str!("view.js"), "</script>\n");
+    }
+    if let Some(end) = page.rfind("</body>") {
+        page.insert_str(end, &scripts);
+    }
+    page
+}
+
+/// A number with so many decimals, `-` when there is none.
+fn number(value: Option<f64>, decimals: usize) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.decimals$}"))
+}
+
+/// A small number as power of ten, `-` when there is none.
+fn science(value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}"))
+}

@@ -1,0 +1,109 @@
+//! The pressure pattern that a run leaves on the driving flank of one tooth of each gear.
+
+use std::f64::consts::PI;
+
+use contact::SliceResult;
+use geometry::{Flank, GearPair, Side};
+use ltca::{StaticHistory, StaticPosition};
+use study::{FlankPattern, StudyError, Touch};
+
+use scene::Scene;
+
+use super::pairs::in_cycle;
+
+/// Steps of the pattern along the profile: less than the half-width of a usual band each.
+const PROFILE_STEPS: usize = 40;
+
+/// Who was pressed how hard, on one gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearPattern {
+    /// `pinion` or `wheel`.
+    pub name: &'static str,
+    /// The driving flank of tooth 0, nominal: micro-geometry is too small to be seen.
+    pub flank: Flank,
+    /// x of the gear's centre, mm; y and z are 0.
+    pub centre_x: f64,
+    /// Largest pressure and line load over roll angle and height.
+    pub grid: FlankPattern,
+}
+
+impl GearPattern {
+    /// Diameter at roll angle `roll` (rad), mm: d = 2 r_b sqrt(1 + u^2).
+    pub fn diameter(&self, roll: f64) -> f64 {
+        diameter(self.flank.base_radius, roll)
+    }
+
+    /// Largest pressure of all, MPa.
+    pub fn largest_pressure(&self) -> f64 {
+        self.grid.max_pressure().iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// d = 2 r_b sqrt(1 + u^2), mm.
+pub fn diameter(base_radius: f64, roll: f64) -> f64 {
+    2.0 * base_radius * roll.hypot(1.0)
+}
+
+/// Patterns of pinion and wheel.
+///
+/// All pairs of a mesh cycle together are one whole engagement of one tooth: pair k at phase s is where a tooth gets to k + s
+/// cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest values count.
+///
+/// # Errors
+/// [`StudyError`] when the flank has no height, or a result is no number.
+pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<[GearPattern; 2], StudyError> {
+    Ok([pattern(scene, pair, history, 0)?, pattern(scene, pair, history, 1)?])
+}
+
+/// A driving flank that nothing has pressed.
+///
+/// # Errors
+/// [`StudyError`] when the flank has no height.
+pub fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
+    let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
+    let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
+    FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)
+}
+
+/// A grid with the flank that it lies on.
+pub fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
+    let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
+    GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid }
+}
+
+/// What a loaded slice of a pair is to the pattern of a gear.
+pub fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
+    Touch {
+        z: [slice.z, slice.wheel_z][gear],
+        engagement,
+        roll: slice.roll[gear],
+        pressure: slice.pressure,
+        line_load: slice.line_load,
+    }
+}
+
+fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize) -> Result<GearPattern, StudyError> {
+    let side = scene.side();
+    let mut grid = untouched(scene, pair, gear)?;
+    let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
+    let per_cycle = (scene.analysis.positions_per_cycle as usize).max(1);
+    for cycle in history.positions.chunks(per_cycle) {
+        let touches: Vec<Touch> = cycle.iter().flat_map(|p| touches(p, side, gear, pitch)).collect();
+        // One and a half distances of two positions: neighbours are joined, others never.
+        grid.press(&touches, 1.5 / per_cycle as f64)?;
+    }
+    Ok(on_flank(scene, pair, gear, grid))
+}
+
+/// Mid-heights of `count` slices over the face width, mm.
+fn stations(width: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect()
+}
+
+/// The loaded slices of a position on `side` as touches of one tooth of a gear.
+fn touches(position: &StaticPosition, side: Side, gear: usize, pitch: f64) -> impl Iterator<Item = Touch> + '_ {
+    position.pairs.iter().flat_map(move |pair| {
+        let engagement = in_cycle(position, pair.pair, pitch) as f64 + position.mesh_phase;
+        pair.slices.iter().filter(move |s| s.side == side).map(move |s| touch(s, gear, engagement))
+    })
+}

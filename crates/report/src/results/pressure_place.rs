@@ -1,0 +1,98 @@
+//! Where the largest pressure is.
+
+use contact::{Site, SliceResult};
+use ltca::StaticHistory;
+use serde::Serialize;
+
+use scene::Scene;
+
+use super::pattern::diameter;
+
+/// Place of the largest pressure of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct PressurePlace {
+    pub place: Site,
+    pub z_mm: f64,
+    pub pinion_diameter_mm: f64,
+    pub pinion_angle_deg: f64,
+    pub mesh_phase: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wheel_diameter_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pinion_tooth: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wheel_tooth: Option<u32>,
+}
+
+impl PressurePlace {
+    /// Of a history at rest; `None` without loaded slices.
+    pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
+        let slices = history
+            .positions
+            .iter()
+            .flat_map(|p| p.pairs.iter().flat_map(move |q| q.slices.iter().map(move |s| (p, q, s))));
+        let (p, q, s) = slices.fold(None, |best: Option<(_, _, &SliceResult)>, now| match best {
+            Some(b) if !now.2.is_harder(b.2) => Some(b),
+            _ => Some(now),
+        })?;
+        let at = |gear: usize| diameter(base_radius_mm(scene, gear), s.roll[gear]);
+        Some(Self {
+            place: s.site,
+            z_mm: s.z,
+            pinion_diameter_mm: at(0),
+            pinion_angle_deg: p.pinion_angle.to_degrees(),
+            mesh_phase: p.mesh_phase,
+            wheel_diameter_mm: Some(at(1)),
+            pinion_tooth: Some(q.pinion_tooth),
+            wheel_tooth: Some(q.wheel_tooth),
+        })
+    }
+
+    /// Of one row of a motion, from its columns.
+    pub fn of_row([place, z_mm, pinion_diameter_mm]: [f64; 3], pinion_angle_deg: f64, mesh_phase: f64) -> Option<Self> {
+        let place = *Site::ALL.get((place as usize).checked_sub(1)?)?;
+        let (wheel_diameter_mm, pinion_tooth, wheel_tooth) = (None, None, None);
+        Some(Self {
+            place,
+            z_mm,
+            pinion_diameter_mm,
+            pinion_angle_deg,
+            mesh_phase,
+            wheel_diameter_mm,
+            pinion_tooth,
+            wheel_tooth,
+        })
+    }
+
+    /// In words, for tables and reports.
+    pub fn said(&self) -> String {
+        let diameter = self.pinion_diameter_mm;
+        format!("{}, z {:.2} mm, d1 {diameter:.2} mm", words(self.place), self.z_mm)
+    }
+}
+
+/// What a place is called.
+fn words(site: Site) -> &'static str {
+    match site {
+        Site::Flank => "flank",
+        Site::EndFace => "end face",
+        Site::PinionTipEdge => "pinion's tip edge",
+        Site::WheelTipEdge => "wheel's tip edge",
+    }
+}
+
+/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row. Place: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel; 0 and `NaN` without any.
+pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
+    let Some(s) = SliceResult::hardest(slices) else { return [0.0, f64::NAN, f64::NAN] };
+    let code = Site::ALL.iter().position(|site| *site == s.site).map_or(0, |i| i + 1);
+    [code as f64, s.z, diameter(base_radius_mm, s.roll[0])]
+}
+
+/// Base radius of pinion (0) or wheel (1), mm.
+pub fn base_radius_mm(scene: &Scene, gear: usize) -> f64 {
+    let gear = scene.gears()[gear];
+    let cos = gear.helix_angle().cos();
+    let transverse = (scene.pair.normal_pressure_angle().tan() / cos).atan();
+    0.5 * f64::from(gear.teeth) * scene.pair.normal_module_mm / cos * transverse.cos()
+}

@@ -1,0 +1,130 @@
+//! Root stress in the result files: what is the largest, of which tooth, and where.
+
+use geometry::Side;
+use ltca::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak};
+use serde::Serialize;
+
+/// Largest root stresses of a run; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct RootStressHeadline {
+    pub definition: &'static str,
+    pub averaging: &'static str,
+    pub pinion: GearRootStress,
+    pub wheel: GearRootStress,
+}
+
+/// Largest root stresses of one gear over all positions.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct GearRootStress {
+    pub max_principal: Place,
+    pub min_principal: Place,
+    pub von_mises: Place,
+}
+
+/// A stress with the place and the position where it is found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct Place {
+    pub stress_mpa: f64,
+    pub estimated_error_percent: f64,
+    pub tooth: u32,
+    pub side: Side,
+    pub radius_mm: f64,
+    pub z_mm: f64,
+    pub node: u64,
+    pub pinion_angle_deg: f64,
+    pub mesh_phase: f64,
+}
+
+/// A measure of stress in a fillet; the sign says which end of it is the worst.
+#[derive(Debug, Clone, Copy)]
+pub struct Measure {
+    /// As in column names.
+    pub name: &'static str,
+    sign: f64,
+    peak: fn(&FilletStress) -> &StressPeak,
+}
+
+/// Largest first principal stress, tension.
+pub const MAX_PRINCIPAL: Measure = Measure { name: "max_principal", sign: 1.0, peak: |f| &f.max_principal };
+/// Least third principal stress, compression.
+pub const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, peak: |f| &f.min_principal };
+/// Largest von Mises stress.
+pub const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
+
+impl Measure {
+    /// The worst of some fillets.
+    fn worst<'a>(&self, fillets: impl Iterator<Item = &'a FilletStress>) -> Option<&'a FilletStress> {
+        let value = |f: &FilletStress| self.sign * (self.peak)(f).stress;
+        fillets.reduce(|best, f| if value(f) > value(best) { f } else { best })
+    }
+
+    /// The worst of some fillets, MPa; of one tooth when it is given. NaN where there is none.
+    pub fn stress(&self, fillets: &[FilletStress], tooth: Option<u32>) -> f64 {
+        let fillets = fillets.iter().filter(|f| tooth.is_none_or(|tooth| f.tooth == tooth));
+        self.worst(fillets).map_or(f64::NAN, |f| (self.peak)(f).stress)
+    }
+
+    fn place(&self, history: &StaticHistory, gear: usize) -> Option<Place> {
+        let worst_of = |p: &'_ StaticPosition| self.worst(p.root_stress[gear].iter()).copied();
+        let all = history.positions.iter().filter_map(|p| Some((p, worst_of(p)?)));
+        let value = |f: &FilletStress| self.sign * (self.peak)(f).stress;
+        let (position, fillet) = all.reduce(|best, now| if value(&now.1) > value(&best.1) { now } else { best })?;
+        let peak = (self.peak)(&fillet);
+        Some(Place {
+            stress_mpa: peak.stress,
+            estimated_error_percent: 100.0 * peak.relative_error(),
+            tooth: fillet.tooth,
+            side: fillet.side,
+            radius_mm: peak.radius,
+            z_mm: peak.z,
+            node: peak.node,
+            pinion_angle_deg: position.pinion_angle.to_degrees(),
+            mesh_phase: position.mesh_phase,
+        })
+    }
+}
+
+/// Estimated error of the largest tension of some fillets, %; NaN where there is none.
+pub fn error_percent(fillets: &[FilletStress]) -> f64 {
+    MAX_PRINCIPAL.worst(fillets.iter()).map_or(f64::NAN, |f| 100.0 * f.max_principal.relative_error())
+}
+
+/// What a user should hear of root stresses whose mesh is too coarse for them.
+///
+/// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
+pub fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = String> {
+    ["pinion", "wheel"].into_iter().zip(largest).filter(|(_, (_, error))| *error > DOUBTFUL_PERCENT).map(
+        |(gear, (stress, error))| {
+            format!(
+                "the {gear}'s root stress of {stress:.1} MPa may be {error:.0} % off: its mesh is coarse in the fillet; \
+                 raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there"
+            )
+        },
+    )
+}
+
+/// From this estimate on the user is told, %.
+const DOUBTFUL_PERCENT: f64 = 3.0;
+
+/// Largest root stresses of a run that computed them.
+pub fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
+    let gear = |i| {
+        Some(GearRootStress {
+            max_principal: MAX_PRINCIPAL.place(history, i)?,
+            min_principal: MIN_PRINCIPAL.place(history, i)?,
+            von_mises: VON_MISES.place(history, i)?,
+        })
+    };
+    let (definition, averaging) = (ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY);
+    Some(RootStressHeadline { definition, averaging, pinion: gear(0)?, wheel: gear(1)? })
+}
+
+impl RootStressHeadline {
+    /// Largest tension (MPa) of pinion and wheel and its estimated error (%).
+    pub fn largest_tensions(&self) -> [(f64, f64); 2] {
+        [self.pinion, self.wheel].map(|g| (g.max_principal.stress_mpa, g.max_principal.estimated_error_percent))
+    }
+}

@@ -1,0 +1,4 @@
+//! Laws of the crate `report`.
+
+mod columns;
+mod vtu;
