@@ -50,7 +50,7 @@ impl<'a> FieldWriter<'a> {
     }
 
     /// The series, when there is one.
-    pub(crate) fn finish(self) -> Result<(), CommandError> {
+    pub(crate) fn finish(&mut self) -> Result<(), CommandError> {
         if self.entries.is_empty() {
             return Ok(());
         }

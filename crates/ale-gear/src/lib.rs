@@ -27,7 +27,6 @@ pub mod certificate;
 pub mod chart;
 pub mod command;
 pub mod compare;
-mod elastic_gears;
 pub mod error;
 pub mod facts;
 mod fields;
@@ -42,15 +41,13 @@ pub use ::scene;
 pub mod starter;
 pub mod talk;
 
-mod gears;
-mod iso_model;
-pub mod iso_root;
 mod ladder;
-pub mod meshes;
 mod partial;
 pub mod reduce;
-pub mod resolution;
 pub mod rexs;
 mod room;
 pub mod view;
 mod work_folder;
+
+pub(crate) use analysis::{elastic_gears, gears, iso_model};
+pub use analysis::{iso_root, meshes, resolution};

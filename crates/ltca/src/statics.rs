@@ -1,5 +1,7 @@
 //! Station by station through mesh cycles, with tooth changes.
 
+use std::{ops::ControlFlow, sync::Arc};
+
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, Method, check_offsets};
 use geometry::GearPair;
@@ -14,7 +16,7 @@ use crate::{
 #[derive(Debug)]
 pub struct StaticModel {
     pair: GearPair,
-    gears: [ElasticGear; 2],
+    gears: Arc<[ElasticGear; 2]>,
     options: StaticOptions,
     root: Option<RootStress>,
     solver: CycleSolver,
@@ -29,11 +31,16 @@ impl StaticModel {
         Ok(first_window(pair, options)?.window().first_teeth())
     }
 
-    /// A model at the start of cycle 0.
+    /// A model at the start of cycle 0. Models may share their gears, and be solved side by side.
     ///
     /// # Errors
     /// [`StaticError`] when a value has no meaning, or meshes and geometry do not fit.
-    pub fn new(pair: GearPair, gears: [ElasticGear; 2], options: StaticOptions) -> Result<Self, StaticError> {
+    pub fn new(
+        pair: GearPair,
+        gears: impl Into<Arc<[ElasticGear; 2]>>,
+        options: StaticOptions,
+    ) -> Result<Self, StaticError> {
+        let gears = gears.into();
         let fine = options.torque.is_finite() && options.torque >= 0.0;
         if !fine {
             let value = options.torque;
@@ -82,7 +89,7 @@ impl StaticModel {
     }
 
     /// The gears back, reduced as they are: for a model of the same meshes with another torque or micro-geometry.
-    pub fn into_gears(self) -> [ElasticGear; 2] {
+    pub fn into_gears(self) -> Arc<[ElasticGear; 2]> {
         self.gears
     }
 
@@ -148,6 +155,22 @@ impl StaticModel {
         cycles: usize,
         mut seen: impl FnMut(usize, &StaticPosition, &Self),
     ) -> Result<StaticHistory, StaticError> {
+        self.run_while(positions, cycles, |index, position, model| {
+            seen(index, position, model);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// As [`StaticModel::run`]; `seen` may end the run, and the history has what was solved until then.
+    ///
+    /// # Errors
+    /// [`StaticError`] of the first station that cannot be solved.
+    pub fn run_while(
+        &mut self,
+        positions: usize,
+        cycles: usize,
+        mut seen: impl FnMut(usize, &StaticPosition, &Self) -> ControlFlow<()>,
+    ) -> Result<StaticHistory, StaticError> {
         let stations: Vec<Station> = (0..positions * cycles)
             .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
             .collect();
@@ -165,8 +188,11 @@ impl StaticModel {
                 let (inputs, solver) = self.split();
                 solver.resume(&inputs, state)?;
                 let i = history.positions.len();
-                seen(i, &position, self);
+                let goes_on = seen(i, &position, self);
                 history.positions.push(position);
+                if goes_on.is_break() {
+                    return Ok(history);
+                }
             }
         }
         Ok(history)

@@ -1,5 +1,6 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
+use analysis::Progress;
 use dynamics::{
     Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, quasi_static_start, shoot,
 };
@@ -14,7 +15,7 @@ use super::{
 use crate::{
     error::CommandError,
     pattern::GearPattern,
-    phases::{Phases, Progress},
+    phases::Phases,
     run::Failure,
     scene::{MotionScene, Run, Scene},
 };
@@ -175,7 +176,7 @@ fn settle(
     course: &mut CourseState,
     rows: &mut Rows,
     (tolerance, most): (f64, u64),
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     while motion.cycle() < most {
         let swing = motion.run_cycle(None).map_err(|e| failure(keep.scene, e))?;
@@ -200,7 +201,7 @@ fn record(
     course: &mut CourseState,
     rows: &mut Rows,
     goal: Goal,
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     let tolerance = goal.settle.map_or(1e-6, |(tolerance, _)| tolerance);
     while course.recorded < goal.cycles && motion.goes_on() {

@@ -7,7 +7,6 @@ use super::{
     write_pattern_vtu,
 };
 use crate::error::CommandError;
-use crate::gears;
 use crate::pattern::{GearPattern, patterns};
 use crate::scene::Scene;
 
@@ -23,7 +22,7 @@ pub fn write_contact(
     if !scene.has_slices() {
         return Ok(None);
     }
-    let pair = gears::pair(scene)?;
+    let pair = scene.gear_pair()?;
     if scene.output.contact_lines {
         results.write("contact_lines.csv", write_contact_lines(scene, &pair, history).as_bytes())?;
     }

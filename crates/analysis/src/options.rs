@@ -4,10 +4,10 @@ use contact::{GapSource, Law, Misalignment, Offset};
 use geometry::GearPair;
 use ltca::StaticOptions;
 
-use crate::scene::{Driver, Flanks, Gap, Method, Rotation, Scene};
+use scene::{Driver, Flanks, Gap, Method, Rotation, Scene};
 
 /// What a scene asks of the analysis.
-pub(crate) fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
+pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     let defaults = StaticOptions::new(scene.operation.torque(), pair);
     let m = scene.pair.misalignment;
     let misalignment = Misalignment {

@@ -1,41 +1,37 @@
 //! From meshes to elastic gears: reduced, from the cache, or whole.
 
-use std::path::PathBuf;
-
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
 use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
 
-use crate::{
-    cache::Cache,
-    error::CommandError,
-    meshes::SceneMesh,
-    run::complaint,
-    scene::{Model, Reduction, Scene},
-};
+use scene::{Model, Reduction, Scene};
+
+use crate::{AnalysisError, GearCache, meshes::SceneMesh, statics::solver_error};
 
 /// Both gears as the analysis takes them.
 #[derive(Debug)]
-pub(crate) struct ElasticGears {
-    pub(crate) gears: [ElasticGear; 2],
-    pub(crate) keys: RecordKeys,
+pub struct ElasticGears {
+    /// Pinion and wheel.
+    pub gears: [ElasticGear; 2],
+    /// What the cache knows them by.
+    pub keys: RecordKeys,
     /// What was wrong with files of the cache.
-    pub(crate) warnings: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// What the cache knows the gears by; none where nothing is cached.
 #[derive(Debug)]
-pub(crate) struct RecordKeys([Option<RecordKey>; 2]);
+pub struct RecordKeys([Option<RecordKey>; 2]);
 
 impl RecordKeys {
-    /// Where the records of pinion and wheel are kept; `None` where nothing is.
-    pub(crate) fn files(&self, cache: &Cache) -> [Option<PathBuf>; 2] {
-        [0, 1].map(|i| cache.file(self.0[i].as_ref()?))
+    /// Keys of pinion and wheel; `None` where nothing is kept.
+    pub fn keys(&self) -> &[Option<RecordKey>; 2] {
+        &self.0
     }
 
     /// Writes what was reduced in this run; the warnings are about what could not be written.
-    pub(crate) fn save(&self, cache: &Cache, gears: &[ElasticGear; 2]) -> Vec<String> {
+    pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<String> {
         let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
             ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
             ElasticGear::Full(_) => None,
@@ -47,15 +43,15 @@ impl RecordKeys {
 /// Both gears, side by side.
 ///
 /// # Errors
-/// Exit status 2 when a mesh is not what the analysis needs.
-pub(crate) fn elastic_gears(
+/// [`AnalysisError`] when a mesh is not what the analysis needs.
+pub fn elastic_gears(
     scene: &Scene,
     pair: &GearPair,
     options: &StaticOptions,
     meshes: &[SceneMesh; 2],
-    cache: &Cache,
-) -> Result<ElasticGears, CommandError> {
-    let first = StaticModel::first_teeth(pair, options).map_err(|e| complaint(scene, &e))?;
+    cache: &dyn GearCache,
+) -> Result<ElasticGears, AnalysisError> {
+    let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
     let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
@@ -76,13 +72,13 @@ fn one(
     pair: &GearPair,
     options: ReductionOptions,
     meshes: &[SceneMesh; 2],
-    cache: &Cache,
+    cache: &dyn GearCache,
     i: usize,
-) -> Result<Built, CommandError> {
+) -> Result<Built, AnalysisError> {
     let (mesh, material) = (&meshes[i], material(scene, i)?);
     if scene.analysis.model == Model::Full {
         let gear = FullGear::new(mesh.gear.clone(), material, &options.elements);
-        return Ok((gear.map(ElasticGear::Full).map_err(|e| blame(scene, mesh, i, &e))?, None, None));
+        return Ok((gear.map(ElasticGear::Full).map_err(|e| blame(scene, mesh, i, e))?, None, None));
     }
     let geometry = [&pair.pinion, &pair.wheel][i];
     let general = scene.analysis.reduction == Some(Reduction::General);
@@ -94,23 +90,26 @@ fn one(
         (None, true) => GearReducer::general(mesh.gear.clone(), material, options),
         (None, false) => GearReducer::new(mesh.gear.clone(), material, options),
     };
-    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, &e))?, key, warning))
+    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning))
 }
 
-fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, error: &reduction::ReductionError) -> CommandError {
+fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {
     let place = match scene.gears()[i].mesh {
         Some(_) => mesh.facts.source.clone(),
         None => format!("{}: built-in mesher", scene.file.display()),
     };
-    CommandError::input(format_args!("{place}: {}: {error}", ["pinion", "wheel"][i]), error.hint())
+    AnalysisError::Reduction { place, gear: ["pinion", "wheel"][i], source: Box::new(source) }
 }
 
 /// Material of pinion (0) or wheel (1).
 ///
 /// # Errors
-/// Exit status 2 when it is none.
-pub(crate) fn material(scene: &Scene, i: usize) -> Result<Material, CommandError> {
+/// [`AnalysisError`] when it is none.
+pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
     let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
-    Material::new(m.young_mpa, m.poisson, m.density())
-        .map_err(|e| CommandError::input(format_args!("{}: {whose}'s material: {e}", scene.file.display()), e.hint()))
+    Material::new(m.young_mpa, m.poisson, m.density()).map_err(|source| AnalysisError::Material {
+        file: scene.file.display().to_string(),
+        gear: whose,
+        source: Box::new(source),
+    })
 }

@@ -1,19 +1,11 @@
-//! What a user hears of the exact pair of a scene.
+//! What a user hears of the exact pair of a scene: warnings and derived geometry.
 
 use geometry::GearPair;
 
-use crate::{error::CommandError, facts::GeometryFacts, scene::Scene};
-
-/// The exact pair of a scene.
-///
-/// # Errors
-/// Exit status 2 when no running pair can be made of the data.
-pub(crate) fn pair(scene: &Scene) -> Result<GearPair, CommandError> {
-    Ok(scene.gear_pair()?)
-}
+use crate::facts::GeometryFacts;
 
 /// What a user should know of a pair that runs.
-pub(crate) fn doubts(pair: &GearPair) -> Vec<String> {
+pub fn warnings(pair: &GearPair) -> Vec<String> {
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
     let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
     let told = undercut.map(|(whose, gear)| {
@@ -29,7 +21,7 @@ pub(crate) fn doubts(pair: &GearPair) -> Vec<String> {
 }
 
 /// What the summary says of a pair.
-pub(crate) fn geometry_facts(pair: &GearPair) -> GeometryFacts {
+pub fn geometry_facts(pair: &GearPair) -> GeometryFacts {
     GeometryFacts {
         centre_distance_mm: pair.centre_distance(),
         transverse_pressure_angle_deg: pair.pinion.transverse_pressure_angle().to_degrees(),

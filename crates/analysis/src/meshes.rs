@@ -2,13 +2,13 @@
 
 use geometry::{Gear, GearPair, Side, Vec3};
 use mesh::{
-    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, MshFormat, Severity,
-    StructuredOptions, SurfaceGroup, generate,
+    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions,
+    SurfaceGroup, generate,
 };
 
-use crate::error::CommandError;
-use crate::facts::MeshFacts;
-use crate::scene::{GearScene, MesherScene, Reduction, Scene};
+use scene::{GearScene, MesherScene, Reduction, Scene};
+
+use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts};
 
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
@@ -25,7 +25,7 @@ pub struct SceneMesh {
 ///
 /// # Errors
 /// As [`gear_mesh`].
-pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], CommandError> {
+pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
     let pinion = gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
     let wheel = gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
     Ok([pinion, wheel])
@@ -34,45 +34,20 @@ pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], Com
 /// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
 ///
 /// # Errors
-/// Exit status 2 when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh of
+/// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh of
 /// another gear; when the built-in mesher cannot make the one asked for.
-pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, CommandError> {
+pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
     match &gear.mesh {
         Some(path) => {
             let file = scene.resolve(path);
-            let complain = |e: &MeshError| {
-                let said = e.to_string();
-                // Errors of reading name the file themselves, errors about what was read do not.
-                let file = file.display().to_string();
-                let message = if said.starts_with(&file) { said } else { format!("{file}: {said}") };
-                CommandError::input(message, e.hint())
-            };
+            let complain =
+                |source: MeshError| AnalysisError::Mesh { place: file.display().to_string(), source: Box::new(source) };
             let content =
-                scene.content(path).map_err(|source| complain(&MeshError::Read { path: file.clone(), source }))?;
-            let mesh = Mesh::parse(&content, &file).map_err(|e| complain(&e))?;
+                scene.content(path).map_err(|source| complain(MeshError::Read { path: file.clone(), source }))?;
+            let mesh = Mesh::parse(&content, &file).map_err(complain)?;
             drop(content);
-            of_this_size(&file.display().to_string(), whose, &mesh, exact)?;
-            let mut warnings = sound(&file.display().to_string(), &mesh, gear)?;
-            let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(|e| complain(&e))?;
-            if let Some(fit) = fit {
-                warnings.push(format!(
-                    "{}: no flank is named; {} flanks found by fit, nodes within {:.2} um{}",
-                    file.display(),
-                    fit.flanks.len(),
-                    1e3 * fit.largest_deviation(),
-                    if fit.phase == 0.0 {
-                        String::new()
-                    } else {
-                        format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
-                    }
-                ));
-            }
-            same_bore(scene, &file.display().to_string(), whose, &found, exact)?;
-            on_the_flanks(&file.display().to_string(), whose, &found, exact)?;
-            whole_flanks(&file.display().to_string(), whose, &found, exact)?;
-            let source = path.display().to_string();
-            let (gear, facts) = to_compute(scene, found, source).map_err(|e| complain(&e))?;
-            Ok(SceneMesh { gear, facts, warnings })
+            let names = [file.display().to_string(), path.display().to_string()];
+            checked_mesh(scene, whose, (gear, exact), mesh, names)
         }
         None => {
             let mut options = options_of(gear);
@@ -80,7 +55,8 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 options.extent = Extent::Periodic;
             }
             let mesh = generated_with(scene, whose, exact, &options)?;
-            let failed = |e: MeshError| CommandError::failed(format_args!("built-in mesher, {whose}: {e}"), e.hint());
+            let failed =
+                |source: MeshError| AnalysisError::MadeMesh { gear: whose.to_owned(), source: Box::new(source) };
             let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
             let (gear, facts) = to_compute(scene, found, "built-in mesher".to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, warnings: Vec::new() })
@@ -88,11 +64,45 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
     }
 }
 
+/// A mesh that the caller brings, checked against its gear; `names` are those of its file in messages and in the summary.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub fn checked_mesh(
+    scene: &Scene,
+    whose: &str,
+    (gear, exact): (&GearScene, &Gear),
+    mesh: Mesh,
+    [file, source]: [String; 2],
+) -> Result<SceneMesh, AnalysisError> {
+    let complain = |source: MeshError| AnalysisError::Mesh { place: file.clone(), source: Box::new(source) };
+    of_this_size(&file, whose, &mesh, exact)?;
+    let mut warnings = sound(&file, &mesh, gear)?;
+    let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
+    if let Some(fit) = fit {
+        let turned = if fit.phase == 0.0 {
+            String::new()
+        } else {
+            format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
+        };
+        warnings.push(format!(
+            "{file}: no flank is named; {} flanks found by fit, nodes within {:.2} um{turned}",
+            fit.flanks.len(),
+            1e3 * fit.largest_deviation(),
+        ));
+    }
+    same_bore(scene, &file, whose, &found, exact)?;
+    on_the_flanks(&file, whose, &found, exact)?;
+    whole_flanks(&file, whose, &found, exact)?;
+    let (gear, facts) = to_compute(scene, found, source).map_err(complain)?;
+    Ok(SceneMesh { gear, facts, warnings })
+}
+
 /// The mesh that the built-in mesher makes of one gear.
 ///
 /// # Errors
-/// Exit status 2 when the gear cannot be meshed with these numbers of elements.
-pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, CommandError> {
+/// [`AnalysisError`] when the gear cannot be meshed with these numbers of elements.
+pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, AnalysisError> {
     generated_with(scene, whose, exact, &options_of(gear))
 }
 
@@ -105,9 +115,17 @@ fn sector_is_enough(scene: &Scene) -> bool {
     scene.analysis.model.is_reduced() && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
 }
 
-fn generated_with(scene: &Scene, whose: &str, exact: &Gear, options: &StructuredOptions) -> Result<Mesh, CommandError> {
-    generate(exact, options)
-        .map_err(|e| CommandError::input(format_args!("{}: [{whose}.mesher]: {e}", scene.file.display()), e.hint()))
+fn generated_with(
+    scene: &Scene,
+    whose: &str,
+    exact: &Gear,
+    options: &StructuredOptions,
+) -> Result<Mesh, AnalysisError> {
+    generate(exact, options).map_err(|source| AnalysisError::Mesher {
+        file: scene.file.display().to_string(),
+        gear: whose.to_owned(),
+        source: Box::new(source),
+    })
 }
 
 fn options(m: &MesherScene) -> StructuredOptions {
@@ -127,23 +145,27 @@ fn options(m: &MesherScene) -> StructuredOptions {
 }
 
 /// Refuses a mesh that is far larger or smaller than the gear: another unit, or another gear.
-fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), CommandError> {
+fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), AnalysisError> {
     let reach = mesh.nodes.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
     let tip = exact.tip_radius();
     if (0.5..2.0).contains(&(reach / tip)) {
         return Ok(());
     }
-    Err(CommandError::input(
-        format_args!(
+    Err(mismatch(
+        format!(
             "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
         ),
-        Some(match unit_of(reach / tip) {
+        match unit_of(reach / tip) {
             Some((unit, factor)) => format!(
                 "the mesh is in {unit}: write it again in mm, {factor} times as large (Gmsh: `Mesh.ScalingFactor = {factor};`)"
             ),
             None => "coordinates must be in mm (not m or inch), the gear's axis on z".into(),
-        }),
+        },
     ))
+}
+
+fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
+    AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
 }
 
 /// The unit that a mesh is in by its size over the gear's, within a tenth; and mm in that unit.
@@ -154,11 +176,11 @@ fn unit_of(size: f64) -> Option<(&'static str, f64)> {
 }
 
 /// Refuses a mesh with errors; hands on its warnings.
-fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, CommandError> {
+fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, AnalysisError> {
     let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
     if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
         let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
-        return Err(CommandError::input(format_args!("{file}: {}", error.text), Some(hint)));
+        return Err(mismatch(format!("{file}: {}", error.text), hint));
     }
     let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
     Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
@@ -168,7 +190,7 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, Comma
 const BORE_AGREES: f64 = 1e-3;
 
 /// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia where no mesh is needed.
-fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
     let stated = exact.data().bore_diameter;
     let [low, high] = found.mesh().radii(found.bore_nodes()).map(|r| 2.0 * r);
     if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
@@ -179,12 +201,13 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &G
     let own = if high - low < BORE_AGREES * high { format!("{high:.3}") } else { format!("{low:.3} to {high:.3}") };
     let message = format!("{at}: the {whose}'s `bore_diameter_mm` is {stated}, but the bore of {file} has {own} mm");
     let hint = "leave `bore_diameter_mm` out: the mesh's own is taken";
-    Err(CommandError::input(message, Some(hint.into())).about(place.as_ref().and_then(|p| p.excerpt())))
+    let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
+    Err(AnalysisError::Mismatch(Box::new(MeshMismatch { said: message, hint: hint.into(), excerpt })))
 }
 
 /// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
 /// and the gaps of the one would be put on the compliance of the other.
-fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
     let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
     for tooth in found.teeth() {
         for side in [Side::Left, Side::Right] {
@@ -196,18 +219,15 @@ fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Res
                 let off = flank.locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs());
                 if off > allowed {
                     let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
-                    return Err(CommandError::input(
-                        format_args!(
+                    return Err(mismatch(
+                        format!(
                             "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, \
                              allowed is {allowed:.3} mm",
                             found.mesh().node_tags[index],
                             side.name()
                         ),
-                        Some(
-                            "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), \
-                             axis on z, tooth 0 on +x?"
-                                .into(),
-                        ),
+                        "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), \
+                         axis on z, tooth 0 on +x?",
                     ));
                 }
             }
@@ -225,21 +245,21 @@ const COVERED: f64 = 0.75;
 /// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
 /// ```
 /// Area of a flank from the root form circle to the tip, mm^2.
-fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), CommandError> {
+fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
     let profile = exact.profile();
     let arc = 0.5 * exact.base_radius() * (profile.roll_tip().powi(2) - profile.roll_form().powi(2));
     let whole = exact.face_width() * arc / exact.base_helix_angle().cos();
     for (tooth, side) in found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]) {
         let area: f64 = found.flank(tooth, side).unwrap_or_default().iter().map(|face| found.mesh().area(face)).sum();
         if area < COVERED * whole {
-            let said = format_args!(
+            let said = format!(
                 "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of {whole:.2} mm^2",
                 side.name(),
                 100.0 * area / whole
             );
             let hint =
                 "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
-            return Err(CommandError::input(said, Some(hint.into())));
+            return Err(mismatch(said, hint));
         }
     }
     Ok(())
@@ -264,18 +284,4 @@ fn to_compute(scene: &Scene, found: GearMesh, mut source: String) -> Result<(Gea
     };
     let gear = if sector_is_enough(scene) { found } else { found.whole()? };
     Ok((gear, facts))
-}
-
-/// Format of a mesh file by the words of the command line.
-///
-/// # Errors
-/// Exit status 2 for another version than 4.1 and 2.2.
-pub fn format(version: &str, ascii: bool) -> Result<MshFormat, CommandError> {
-    match (version, ascii) {
-        ("4.1", true) => Ok(MshFormat::Ascii41),
-        ("4.1", false) => Ok(MshFormat::Binary41),
-        ("2.2", true) => Ok(MshFormat::Ascii22),
-        ("2.2", false) => Ok(MshFormat::Binary22),
-        _ => Err(CommandError::input(format_args!("`--format` is {version}, allowed is 4.1 or 2.2"), None)),
-    }
 }

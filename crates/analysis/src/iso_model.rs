@@ -10,12 +10,9 @@ use lumped::{
     iso::{IsoPair, IsoStiffness, body_compliance, mean_transmission_error_um, stiffness},
 };
 
-use crate::{
-    error::CommandError,
-    facts::{Facts, Solved},
-    gears, iso_root,
-    scene::{Driver, Scene},
-};
+use scene::{Driver, Scene};
+
+use crate::{AnalysisError, facts::Facts, gears, iso_root};
 
 /// Solves the scene in closed form.
 ///
@@ -25,12 +22,12 @@ use crate::{
 /// c_1 and c_2, by which the axial force bends the bodies, are no part of ISO 6336-1 and stand beside its values.
 ///
 /// # Errors
-/// Exit status 2 where ISO 6336-1 does not hold.
-pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<Solved, CommandError> {
+/// [`AnalysisError::Iso`] where ISO 6336-1 does not hold.
+pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
     let base_force = base_force(scene, pair);
-    let iso = iso_stiffness(scene, pair).map_err(|e: LumpedError| {
-        CommandError::input(format_args!("{}: model \"iso\": {e}", scene.file.display()), e.hint())
-    })?;
+    let fail =
+        |source: LumpedError| AnalysisError::Iso { file: scene.file.display().to_string(), source: Box::new(source) };
+    let iso = iso_stiffness(scene, pair).map_err(fail)?;
     let bodies = bodies(scene, pair);
     let mesh = Mesh { base_force, c_mesh: iso.c_mesh, bodies: bodies.iter().sum() };
     let per_cycle = scene.analysis.positions_per_cycle;
@@ -62,7 +59,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<Solved, CommandErr
     warnings.extend(doubts(pair, bending / mean_te));
     let mut facts = Facts { geometry: gears::geometry_facts(pair), model, ..Facts::default() };
     warnings.extend(iso_root::add(&mut facts, scene, pair));
-    Ok(Solved { history: StaticHistory { positions, warnings }, facts, view: None })
+    Ok((StaticHistory { positions, warnings }, facts))
 }
 
 /// Transverse contact ratio below which ISO 6336-1 wants less stiffness than its formula and gives no figure.
@@ -90,7 +87,7 @@ fn doubts(pair: &GearPair, bending: f64) -> Vec<String> {
 }
 
 /// What the axial force adds on the line of action by bending the bodies of pinion and wheel, mm/N.
-pub(crate) fn bodies(scene: &Scene, pair: &GearPair) -> [f64; 2] {
+pub fn bodies(scene: &Scene, pair: &GearPair) -> [f64; 2] {
     let materials = scene.gears().map(|g| g.material);
     body_compliance(pair, materials.map(|m| m.young_mpa), materials.map(|m| m.poisson))
 }
@@ -107,7 +104,7 @@ struct Mesh {
 }
 
 /// F_bt, N: torque on the driven gear over its base radius.
-pub(crate) fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
+pub fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
     let driven = match scene.operation.driver {
         Driver::Pinion => &pair.wheel,
         Driver::Wheel => &pair.pinion,
@@ -115,7 +112,11 @@ pub(crate) fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
     scene.operation.torque() / driven.base_radius()
 }
 
-pub(crate) fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
+/// Stiffness of the pair after ISO 6336-1.
+///
+/// # Errors
+/// [`LumpedError`] where the standard does not hold.
+pub fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
     let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
     stiffness(&IsoPair {
         teeth: [scene.pinion.teeth, scene.wheel.teeth],

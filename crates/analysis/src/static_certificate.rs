@@ -14,7 +14,7 @@ const ACTION_REACTION: f64 = 1e-8;
 const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
 /// The worst of all positions: torque balance, complementarity, action and reaction.
-pub(crate) fn certificate(positions: &[StaticPosition]) -> Certificate {
+pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
     let check = |name, value, bound| Check { name, value, bound, way_out: WAY_OUT };
     Certificate::new([
@@ -25,6 +25,6 @@ pub(crate) fn certificate(positions: &[StaticPosition]) -> Certificate {
 }
 
 /// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.
-pub(crate) fn worse(a: f64, b: f64) -> f64 {
+pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }

@@ -5,10 +5,9 @@ use geometry::GearPair;
 use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
 use serde::Serialize;
 
-use crate::{
-    gears, run,
-    scene::{Model, Scene, StiffnessFrom},
-};
+use scene::{Model, Scene, StiffnessFrom};
+
+use crate::options;
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -45,15 +44,15 @@ fn is_sliced(scene: &Scene) -> bool {
 pub fn with_slices(mut scene: Scene) -> Scene {
     if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
         // A pair that cannot be made is complained about where it is made.
-        if let Ok(pair) = gears::pair(&scene) {
-            scene.contact.slices = Some(slices_needed(&pair, &run::options(&scene, &pair)).count as u32);
+        if let Ok(pair) = scene.gear_pair() {
+            scene.contact.slices = Some(slices_needed(&pair, &options(&scene, &pair)).count as u32);
         }
     }
     scene
 }
 
 /// How fine the contact is of a pair that is computed with `options`, and what a user should hear of it.
-pub(crate) fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<String>) {
+pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<String>) {
     let sliced = options.contact.method == Method::Slice;
     let slices_chosen = sliced && scene.place_of(&[SLICES]).is_none();
     let needed = sliced.then(|| slices_needed(pair, options));

@@ -7,7 +7,9 @@ use lumped::{
 };
 use serde::Serialize;
 
-use crate::{facts::Facts, iso_model::base_force, scene::Scene};
+use scene::Scene;
+
+use crate::{facts::Facts, iso_model::base_force};
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
@@ -40,7 +42,7 @@ pub struct IsoGearRoot {
 }
 
 /// Puts the nominal root stress among the facts of a run; what is returned says why there is none.
-pub(crate) fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<String> {
+pub fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<String> {
     match root_stress(scene, pair) {
         Ok(found) => {
             facts.iso_root_stress = Some(found);

@@ -4,12 +4,12 @@ use ltca::{StaticModel, StaticPosition};
 use mesh::Extent;
 use reduction::GearReducer;
 
-use super::{coarse::Coarse, reduced};
+use crate::{coarse::Coarse, reduced};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
 /// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth stiffen.
-pub(crate) fn body_warnings(model: &StaticModel) -> Vec<String> {
+pub fn body_warnings(model: &StaticModel) -> Vec<String> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
     let warn = |i: usize| sector_warning(model, &coarse, i).into_iter().chain(rim_warning(model, &coarse, i));
@@ -74,7 +74,7 @@ fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Str
 const LARGE_ERROR_MODULES: f64 = 0.05;
 
 /// What a solution says that a user should hear.
-pub(super) fn doubts(positions: &[StaticPosition], module: f64) -> Vec<String> {
+pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
