@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::Displacement;
 
-/// Place or velocity of a pair: rigid displacements of both gears and amplitudes q of their modes.
+/// Displacement or velocity of a pair: rigid coordinates d of both gears, and amplitudes q of their normal modes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ElasticDisplacement {
     pub d: Displacement,

@@ -1,8 +1,8 @@
-//! What is worth knowing of a whole motion.
+//! Extreme values of a motion.
 
 use serde::{Deserialize, Serialize};
 
-/// What is worth knowing of a whole motion, gathered step by step.
+/// Extreme values of a motion, updated at the end of every step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Least normal force of a slice in contact, damping included, N; none before the first step in contact. Below 0 a

@@ -1,7 +1,8 @@
 //! Normal modes that move beside the rigid bodies. Theory (62).
 //!
 //! ```text
-//! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2        x rigid coordinates of one gear, D their turn into the gear's own frame
+//! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2
+//!     x rigid coordinates of one gear, D their turn into the gear's own frame
 //! p = q + L D x:  x' (M - L' L) x' / 2 + p' . p' / 2              constant, and without coupling
 //! V = V_contact(x, q) + q' Omega^2 q / 2,   q = p - L D x
 //! ```

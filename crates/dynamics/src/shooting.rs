@@ -1,13 +1,13 @@
-//! The periodic answer found directly: Newton on the map over one period. Theory (49).
+//! The periodic solution by shooting: Newton's method on the map over one period. Theory (49).
 //!
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
-//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of
-//! modes are in ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the
-//! integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by
-//! differences, one period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold
-//! this takes far fewer periods than waiting; and it finds unstable answers, which waiting never does.
+//! P is the motion over a period, with the gears' own frames turned back by as many pitches: amplitudes of modes are in
+//! those frames ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the
+//! integrator's own acceleration is a third part of x, because it is carried from step to step. dP/dx comes from finite
+//! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
+//! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.
 
 use integrate::{MotionError, State, difference};
 use ltca::StaticError;
@@ -21,7 +21,7 @@ const STEP: f64 = 1e-4;
 /// Times a Newton step is halved before it is taken as it is.
 const HALVINGS: usize = 5;
 
-/// What shooting has found.
+/// Result of shooting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShootingResult {
     /// Largest difference of a coordinate or velocity over a period, over its peak to peak.
@@ -34,8 +34,8 @@ pub struct ShootingResult {
     pub multiplier: f64,
 }
 
-/// Brings `motion`, at the start of cycle 0, onto its periodic answer of `period` mesh cycles; afterwards it stands
-/// there at the start of cycle 0.
+/// Brings `motion`, at the start of cycle 0, onto its periodic solution of `period` mesh cycles. Afterwards the motion
+/// stands at the start of cycle 0.
 ///
 /// Gives up after `most` Newton steps: the residual then says how far it is from repeating itself.
 ///
@@ -75,7 +75,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         for halving in 0..=HALVINGS {
             let next = moved(&here, &(share * &step));
             let there = match search.map(motion, &next) {
-                // Too far: not even a motion.
+                // The step was too long: there is no motion from there.
                 Err(e)
                     if halving < HALVINGS && matches!(e.contact_error(), Some(StaticError::PassedThrough { .. })) =>
                 {

@@ -39,7 +39,7 @@ pub fn stable_step(
         own.accepted(time, &q, &still).map_err(fail(time))?;
         forces.clear();
         own.forces(time, &q, &still, &mut forces).map_err(fail(time))?;
-        stiffest.look(&forces);
+        stiffest.include(&forces);
     }
     Ok(stiffest.limit())
 }

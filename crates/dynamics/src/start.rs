@@ -12,16 +12,16 @@ const TOLERANCE: f64 = 1e-9;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
-/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion; velocities are
-/// those of this balance.
+/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion. Velocities are
+/// the rates of this balance.
 ///
 /// ```text
 /// f(t, q, 0) = 0,   v = [q(t + dt) - q(t - dt)] / 2 dt
 /// ```
-/// Inertia of the balance's own motion is left out: where the motion is fast, what differs from it is the motion's own
-/// transient. A driver that a torque drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm)
-/// under a load on the driving flanks, `scale` the size of each coordinate. A load the other way presses the coast
-/// flanks: there the lag is about as far beyond the backlash.
+/// Inertia of that slow motion is left out; in a fast motion the difference is a transient. A driver that a torque
+/// drives keeps its nominal turn. `guess` is an approximate lag of the driven gear (mm) with load on the driving
+/// flanks, `scale` the size of each coordinate. A load in the other direction presses the coast flanks: the lag is then
+/// about as far beyond the backlash.
 ///
 /// # Errors
 /// [`PairMotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free
@@ -53,7 +53,7 @@ pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<
     q
 }
 
-/// Levenberg's way: Newton where that lowers the residual, with as much added stiffness as it takes.
+/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness.
 pub(super) fn balance(
     system: &mut PairMechanism,
     time: f64,

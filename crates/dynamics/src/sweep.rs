@@ -11,10 +11,10 @@ use crate::{
     run_to_steady, shoot,
 };
 
-/// Which way a sweep goes through its speeds.
+/// Order in which a sweep goes through its speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SweepDirection {
-    /// Every speed begins by itself, in quasi-static equilibrium.
+    /// Every speed starts independently, in quasi-static equilibrium.
     Independent,
     /// From the lowest speed to the highest, each beginning where the one before ended.
     Up,
@@ -44,12 +44,12 @@ pub struct SteadyOptions {
     pub cycles: u64,
 }
 
-/// Speeds, ways, and what is asked of each.
+/// Speeds, directions, and options of each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPlan {
     /// Speeds of the driver, rad/s, ascending, > 0.
     pub speeds: Vec<f64>,
-    /// Ways to go through them.
+    /// Directions in which to go through them.
     pub ways: Vec<SweepDirection>,
     /// Method and rows.
     pub settings: MotionSettings,
@@ -59,12 +59,12 @@ pub struct SweepPlan {
     pub guess: f64,
 }
 
-/// The answer at one speed.
+/// Result at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPoint {
     /// Speed of the driver, rad/s.
     pub speed: f64,
-    /// Which way it was come to.
+    /// Direction of the sweep.
     pub way: SweepDirection,
     /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
     pub own_start: bool,
@@ -90,7 +90,7 @@ pub struct SweepPoint {
     pub changes: ToothChanges,
 }
 
-/// A speed without an answer.
+/// A speed without a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepMiss {
     /// Speed of the driver, rad/s.
@@ -101,15 +101,15 @@ pub struct SweepMiss {
     pub error: PairMotionError,
 }
 
-/// What a sweep finds at one speed.
+/// Outcome of a sweep at one speed.
 pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 
-/// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same
-/// numbers for any number of threads.
+/// Sweeps `system` through speeds. Directions, and independent speeds, run in parallel; results are the same for any
+/// number of threads.
 ///
-/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static
-/// equilibrium, and the speed behind one without an answer goes on from the last that has one. `seen` is told of each,
-/// and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
+/// A speed that cannot go on from its neighbour starts again in its own quasi-static equilibrium. After a speed without
+/// a result the sweep goes on from the last one that has a result. `seen` gets each outcome and may end its direction
+/// there. Outcomes are in the order of directions, and of speeds within each.
 ///
 /// # Errors
 /// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
@@ -152,7 +152,8 @@ pub fn sweep(
     Ok(all.into_iter().flatten().collect())
 }
 
-/// One speed from a state of another one, then from its own start where that does not get through; and where it ends.
+/// One speed, started from the state of its neighbour; where that fails, from its own quasi-static equilibrium. Returns
+/// its outcome and its final state.
 fn sweep_speed(
     system: &PairMechanism,
     plan: &SweepPlan,
@@ -160,7 +161,7 @@ fn sweep_speed(
     speed: f64,
     state: Option<&State>,
 ) -> (SweepOutcome, Option<State>) {
-    // Teeth missing beside the window are no matter of the start.
+    // A starved window does not depend on the start.
     let starved = |e: &PairMotionError| e.contact_error().is_some_and(StaticError::is_starved);
     let carried = state.map(|state| steady_state_at(system, plan, way, speed, Some(state)));
     let found = match carried {

@@ -12,7 +12,8 @@ impl GearPair {
     /// or the wheel (1), driving flanks touching along the line of action; 0: it passes free.
     ///
     /// ```text
-    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]      s from the tip's contact onwards
+    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]
+    ///                              s from the tip's contact onwards
     /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
     /// ```
     /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out

@@ -25,7 +25,7 @@ pub struct Crossing {
 }
 
 /// Coordinates and velocities within a step, by the cubic through both ends with their velocities.
-pub(crate) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
+pub(crate) fn interpolated(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
     let h = to.time - from.time;
     let (s, r) = (share, 1.0 - share);
     let q = (r * r * (1.0 + 2.0 * s)) * &from.q + (s * s * (1.0 + 2.0 * r)) * &to.q + (h * s * r * r) * &from.v
@@ -88,7 +88,7 @@ pub(crate) fn crossings<M: Mechanism>(
     for event in (0..before.len()).filter(|&i| (before[i] >= 0.0) != (after[i] >= 0.0)) {
         let h = to.time - from.time;
         let share = root([before[event], after[event]], |share| {
-            let (q, v) = between(from, to, share);
+            let (q, v) = interpolated(from, to, share);
             event_values(system, from.time + share * h, &q, &v).map(|values| values[event])
         })?;
         let direction = if before[event] < 0.0 { Direction::Up } else { Direction::Down };

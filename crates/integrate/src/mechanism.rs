@@ -24,8 +24,8 @@ pub trait Mechanism {
     /// The system's own.
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
 
-    /// Potential energy at a place that the motion does not pass through, for the ledger alone. A system need not
-    /// remember anything of it, and may know it to twelve digits only.
+    /// Potential energy at a place off the path of the motion, for the ledger alone. A system need not keep anything of
+    /// that evaluation, and twelve correct digits are enough.
     ///
     /// # Errors
     /// The system's own.

@@ -11,13 +11,13 @@ use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 use crate::{Forces, Scheme};
 
 /// Growth in a step that counts as none.
-const NONE: f64 = 1e-9;
+const GROWTH_TOLERANCE: f64 = 1e-9;
 /// Step of the search along a ray, and where it ends: no method of few stages is stable farther out.
 const RAY: [f64; 2] = [0.01, 40.0];
 /// Change of the tangents over which the limit of before is kept.
-const ALIKE: f64 = 0.02;
+const TANGENT_CHANGE: f64 = 0.02;
 /// Damped eigenvalues below this share of the largest move nothing.
-const STILL: f64 = 1e-9;
+const RIGID_SHARE: f64 = 1e-9;
 
 /// The longest stable step of an explicit method.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,18 +73,19 @@ fn limit(polynomial: &[f64], stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -
     first_order.view_mut((n, n), (n, n)).copy_from(&(damping / -scale));
     let all = first_order.complex_eigenvalues();
     let largest = all.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let moving = all.iter().filter(|x| x.norm() > STILL * largest);
+    let moving = all.iter().filter(|x| x.norm() > RIGID_SHARE * largest);
     let limits = moving.map(|x| StepLimit { step: reach(polynomial, *x) / (scale * x.norm()), rate: scale * x.norm() });
     limits.min_by(|a, b| a.step.total_cmp(&b.step))
 }
 
-/// |z| at which |R| first passes 1 on the way out from 0 in the direction of `towards`; directions of growth count as that of no damping.
+/// The value of |z| at which |R| first passes 1 on the ray from 0 in the direction of `towards`. Directions of growth
+/// count as undamped ones.
 fn reach(polynomial: &[f64], towards: Complex<f64>) -> f64 {
     let direction = Complex::new(towards.re.min(0.0), towards.im);
     let direction = if direction.norm() > 0.0 { direction / direction.norm() } else { Complex::i() };
     let grows = |r: f64| {
         let z = direction * r;
-        polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * z + c).norm() > 1.0 + NONE
+        polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * z + c).norm() > 1.0 + GROWTH_TOLERANCE
     };
     let [step, end] = RAY;
     let (mut inside, mut outside) = (0.0, step);
@@ -125,7 +126,7 @@ impl Stiffest {
     }
 
     /// Looks at one more state, by its forces with tangents.
-    pub fn look(&mut self, forces: &Forces) {
+    pub fn include(&mut self, forces: &Forces) {
         let Some(both) = per_mass(&self.mass, [&forces.stiffness, &forces.damping]) else { return };
         let rate = bound([both[0].norm(), both[1].norm()]);
         if self.found.as_ref().is_none_or(|(before, _)| rate > *before) {
@@ -142,7 +143,7 @@ impl Stiffest {
 
 /// Watches the tangents of a motion under way: into how many parts a step has to be taken.
 #[derive(Debug, Clone)]
-pub(crate) struct Guard {
+pub(crate) struct StabilityGuard {
     polynomial: Vec<f64>,
     /// No eigenvalue below this over the step is unstable, in whatever direction it lies.
     safe: f64,
@@ -150,7 +151,7 @@ pub(crate) struct Guard {
     found: Option<([f64; 2], f64)>,
 }
 
-impl Guard {
+impl StabilityGuard {
     /// For an explicit method; `None` for others, which need none.
     pub fn new(scheme: Scheme) -> Option<Self> {
         let polynomial = scheme.stability_polynomial()?;
@@ -168,7 +169,8 @@ impl Guard {
         if h * bound(norms) <= self.safe {
             return f64::INFINITY;
         }
-        let alike = |(before, _): &([f64; 2], f64)| (0..2).all(|i| (norms[i] - before[i]).abs() <= ALIKE * before[i]);
+        let alike =
+            |(before, _): &([f64; 2], f64)| (0..2).all(|i| (norms[i] - before[i]).abs() <= TANGENT_CHANGE * before[i]);
         if let Some((_, limit)) = self.found.filter(alike) {
             return limit;
         }

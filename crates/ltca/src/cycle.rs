@@ -1,9 +1,9 @@
 //! Stations of a mesh cycle side by side.
 //!
-//! Groups of stations start afresh, each in the window that its stations ask for; so they can be solved at the same
-//! time, and what comes out does not depend on how many are. Tooth changes are then brought into order: where a change
-//! had to wait for its tooth to be free, so that the next group began in another window than the one before ended in,
-//! it is solved again from there.
+//! Stations are solved in groups, in parallel. Each group starts afresh, in the window that its stations ask for, so
+//! results do not depend on the number of threads. Afterwards tooth changes are put in order: a change may have had to
+//! wait for its tooth to be free of load, so that a group ended in another window than the next one began in. Then that
+//! next group is solved again from there.
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::ContactSet;
@@ -14,12 +14,12 @@ use crate::{
     cycle_solver::{CycleInputs, CycleSolver},
 };
 
-/// Stations of a group: the first one costs about twice as much as those that start from their neighbour.
+/// Stations of a group. The first station costs about twice as much as those that start from their neighbour.
 const GROUP: usize = 8;
 /// Stations that are solved before any is reported.
 const WAVE: usize = 8 * GROUP;
 
-/// Where the solver was when a station was solved.
+/// State of the solver after a station.
 #[derive(Debug)]
 pub(crate) struct SolverState {
     window: SlidingWindow,
@@ -31,7 +31,7 @@ pub(crate) struct SolverState {
 pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
 
 impl CycleSolver {
-    /// Goes back to where a station was solved, so that the next one goes on from there.
+    /// Restores the state after a station, so that the next station goes on from there.
     pub fn resume(&mut self, inputs: &CycleInputs<'_>, state: SolverState) -> Result<(), StaticError> {
         let SolverState { window, set, last, changes } = state;
         if self.window != window {
@@ -43,7 +43,7 @@ impl CycleSolver {
     }
 }
 
-/// How many stations to solve at a time: one where each takes long or windows have matrices of their own.
+/// Number of stations to solve at a time: one where each takes long, or where windows have matrices of their own.
 pub(crate) fn wave(inputs: &CycleInputs<'_>, solver: &CycleSolver) -> usize {
     let window = solver.window.window();
     let teeth = [inputs.pair.pinion.teeth(), inputs.pair.wheel.teeth()];
@@ -89,7 +89,7 @@ pub(crate) fn solve(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations
             solver.last = None;
             solved = solve_in_order(inputs, solver, group);
         }
-        // The solver goes on from here, should the next group have to be solved again.
+        // The next group may have to be solved again: the solver goes on from here.
         if let Some(Ok((_, state))) = solved.last() {
             let (window, set, changes) = (state.window, state.set.clone(), state.changes);
             if let Err(error) = solver.resume(inputs, SolverState { window, set, last: None, changes }) {
@@ -119,7 +119,7 @@ fn solve_in_order(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations: 
     all
 }
 
-/// Where a group begins.
+/// Window and matrices at the start of a group.
 struct GroupStart {
     window: SlidingWindow,
     set: ContactSet,

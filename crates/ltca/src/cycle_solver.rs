@@ -10,7 +10,7 @@ use crate::{
     equilibrium::equilibrium, kinematic::Unloaded, loads,
 };
 
-/// What stays the same from station to station.
+/// What all stations have in common.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CycleInputs<'a> {
     pub pair: &'a GearPair,
@@ -19,7 +19,7 @@ pub(crate) struct CycleInputs<'a> {
     pub root: Option<&'a RootStress>,
 }
 
-/// What goes from station to station.
+/// State that goes from station to station.
 #[derive(Debug)]
 pub(crate) struct CycleSolver {
     pub window: SlidingWindow,
@@ -43,7 +43,7 @@ impl CycleSolver {
         WindowedPair { pair, gears, set: &self.contact.set, window: self.window.window(), options }
     }
 
-    /// Solves a station with the window as it stands.
+    /// Solves a station in the current window.
     pub fn solve(&mut self, inputs: &CycleInputs<'_>, station: Station) -> Result<StaticPosition, StaticError> {
         let CycleInputs { pair, gears, options, .. } = *inputs;
         if options.torque == 0.0 {
@@ -76,7 +76,7 @@ impl CycleSolver {
         root.of(&self.windowed(inputs), e.map(|e| e.displacements_on(&self.contact.set)).as_ref())
     }
 
-    /// Refuses a window beside which a pair overlaps at the loaded pose.
+    /// Refuses the window if a neighbouring pair outside it overlaps at the loaded pose.
     fn check_neighbours(&self, inputs: &CycleInputs<'_>, e: &Equilibrium) -> Result<(), StaticError> {
         let CycleInputs { pair, options, .. } = *inputs;
         let (set, window) = (&self.contact.set, self.window.window());
@@ -164,7 +164,7 @@ impl CycleSolver {
         self.window.window().pairs().map(force).collect()
     }
 
-    /// Back to a window to begin from, nothing remembered: a run does not depend on those before it.
+    /// Begins in a given window with nothing remembered: a run does not depend on those before it.
     ///
     /// # Errors
     /// [`StaticError`] when the window cannot be entered.
@@ -201,7 +201,8 @@ impl CycleSolver {
         while self.window.teeth_behind(station) > 0 {
             let before = match &result {
                 Ok(position) => position.clone(),
-                // A pair that comes in early is what the change is for; the outgoing tooth decides.
+                // An early contact of the oncoming pair is a reason to change; the outgoing tooth decides whether the
+                // change is allowed.
                 Err(e) if e.is_starved() => match &self.last {
                     Some(e) => self.position(inputs, e)?,
                     None => break,

@@ -31,8 +31,8 @@ pub struct Equilibrium {
     pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced
-    /// gears, where nothing needs them: [`contact::ContactSet::displacements`] has them then.
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames. Empty for slices on reduced
+    /// gears: [`Equilibrium::displacements_on`] computes them where they are needed.
     pub displacements: [Vec<f64>; 2],
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
@@ -44,11 +44,11 @@ pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
-/// Deflection over the module from which on it is the load that parts the flanks: teeth are some two modules high.
+/// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
-/// Guessed deflection of steel teeth over the module from which on no material stands the load.
+/// Estimated deflection of steel teeth over the module beyond which no search is begun.
 const HOPELESS: f64 = 10.0;
-/// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
+/// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
 const POSE_ROUND_OFF: f64 = 1e-9;
 
 /// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
@@ -88,9 +88,9 @@ impl Equilibrium {
 
 /// Turns the driven gear until contact balances its torque.
 ///
-/// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
-/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact.
-/// `mesh` solves it where contact is made of slices on reduced gears.
+/// Newton's method on the pose. At each step the gaps are computed from the smooth flanks at the current pose, and the
+/// contact problem with its one rotation is solved exactly. The levers are exact, so convergence is quadratic. `mesh`
+/// solves the contact of slices on reduced gears.
 pub(crate) fn equilibrium(
     windowed: &WindowedPair,
     mesh: Option<&mut MeshContact>,
@@ -112,7 +112,7 @@ pub(crate) fn equilibrium(
         },
     };
     let force = options.torque / base_radius;
-    // From the flanks' touch on by the deflection of the station before.
+    // Start: the position where the flanks touch, turned by the deflection of the station before.
     let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
     let mut rotation = unloaded.rotation + deflection;
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
@@ -121,11 +121,11 @@ pub(crate) fn equilibrium(
         let Station { cycle, phase } = station;
         StaticError::Overloaded { cycle, phase, torque_nm: 1e-3 * options.torque, deflection_mm, module_mm }
     };
-    // No search settles this: the numbers of the contact themselves are lost in round-off.
+    // Beyond this the contact problem is lost in round-off.
     if guessed > HOPELESS * module_mm {
         return Err(overloaded(guessed));
     }
-    // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
+    // Facets lie up to their sagitta above the smooth flanks: search as far as the mesh may be off.
     let facets = if options.contact.gap == contact::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
     let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
     let mut iterations = 0;

@@ -1,4 +1,4 @@
-//! The contact of one pose while the driven gear looks for its place.
+//! The contact problem of one pose, solved for forces and the turn of the driven gear.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use contact::{
 
 use crate::WindowedPair;
 
-/// Forces by (pair of patches counted by running number, point): what a next solve starts from.
+/// Forces by (patches, point), from which the next solution starts.
 pub(crate) type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
-/// The contact of one pose with the driven gear's turn as an unknown.
+/// Contact at one pose.
 pub(crate) struct PoseSolution {
     pub rows: Vec<ContactRow>,
     pub slices: Vec<Slice>,
@@ -20,21 +20,21 @@ pub(crate) struct PoseSolution {
     pub displacements: [Vec<f64>; 2],
 }
 
-/// Who solves the contact of a pose.
+/// How the contact of a pose is solved.
 pub(crate) enum PoseSolver<'a> {
     /// Slices on reduced gears.
     Mesh(&'a mut MeshContact),
-    /// Points, and gears with all their degrees of freedom: what was touched last is kept.
+    /// Points, and gears with all their degrees of freedom; the last solution is kept.
     General { line: LinePoints, warm_start: WarmStart, last: Option<Box<PoseSolution>> },
 }
 
-/// What a pose came to.
+/// Result of one pose.
 pub(crate) enum PoseStep {
     /// Turn of the driven gear, rad, and iterations.
     Turn(f64, usize),
     /// No row that could carry the torque is within reach.
     OutOfReach,
-    /// Rows beyond the reach could close: the farthest way of a row, mm.
+    /// Rows beyond the search distance could close: the farthest approach of a row, mm.
     ReachExceeded(f64),
 }
 
@@ -45,7 +45,7 @@ impl PoseSolver<'_> {
         let moment = -options.side().sign() * options.torque;
         let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
         let short = |rows: &[ContactRow], turn: f64| {
-            // A row that the step can close must have been among the rows.
+            // Every row that the step can close must be among the rows.
             let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));
             (1.05 * farthest > reach).then_some(PoseStep::ReachExceeded(farthest))
         };

@@ -1,9 +1,8 @@
-//! How many slices a pair asks for. Theory (21c).
+//! Number of slices that a pair needs under its load, and the errors of the spring model with that number.
 //!
-//! The count is chosen on a model of the pair that costs milliseconds: a row of equal springs along every contact line,
-//! over the exact gaps of the flanks at some phases of a mesh cycle. Cut into slices it is wrong in the way that the
-//! contact is: where load ends within a slice, at tip edges and end faces, beside a crowning, a relief or a
-//! misalignment.
+//! The count is chosen on a cheap model: a row of equal springs along every contact line, over the exact gaps of the
+//! flanks at some phases of a mesh cycle. When it is cut into slices, the model shows the same errors as the contact:
+//! where load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
 
 use ale::Station;
 use contact::{FlankPatch, Pose, RigidFlanks, SliceHint, Surface, check_offsets, gear_pose, reference_angle};
@@ -19,11 +18,10 @@ const PHASES: usize = 8;
 const PLACES: [usize; 3] = [64, 768, 2048];
 /// How far beyond the ends of the path of contact gaps are taken, in base pitches: loaded tips meet early.
 const BEYOND: f64 = 0.15;
-/// What the springs may be off by: mean and peak to peak of their approach relative to what it is cut into infinitely
-/// many, the latter relative to itself or, where that is next to nothing, to a share of the mean; largest line load.
-/// Measured on pairs of 5, 8, 15 and 40 modules, crowned and misaligned, elastic gears are off by less
-/// (`tests/tests/micro_geometry/width_and_crowning.rs`): teeth share the load with their neighbourhood, springs stand
-/// alone.
+/// Largest errors of the spring model, relative to infinitely many slices: mean approach; its peak to peak, relative to
+/// itself or to a share of the mean where it is small; largest line load. Elastic gears have smaller errors, because
+/// teeth share load with their neighbourhood and springs do not: measured on pairs of 5, 8, 15 and 40 modules, crowned
+/// and misaligned (`tests/tests/micro_geometry/width_and_crowning.rs`).
 const MEAN: f64 = 0.0125;
 const SWING: f64 = 0.025;
 const LEAST_SWING: f64 = 0.01;
@@ -38,7 +36,7 @@ pub struct SliceCount {
     pub errors: SpringErrors,
 }
 
-/// What a row of springs loses by being cut into slices, relative.
+/// Errors of a row of springs that is cut into slices, relative.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SpringErrors {
     /// Of the mean approach.

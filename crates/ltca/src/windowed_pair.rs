@@ -1,4 +1,4 @@
-//! What a station's solve and its results look at.
+//! A pair of gears in a window: input of a station's solution and of its results.
 
 use ale::ToothWindow;
 use geometry::GearPair;
@@ -7,7 +7,7 @@ use crate::StaticOptions;
 use contact::ContactSet;
 use reduction::ElasticGear;
 
-/// A pair with the window it stands in.
+/// A pair of elastic gears with its current window.
 #[derive(Debug, Clone, Copy)]
 pub struct WindowedPair<'a> {
     /// The pair.
@@ -16,8 +16,8 @@ pub struct WindowedPair<'a> {
     pub gears: &'a [ElasticGear; 2],
     /// Flanks and matrices of the window.
     pub set: &'a ContactSet,
-    /// Which teeth are kept.
+    /// The window.
     pub window: &'a ToothWindow,
-    /// What is asked.
+    /// Options of the analysis.
     pub options: &'a StaticOptions,
 }

@@ -1,4 +1,4 @@
-//! Where Newton's steps on forces and active set go in circles: the set for tangents that are held.
+//! Fallback where Newton's method on forces and active set cycles: tangents are frozen while the active set is found.
 
 use super::{
     DenseProblem, DenseSolver, Equality, LinearContact, Problem,
@@ -7,7 +7,7 @@ use super::{
 use crate::ContactError;
 
 impl DenseSolver {
-    /// The same with the set found for tangents that are held.
+    /// Solves the same problem by an active-set method with frozen tangents.
     pub(super) fn solve_by_active_set(
         &mut self,
         problem: &DenseProblem<'_>,
@@ -28,7 +28,7 @@ impl DenseSolver {
         self.active = solution.active;
         (self.rotation, self.stiffness, self.residual) = (solution.rotation, solution.stiffness, solution.residual);
         self.iterations = before + solution.iterations;
-        // The factor of the last tangents, for the tangent of the whole.
+        // Factors the last tangents: [`DenseSolver::tangent_of`] needs the factor.
         let inner = bodies.solver;
         for &i in &self.active {
             self.slopes[i] = inner.slopes[i];

@@ -8,7 +8,8 @@ use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePoint, openi
 /// Modes of both gears on the rows of a contact.
 ///
 /// ```text
-/// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B,   forces on the modes: H_t' F
+/// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B
+/// forces on the modes: H_t' F
 /// ```
 /// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as
 /// loads, friction included.

@@ -180,7 +180,8 @@ impl LocalLaw {
     ///
     /// ```text
     /// q delta / 2 - int_0^q delta dq' = -q^2 int_0^1 x [B(a sqrt x) - B(a)] dx,   delta = q B(a)
-    /// B = -(K_1 + K_2) ln a + R(a):   the logarithm leaves (K_1 + K_2) / 8, R by quadrature, or -R' / 12 (R' = dR / d ln a) where it goes with a^2, far from any edge
+    /// B = -(K_1 + K_2) ln a + R(a):   the logarithm leaves (K_1 + K_2) / 8, R by quadrature,
+    ///     or -R' / 12 (R' = dR / d ln a) where it goes with a^2, far from any edge
     /// ```
     /// So strain energy is the integral of the very law, and forces are its derivatives: to 1e-7 of it next to edges,
     /// else to round-off.

@@ -1,4 +1,4 @@
-//! Where along the profile two flanks are nearest at a height of body 1. Theory (35).
+//! Search for the least gap of two profiles at a height of body 1. Theory (35).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -7,17 +7,17 @@ use crate::{
     bracketing::{bracket_zero, last_inside},
 };
 
-/// Two patches as one sees the other: body 1's points in body 2's frame.
+/// Two flank patches, with body 1's points in body 2's frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ProfilePair<'a> {
     pub patches: [&'a FlankPatch; 2],
     turn: Matrix3<f64>,
     shift: Vector3<f64>,
-    /// Both profiles are convex arcs: whatever goes downhill arrives.
+    /// Whether both profiles are convex arcs: the gap then has one minimum, and Newton's method finds it.
     single: bool,
 }
 
-/// Which end of the feasible part of the profile stops the search for the least gap.
+/// Point of least gap, by what bounds it: the zero of the gap's slope, an edge or a kink.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum LeastGapPoint {
     /// Flank against flank, at this roll angle of the searched body.
@@ -30,10 +30,10 @@ pub(crate) enum LeastGapPoint {
     OtherKink(f64),
 }
 
-/// A point of body 1's profile held against body 2.
+/// Gap at a point of body 1's profile.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GapSample {
-    /// mm.
+    /// Gap along the normal of body 2, mm.
     pub gap: f64,
     /// n_2 . dx_1/du, mm.
     pub slope: f64,
@@ -41,15 +41,16 @@ pub(crate) struct GapSample {
     pub foot: [f64; 2],
 }
 
-/// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
+/// How far beyond an end face of body 2 a foot point may lie, as a share of its width: foot points move by gap times
+/// sin(b_b).
 const BEYOND: f64 = 1e-3;
-/// Places along the profile that are looked at where there may be several dips.
+/// Sample points along a profile on which the gap may have several minima.
 const SCAN: usize = 16;
-/// Steps downhill before the scan takes over; four do.
+/// Newton steps before the scan takes over; four are enough.
 const NEWTON_STEPS: usize = 24;
-/// Roll angles nearer than this are one, rad: below it the step of a superlinear search is round-off.
+/// Roll angles nearer than this count as equal, rad: shorter steps are round-off.
 const RESOLUTION: f64 = 1e-13;
-/// A step longer than this is followed by another look, rad: slopes are not yet straight lines.
+/// After a longer step than this the gap is sampled again, rad: the slope is not yet linear.
 const NEAR: f64 = 1e-6;
 /// Bisections to the end of the part of a profile that faces the other; some fifty reach round-off.
 const BISECTIONS: usize = 100;
@@ -80,7 +81,7 @@ impl<'a> ProfilePair<'a> {
         self.turn * self.patches[0].surface().point(at) + self.shift
     }
 
-    /// Gap and its slope along the profile; `None` where there is no foot.
+    /// Gap and its slope along the profile; `None` where the point has no foot on body 2.
     pub fn sample(&self, at: [f64; 2]) -> Option<GapSample> {
         let [point, tangent] = self.patches[0].surface().point_and_profile(at);
         let (foot, normal) = self.patches[1].surface().locate_with_normal(&(self.turn * point + self.shift))?;
@@ -92,8 +93,8 @@ impl<'a> ProfilePair<'a> {
         [low, high]
     }
 
-    /// Where the flanks are nearest at height `z` (mm) of body 1, and what is seen from there; `None` where they do not
-    /// face each other.
+    /// Point of least gap at height `z` (mm) of body 1, and the gap there. `None` where the flanks do not face each
+    /// other.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
         let point = self.search(z, hint.roll)?;
         hint.roll = Some(point.roll());
@@ -104,7 +105,7 @@ impl<'a> ProfilePair<'a> {
         (sample.foot[1] >= low - slack && sample.foot[1] <= high + slack).then_some((point, sample))
     }
 
-    /// Place of the least gap at height z of body 1; `near`: a roll angle to start from.
+    /// Point of least gap at height `z` of body 1; `near` is a roll angle to start from.
     pub fn search(&self, z: f64, near: Option<f64>) -> Option<LeastGapPoint> {
         if self.single
             && let Ok(point) = self.newton_search(z, near)
@@ -114,11 +115,11 @@ impl<'a> ProfilePair<'a> {
         self.scan_search(z)
     }
 
-    /// Newton on the slope, whose derivative is the relative curvature times the square of the tangent's length, then
-    /// secants.
+    /// Newton's method on the slope of the gap, then the secant method. The derivative of the slope is the relative
+    /// curvature times the tangent's length squared.
     ///
-    /// Slope and foot are monotonous between convex arcs, so what stands at the zero of the slope decides which end, if
-    /// any, comes before it. `Err` when something is not as it should be between convex arcs.
+    /// Between convex arcs slope and foot point are monotonous. So the foot point at the zero of the slope tells which
+    /// end of a profile, if any, comes before it. `Err` where that does not hold.
     fn newton_search(&self, z: f64, near: Option<f64>) -> Result<Option<LeastGapPoint>, ()> {
         let [low, high] = self.rolls(0);
         let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
@@ -143,7 +144,7 @@ impl<'a> ProfilePair<'a> {
             if !step.is_finite() {
                 return Err(());
             }
-            // What a secant step misses is about itself times the step before it.
+            // The error after a secant step is about the product of the last two steps.
             let missed = before.map_or(step, |(v, _)| step * (u - v));
             if step.abs() <= RESOLUTION || (step.abs() <= NEAR && missed.abs() <= RESOLUTION) {
                 found = Some((u + step, sample.foot[0], false));
@@ -167,7 +168,7 @@ impl<'a> ProfilePair<'a> {
         if foot >= other_low && foot <= other_high {
             return Ok(Some(if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) }));
         }
-        // The higher up the one profile, the lower down the other.
+        // Foot points go down the other profile as points go up this one.
         let (bound, end) = if foot > other_high { (other_high, high) } else { (other_low, low) };
         let past = |u: f64| self.sample([u, z]).map(|l| l.foot[0] - bound).ok_or(());
         let (here, there) = (foot - bound, past(end)?);
@@ -188,7 +189,7 @@ impl<'a> ProfilePair<'a> {
         if failed {
             return Err(());
         }
-        // The side on which the other flank is faced: that of `end`.
+        // Of the bracket, the side from which the other flank is faced: that of `end`.
         let u = if (inner - end).abs() < (outer - end).abs() { inner } else { outer };
         Ok(Some(if foot > other_high { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) }))
     }
@@ -199,7 +200,7 @@ impl<'a> ProfilePair<'a> {
         first.profile_tangent(at).norm_squared() * (first.curvature(at) + second.curvature(foot))
     }
 
-    /// Any profiles: the best of some places, its neighbours as a bracket, the zero of the slope in it.
+    /// For any profiles: the sample of least gap, its neighbours as a bracket, and the zero of the slope in it.
     fn scan_search(&self, z: f64) -> Option<LeastGapPoint> {
         let [low, high] = self.rolls(0);
         let [other_low, other_high] = self.rolls(1);

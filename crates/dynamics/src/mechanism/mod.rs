@@ -52,7 +52,7 @@ pub struct PairMechanism {
     roots: Option<RootStress>,
 }
 
-/// Where both windows stand and what has been gathered: with a [`integrate::State`] all that a motion is.
+/// Windows of both sides and extremes so far. With an [`integrate::State`] this is the whole state of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MechanismState {
     /// Driving flanks.
@@ -64,8 +64,7 @@ pub struct MechanismState {
 }
 
 impl PairMechanism {
-    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by
-    /// bit.
+    /// Forgets the last contact solution: later results depend on state and windows alone, bit by bit.
     pub fn forget(&mut self) {
         self.drive_side.forget();
         if let Some(side) = &mut self.coast_side {
@@ -74,13 +73,13 @@ impl PairMechanism {
         self.last = None;
     }
 
-    /// Where the windows stand.
+    /// Windows and extremes, to be restored later.
     pub fn mechanism_state(&self) -> MechanismState {
         let coast = self.coast_side.as_ref().map(MeshSide::state);
         MechanismState { driving: self.drive_side.state(), coast, extremes: self.extremes }
     }
 
-    /// Puts the windows where they stood; what contact remembers is forgotten.
+    /// Restores windows and extremes; the last contact solution is forgotten.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -93,7 +92,7 @@ impl PairMechanism {
         Ok(())
     }
 
-    /// What has been gathered since the start.
+    /// Extremes since the start.
     pub fn extremes(&self) -> &Extremes {
         &self.extremes
     }
@@ -169,10 +168,9 @@ impl PairMechanism {
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
 
-    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back,
-    /// amplitudes of modes, which are in the gears' own frames, are those of gears that stand a pitch further. n x n;
-    /// `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at
-    /// best.
+    /// Map of the coordinates of a periodic motion from one mesh cycle to the next, n x n. Rigid coordinates repeat.
+    /// Amplitudes of modes are in the gears' own frames: they become those of gears turned by a pitch. `None` where the
+    /// modes of a gear are not mapped into each other; such a motion repeats after whole turns at best.
     pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);

@@ -1,11 +1,11 @@
-//! Contact of both sides at one place, kept for those who ask again.
+//! Contact of both sides, kept while the state does not change.
 
 use super::PairMechanism;
 use crate::{elastic_displacement::ElasticDisplacement, mesh_side::SideContacts};
 use ltca::StaticError;
 
 impl PairMechanism {
-    /// Contact of both sides; the last one is kept, since a step ends where several look.
+    /// Contact of both sides. The last result is kept, because several callers ask for it at the end of a step.
     pub(super) fn contact(
         &mut self,
         t: f64,
@@ -29,7 +29,7 @@ impl PairMechanism {
         Ok(side_contacts)
     }
 
-    /// Strain energy of both sides and nothing else; what was known of contact is lost.
+    /// Strain energy of both sides and nothing else; the last contact is lost.
     pub(super) fn contact_energy(&mut self, t: f64, at: &ElasticDisplacement) -> Result<f64, StaticError> {
         let cycles = self.cycles(t);
         let Self { pair, drive_side, coast_side, last, .. } = self;

@@ -1,4 +1,4 @@
-//! Tooth changes of one side: when the window moves, and what that leaves behind.
+//! Tooth changes of one side: when the window moves, and what changes with it.
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, NeighbourPairs, Pose};
@@ -13,12 +13,12 @@ use super::MeshSide;
 pub struct ToothChanges {
     /// How many.
     pub count: u64,
-    /// Largest difference of the sum of normal forces before and after a change at the same place, N: contact is solved
-    /// anew on the new window, so a force that was dropped shows here.
+    /// Largest jump of the sum of normal forces across a change at the same place, N. Contact is solved anew in the new
+    /// window, so a force that was dropped shows here.
     pub jump: f64,
 }
 
-/// Where the window of one side stands; all that contact remembers from step to step.
+/// Window of one side, and its tooth changes so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SideState {
     /// First running number of the window.
@@ -28,12 +28,12 @@ pub struct SideState {
 }
 
 impl MeshSide {
-    /// Where the window stands.
+    /// The window and its tooth changes, to be restored later.
     pub fn state(&self) -> SideState {
         SideState { first: self.window.window().first(), changes: self.changes }
     }
 
-    /// Puts the window where it stood.
+    /// Restores the window.
     pub fn restore(&mut self, pair: &GearPair, state: SideState) -> Result<(), StaticError> {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
         let window = ToothWindow::new(state.first, self.window.window().count(), teeth)?;
@@ -42,19 +42,19 @@ impl MeshSide {
         Ok(())
     }
 
-    /// Goes over to a window, with the matrices of `set` where they serve it.
+    /// Enters a window, with the matrices of `set` where they serve it.
     fn enter(&mut self, pair: &GearPair, window: SlidingWindow, set: ContactSet) -> Result<(), StaticError> {
         self.contact.enter_window(pair, &self.gears, window.window(), set, &self.options.contact)?;
         self.window = window;
         Ok(())
     }
 
-    /// Refuses a window beside which a pair overlaps, by the poses of the last evaluation.
+    /// Refuses the window if a neighbouring pair outside it overlaps at the poses of the last evaluation.
     ///
     /// # Errors
     /// [`ale::AleError::Starved`].
     pub fn check_neighbours(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
-        // Nothing is pressed where nothing overlaps, and a pair beside the window comes last.
+        // Without overlap nothing is loaded, and a neighbouring pair outside the window comes into contact last.
         let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
         if deepest == 0.0 {
             return Ok(());
@@ -92,7 +92,7 @@ impl MeshSide {
         Ok(true)
     }
 
-    /// Books what a change has done to the sum of normal forces, N.
+    /// Records the jump of the sum of normal forces across a change, N.
     pub fn record_jump(&mut self, before: f64) {
         let after = self.contact.force().pair_forces.iter().sum::<f64>();
         self.changes.jump = self.changes.jump.max((after - before).abs());

@@ -7,7 +7,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 use crate::{
     Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
     events::{crossings, event_values},
-    stability::Guard,
+    stability::StabilityGuard,
 };
 
 /// What a caller sees of a motion after every step.
@@ -31,7 +31,7 @@ pub struct Integrator {
     scale: DVector<f64>,
     stop_at_events: bool,
     /// Where an explicit method is kept within its stability limit.
-    guard: Option<Guard>,
+    guard: Option<StabilityGuard>,
     /// Time (s) of the tangents in `forces`; none where they are of another place.
     tangents_at: Option<f64>,
     forces: Forces,
@@ -59,13 +59,13 @@ impl Integrator {
         }
     }
 
-    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its
-    /// beginning tell. Theory (48a).
+    /// Divides a step of given length where an explicit method would be unstable with the whole; the tangents at its
+    /// beginning decide. Theory (48a).
     ///
-    /// Steps that an error tolerance chooses need no such care: what grows is an error that shortens them.
+    /// Steps chosen by an error tolerance need no such care: instability shows as an error that shortens them.
     #[must_use]
     pub fn keeping_stable(self) -> Self {
-        let guard = matches!(self.control, StepControl::Fixed(_)).then(|| Guard::new(self.scheme)).flatten();
+        let guard = matches!(self.control, StepControl::Fixed(_)).then(|| StabilityGuard::new(self.scheme)).flatten();
         Self { guard, ..self }
     }
 
@@ -121,7 +121,7 @@ impl Integrator {
             let before = state.clone();
             let h = wanted.min(until - state.time);
             let shortened = h < wanted;
-            // A sliver at the end would be a step of its own.
+            // Avoids a last step of round-off length.
             let h = if until - state.time - h < 1e-9 * h { until - state.time } else { h };
             let (mut to, mut book, next) = self.accepted_step(system, &mass, &before, h)?;
             let mut now = event_values(system, to.time, &to.q, &to.v)?;
@@ -138,7 +138,7 @@ impl Integrator {
                 now = event_values(system, to.time, &to.q, &to.v)?;
                 crossed.retain(|c| c.time <= first);
             }
-            // A step that was short because the time was up says nothing against the length wanted.
+            // A step that was shortened to meet the end says nothing against the length wanted.
             to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
             self.ledger = Some(book);
             self.steps += 1;

@@ -18,7 +18,8 @@ use crate::{GearReducer, ReductionError, Window, cyclic::VibratingSector, reduce
 /// Normal modes of a gear that is held at its bore, its flanks free.
 ///
 /// ```text
-/// u(x, t) = sum_j phi_j(x) q_j(t),   phi_i' M phi_j = delta_ij,   phi_i' K phi_j = omega_i^2 delta_ij        q in mm t^(1/2)
+/// u(x, t) = sum_j phi_j(x) q_j(t),   phi_i' M phi_j = delta_ij,   phi_i' K phi_j = omega_i^2 delta_ij
+/// q in mm t^(1/2)
 /// ```
 /// Shapes are in the gear's own frame, in which tooth 0 is always the same: coordinates do not change as a window
 /// moves. Their motion is that of a gear which turns slowly against them: terms of the order of the angular velocity

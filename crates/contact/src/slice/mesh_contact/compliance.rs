@@ -5,8 +5,8 @@ use crate::TablePoint;
 use super::{MeshContact, PoseContact};
 
 impl MeshContact {
-    /// S between the rows, from both gears' tables or matrices, to serve until modes open gaps by more than `by_modes`
-    /// (mm).
+    /// Computes S between the rows from the tables or matrices of both gears. It serves until modes open gaps by more
+    /// than `by_modes` (mm).
     pub(super) fn compliance(&mut self, by_modes: f64) {
         let Self { set, contact, openings, loads, work, friction, modal, .. } = self;
         let PoseContact { rows, slices, compliance, modal: modal_rows, .. } = contact;

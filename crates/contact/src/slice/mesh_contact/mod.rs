@@ -1,4 +1,4 @@
-//! Contact of two gears that stand where they are told: forces and their tangent. Theory (38).
+//! Slice contact of two gears at given poses: forces and their tangent. Theory (38).
 
 mod compliance;
 mod near;
@@ -25,7 +25,7 @@ use crate::{
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 
-/// Forces of the mesh on both gears at given poses, and how they change as the gears move.
+/// Forces of the mesh on both gears at given poses, and their derivatives by the motion of the gears.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshForce {
     /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
@@ -36,8 +36,8 @@ pub struct MeshForce {
     /// ```text
     /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
     /// ```
-    /// Exact for contact places that stay where they are on the flanks; that they wander changes it by about a
-    /// thousandth of its largest entries. Symmetric and negative semi-definite without friction.
+    /// Exact while the contact points stay where they are on the flanks; their motion along the flanks changes it by
+    /// about a thousandth of its largest entries. Symmetric and negative semi-definite without friction.
     pub tangent: [[f64; 12]; 12],
     /// Normal force of each pair of the window, N, in order of running numbers.
     pub pair_forces: Vec<f64>,
@@ -47,36 +47,37 @@ pub struct MeshForce {
     pub residual: f64,
 }
 
-/// The slice contact of a window: search, compliance and solution, in memory that is used again.
+/// The slice contact of a window: search, compliance and solution. Memory is allocated once and used again.
 ///
-/// Poses are those of the frames that the window's matrices are in ([`ltca::Equilibrium::poses`]). Slices start from
-/// where they were found before, and forces from what they were; neither changes the answer but by round-off.
+/// Poses are those of the frames of the window's matrices (`ltca::Equilibrium::poses`). The search starts from the last
+/// contact points and the solution from the last forces; neither changes the result by more than round-off.
 #[derive(Debug)]
 pub struct MeshContact {
     set: ContactSet,
     friction: Option<Friction>,
-    /// Of the larger gear's tip, mm.
+    /// Tip radius of the larger gear, mm.
     radius: f64,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
-    /// How body 1 stood at the last search.
+    /// Pose of body 1 at the last search.
     last_pose: Option<Pose>,
     /// Force of each station of each pair at the last solution, N.
     last_forces: Vec<f64>,
     nearest: Vec<(usize, SlicePoint)>,
-    /// What was found at the last poses, and at others.
+    /// Contact at the current poses, and in the pose bins visited before.
     contact: PoseContact,
     cache: PoseCache,
     gaps: Vec<f64>,
     levers: Vec<f64>,
     torque_levers: Vec<f64>,
-    /// Where the rows' openings stand in the table of a gear, and their loads where friction makes these another thing.
+    /// Positions of the rows in the compliance table of a gear: for gap openings, and for loads where friction turns
+    /// these away from the normal.
     openings: Vec<TablePoint>,
     loads: Vec<TablePoint>,
     work: [TableWork; 2],
     solver: DenseSolver,
     force: MeshForce,
-    /// Normal modes that are coordinates of their own, and these on the flanks of the window.
+    /// Normal modes that are coordinates of their own, and their shapes on the flanks of the window.
     modes: Option<[Arc<GearModes>; 2]>,
     modal: Option<ModalFlanks>,
 }
@@ -131,9 +132,9 @@ impl MeshContact {
         &self.set
     }
 
-    /// Goes over to another window: flanks and matrices are renumbered where `set`, that of any window of these gears,
-    /// serves it, else set up anew. Forces are forgotten, for they belong to other pairs there; kept modes are taken on
-    /// the new flanks.
+    /// Enters another window. Where `set`, that of any window of these gears, serves it, flanks and matrices are
+    /// renumbered; otherwise they are set up anew. Forces of the last solution are forgotten, because they belong to
+    /// other pairs. Kept modes are evaluated on the new flanks.
     ///
     /// # Errors
     /// [`ContactError`] when the window cannot be set up.
@@ -155,12 +156,12 @@ impl MeshContact {
         self.enter_modes(gears)
     }
 
-    /// Forgets forces and places of the last solution.
+    /// Forgets forces and contact points of the last solution.
     pub fn forget_places(&mut self) {
         self.enter(self.set.clone());
     }
 
-    /// Goes over to another window with the same flanks.
+    /// Enters another window with the same flanks.
     fn enter(&mut self, set: ContactSet) {
         self.last_forces.fill(0.0);
         self.hints.fill(SliceHint::default());
@@ -176,7 +177,8 @@ impl MeshContact {
         self.set = set;
     }
 
-    /// Takes normal modes of both gears out of the compliance; they then deform the gears by the amplitudes given.
+    /// Takes the normal modes of both gears out of the compliance. They then deform the gears by the amplitudes that
+    /// are set.
     ///
     /// # Errors
     /// [`ContactError`] for modes of other gears.
@@ -185,12 +187,12 @@ impl MeshContact {
         self.enter_modes(gears)
     }
 
-    /// The modes that are kept.
+    /// The kept modes.
     pub fn modes(&self) -> Option<&[Arc<GearModes>; 2]> {
         self.modes.as_ref()
     }
 
-    /// The modes on the flanks of the window as it is: other teeth move in other ways.
+    /// Evaluates the modes on the flanks of the current window: each tooth has its own part of a mode.
     fn enter_modes(&mut self, gears: &[ElasticGear; 2]) -> Result<(), ContactError> {
         let Some([a, b]) = &self.modes else { return Ok(()) };
         let modal = ModalFlanks::new(gears, [a, b], &self.set)?;
@@ -206,7 +208,7 @@ impl MeshContact {
         }
     }
 
-    /// The modes, and forces on them at the last evaluation.
+    /// The kept modes on the flanks, and the forces on them at the last evaluation.
     pub fn modal(&self) -> Option<&ModalFlanks> {
         self.modal.as_ref()
     }
@@ -231,7 +233,7 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Resultants of the solution as it is.
+    /// Resultants of the current solution.
     fn sum_forces(&mut self) {
         let Self { force, contact: PoseContact { rows, at, .. }, solver, set, .. } = self;
         force.wrench = wrenches(&at.unwrap_or([Pose::identity(); 2]), rows, solver.forces());
@@ -242,7 +244,7 @@ impl MeshContact {
         (force.iterations, force.residual) = (solver.iterations(), solver.residual());
     }
 
-    /// Tangent by the factor as it is, and with it forces on the modes.
+    /// Tangent from the current factor, and with it the forces on the modes.
     fn find_tangent(&mut self) {
         let Self { force, contact: PoseContact { rows, at, modal: modal_rows, .. }, solver, modal, .. } = self;
         let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
@@ -265,7 +267,7 @@ impl MeshContact {
     /// ```text
     /// V = -g F - U*(F),   U* = F' S F / 2 + sum of int_0^F delta dF
     /// ```
-    /// This dual functional is stationary at the solution: what forces are off by shows in its square only.
+    /// This dual functional is stationary at the solution: its error is of second order in that of the forces.
     pub fn strain_energy(&self) -> f64 {
         let Self { contact: PoseContact { slices, laws, .. }, gaps, solver, .. } = self;
         let of_row = |&i: &usize| {
@@ -280,7 +282,7 @@ impl MeshContact {
         &self.force
     }
 
-    /// Gaps of the rows as they are, with what the modes open them by.
+    /// Adds what the modes open to the gaps of the rows.
     fn add_modal_openings(&mut self) {
         let Self { contact: PoseContact { rows, modal: modal_rows, .. }, modal, gaps, .. } = self;
         if let Some(modal) = modal {
@@ -290,12 +292,12 @@ impl MeshContact {
         gaps.extend(rows.iter().map(|r| r.gap));
     }
 
-    /// What the kept modes open a row by, mm; it is in the row's gap.
+    /// Gap opening of a row by the kept modes, mm; it is part of the row's gap.
     pub fn modal_opening(&self, row: usize) -> f64 {
         self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.contact.modal, row))
     }
 
-    /// Solves the contact of the rows; with a moment, for the turn of gear `body`.
+    /// Solves the contact of the rows. With a moment to balance, gear `body` turns.
     pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
         let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
         levers.clear();
@@ -315,7 +317,7 @@ impl MeshContact {
         &self.contact.rows
     }
 
-    /// The rows with the nodes that they rest on, at the poses of the last evaluation.
+    /// The rows with their nodes and weights, at the poses of the last evaluation.
     pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
         let Self { set, pairs, hints, contact: PoseContact { keys, rows, slices, .. }, .. } = self;
         let mut rows = rows.clone();
@@ -341,7 +343,7 @@ impl MeshContact {
     }
 }
 
-/// The contact of what was found, its rows with these gaps.
+/// The contact problem of the rows, with these gaps.
 fn problem<'a>(
     contact: &'a PoseContact,
     gaps: &'a [f64],

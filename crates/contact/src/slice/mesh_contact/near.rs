@@ -1,8 +1,8 @@
 //! Contact at poses that come in steps and small changes of these. Theory (46a).
 //!
-//! Rows are found, and their contact is solved, in the middle of the [`PoseBin`] that the first pose of a step is in;
-//! gaps follow the motion from there to first order, forces by the tangent of the middle until they are exact. A motion
-//! that repeats itself comes through the same cells again, where all of that is known.
+//! The rows of contact are found and solved at the centre of the [`PoseBin`] of the first pose of a step. Gaps follow
+//! the motion from there to first order; forces follow by the tangent of the centre, iterated until they are exact. A
+//! periodic motion comes through the same bins again and finds their contact in the cache.
 
 use crate::{Balance, ContactError, Pose};
 
@@ -10,28 +10,27 @@ use super::{
     LINEAR_RANGE, MeshContact, MeshForce, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem,
 };
 
-/// What is wanted of an evaluation.
+/// How much an evaluation computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EvaluationLevel {
-    /// What [`MeshContact::strain_energy`] takes, and nothing else.
+    /// The strain energy ([`MeshContact::strain_energy`]) and nothing else.
     Energy,
-    /// Forces as well.
+    /// Forces, too.
     Forces,
-    /// And their tangent: that of the middle of the cell.
+    /// Forces and their tangent, which is that at the centre of the bin.
     Tangent,
 }
 
-/// Violation of the conditions, relative to the largest approach, up to which energy is good to a millionth of a
-/// millionth.
+/// Largest violation of the contact conditions, relative to the largest approach, with which the energy is exact to
+/// 1e-12.
 const ENERGY_ACCURACY: f64 = 1e-6;
 
 impl MeshContact {
-    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these: rows that were found for
-    /// poses next to them, up to a um away, are kept with their places and compliance, and their gaps follow the motion
-    /// to first order.
+    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these. Rows found at poses up to
+    /// a um away keep their contact points and their compliance; gaps follow the motion to first order.
     ///
-    /// Forces are then the exact derivative of the strain energy, and the tangent that of the forces in the middle of
-    /// the cell. The answer depends on the poses since the last [`MeshContact::start_anew`] alone.
+    /// Forces are the exact derivative of the strain energy, the tangent is that of the forces at the centre of the
+    /// bin. The result depends only on the poses since the last [`MeshContact::start_anew`].
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
@@ -53,9 +52,9 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// Gap (mm) that flanks beside the window have at least with the gears' frames at `poses`, next to those of the
-    /// last evaluation, if `gap` tells what they have at given ones: what no motion from the middle of the cell can
-    /// have closed.
+    /// Lower bound of the gap (mm) of the neighbouring pairs outside the window, with the gears' frames at `poses`.
+    /// `gap` gives their gap at given poses; the bound is the gap at the centre of the bin less what the motion from
+    /// there can close.
     pub fn gap_of_neighbours(&mut self, poses: &[Pose; 2], gap: impl FnOnce(&[Pose; 2]) -> f64) -> f64 {
         let motion =
             self.contact.bin.as_ref().and_then(|_| self.contact.motion_to(poses, self.radius, self.modal.as_ref()));
@@ -68,19 +67,20 @@ impl MeshContact {
         *self.contact.neighbour_gap.get_or_insert_with(|| gap(&at)) - gone
     }
 
-    /// From here on nothing counts that was evaluated before; what is known of cells remains known.
+    /// Starts a new history: later results do not depend on earlier poses. The cache keeps its bins, because they do
+    /// not depend on history.
     pub(super) fn start_anew(&mut self) {
         self.stash();
         self.cache.start();
     }
 
-    /// Forgets what is known of cells.
+    /// Empties the cache.
     pub(super) fn clear_cache(&mut self) {
         (self.contact.at, self.contact.bin) = (None, None);
         self.cache.clear();
     }
 
-    /// Puts away what was found, if it belongs to a cell.
+    /// Stores the current contact in the cache, if it belongs to a bin.
     pub(super) fn stash(&mut self) {
         if self.contact.bin.is_some() {
             self.cache.put_away(&mut self.contact);
@@ -88,7 +88,7 @@ impl MeshContact {
         (self.contact.at, self.contact.bin) = (None, None);
     }
 
-    /// Goes over to rows that serve `poses`; the motion from where they were found.
+    /// Makes the rows current that serve `poses`; returns the motion from where they were found.
     fn select_rows(&mut self, poses: &[Pose; 2]) -> Result<[f64; 12], ContactError> {
         let (radius, modal) = (self.radius, self.modal.as_ref());
         let motion_from =
@@ -108,11 +108,11 @@ impl MeshContact {
             self.stash();
             self.fill(bin)?;
         }
-        // The middle of a cell is next to all of it, if numbers are numbers.
+        // Every pose in a bin is within the linear range of its centre, unless it is no number.
         Ok(self.contact.motion_to(poses, radius, self.modal.as_ref()).unwrap_or([f64::NAN; 12]))
     }
 
-    /// Finds the rows of a cell and solves their contact in its middle.
+    /// Finds the rows of a bin and solves their contact at its centre.
     fn fill(&mut self, bin: PoseBin) -> Result<(), ContactError> {
         let poses = bin.middle(self.radius);
         self.search_from_ends(&poses);
@@ -143,7 +143,7 @@ impl MeshContact {
         solver.solve_near(&problem, local(contact), accuracy)
     }
 
-    /// The tangent in the middle of the cell, unless rows have come or gone since.
+    /// The tangent at the centre of the bin, unless the set of active rows has changed since.
     fn tangent_near(&mut self) {
         let of_middle = self.solver.has_saved_factor();
         if of_middle && let Some(known) = &self.contact.tangent {

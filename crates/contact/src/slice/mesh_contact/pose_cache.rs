@@ -2,44 +2,44 @@
 
 use super::{pose_bin::PoseBin, pose_contact::PoseContact};
 
-/// Largest size of the cache, bytes, and its largest number of bins: those of the steps of a mesh cycle and of their
-/// middles.
+/// Largest size of the cache, bytes, and its largest number of bins. The bins of a mesh cycle are those of its steps
+/// and of the middles of its steps.
 const CACHE_BYTES: usize = 48 << 20;
 const CACHE_BINS: usize = 512;
 
-/// What was found in other cells than the one that serves now.
+/// Contact in the bins other than the current one.
 #[derive(Debug, Default)]
 pub(super) struct PoseCache {
     bins: Vec<PoseContact>,
-    /// Which one served before, and which one has to go next.
+    /// Index of the previous bin, and of the one to be replaced last.
     last: usize,
     next: usize,
 }
 
 impl PoseCache {
-    /// Forgets all.
+    /// Empties the cache.
     pub fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// Forgets which one served before.
+    /// Forgets the previous bin.
     pub fn start(&mut self) {
         self.last = usize::MAX;
     }
 
-    /// The one that served before.
+    /// Contact in the previous bin.
     pub fn last(&self) -> Option<&PoseContact> {
         self.bins.get(self.last)
     }
 
-    /// Makes the one that served before serve again, `now` being the one that does.
+    /// Makes the previous bin the current one; `now` holds the current one.
     pub fn swap_back(&mut self, now: &mut PoseContact) {
         if let Some(last) = self.bins.get_mut(self.last) {
             std::mem::swap(last, now);
         }
     }
 
-    /// Brings out what was found in a cell; whether there is anything.
+    /// Makes `bin` the current one; false where the cache does not hold it.
     pub fn recall(&mut self, bin: &PoseBin, now: &mut PoseContact) -> bool {
         let Some(point) = self.bins.iter().position(|contact| contact.bin.as_ref() == Some(bin)) else { return false };
         std::mem::swap(&mut self.bins[point], now);
@@ -47,17 +47,17 @@ impl PoseCache {
         true
     }
 
-    /// Puts `now` away, so that it can be filled with something else.
+    /// Stores `now`, so that it can be filled for another bin.
     pub fn put_away(&mut self, now: &mut PoseContact) {
         let bytes: usize = self.bins.first().map_or(0, PoseContact::bytes);
         let most = (CACHE_BYTES / bytes.max(1)).clamp(2, CACHE_BINS);
         if self.bins.len() < most {
             self.last = self.bins.len();
-            // As much room as the last one took: the next one is of the same size.
+            // The next bin has about as many rows as the last one.
             let next = PoseContact::with_capacity(now.rows.len() + 8);
             self.bins.push(std::mem::replace(now, next));
         } else {
-            // The one that served before may be asked for again within a step.
+            // The previous bin may be asked for again within a step: it is not replaced.
             self.next = (self.next + 1) % most;
             self.last = self.next;
             std::mem::swap(&mut self.bins[self.next], now);

@@ -1,4 +1,4 @@
-//! Rows of contact that were found at some poses, and what follows from them next to these.
+//! Contact rows at given poses, and their linearisation there.
 
 use super::pose_bin::{LINEAR_RANGE, PoseBin};
 use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows};
@@ -8,29 +8,29 @@ use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3,
 pub(super) struct PoseContact {
     /// The poses, once there are rows of them.
     pub at: Option<[Pose; 2]>,
-    /// The cell whose middle they are; none for poses that were given.
+    /// The bin whose centre the poses are; none for poses that were given.
     pub bin: Option<PoseBin>,
     /// Station of each row, counted over all pairs.
     pub keys: Vec<usize>,
     pub rows: Vec<ContactRow>,
     pub slices: Vec<Slice>,
     pub laws: Vec<LocalLaw>,
-    /// Gaps at these poses, mm; those of the rows follow small motions from there.
+    /// Gaps at these poses, mm. The gaps in `rows` follow small motions from there.
     pub gaps: Vec<f64>,
-    /// How displacements and small turns of both gears open each row.
+    /// Gap opening of each row per displacement and small turn of both gears.
     pub openings: Vec<[f64; 12]>,
     pub compliance: Vec<f64>,
     /// How modes open the rows.
     pub modal: ModalRows,
-    /// Solution in the middle of the cell.
+    /// Solution at the centre of the bin.
     pub saved: SavedSolution,
-    /// Least gap of the pairs beside the window there, mm, once it was asked for.
+    /// Least gap of the neighbouring pairs outside the window, mm, once it was computed.
     pub neighbour_gap: Option<f64>,
-    /// Tangent there, once it was asked for.
+    /// Tangent, once it was computed.
     pub tangent: Option<Box<Tangent>>,
 }
 
-/// df/dq of the rigid coordinates, and with those of the modes behind them, row by row; empty without.
+/// df/dq of the rigid coordinates; and of rigid coordinates and modes together, row by row, empty without modes.
 #[derive(Debug)]
 pub(super) struct Tangent {
     pub rigid: [[f64; 12]; 12],
@@ -51,14 +51,14 @@ impl PoseContact {
         }
     }
 
-    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`, if they are small, and modes open
-    /// gaps by no more than was reckoned with.
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`. `None` where the motion is beyond
+    /// the linear range, or where modes open gaps by more than was allowed for.
     pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
         let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
         for g in 0..2 {
             let moved = poses[g].translation.vector - at[g].translation.vector;
-            // Twice the vector part: turns that are small enough to matter here are no farther from it than their cube.
+            // Twice the vector part of the quaternion: its error is of third order in the turn.
             let turned = 2.0 * (poses[g].rotation * at[g].rotation.inverse()).into_inner();
             let turned = turned.w.signum() * turned.imag();
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
@@ -71,7 +71,7 @@ impl PoseContact {
         Some(motion)
     }
 
-    /// What the rows' places say of the motion of both gears: once they are known.
+    /// Takes gaps and their derivatives by the motion of both gears from the rows. Called once the rows are complete.
     pub fn update_openings(&mut self) {
         let Self { at, rows, gaps, openings, tangent, neighbour_gap, .. } = self;
         let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
@@ -96,8 +96,8 @@ impl PoseContact {
     }
 }
 
-/// How displacements and small turns of both gears about their `centres` move a row's point along `direction`: of its
-/// normal, how they open its gap.
+/// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about
+/// their `centres`. Along the normal it is the derivative of the gap.
 pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
     let mut j = [0.0; 12];
     for (body, sign) in [1.0, -1.0].into_iter().enumerate() {

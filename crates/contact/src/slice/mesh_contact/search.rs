@@ -1,12 +1,12 @@
-//! Where the flanks are nearest, and which of these places are rows of the contact.
+//! Search for the points of least gap, and selection of those that become rows of the contact problem.
 
 use crate::{FlankPair, Pose, SliceHint};
 
 use super::{LINEAR_RANGE, MeshContact, PoseContact, pose_bin::PoseBin};
 
 impl MeshContact {
-    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Undeformed
-    /// but for the kept modes, and with these it is the last evaluation that is lost.
+    /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Teeth are
+    /// undeformed but for the kept modes. With modes the last evaluation is lost.
     pub fn overlap(&mut self, poses: &[Pose; 2]) -> f64 {
         if self.modal.is_some() {
             self.stash();
@@ -17,20 +17,20 @@ impl MeshContact {
         self.deepest()
     }
 
-    /// Deepest overlap at the places found, mm.
+    /// Deepest overlap at the points found, mm.
     fn deepest(&self) -> f64 {
         self.nearest.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
     }
 
-    /// Gap up to which a row at the places found may close, mm: the deepest overlap; modes may close a gap by up to
-    /// `by_modes`, mm, and open the one that would be the deepest overlap.
+    /// Largest gap that a row may have and still close, mm. Without modes it is the deepest overlap. Modes may close a
+    /// gap by up to `by_modes` (mm) and open the point of the deepest overlap by as much.
     pub(super) fn reach(&self, by_modes: f64) -> f64 {
         let deepest = self.deepest();
         if self.modal.is_some() { deepest.abs() + 2.0 * (by_modes + LINEAR_RANGE) } else { deepest }
     }
 
-    /// Where the flanks are nearest, from station to station: a contact line is straight along the roll angle, or
-    /// nearly so. Nothing that was found before counts.
+    /// Finds the points of least gap from one end of the face to the other, each from its neighbours: along a contact
+    /// line the roll angle is nearly linear in z. Earlier results are not used.
     pub(super) fn search_from_ends(&mut self, poses: &[Pose; 2]) {
         let Self { set, pairs, nearest, .. } = self;
         nearest.clear();
@@ -50,7 +50,7 @@ impl MeshContact {
         }
     }
 
-    /// Where the flanks are nearest, station by station, from where they were nearest before.
+    /// Finds the points of least gap station by station, each from where it was at the last search.
     fn search_from_hints(&mut self, poses: &[Pose; 2]) {
         let Self { set, pairs, hints, nearest, last_pose, .. } = self;
         nearest.clear();
@@ -71,11 +71,11 @@ impl MeshContact {
         }
     }
 
-    /// Rows and their compliance with the gears' frames at `poses`: gaps up to `reach` (mm), or as far as the flanks
-    /// overlap.
+    /// Rows and their compliance with the gears' frames at `poses`. Rows have gaps of at most `reach` (mm); without it,
+    /// of at most the deepest overlap.
     ///
-    /// When nothing turns, no row is approached by more than the deepest overlap: loads on other teeth close a gap by
-    /// some per cent of it at most, so rows that gape by more stay open.
+    /// Without a free rotation no row is approached by more than the deepest overlap. Loads on other teeth close a gap
+    /// by some per cent of that overlap, so rows with larger gaps stay open.
     pub fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
         self.search_from_hints(poses);
         let by_modes = self.modal.as_ref().map_or(0.0, |modal| modal.largest());
@@ -84,8 +84,8 @@ impl MeshContact {
         self.rows_within(poses, reach, None);
     }
 
-    /// Rows of the places found that are no farther apart than `reach`, mm, and their compliance; those of a cell take
-    /// nothing over from before.
+    /// Rows at the points found whose gap is at most `reach` (mm), and their compliance. In a pose bin nothing is taken
+    /// over from earlier searches.
     pub(super) fn rows_within(&mut self, poses: &[Pose; 2], reach: f64, bin: Option<&PoseBin>) {
         let Self { set, pairs, hints, nearest, contact, friction, .. } = self;
         let PoseContact { at, keys, rows, slices, .. } = contact;
@@ -108,7 +108,7 @@ impl MeshContact {
                 else {
                     continue;
                 };
-                // Tables do not ask which nodes a row rests on.
+                // Tables of compliance do not use the nodes of a row.
                 let mut anew = SliceHint::default();
                 let hint = if bin.is_some() { &mut anew } else { &mut hints[*key] };
                 if !tabulated && !pair.support(&mut row, &slice, hint) {

@@ -4,18 +4,18 @@ use crate::{ContactRow, Slice, SliceHint, SlicePoint, TablePoint};
 
 use super::MeshContact;
 
-/// What one evaluation passes over and does; see [`MeshContact::work`].
+/// Memory traffic and operations of one evaluation; see [`MeshContact::work`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ContactWork {
-    /// Data that it passes over at least once, bytes.
+    /// Data that it reads or writes at least once, bytes.
     pub bytes: f64,
-    /// Floating-point operations of its linear algebra: those of the search and of the local compliance, a few hundred
-    /// a slice, are left out.
+    /// Floating-point operations of its linear algebra. Search and local compliance, a few hundred operations a slice,
+    /// are left out.
     pub flops: f64,
 }
 
 impl MeshContact {
-    /// What the last evaluation passed over and did, from the sizes of its arrays.
+    /// Memory traffic and operations of the last evaluation, from the sizes of its arrays.
     pub fn work(&self) -> ContactWork {
         let (n, m) = (self.contact.rows.len() as f64, self.solver.active().len() as f64);
         let steps = self.solver.iterations() as f64;
