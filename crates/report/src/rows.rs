@@ -73,6 +73,11 @@ impl Columns {
         Self { names: self.names.clone(), values: self.values.iter().map(tail).collect() }
     }
 
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Rows.
     pub fn len(&self) -> usize {
         self.values.first().map_or(0, Vec::len)
