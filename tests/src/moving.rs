@@ -53,7 +53,7 @@ impl MovingPair {
         });
         let ste = all.iter().map(|p| p.transmission_error).collect();
         let stiffness = all.iter().map(|p| p.tangent_stiffness).collect();
-        Self { gears: Arc::new(model.into_gears()), case, contact, ste, stiffness, means, bodies }
+        Self { gears: model.into_gears(), case, contact, ste, stiffness, means, bodies }
     }
 
     /// Inertia of the driven gear on its base circle where the driver's angle is given, t.

@@ -6,6 +6,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use analysis::GearCache;
 use reduction::{RecordKey, ReductionRecord};
 
 use crate::partial::Partial;
@@ -50,13 +51,26 @@ impl Cache {
         Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
     }
 
-    /// Whether there is a folder.
-    pub fn is_on(&self) -> bool {
+    /// Beside its place first, then renamed: whoever reads sees a whole file or none.
+    fn write(&self, file: &Path, bytes: &[u8]) -> std::io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        fs::create_dir_all(folder)?;
+        let partial = Partial::new(file.with_extension(format!("{TORN}{}", std::process::id())));
+        fs::write(partial.path(), bytes)?;
+        fs::rename(partial.path(), file)?;
+        partial.keep();
+        forget_torn(folder);
+        make_room(folder, file);
+        Ok(())
+    }
+}
+
+impl GearCache for Cache {
+    fn is_on(&self) -> bool {
         self.folder.is_some()
     }
 
-    /// The record of a key; `None` when there is none. A warning says what is wrong with a file that is there and cannot be used.
-    pub fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
         let Some(file) = self.file(key) else { return (None, None) };
         let bytes = match fs::read(&file) {
             Ok(bytes) => bytes,
@@ -72,24 +86,10 @@ impl Cache {
         }
     }
 
-    /// Writes a record; a warning says why it could not be done.
-    pub fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
         let file = self.file(key)?;
         let written = self.write(&file, &record.to_bytes(key));
         written.err().map(|e| format!("{}: {e}; the next run will reduce the gear again", file.display()))
-    }
-
-    /// Beside its place first, then renamed: whoever reads sees a whole file or none.
-    fn write(&self, file: &Path, bytes: &[u8]) -> std::io::Result<()> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        fs::create_dir_all(folder)?;
-        let partial = Partial::new(file.with_extension(format!("{TORN}{}", std::process::id())));
-        fs::write(partial.path(), bytes)?;
-        fs::rename(partial.path(), file)?;
-        partial.keep();
-        forget_torn(folder);
-        make_room(folder, file);
-        Ok(())
     }
 }
 

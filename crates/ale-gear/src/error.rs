@@ -2,6 +2,8 @@
 
 use std::{fmt::Display, path::Path};
 
+use analysis::AnalysisError;
+
 use crate::scene::SceneError;
 
 /// What the command says when it cannot go on.
@@ -48,6 +50,22 @@ impl CommandError {
     #[must_use]
     pub fn about(self, excerpt: Option<&str>) -> Self {
         Self { excerpt: excerpt.map(str::to_owned), ..self }
+    }
+}
+
+impl From<AnalysisError> for CommandError {
+    fn from(error: AnalysisError) -> Self {
+        let error = match error {
+            // What a sink of this program says is a message already.
+            AnalysisError::Sink(inner) => match inner.downcast::<Self>() {
+                Ok(own) => return *own,
+                Err(other) => AnalysisError::Sink(other),
+            },
+            other => other,
+        };
+        let hint = error.hint();
+        let told = if error.is_without_result() { Self::failed(&error, hint) } else { Self::input(&error, hint) };
+        told.about(error.excerpt())
     }
 }
 

@@ -5,12 +5,9 @@ use serde::Serialize;
 
 use report::view::View;
 
-pub use crate::resolution::Resolution;
-use crate::{
-    certificate::Certificate,
-    iso_root::IsoRootStress,
-    phases::{Phase, Phases},
-};
+pub use analysis::facts::*;
+
+use crate::phases::{Phase, Phases};
 
 /// A solved scene.
 #[derive(Debug, Clone)]
@@ -21,80 +18,6 @@ pub struct Solved {
     pub facts: Facts,
     /// The gears in space; `None` for a model without meshes, and where nobody asked.
     pub view: Option<View>,
-}
-
-/// What a run was made of and what it cost.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Facts {
-    /// Geometry of the pair.
-    pub geometry: GeometryFacts,
-    /// Meshes of pinion and wheel; empty for a model without meshes.
-    pub meshes: Vec<MeshFacts>,
-    /// Degrees of freedom of pinion and wheel before reduction.
-    pub dof_before: [usize; 2],
-    /// Degrees of freedom of pinion and wheel that the analysis carries.
-    pub dof_after: [usize; 2],
-    /// Which way pinion and wheel were condensed: `cyclic sector` or `general`; empty for a model without reduction.
-    pub reduction: Vec<&'static str>,
-    /// Teeth in the window at the end.
-    pub window_teeth: Option<u32>,
-    /// Contact points of the window.
-    pub contact_points: Option<usize>,
-    /// How fine contact and meshes are along the face; `None` for a model without meshes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resolution: Option<Resolution>,
-    /// Wall time from the start of the program to the first solved position, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_result_s: Option<f64>,
-    /// Nominal root stress after ISO 6336-3, beside that of finite elements where that is asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub iso_root_stress: Option<IsoRootStress>,
-    /// What must hold of the result.
-    #[serde(flatten)]
-    pub certificate: Certificate,
-    /// What only one model knows, by key with unit.
-    #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
-    pub model: serde_json::Map<String, serde_json::Value>,
-}
-
-/// Where a mesh comes from and how large it is.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct MeshFacts {
-    /// File as the scene names it, or `built-in mesher`; and whether a sector was repeated.
-    pub source: String,
-    /// Number of nodes; of a repeated sector, those of the whole gear, as with the elements.
-    pub nodes: usize,
-    /// Number of volume elements.
-    pub elements: usize,
-    /// Kinds of elements with their numbers, as `hex8 1200`.
-    pub kinds: Vec<String>,
-}
-
-/// Derived geometry of the pair.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct GeometryFacts {
-    /// Working centre distance, mm.
-    pub centre_distance_mm: f64,
-    /// Transverse pressure angle, degrees.
-    pub transverse_pressure_angle_deg: f64,
-    /// Working transverse pressure angle, degrees.
-    pub working_pressure_angle_deg: f64,
-    /// Base helix angle, degrees.
-    pub base_helix_angle_deg: f64,
-    /// Base radii, mm.
-    pub base_radius_mm: [f64; 2],
-    /// Transverse base pitch, mm.
-    pub base_pitch_mm: f64,
-    /// Transverse contact ratio.
-    pub eps_alpha: f64,
-    /// Overlap ratio.
-    pub eps_beta: f64,
-    /// Total contact ratio.
-    pub eps_gamma: f64,
-    /// Mean of the analytic total contact-line length, mm.
-    pub mean_line_length_mm: f64,
-    /// Backlash on the transverse line of action, mm.
-    pub backlash_mm: f64,
 }
 
 /// What the whole run cost.

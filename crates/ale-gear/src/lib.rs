@@ -23,7 +23,6 @@ pub mod cache;
 pub mod certificate;
 pub mod chart;
 pub mod command;
-mod elastic_gears;
 pub mod error;
 pub mod facts;
 pub mod memory;
@@ -36,14 +35,12 @@ pub use ::scene;
 pub mod starter;
 pub mod talk;
 
-mod gears;
-mod iso_model;
-pub mod iso_root;
 mod ladder;
-pub mod meshes;
 mod partial;
 pub mod reduce;
-pub mod resolution;
 pub mod rexs;
 mod room;
 mod work_folder;
+
+pub(crate) use analysis::{elastic_gears, gears, iso_model};
+pub use analysis::{iso_root, meshes, resolution};

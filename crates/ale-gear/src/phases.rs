@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use analysis::{Observer, PhaseWork, Progress};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde::Serialize;
 
@@ -36,25 +37,42 @@ pub struct Phases {
     start: Instant,
     highest: Option<f64>,
     bars: bool,
+    /// Phases under way.
+    open: Vec<OpenPhase>,
+}
+
+/// A phase under way.
+#[derive(Debug)]
+struct OpenPhase {
+    name: String,
+    bar: ProgressBar,
+    start: Instant,
+    own_peak: bool,
 }
 
 /// The bar of a running phase; may be shared between threads.
 #[derive(Debug, Clone)]
-pub struct Progress {
+pub struct BarProgress {
     bar: ProgressBar,
     /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is wanted.
     due: Option<Arc<AtomicU64>>,
 }
 
-impl Progress {
-    /// One more unit of work is done.
-    pub fn tick(&self) {
+impl Progress for BarProgress {
+    fn tick(&self) {
         self.bar.inc(1);
         if let Some(due) = &self.due {
             self.log(due);
         }
     }
 
+    fn say(&self, message: String) {
+        talk::say(Loudness::Details, || format!("  {}: {message}", self.bar.prefix()));
+        self.bar.set_message(message);
+    }
+}
+
+impl BarProgress {
     /// A line for a log, that nobody who waits has to wonder: as due, and again after twice the time.
     fn log(&self, due: &AtomicU64) {
         let elapsed = self.bar.elapsed();
@@ -69,13 +87,6 @@ impl Progress {
         let (name, beside) = (self.bar.prefix(), self.bar.message());
         talk::say(Loudness::Bars, || format!("{name}: {done} of {all} after {seconds:.0} s, {} {beside}", left(rest)));
     }
-
-    /// A word beside the bar.
-    pub fn say(&self, message: impl Into<String>) {
-        let message = message.into();
-        talk::say(Loudness::Details, || format!("  {}: {message}", self.bar.prefix()));
-        self.bar.set_message(message);
-    }
 }
 
 impl Phases {
@@ -86,47 +97,33 @@ impl Phases {
 
     /// Without bars.
     pub fn quiet() -> Self {
-        Self { rows: Vec::new(), start: Instant::now(), highest: None, bars: false }
+        Self { rows: Vec::new(), start: Instant::now(), highest: None, bars: false, open: Vec::new() }
     }
 
     /// Runs a phase whose amount of work is not known beforehand.
     pub fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
-        let bar = ProgressBar::new_spinner();
-        bar.set_style(style("{spinner} {prefix:<10} {elapsed}"));
-        self.measure(name, bar, |_| work())
+        self.measure(name, spinner(), |_| work())
     }
 
     /// Runs a phase that should take about `seconds`: a bar with what is left of them.
     pub fn run_foreseen<T>(&mut self, name: &str, seconds: f64, work: impl FnOnce() -> T) -> T {
-        let bar = ProgressBar::new_spinner();
-        let shown = style("{spinner} {prefix:<10} [{done}] {elapsed} {left}")
-            .with_key("done", move |s: &ProgressState, w: &mut dyn Write| {
-                let _ = w.write_str(&filled(s.elapsed().as_secs_f64() / seconds));
-            })
-            .with_key("left", move |s: &ProgressState, w: &mut dyn Write| {
-                let _ = w.write_str(&left(seconds - s.elapsed().as_secs_f64()));
-            });
-        bar.set_style(shown);
-        self.measure(name, bar, |_| work())
+        self.measure(name, seconds_bar(seconds), |_| work())
     }
 
     /// Runs a phase of `steps` units of work; `work` calls [`Progress::tick`] after each.
-    pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&Progress) -> T) -> T {
-        let bar = ProgressBar::new(steps);
-        let shown = style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}{left} {msg}").with_key(
-            "left",
-            |s: &ProgressState, w: &mut dyn Write| {
-                // Before the first step is done nothing is known.
-                if s.pos() > 0 {
-                    let _ = write!(w, ", {:#} left", HumanDuration(s.eta()));
-                }
-            },
-        );
-        bar.set_style(shown.progress_chars("=> "));
-        self.measure(name, bar, work)
+    pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&dyn Progress) -> T) -> T {
+        self.measure(name, steps_bar(steps), work)
     }
 
-    fn measure<T>(&mut self, name: &str, bar: ProgressBar, work: impl FnOnce(&Progress) -> T) -> T {
+    fn measure<T>(&mut self, name: &str, bar: ProgressBar, work: impl FnOnce(&dyn Progress) -> T) -> T {
+        let progress = self.open(name, bar);
+        let result = work(&progress);
+        self.close();
+        result
+    }
+
+    /// Begins a phase with a bar.
+    fn open(&mut self, name: &str, bar: ProgressBar) -> BarProgress {
         // indicatif draws nothing when stderr is no terminal.
         bar.set_draw_target(if self.bars && talk::loudness() == Loudness::Bars {
             ProgressDrawTarget::stderr()
@@ -137,10 +134,15 @@ impl Phases {
         bar.enable_steady_tick(Duration::from_millis(120));
         talk::say(Loudness::Steps, || format!("{name} ..."));
         let own_peak = memory::reset_peak();
-        let start = Instant::now();
         let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
         let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
-        let result = work(&Progress { bar: bar.clone(), due });
+        self.open.push(OpenPhase { name: name.to_owned(), bar: bar.clone(), start: Instant::now(), own_peak });
+        BarProgress { bar, due }
+    }
+
+    /// Ends the phase that began last.
+    fn close(&mut self) {
+        let Some(OpenPhase { name, bar, start, own_peak }) = self.open.pop() else { return };
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
         bar.finish_and_clear();
@@ -149,8 +151,7 @@ impl Phases {
             (Some(a), Some(b)) => Some(f64::max(a, b)),
             (a, b) => a.or(b),
         };
-        self.rows.push(Phase { name: name.to_owned(), wall_s, peak_memory_mb: peak.filter(|_| own_peak) });
-        result
+        self.rows.push(Phase { name, wall_s, peak_memory_mb: peak.filter(|_| own_peak) });
     }
 
     /// The phases so far.
@@ -172,6 +173,58 @@ impl Phases {
     pub fn peak_memory_mb(&self) -> Option<f64> {
         self.highest
     }
+}
+
+impl Observer for Phases {
+    fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress> {
+        let bar = match work {
+            PhaseWork::Unknown => spinner(),
+            PhaseWork::Seconds(seconds) => seconds_bar(seconds),
+            PhaseWork::Steps(steps) => steps_bar(steps),
+        };
+        Arc::new(self.open(phase, bar))
+    }
+
+    fn end(&mut self) {
+        self.close();
+    }
+}
+
+/// For work whose amount is not known beforehand.
+fn spinner() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    bar.set_style(style("{spinner} {prefix:<10} {elapsed}"));
+    bar
+}
+
+/// For work that should take about `seconds`: a bar with what is left of them.
+fn seconds_bar(seconds: f64) -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    let shown = style("{spinner} {prefix:<10} [{done}] {elapsed} {left}")
+        .with_key("done", move |s: &ProgressState, w: &mut dyn Write| {
+            let _ = w.write_str(&filled(s.elapsed().as_secs_f64() / seconds));
+        })
+        .with_key("left", move |s: &ProgressState, w: &mut dyn Write| {
+            let _ = w.write_str(&left(seconds - s.elapsed().as_secs_f64()));
+        });
+    bar.set_style(shown);
+    bar
+}
+
+/// For a number of steps.
+fn steps_bar(steps: u64) -> ProgressBar {
+    let bar = ProgressBar::new(steps);
+    let shown = style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}{left} {msg}").with_key(
+        "left",
+        |s: &ProgressState, w: &mut dyn Write| {
+            // Before the first step is done nothing is known.
+            if s.pos() > 0 {
+                let _ = write!(w, ", {:#} left", HumanDuration(s.eta()));
+            }
+        },
+    );
+    bar.set_style(shown.progress_chars("=> "));
+    bar
 }
 
 /// Width of a bar, characters.

@@ -1,5 +1,6 @@
 //! Reduction of a scene's gears by itself: into the cache, and what it took.
 
+use analysis::GearCache;
 use fem::{ElementOptions, Material};
 use geometry::Side;
 use ltca::StaticModel;
@@ -11,7 +12,7 @@ use crate::{
     cache::Cache,
     elastic_gears::{ElasticGears, elastic_gears},
     error::CommandError,
-    gears, meshes,
+    meshes,
     phases::Phases,
     run::{self, complaint},
     scene::Scene,
@@ -52,7 +53,7 @@ pub fn reduce_scene(
         return Err(CommandError::input(format_args!("{at}: this model reduces nothing"), Some(hint))
             .about(model.as_ref().and_then(|p| p.excerpt())));
     }
-    let pair = phases.run("geometry", || gears::pair(scene))?;
+    let pair = phases.run("geometry", || scene.gear_pair())?;
     let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
     let options = run::options(scene, &pair);
     let foreseen = run::foreseen_s(scene, &meshes);
@@ -63,7 +64,7 @@ pub fn reduce_scene(
     if cache.is_on() {
         warnings.extend(phases.run("store", || keys.save(cache, model.gears())));
     }
-    let files = keys.files(cache);
+    let files = keys.keys().each_ref().map(|key| cache.file(key.as_ref()?));
     let row = |i: usize| {
         let ElasticGear::Reduced(gear) = &model.gears()[i] else { return None };
         let file = files[i].as_ref().filter(|f| f.is_file()).map(|f| f.display().to_string());

@@ -190,7 +190,7 @@ kind = \"dynamic\"                  # motion in time
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{gears, scene::Scene};
+    use crate::scene::Scene;
 
     fn read(text: &str) -> Scene {
         Scene::parse(text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"))
@@ -222,7 +222,7 @@ mod tests {
             assert_eq!((scene.pair.normal_module_mm, scene.pair.face_width_mm), (2.5, 18.0));
             assert_eq!((scene.pair.centre_distance_mm, scene.operation.torque_nm), (Some(84.0), 80.0));
             assert_eq!(scene.operation.speed_rpm, 1500.0);
-            assert!(gears::pair(&scene).is_ok());
+            assert!(scene.gear_pair().is_ok());
         }
     }
 

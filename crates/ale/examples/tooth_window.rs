@@ -1,4 +1,5 @@
-//! Which teeth are in the window as a pair of 7 and 11 teeth turns, and what happens when one that carries load should leave?
+//! Which teeth are in the window as a pair of 7 and 11 teeth turns, and what happens when one that carries load should
+//! leave?
 //!
 //! `cargo run -p ale --example tooth_window`
 #![allow(clippy::print_stdout, reason = "an example prints")]

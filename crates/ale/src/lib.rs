@@ -1,7 +1,7 @@
 //! Which teeth are in the window, when may one leave, when does the window starve and grow?
 //!
-//! A window of W teeth of each gear is kept; it slides over the material one tooth at a time, both gears at once,
-//! while the outgoing tooth is unloaded. Pairs have running numbers k that never wrap: pinion tooth k mod z1 meets wheel
+//! A window of W teeth of each gear is kept; it slides over the material one tooth at a time, both gears at once, while
+//! the outgoing tooth is unloaded. Pairs have running numbers k that never wrap: pinion tooth k mod z1 meets wheel
 //! tooth -k mod z2.
 
 mod error;

@@ -6,9 +6,9 @@ use crate::{AleError, Station, ToothWindow};
 
 /// The window of tooth pairs of a pair that turns.
 ///
-/// Contact forces are those of the window's pairs, N, ascending in running numbers. A pair leaves when another window lies
-/// nearer to where the pair stands, and when its force is exactly zero: nothing but an open gap is. Displacements and
-/// velocities go over by themselves, for elastic coordinates follow from the forces.
+/// Contact forces are those of the window's pairs, N, ascending in running numbers. A pair leaves when another window
+/// lies nearer to where the pair stands, and when its force is exactly zero: nothing but an open gap is. Displacements
+/// and velocities go over by themselves, for elastic coordinates follow from the forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SlidingWindow {
     window: ToothWindow,
@@ -16,7 +16,8 @@ pub struct SlidingWindow {
 }
 
 impl SlidingWindow {
-    /// The window of `count` pairs nearest to where the pair stands; gears of `teeth` teeth, the pinion turning in `sense`.
+    /// The window of `count` pairs nearest to where the pair stands; gears of `teeth` teeth, the pinion turning in
+    /// `sense`.
     ///
     /// # Errors
     /// [`AleError::TooWide`].
@@ -25,7 +26,8 @@ impl SlidingWindow {
         Ok(Self { window: ToothWindow::new(first, count, teeth)?, sense })
     }
 
-    /// The same at the start of cycle 0. Two windows are equally near there; this is the one that serves the cycle to come.
+    /// The same at the start of cycle 0. Two windows are equally near there; this is the one that serves the cycle to
+    /// come.
     ///
     /// # Errors
     /// [`AleError::TooWide`].
@@ -53,8 +55,8 @@ impl SlidingWindow {
         (self.window.first() - due) * self.sense.sign()
     }
 
-    /// The window one tooth nearer to a station; `None` where this one is the nearest, or where the outgoing tooth carries
-    /// load: then the change waits.
+    /// The window one tooth nearer to a station; `None` where this one is the nearest, or where the outgoing tooth
+    /// carries load: then the change waits.
     ///
     /// # Errors
     /// [`AleError::WrongCount`].
@@ -97,19 +99,20 @@ impl SlidingWindow {
 
     /// Refuses a window beside which a pair ought to carry load: its undeformed flanks overlap at the loaded pose.
     ///
-    /// `gap` is the least gap of a pair by its running number, mm; `allowed` the overlap (mm) that counts as none; `torque`
-    /// that on the driven gear, N mm.
+    /// `gap` is the least gap of a pair by its running number, mm; `allowed` the overlap (mm) that counts as none;
+    /// `torque` that on the driven gear, N mm.
     ///
     /// # Errors
     /// [`AleError::Starved`].
-    pub fn check_beside(
+    pub fn check_neighbours(
         &self,
         station: Station,
         torque: f64,
         allowed: f64,
         gap: impl Fn(i64) -> f64,
     ) -> Result<(), AleError> {
-        let overlapping = self.window.beside().into_iter().map(|pair| (pair, -gap(pair))).find(|(_, o)| *o > allowed);
+        let overlapping =
+            self.window.neighbours().into_iter().map(|pair| (pair, -gap(pair))).find(|(_, o)| *o > allowed);
         match overlapping {
             None => Ok(()),
             Some((pair, overlap)) => Err(AleError::Starved {
@@ -124,8 +127,8 @@ impl SlidingWindow {
     }
 }
 
-/// Solves with a window, and with wider ones as long as `wider` names one for what went wrong: a starved window asks for one
-/// more tooth. `None` is the width that the options ask for.
+/// Solves with a window, and with wider ones as long as `wider` names one for what went wrong: a starved window asks
+/// for one more tooth. `None` is the width that the options ask for.
 ///
 /// # Errors
 /// The first error that no wider window may cure.
@@ -192,11 +195,11 @@ mod tests {
     #[test]
     fn a_starved_window_names_the_pair() {
         let window = SlidingWindow::at_start(3, TEETH, Sense::Ccw).unwrap();
-        let [_, behind] = window.window().beside();
+        let [_, behind] = window.window().neighbours();
         let gap = |pair: i64| if pair == behind { -2e-3 } else { 1.0 };
         let station = Station::at_cycles(0.0);
-        assert!(window.check_beside(station, 1e3, 3e-3, gap).is_ok());
-        match window.check_beside(station, 1e3, 1e-3, gap) {
+        assert!(window.check_neighbours(station, 1e3, 3e-3, gap).is_ok());
+        match window.check_neighbours(station, 1e3, 1e-3, gap) {
             Err(AleError::Starved { pair, window: 3, overlap_um, .. }) => {
                 assert_eq!(pair, behind);
                 assert!((overlap_um - 2.0).abs() < 1e-12, "{overlap_um} um");

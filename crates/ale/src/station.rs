@@ -4,8 +4,8 @@ use geometry::{GearPair, Sense, Side};
 
 /// Where the pair stands: whole mesh cycles beside a phase in [0, 1), so that a million turns lose no digits.
 ///
-/// At phase s the pair in the middle of the cycle stands, at mid-face, (s - 1/2) base pitches past the middle of the path of
-/// contact.
+/// At phase s the pair in the middle of the cycle stands, at mid-face, (s - 1/2) base pitches past the middle of the
+/// path of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Mesh cycles since the start, in the sense of rotation.
@@ -21,8 +21,8 @@ impl Station {
         Self { cycle: whole as i64, phase: (cycles - whole).min(1.0 - f64::EPSILON) }
     }
 
-    /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle of the
-    /// path of contact of the flanks on `side`.
+    /// Angle of the pinion that pair numbers count from in this cycle, rad: sign (s - 1/2) 2 pi / z1 from the middle of
+    /// the path of contact of the flanks on `side`.
     pub fn pinion_angle(&self, pair: &GearPair, side: Side, sense: Sense) -> f64 {
         let middle = pair.middle_angle(side);
         middle + sense.sign() as f64 * (self.phase - 0.5) * pair.pinion.pitch_angle()

@@ -62,7 +62,7 @@ impl ToothWindow {
     }
 
     /// Running numbers of the two pairs beside the window.
-    pub fn beside(&self) -> [i64; 2] {
+    pub fn neighbours(&self) -> [i64; 2] {
         [self.first - 1, self.first + self.count as i64]
     }
 

@@ -1,8 +1,9 @@
 //! Study: how a free end face softens a line contact, resolved in 3-D.
 //!
-//! A layer of depth 1 on rigid ground, pressed along a line that ends at a free face; the line load q(s) that gives the same dent everywhere is
-//! compared with that far from the face. The face leans by the base helix angle against the line's normal plane: acute at one end of a helical
-//! tooth, obtuse at the other. Run with `cargo run --release -p contact --example end_faces`.
+//! A layer of depth 1 on rigid ground, pressed along a line that ends at a free face; the line load q(s) that gives the
+//! same dent everywhere is compared with that far from the face. The face leans by the base helix angle against the
+//! line's normal plane: acute at one end of a helical tooth, obtuse at the other. Run with `cargo run --release -p
+//! contact --example end_faces`.
 #![allow(clippy::print_stdout, reason = "a study prints")]
 
 use faer::Mat;
@@ -45,7 +46,8 @@ fn integrals(x: &[f64], weight: impl Fn(f64) -> f64) -> Vec<f64> {
     f
 }
 
-/// Places s along the line (element ends) and q(s) over its value far from the face, for a face that leans by `lean` rad (positive: acute).
+/// Places s along the line (element ends) and q(s) over its value far from the face, for a face that leans by `lean`
+/// rad (positive: acute).
 fn line_load(nu: f64, lean: f64, band: f64) -> (Vec<f64>, Vec<f64>) {
     let across = graded(band / 3.0, 4.0, 1.4, 0.8);
     let deep = graded(band / 3.0, 1.0, 1.35, 0.2);
@@ -126,7 +128,8 @@ fn line_load(nu: f64, lean: f64, band: f64) -> (Vec<f64>, Vec<f64>) {
         lengths[e] = line.iter().sum();
         for i in 0..nx {
             for (k, l) in line.iter().enumerate() {
-                // A face of a serendipity element has no middle node: its share goes to the neighbours of the same face.
+                // A face of a serendipity element has no middle node: its share goes to the neighbours of the same
+                // face.
                 let force = 0.5 * shape[i] / total * l;
                 if i % 2 + k % 2 <= 1 {
                     if let Some(r) = row[3 * number[index(i, 0, k)] as usize + 1] {

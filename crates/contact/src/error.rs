@@ -18,6 +18,14 @@ pub enum ContactError {
         /// Largest distance allowed, mm.
         tolerance_mm: f64,
     },
+    /// A node of a flank is none of the nodes that the gear's matrices know.
+    #[error("node {node} of {patch} is no boundary node of the gear's matrices")]
+    NotOnBoundary {
+        /// Which flank.
+        patch: String,
+        /// Node of the mesh.
+        node: u32,
+    },
     /// No point of the one body comes near the other.
     #[error("no flank point is within {reach_mm} mm of the other gear")]
     NoCandidates {
@@ -55,6 +63,12 @@ pub enum ContactError {
     /// Forces at given poses come from slices on reduced gears.
     #[error("forces at given poses need slice contact on reduced gears")]
     NotSliced,
+    /// Normal modes are taken on the flanks of reduced gears.
+    #[error("{gear}: normal modes need a reduced gear, and this one keeps all its degrees of freedom")]
+    ModesOnFullGear {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+    },
     /// A gear has no matrices for the window.
     #[error("{gear}: {source}")]
     Reduction {
@@ -104,6 +118,8 @@ impl ContactError {
             Self::NotPositiveDefinite { .. } => "the mesh compliance is damaged: run `ale-gear mesh check`".into(),
             Self::Reduction { source, .. } => return source.hint(),
             Self::Flank { source, .. } => return source.hint(),
+            Self::NotOnBoundary { .. } => "the flank groups of the mesh must not reach into its clamped bore".into(),
+            Self::ModesOnFullGear { .. } => "use `model = \"reduced+modes\"`, or leave out the modes".into(),
             Self::NotSliced => "use `contact.method = \"slice\"`".into(),
             Self::OutOfRange { name, expected, .. } => format!("give {name} {expected}"),
             Self::Stiffness(_) | Self::MixedGears => return None,

@@ -4,8 +4,8 @@ use geometry::GearPair;
 
 use crate::{ContactOptions, ContactRow, Pose, Vec3};
 
-/// Sliding at which friction has risen to tanh(1) = 76 % of Coulomb's, as a share of the sliding at the end of the longer half of the
-/// path of contact: it changes its sign through zero where a slice passes the pitch line.
+/// Sliding at which friction has risen to tanh(1) = 76 % of Coulomb's, as a share of the sliding at the end of the
+/// longer half of the path of contact: it changes its sign through zero where a slice passes the pitch line.
 const REGULARISATION: f64 = 0.02;
 
 /// Friction of a pair that turns in the ratio of its teeth.
@@ -13,8 +13,8 @@ const REGULARISATION: f64 = 0.02;
 /// ```text
 /// F_t = -mu tanh(|v| / v_0) v / |v| F_n,   v = v_1 - v_2 at the contact
 /// ```
-/// v scales with the speed and so does v_0: friction depends on the position alone. It acts on the material as well as on the torque:
-/// the matrix of the contact is not symmetric.
+/// v scales with the speed and so does v_0: friction depends on the position alone. It acts on the material as well as
+/// on the torque: the matrix of the contact is not symmetric.
 #[derive(Debug, Clone, Copy)]
 pub struct Friction {
     coefficient: f64,
@@ -46,7 +46,8 @@ impl Friction {
     }
 }
 
-/// Work that friction takes per radian of the pinion's rotation in the running sense, for a unit normal force at the row, mm.
+/// Work that friction takes per radian of the pinion's rotation in the running sense, for a unit normal force at the
+/// row, mm.
 pub fn friction_work(pair: &GearPair, options: &ContactOptions, poses: &[Pose; 2], row: &ContactRow) -> f64 {
     let on_pinion = row.traction - row.normal;
     -(options.sense.sign() as f64) * on_pinion.dot(&sliding(ratio(pair), poses, row))
@@ -64,7 +65,8 @@ fn ratio(pair: &GearPair) -> f64 {
     f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth())
 }
 
-/// Largest sliding on the path of contact, mm per radian of the pinion: distance from the pitch point times (1 + z1 / z2).
+/// Largest sliding on the path of contact, mm per radian of the pinion: distance from the pitch point times (1 + z1 /
+/// z2).
 fn fastest(pair: &GearPair) -> f64 {
     let pitch_point = pair.pinion.base_radius() * pair.working_pressure_angle().tan();
     let ends = pair.path_of_contact();

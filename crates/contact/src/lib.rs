@@ -11,6 +11,7 @@
 //! Body 1 (pinion) carries the contact points, body 2 (wheel) the surface they are held against. Gap g >= 0 is open;
 //! the force on body 1 acts along body 2's outward normal. Lengths in mm, forces in N.
 
+mod bracketing;
 pub mod complementarity;
 mod compliance;
 mod error;
@@ -19,6 +20,7 @@ mod friction;
 mod line;
 mod local;
 mod nodal;
+mod offset;
 mod options;
 mod pose;
 mod result;
@@ -26,32 +28,35 @@ mod set;
 mod slice;
 mod window;
 
+pub use bracketing::last_inside;
 pub use complementarity::{
-    Balance, DenseProblem, DenseSolver, Equality, HeldSolution, Law, LinearContact, Problem, Solution,
+    Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, SavedSolution, Solution,
 };
 pub use compliance::{
-    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePlace, TableWork, opening,
+    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
 };
 pub use error::ContactError;
 pub use flank::{
-    Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, Surface, contact_points, flank_grids,
+    Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, GapSource, Surface, contact_points,
+    flank_grids,
 };
 pub use friction::{Friction, friction_work};
 pub use line::{
-    Beside, LineStation, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
+    LineStation, NeighbourPairs, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
     nodal_contact_line, nodal_pressures, slice_line,
 };
 pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
 pub use nodal::{
-    ContactRow, GapSource, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
+    ContactRow, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
 };
+pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
-pub use pose::{Misalignment, Offset, check_offsets, frames, gear_centre, gear_pose, reference_angle};
+pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};
 pub use result::{Site, SliceResult, Wrench, local_energy, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
-    ContactWork, FlankPair, MeshContact, MeshForce, NearestPlace, RigidFlanks, Slice, SliceFlank, SliceHint,
-    SlicePlace, SliceSet, ToothLayer, Want, slice,
+    ContactWork, EvaluationLevel, FlankPair, MeshContact, MeshForce, NearestPoint, RigidFlanks, Slice, SliceFlank,
+    SliceHint, SlicePoint, SliceSet, ToothLayer, slice,
 };
 
 pub use window::WindowContact;

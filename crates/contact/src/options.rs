@@ -18,8 +18,8 @@ pub enum Method {
 pub enum Bulk {
     /// The mesh's own matrices, entry by entry.
     Exact,
-    /// Interpolated in a table ([`crate::BulkTable`]) that is off by at most this share of the largest self-compliance of a
-    /// slice; exact where no table of reasonable size is.
+    /// Interpolated in a table ([`crate::BulkTable`]) that is off by at most this share of the largest self-compliance
+    /// of a slice; exact where no table of reasonable size is.
     Table(f64),
 }
 
@@ -43,8 +43,9 @@ pub struct ContactOptions {
     pub slices: usize,
     /// How the bulk compliance behind slices is held, for reduced gears.
     pub bulk: Bulk,
-    /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only: slices end
-    /// where the undeflected flanks end, and the transmission error steps whenever a pair comes or goes under load.
+    /// Let tip edges press off the line of action, as deflected teeth do ([`Method::Slice`]). Off, for study only:
+    /// slices end where the undeflected flanks end, and the transmission error steps whenever a pair comes or goes
+    /// under load.
     pub corner_contact: bool,
     /// Coefficient of friction.
     pub friction: f64,

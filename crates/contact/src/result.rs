@@ -50,14 +50,16 @@ pub struct SliceResult {
     pub half_width: f64,
     /// Largest pressure across the band, MPa.
     pub pressure: f64,
-    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0 for flank on flank.
+    /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0
+    /// for flank on flank.
     pub off_line: f64,
     /// What part of the flanks presses here.
     pub site: Site,
 }
 
 impl SliceResult {
-    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an order.
+    /// Whether the pressure is larger than another's, by more than round-off: equal slices of a symmetric pair have an
+    /// order.
     pub fn is_harder(&self, other: &Self) -> bool {
         self.pressure > other.pressure * (1.0 + 1e-9)
     }
@@ -100,7 +102,8 @@ pub fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
     }
 }
 
-/// What part of the flanks a slice presses with: a tip edge that is off the line of action or within the band, an end face that the slice ends at, or neither.
+/// What part of the flanks a slice presses with: a tip edge that is off the line of action or within the band, an end
+/// face that the slice ends at, or neither.
 fn site(slice: &Slice, half_width: f64) -> Site {
     let [pinion, wheel] = slice.local.bodies.map(|b| b.tip_distance);
     // The edge that presses is that of the body whose tip is nearer.

@@ -153,8 +153,9 @@ impl ContactSet {
         self.partner_of(first) == Some(second)
     }
 
-    /// The wheel's patch that one of the pinion faces. Driving flanks: of the pair's own tooth. Behind them a tooth of the pinion is followed by the next tooth of the wheel, which belongs to the neighbouring pair;
-    /// of the last tooth in the window it is not kept.
+    /// The wheel's patch that one of the pinion faces. Driving flanks: of the pair's own tooth. Behind them a tooth of
+    /// the pinion is followed by the next tooth of the wheel, which belongs to the neighbouring pair; of the last tooth
+    /// in the window it is not kept.
     fn partner_of(&self, first: usize) -> Option<usize> {
         let sides = &self.shared.sides[0];
         let (side, pair) = (*sides.get(first)?, self.pair_of(first));
@@ -171,8 +172,8 @@ impl ContactSet {
         self.shared.patches[0].iter().take_while(|p| Some(p.tooth) == first).count().max(1)
     }
 
-    /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty), or where
-    /// gaps are not those of the smooth flanks.
+    /// Points of least gap of the window's pairs with the gears at `poses`; none where a point needs an area (penalty),
+    /// or where gaps are not those of the smooth flanks.
     ///
     /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
     pub fn line_points(&self, options: &ContactOptions, poses: &[Pose; 2]) -> LinePoints {
@@ -211,8 +212,8 @@ impl ContactSet {
         (0..self.shared.patches[0].len()).filter_map(partner).collect()
     }
 
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with the nodes that they
-    /// rest on; `None` where no matrices of flanks are known.
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with
+    /// the nodes that they rest on; `None` where no matrices of flanks are known.
     pub fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
         let [a, b] = self.windows.as_ref()?;
         let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
@@ -296,12 +297,13 @@ fn flank_mesh(elastic: &ElasticGear, tooth: u32, side: Side) -> Option<(&[[f64; 
     }
 }
 
-/// Number that a node of a flank has among the boundary nodes of a gear.
-fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> u32 {
+/// Number that a node of a flank has among the boundary nodes of a gear; `None` for a node that its matrices do not
+/// know.
+fn boundary_number(elastic: &ElasticGear, window: Option<&Window>, flank: (u32, Side), node: u32) -> Option<u32> {
     let position = match (window, elastic) {
         (Some(window), ElasticGear::Reduced(r)) => r.boundary_position(window, flank, node),
         (None, ElasticGear::Full(f)) => f.dofs.position(node),
         _ => None,
     };
-    position.map_or(u32::MAX, |p| p as u32)
+    position.map(|p| p as u32)
 }

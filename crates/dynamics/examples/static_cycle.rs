@@ -1,4 +1,5 @@
-//! Quasi-static contact of a helical pair over one mesh cycle: transmission error, contact-line length, load of each pair of teeth.
+//! Quasi-static contact of a helical pair over one mesh cycle: transmission error, contact-line length, load of each
+//! pair of teeth.
 //!
 //! `cargo run -p dynamics --example static_cycle`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -18,7 +18,8 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// From mass and inertia tensor about the gear's centre, by averaging over the turn: a gear turns, and its body is round.
+    /// From mass and inertia tensor about the gear's centre, by averaging over the turn: a gear turns, and its body is
+    /// round.
     pub fn of_tensor(mass: f64, inertia: [[f64; 3]; 3]) -> Self {
         Self { mass, transverse_inertia: 0.5 * (inertia[0][0] + inertia[1][1]), polar_inertia: inertia[2][2] }
     }
@@ -35,7 +36,8 @@ impl RigidBody {
         Matrix6::from_diagonal(&[m, m, m, t, t, self.polar_inertia].into())
     }
 
-    /// Moments of a turning body whose axis tilts, by the tilt rates: m_x = -J_p Omega w_y, m_y = J_p Omega w_x; they do no work.
+    /// Moments of a turning body whose axis tilts, by the tilt rates: m_x = -J_p Omega w_y, m_y = J_p Omega w_x; they
+    /// do no work.
     pub fn gyroscopic(&self, omega: f64) -> Matrix3<f64> {
         let g = self.polar_inertia * omega;
         Matrix3::new(0.0, g, 0.0, -g, 0.0, 0.0, 0.0, 0.0, 0.0)

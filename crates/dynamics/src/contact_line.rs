@@ -3,7 +3,8 @@
 use contact::{MeshContact, Pose, covered, line_station, slice_line};
 use geometry::GearPair;
 
-/// Total length of the contact lines of the last evaluation, with the gears' frames at `poses`, mm: as that of a position at rest, theory (21b).
+/// Total length of the contact lines of the last evaluation, with the gears' frames at `poses`, mm: as that of a
+/// position at rest, theory (21b).
 pub(super) fn length(pair: &GearPair, contact: &MeshContact, poses: &[Pose; 2]) -> f64 {
     let half = 0.5 * pair.face_width();
     let rows = contact.rows();

@@ -14,8 +14,8 @@ pub type Displacement = SVector<f64, 12>;
 /// ```text
 /// d = T q
 /// ```
-/// The driven gear's turn is a coordinate in mm on its base circle, positive when it lags: the dynamic transmission error itself (less the kinematic one),
-/// so that it keeps its digits however far the driver has turned.
+/// The driven gear's turn is a coordinate in mm on its base circle, positive when it lags: the dynamic transmission
+/// error itself (less the kinematic one), so that it keeps its digits however far the driver has turned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coordinates {
     /// T, 12 x n.
@@ -64,7 +64,8 @@ impl Coordinates {
         Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
-    /// The same with the lag shared between both gears, so that it leaves the momentum of their common motion alone. Theory (45a).
+    /// The same with the lag shared between both gears, so that it leaves the momentum of their common motion alone.
+    /// Theory (45a).
     ///
     /// ```text
     /// x = x_driver - x_driven,   m_driver x_driver + m_driven x_driven = 0,   m = J / r_b^2
@@ -105,7 +106,8 @@ impl Coordinates {
         self.driver_turn
     }
 
-    /// Sizes of the coordinates that belong to a displacement of `length` (mm) at the flanks: turns are taken over a lever of `lever` (mm).
+    /// Sizes of the coordinates that belong to a displacement of `length` (mm) at the flanks: turns are taken over a
+    /// lever of `lever` (mm).
     pub fn scales(&self, length: f64, lever: f64) -> DVector<f64> {
         let is_turn = |name: &&str| name.contains("tilt") || name.contains("turn");
         DVector::from_iterator(

@@ -27,7 +27,8 @@ pub struct Instant {
     pub load_torque: f64,
     /// Forces of the bearings on both gears.
     pub bearing: Displacement,
-    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic part.
+    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic
+    /// part.
     pub pair_forces: Vec<f64>,
     /// Running number of the first pair of the window.
     pub first_pair: i64,
@@ -40,15 +41,15 @@ pub struct Instant {
     /// Tooth changes so far.
     pub tooth_changes: u64,
     /// Slices that carry load on the driving side, pair by pair, ascending in z; elastic part of the force.
-    pub slices: Vec<PressedSlice>,
-    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side; empty when not
-    /// asked for ([`ltca::StaticOptions::root_stress`]).
+    pub slices: Vec<LoadedSlice>,
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side;
+    /// empty when not asked for ([`ltca::StaticOptions::root_stress`]).
     pub root_stress: [Vec<FilletStress>; 2],
 }
 
 /// A slice that carries load, with its pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PressedSlice {
+pub struct LoadedSlice {
     /// Running number of the tooth pair.
     pub pair: i64,
     /// Where it is pressed, and how hard.

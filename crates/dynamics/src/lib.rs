@@ -1,9 +1,14 @@
-//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between them.
+//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between
+//! them.
 
 mod body;
 mod contact_line;
 mod coordinates;
 mod drive;
+mod elastic_displacement;
+mod equivalent_mass;
+mod error;
+mod extremes;
 mod instant;
 mod low_frequency;
 mod mechanism;
@@ -21,16 +26,22 @@ mod sweep;
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
-pub use instant::{Instant, PressedSlice};
+pub use equivalent_mass::equivalent_mass;
+pub use error::PairMotionError;
+pub use extremes::Extremes;
+pub use instant::{Instant, LoadedSlice};
 pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
-pub use mechanism::{Extremes, PairMechanism, Place, equivalent_mass};
-pub use mesh_side::{Changes, SidePlace};
+pub use mechanism::{MechanismState, PairMechanism};
+pub use mesh_side::{SideState, ToothChanges};
 pub use modal::GearVibration;
-pub use nominal::{Moment, Nominal};
+pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};
-pub use run::{Checkpoint, Counts, Motion, MotionSettings, PairMotionError, Seen};
+pub use run::{Checkpoint, Counts, Motion, MotionSettings, RowObserver};
 pub use shooting::{ShootingResult, shoot};
 pub use stable_step::stable_step;
 pub use start::quasi_static_start;
 pub use steady::run_to_steady;
-pub use sweep::{SHOTS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way, sweep};
+pub use sweep::{
+    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepDirection, SweepMiss, SweepOutcome, SweepPlan, SweepPoint,
+    sweep,
+};

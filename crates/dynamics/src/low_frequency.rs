@@ -5,12 +5,15 @@
 /// ```text
 /// c(f) = sum_j phi_j phi_j' / (omega_j^2 - omega^2) <= c(0) / (1 - r^2),   r = f / f_1
 /// ```
-/// f_1 the gear's lowest frequency with its bore held and its flanks free. At r = 1/4 a gear gives way by 7 % more than at rest where all of its compliance is in its lowest mode,
-/// and less where it is not. What that does to the dynamic transmission error of two discs on thin shafts (`tests/tests/motion/modes_in_motion.rs`): 1 % at 0.1, 4 to 5 % at 0.2, 7 to 8 %
-/// at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such gears is up to twice as high: as a bound it would warn too late.
+/// f_1 the gear's lowest frequency with its bore held and its flanks free. At r = 1/4 a gear gives way by 7 % more than
+/// at rest where all of its compliance is in its lowest mode, and less where it is not. What that does to the dynamic
+/// transmission error of two discs on thin shafts (`tests/tests/motion/modes_in_motion.rs`): 1 % at 0.1, 4 to 5 % at
+/// 0.2, 7 to 8 % at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such
+/// gears is up to twice as high: as a bound it would warn too late.
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
 
-/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at [`LOW_FREQUENCY_LIMIT`] changes, 1/(1 - r^2) - 1 = 1/15.
+/// Share of the peak to peak that may change before a user should hear of it: what one harmonic at
+/// [`LOW_FREQUENCY_LIMIT`] changes, 1/(1 - r^2) - 1 = 1/15.
 pub const CHANGE_LIMIT: f64 =
     LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT / (1.0 - LOW_FREQUENCY_LIMIT * LOW_FREQUENCY_LIMIT);
 
@@ -34,22 +37,26 @@ pub struct MeshResonance {
 /// x_k = A_k / |1 - rho_k^2 + 2 i zeta rho_k|,   rho_k = k f_m / f_0,   r_k = k f_m / f_1
 /// change(f_m) = sum_k x_k min(|1 / (1 - r_k^2) - 1|, 1),   share = max change / max sum_k x_k
 /// ```
-/// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and bodies give way by 1/(1 - r^2) times as much as at rest if all of their compliance is in
-/// the lowest mode, and a harmonic changes by that share of itself (measured beside it in `tests/tests/motion/modes_in_motion.rs`), wholly at the most. Both largest values are over the mesh frequencies that the motion passes.
+/// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and
+/// bodies give way by 1/(1 - r^2) times as much as at rest if all of their compliance is in the lowest mode, and a
+/// harmonic changes by that share of itself (measured beside it in `tests/tests/motion/modes_in_motion.rs`), wholly at
+/// the most. Both largest values are over the mesh frequencies that the motion passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticChange {
     /// Mesh frequency at which most may change, Hz.
     pub mesh_hz: f64,
     /// Mesh harmonic that has the largest part in it, 1 the mesh frequency itself.
     pub harmonic: usize,
-    /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz ([`reduction::LowestFrequencies::flanks_free_hz`]), or the highest mode that is kept.
+    /// Lowest elastic frequency of pinion and wheel, bore held and flanks free, Hz
+    /// ([`reduction::LowestFrequencies::flanks_free_hz`]), or the highest mode that is kept.
     pub elastic_hz: [f64; 2],
     /// By how much of itself the peak to peak may change.
     pub share: f64,
 }
 
 impl ElasticChange {
-    /// `amplitudes`: of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz`: least and highest mesh frequency of the motion.
+    /// `amplitudes`: of mesh harmonics 1, 2, ... of the quasi-static transmission error; `mesh_hz`: least and highest
+    /// mesh frequency of the motion.
     pub fn of(amplitudes: &[f64], mesh_hz: [f64; 2], elastic_hz: [f64; 2], resonance: MeshResonance) -> Self {
         let lowest = elastic_hz[0].min(elastic_hz[1]);
         let [from, to] = mesh_hz;
@@ -151,7 +158,8 @@ mod tests {
         assert_eq!(change(&[]).share, 0.0);
     }
 
-    /// A motion that passes many mesh frequencies is judged by its largest: what is fast and small beside its resonance does not matter, what is fast alone does.
+    /// A motion that passes many mesh frequencies is judged by its largest: what is fast and small beside its resonance
+    /// does not matter, what is fast alone does.
     #[test]
     fn a_passage_is_judged_by_its_largest() {
         let resonance = MeshResonance { hz: 4_000.0, damping: 0.02 };

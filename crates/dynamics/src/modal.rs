@@ -1,35 +1,29 @@
 //! Normal modes that move beside the rigid bodies. Theory (62).
 //!
 //! ```text
-//! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2        x rigid coordinates of one gear, D their turn into the gear's own frame
+//! kinetic energy: x' M x' / 2 + q' . L D x' + q' . q' / 2
+//!     x rigid coordinates of one gear, D their turn into the gear's own frame
 //! p = q + L D x:  x' (M - L' L) x' / 2 + p' . p' / 2              constant, and without coupling
 //! V = V_contact(x, q) + q' Omega^2 q / 2,   q = p - L D x
 //! ```
-//! L = Phi' M R is the inertia that modes share with rigid motion. Turning at the angular velocity W changes D; what that adds to velocities, and Coriolis forces on the
-//! modes, are W / omega of what is kept and are left out.
+//! L = Phi' M R is the inertia that modes share with rigid motion. Turning at the angular velocity W changes D; what
+//! that adds to velocities, and Coriolis forces on the modes, are W / omega of what is kept and are left out.
 
 use std::{f64::consts::TAU, sync::Arc};
 
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
 use reduction::GearModes;
 
-use crate::{COORDINATES, Displacement, Moment, mesh_side::SideForce};
+use crate::{COORDINATES, Displacement, NominalState, mesh_side::SideForce};
 
 /// Normal modes of a gear with their damping.
 #[derive(Debug, Clone)]
 pub struct GearVibration {
-    /// Shapes and frequencies, bore held and flanks free ([`reduction::GearReducer::modes`]), or of its Craig-Bampton model
-    /// ([`reduction::GearReducer::craig_bampton_modes`]).
+    /// Shapes and frequencies, bore held and flanks free ([`reduction::GearReducer::modes`]), or of its Craig-Bampton
+    /// model ([`reduction::GearReducer::craig_bampton_modes`]).
     pub modes: Arc<GearModes>,
     /// Damping ratio of every mode, 0 .. 1; steel alone has a thousandth.
     pub damping_ratio: f64,
-}
-
-/// Place or velocity of a pair: rigid displacements of both gears and amplitudes q of their modes.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Posture {
-    pub d: Displacement,
-    pub q: DVector<f64>,
 }
 
 /// Modes of both gears as coordinates of a pair.
@@ -96,8 +90,8 @@ impl Modal {
         all
     }
 
-    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, the pinion in the sense of `sign` and the wheel against it; `None`
-    /// where one of them has no such turn.
+    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, the
+    /// pinion in the sense of `sign` and the wheel against it; `None` where one of them has no such turn.
     pub fn turned_by_a_pitch(&self, sign: f64) -> Option<DMatrix<f64>> {
         let mut all = DMatrix::zeros(self.count(), self.count());
         let mut at = 0;
@@ -168,10 +162,10 @@ impl<'a> ModalBalance<'a> {
     }
 
     /// Adds the inertia of a nominal motion that is not steady, -L D a, which is returned.
-    pub fn accelerate(&mut self, coupling: &DMatrix<f64>, moment: &Moment) -> DVector<f64> {
+    pub fn accelerate(&mut self, coupling: &DMatrix<f64>, nominal: &NominalState) -> DVector<f64> {
         let mut force = DVector::zeros(self.modal.count());
         for g in 0..2 {
-            force -= coupling.column(COORDINATES * (g + 1) - 1) * moment.acceleration[g];
+            force -= coupling.column(COORDINATES * (g + 1) - 1) * nominal.acceleration[g];
         }
         self.other += &force;
         force

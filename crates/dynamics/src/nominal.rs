@@ -18,7 +18,7 @@ pub struct Nominal {
 
 /// Nominal motion at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
+pub struct NominalState {
     /// Station.
     pub station: Station,
     /// Angular velocity of both gears about +z, rad/s.
@@ -29,7 +29,7 @@ pub struct Moment {
     pub sense: f64,
 }
 
-impl Moment {
+impl NominalState {
     /// Sense in which a gear runs, +1 counter-clockwise; also where it stands still.
     pub fn running_sense(&self, gear: usize) -> f64 {
         if gear == 0 { self.sense } else { -self.sense }
@@ -53,7 +53,7 @@ impl Nominal {
     }
 
     /// The moment at time `t` (s).
-    pub fn at(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> Moment {
+    pub fn at(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> NominalState {
         let cycles = self.cycles(pair, options, t);
         let ratio = f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth());
         let sense = options.contact.sense.sign() as f64;
@@ -62,7 +62,7 @@ impl Nominal {
             Driver::Wheel => sense / ratio,
         };
         let both = |x: f64| [of_pinion * x, -of_pinion * ratio * x];
-        Moment {
+        NominalState {
             station: Station::at_cycles(cycles),
             velocity: both(self.speed.at(t)),
             acceleration: both(self.speed.acceleration(t)),

@@ -10,8 +10,8 @@ use ltca::StaticOptions;
 pub enum Drive {
     /// Its angle is prescribed: it counts as infinitely heavy.
     Speed(Speed),
-    /// Both gears turn against each other, and the speed of their common motion is prescribed (of the driver): the driver's torque balances the load at every
-    /// instant. Theory (45a).
+    /// Both gears turn against each other, and the speed of their common motion is prescribed (of the driver): the
+    /// driver's torque balances the load at every instant. Theory (45a).
     Balanced(Speed),
     /// It starts at a speed (rad/s) and a torque (N mm, in the running sense) acts on it.
     Torque {
@@ -22,10 +22,12 @@ pub enum Drive {
     },
 }
 
-/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach or part, at most the slice's own force: never a pull.
+/// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach or part, at most
+/// the slice's own force: never a pull.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum MeshDamping {
-    /// Damping ratio zeta of the two gears turning against each other: c = 2 zeta sqrt(k_m m_e), shared over the mean length of contact lines.
+    /// Damping ratio zeta of the two gears turning against each other: c = 2 zeta sqrt(k_m m_e), shared over the mean
+    /// length of contact lines.
     Ratio(f64),
     /// N s/mm per mm of contact line.
     PerLength(f64),
@@ -40,7 +42,8 @@ pub struct MotionOptions {
     pub bodies: [RigidBody; 2],
     /// Their bearings.
     pub bearings: [Bearing; 2],
-    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's always.
+    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's
+    /// always.
     pub free: [[bool; COORDINATES]; 2],
     /// Driver.
     pub drive: Drive,

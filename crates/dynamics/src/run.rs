@@ -5,15 +5,11 @@ use std::f64::consts::TAU;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::{Instant, PairMechanism, Place};
+use crate::{Instant, MechanismState, PairMechanism, PairMotionError};
 use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
-use ltca::StaticError;
-
-/// Why a pair's motion could not go on.
-pub type PairMotionError = MotionError<StaticError>;
 
 /// Who gets the rows of a motion, with the energy so far.
-pub type Seen<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
+pub type RowObserver<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
 
 /// How a pair's motion is integrated.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +18,8 @@ pub struct MotionSettings {
     pub scheme: Scheme,
     /// Rows of the results in a mesh cycle, evenly spaced in time, and least number of steps, >= 1.
     pub rows: usize,
-    /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0: rows are the steps.
+    /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0:
+    /// rows are the steps.
     pub steps_per_resonance: usize,
     /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
     pub tolerance: Option<f64>,
@@ -57,7 +54,7 @@ pub struct Checkpoint {
     /// Energy.
     pub ledger: Ledger,
     /// Windows and extremes.
-    pub place: Place,
+    pub place: MechanismState,
     /// What else was counted.
     pub counts: Counts,
 }
@@ -98,17 +95,19 @@ impl Motion {
     /// Goes on from a checkpoint.
     ///
     /// # Errors
-    /// [`MotionError::Options`] for a checkpoint of another pair, [`MotionError::Mechanism`] when its windows cannot be entered.
+    /// [`PairMotionError::OtherCoordinates`] for a checkpoint of another pair, [`PairMotionError::Integration`] when
+    /// its windows cannot be entered.
     pub fn resume(
         mut system: PairMechanism,
         settings: MotionSettings,
         from: Checkpoint,
     ) -> Result<Self, PairMotionError> {
         if from.state.q.len() != system.count() {
-            return Err(MotionError::Options("the checkpoint belongs to a motion with other free coordinates"));
+            let (checkpoint, motion) = (from.state.q.len(), system.count());
+            return Err(PairMotionError::OtherCoordinates { checkpoint, motion });
         }
         let Checkpoint { cycle, state, ledger, place, counts } = from;
-        system.stand(&place).map_err(|source| MotionError::Mechanism { time: state.time, source })?;
+        system.restore(&place).map_err(|source| PairMotionError::contact(state.time, source))?;
         Ok(Self { system, settings, state, ledger: Some(ledger), cycle, counts })
     }
 
@@ -118,7 +117,7 @@ impl Motion {
             cycle: self.cycle,
             state: self.state.clone(),
             ledger: self.ledger?,
-            place: self.system.place(),
+            place: self.system.mechanism_state(),
             counts: self.counts,
         })
     }
@@ -133,7 +132,8 @@ impl Motion {
         &self.settings
     }
 
-    /// Sizes of the coordinates that come back with every period: all but the modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
+    /// Sizes of the coordinates that come back with every period: all but the modes', whose amplitudes are in the
+    /// gears' own frames and come back after whole turns only.
     pub fn returning(&self) -> DVector<f64> {
         self.settings.scale.rows(0, self.system.coordinates().count()).into_owned()
     }
@@ -163,11 +163,12 @@ impl Motion {
         self.settings.scheme.carries_acceleration()
     }
 
-    /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the true one comes from the forces.
-    pub(super) fn rewind(&mut self, start: &Place, state: State) -> Result<(), PairMotionError> {
+    /// Back to the start of cycle 0 with another state. The integrator's own acceleration stays that of the state; the
+    /// true one comes from the forces.
+    pub(super) fn rewind(&mut self, start: &MechanismState, state: State) -> Result<(), PairMotionError> {
         let time = state.time;
-        let fail = |source| MotionError::Mechanism { time, source };
-        self.system.stand(start).map_err(fail)?;
+        let fail = |source| PairMotionError::contact(time, source);
+        self.system.restore(start).map_err(fail)?;
         (self.state, self.ledger, self.cycle, self.counts) = (state, None, 0, Counts::default());
         if self.carries_acceleration() {
             let State { q, v, .. } = &self.state;
@@ -195,13 +196,14 @@ impl Motion {
 
     /// One mesh cycle of the nominal motion; `seen` gets every row.
     ///
-    /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same way to the last bit.
+    /// What contact remembers is forgotten first, so that a motion that is taken up again at this cycle goes the same
+    /// way to the last bit.
     ///
     /// # Errors
-    /// [`MotionError`]; [`MotionError::Options`] when the gears stop before the cycle ends.
-    pub fn run_cycle(&mut self, mut seen: Option<Seen<'_>>) -> Result<Envelope, PairMotionError> {
+    /// [`PairMotionError`]; [`PairMotionError::StandsStill`] when the gears stop before the cycle ends.
+    pub fn run_cycle(&mut self, mut seen: Option<RowObserver<'_>>) -> Result<Envelope, PairMotionError> {
         let Some(end) = self.end_of_cycle() else {
-            return Err(MotionError::Options("the gears stand still before the mesh cycle is over"));
+            return Err(PairMotionError::StandsStill { cycle: self.cycle });
         };
         self.system.forget();
         let begin = self.state.time;
@@ -237,7 +239,7 @@ impl Motion {
                     let State { time, q, v, .. } = progress.state;
                     match system.instant(*time, q, v) {
                         Ok(instant) => seen(&instant, progress.ledger),
-                        Err(source) => failed = Some(MotionError::Mechanism { time: *time, source }),
+                        Err(source) => failed = Some(PairMotionError::contact(*time, source)),
                     }
                 }
             })?;

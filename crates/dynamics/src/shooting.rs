@@ -1,26 +1,27 @@
-//! The periodic answer found directly: Newton on the map over one period. Theory (49).
+//! The periodic solution by shooting: Newton's method on the map over one period. Theory (49).
 //!
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
-//! P is the motion over a period and the turn of the gears' own frames back by as many pitches, which amplitudes of modes are in
-//! ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the integrator's own acceleration is a third part of x: it is carried from step to step as the others are. dP/dx by differences, one
-//! period for each of its columns, on all cores. Where damping is weak or a speed lies near a fold this takes far fewer periods
-//! than waiting; and it finds unstable answers, which waiting never does.
+//! P is the motion over a period, with the gears' own frames turned back by as many pitches: amplitudes of modes are in
+//! those frames ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the
+//! integrator's own acceleration is a third part of x, because it is carried from step to step. dP/dx comes from finite
+//! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
+//! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.
 
 use integrate::{MotionError, State, difference};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::{Motion, PairMotionError, Place};
+use crate::{MechanismState, Motion, PairMotionError};
 
 /// Differences of coordinates over their scales.
 const STEP: f64 = 1e-4;
 /// Times a Newton step is halved before it is taken as it is.
 const HALVINGS: usize = 5;
 
-/// What shooting has found.
+/// Result of shooting.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShootingResult {
     /// Largest difference of a coordinate or velocity over a period, over its peak to peak.
@@ -33,31 +34,27 @@ pub struct ShootingResult {
     pub multiplier: f64,
 }
 
-/// Brings `motion`, at the start of cycle 0, onto its periodic answer of `period` mesh cycles; afterwards it stands there at the start of cycle 0.
+/// Brings `motion`, at the start of cycle 0, onto its periodic solution of `period` mesh cycles. Afterwards the motion
+/// stands at the start of cycle 0.
 ///
 /// Gives up after `most` Newton steps: the residual then says how far it is from repeating itself.
 ///
 /// # Errors
-/// [`MotionError::NoPeriod`] where a torque drives, since speed and place of the driver are free then, and with modes of a gear that is not known by sectors; [`PairMotionError`]
-/// of the integration.
+/// [`PairMotionError::FreeDriver`] where a torque drives: speed and position of the driver are free then.
+/// [`PairMotionError::ModesWithoutPeriod`] with modes of a gear that is not known by sectors.
+/// [`PairMotionError::ShootingStart`] where the motion has begun. [`PairMotionError::Integration`].
 pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<ShootingResult, PairMotionError> {
     if motion.system().coordinates().driver_turn().is_some() {
-        return Err(MotionError::NoPeriod(
-            "a driver that a torque turns has no period of its own: shooting needs a given speed",
-        ));
+        return Err(PairMotionError::FreeDriver);
     }
     if period == 0 || motion.cycle() != 0 {
-        return Err(MotionError::Options(
-            "shooting begins at the start of a motion and takes a period of one mesh cycle or more",
-        ));
+        return Err(PairMotionError::ShootingStart { cycle: motion.cycle(), period });
     }
     let Some(over) = motion.system().over_a_pitch() else {
-        return Err(MotionError::NoPeriod(
-            "shooting with normal modes needs gears that are known by sectors, whose teeth are all alike, and whole pairs of modes of one frequency",
-        ));
+        return Err(PairMotionError::ModesWithoutPeriod);
     };
     let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
-    let mut search = Search { start: motion.system().place(), period, back, periods: 0 };
+    let mut search = Search { start: motion.system().mechanism_state(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
     motion.rewind(&search.start, here.clone())?;
@@ -78,8 +75,10 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         for halving in 0..=HALVINGS {
             let next = moved(&here, &(share * &step));
             let there = match search.map(motion, &next) {
-                // Too far: not even a motion.
-                Err(MotionError::Mechanism { source: StaticError::PassedThrough { .. }, .. }) if halving < HALVINGS => {
+                // The step was too long: there is no motion from there.
+                Err(e)
+                    if halving < HALVINGS && matches!(e.contact_error(), Some(StaticError::PassedThrough { .. })) =>
+                {
                     share *= 0.5;
                     continue;
                 }
@@ -101,7 +100,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
 
 /// The map over a period.
 struct Search {
-    start: Place,
+    start: MechanismState,
     period: u64,
     /// Turn of the coordinates back by a period.
     back: DMatrix<f64>,
@@ -133,7 +132,7 @@ impl Search {
             let mut offset = DVector::zeros(parts * n);
             offset[j] = size;
             let system = motion.system().with_drive(motion.system().options().drive.clone());
-            let system = system.map_err(|source| MotionError::Mechanism { time: here.time, source })?;
+            let system = system.map_err(|source| PairMotionError::contact(here.time, source))?;
             let mut own = Motion::new(system, motion.settings().clone(), here.clone());
             let there = self.over_period(&mut own, &moved(here, &offset))?;
             Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)

@@ -6,13 +6,14 @@ use crate::{
     PairMechanism, PairMotionError,
     start::{balance, guessed},
 };
-use integrate::{Forces, Mechanism, MotionError, Scheme, StepLimit, Stiffest};
+use integrate::{Forces, Mechanism, Scheme, StepLimit, Stiffest};
 
 /// Phases of the mesh cycle that are looked at.
 const PHASES: u32 = 16;
 
-/// Longest step with which `scheme` is stable through the first mesh cycle: the smallest limit of its phases, each in quasi-static balance, with the tangents of teeth, bearings, dampers and
-/// modes there. `guess` and `scale` as of [`crate::quasi_static_start`].
+/// Longest step with which `scheme` is stable through the first mesh cycle: the smallest limit of its phases, each in
+/// quasi-static balance, with the tangents of teeth, bearings, dampers and modes there. `guess` and `scale` as of
+/// [`crate::quasi_static_start`].
 ///
 /// `None` for implicit methods, which are stable with any step.
 ///
@@ -25,7 +26,7 @@ pub fn stable_step(
     scale: &DVector<f64>,
 ) -> Result<Option<StepLimit>, PairMotionError> {
     let Some(mut stiffest) = Stiffest::new(scheme, system.mass()) else { return Ok(None) };
-    let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
+    let fail = |time: f64| move |source| PairMotionError::contact(time, source);
     let mut own = system.with_drive(system.options().drive.clone()).map_err(fail(0.0))?;
     let still = DVector::zeros(own.count());
     let mut forces = Forces::zeros(own.count());
@@ -38,7 +39,7 @@ pub fn stable_step(
         own.accepted(time, &q, &still).map_err(fail(time))?;
         forces.clear();
         own.forces(time, &q, &still, &mut forces).map_err(fail(time))?;
-        stiffest.look(&forces);
+        stiffest.include(&forces);
     }
     Ok(stiffest.limit())
 }

@@ -2,9 +2,8 @@
 
 use nalgebra::DVector;
 
-use crate::PairMechanism;
+use crate::{PairMechanism, PairMotionError};
 use integrate::{Forces, Mechanism, MotionError, State};
-use ltca::StaticError;
 
 /// Steps of the search for equilibrium before giving up.
 const STEPS: usize = 200;
@@ -13,23 +12,26 @@ const TOLERANCE: f64 = 1e-9;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
-/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion; velocities are those of this balance.
+/// State at `time` (s) in which forces balance as the gears turn slowly through their nominal motion. Velocities are
+/// the rates of this balance.
 ///
 /// ```text
 /// f(t, q, 0) = 0,   v = [q(t + dt) - q(t - dt)] / 2 dt
 /// ```
-/// Inertia of the balance's own motion is left out: where the motion is fast, what differs from it is the motion's own transient. A driver that a torque
-/// drives keeps its nominal turn. `guess` is a near-by lag of the driven gear (mm) under a load on the driving flanks, `scale` the size of each coordinate.
-/// A load the other way presses the coast flanks: there the lag is about as far beyond the backlash.
+/// Inertia of that slow motion is left out; in a fast motion the difference is a transient. A driver that a torque
+/// drives keeps its nominal turn. `guess` is an approximate lag of the driven gear (mm) with load on the driving
+/// flanks, `scale` the size of each coordinate. A load in the other direction presses the coast flanks: the lag is then
+/// about as far beyond the backlash.
 ///
 /// # Errors
-/// [`MotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free coordinate be held by teeth or bearings.
+/// [`PairMotionError::NoStart`] where no balance is found: the load must press the flanks together, and every free
+/// coordinate be held by teeth or bearings.
 pub fn quasi_static_start(
     system: &mut PairMechanism,
     time: f64,
     guess: f64,
     scale: &DVector<f64>,
-) -> Result<State, MotionError<StaticError>> {
+) -> Result<State, PairMotionError> {
     let q = balance(system, time, guessed(system, time, guess), scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().statics, time);
     let mut v = DVector::zeros(q.len());
@@ -51,13 +53,13 @@ pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<
     q
 }
 
-/// Levenberg's way: Newton where that lowers the residual, with as much added stiffness as it takes.
+/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness.
 pub(super) fn balance(
     system: &mut PairMechanism,
     time: f64,
     mut q: DVector<f64>,
     scale: &DVector<f64>,
-) -> Result<DVector<f64>, MotionError<StaticError>> {
+) -> Result<DVector<f64>, PairMotionError> {
     let n = q.len();
     let held = system.coordinates().driver_turn();
     let lag = system.coordinates().lag();
@@ -65,12 +67,12 @@ pub(super) fn balance(
     let mut forces = Forces::zeros(n);
     let residual = |system: &mut PairMechanism, q: &DVector<f64>, forces: &mut Forces| {
         forces.clear();
-        system.forces(time, q, &still, forces).map_err(|source| MotionError::Mechanism { time, source })?;
+        system.forces(time, q, &still, forces).map_err(|source| PairMotionError::contact(time, source))?;
         let mut r = &forces.conservative + &forces.other;
         if let Some(i) = held {
             r[i] = 0.0;
         }
-        Ok(r)
+        Ok::<_, PairMotionError>(r)
     };
     // Work of the residual over the coordinates' sizes: one number for forces and moments.
     let size = |r: &DVector<f64>| r.component_mul(scale).norm();
@@ -102,7 +104,8 @@ pub(super) fn balance(
             change = step.component_div(scale).amax();
             (q, r, added) = (tried, there, added * 0.1);
         } else if added > 1e6 {
-            // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is near.
+            // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is
+            // near.
             if now <= 1e3 * TOLERANCE * load {
                 return Ok(q);
             }
@@ -112,5 +115,5 @@ pub(super) fn balance(
             added = (added * 10.0).max(1e-6);
         }
     }
-    Err(MotionError::NoStart { time, change })
+    Err(PairMotionError::NoStart { time, change })
 }

@@ -2,19 +2,20 @@
 
 use std::ops::ControlFlow;
 
-use integrate::{Ledger, MotionError, Periodicity, State};
+use integrate::{Ledger, Periodicity, State};
+use ltca::StaticError;
 use rayon::prelude::*;
 
 use crate::{
-    Changes, Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, quasi_static_start,
+    Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, ToothChanges, quasi_static_start,
     run_to_steady, shoot,
 };
 
-/// Which way a sweep goes through its speeds.
+/// Order in which a sweep goes through its speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Every speed begins by itself, in quasi-static equilibrium.
-    Apart,
+pub enum SweepDirection {
+    /// Every speed starts independently, in quasi-static equilibrium.
+    Independent,
     /// From the lowest speed to the highest, each beginning where the one before ended.
     Up,
     /// From the highest to the lowest.
@@ -43,13 +44,13 @@ pub struct SteadyOptions {
     pub cycles: u64,
 }
 
-/// Speeds, ways, and what is asked of each.
+/// Speeds, directions, and options of each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPlan {
     /// Speeds of the driver, rad/s, ascending, > 0.
     pub speeds: Vec<f64>,
-    /// Ways to go through them.
-    pub ways: Vec<Way>,
+    /// Directions in which to go through them.
+    pub ways: Vec<SweepDirection>,
     /// Method and rows.
     pub settings: MotionSettings,
     /// Steady state.
@@ -58,13 +59,13 @@ pub struct SweepPlan {
     pub guess: f64,
 }
 
-/// The answer at one speed.
+/// Result at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepPoint {
     /// Speed of the driver, rad/s.
     pub speed: f64,
-    /// Which way it was come to.
-    pub way: Way,
+    /// Direction of the sweep.
+    pub way: SweepDirection,
     /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
     pub own_start: bool,
     /// How well it repeats itself.
@@ -86,49 +87,49 @@ pub struct SweepPoint {
     /// Extremes over the same time.
     pub extremes: Extremes,
     /// Tooth changes in the same time.
-    pub changes: Changes,
+    pub changes: ToothChanges,
 }
 
-/// A speed without an answer.
+/// A speed without a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepMiss {
     /// Speed of the driver, rad/s.
     pub speed: f64,
     /// Which way it was come to.
-    pub way: Way,
+    pub way: SweepDirection,
     /// Why: of its own quasi-static start, where it was tried from there as well.
     pub error: PairMotionError,
 }
 
-/// What a sweep finds at one speed.
+/// Outcome of a sweep at one speed.
 pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 
-/// Sweeps `system` through speeds: ways, and speeds that begin by themselves, side by side on all cores. The same numbers for any number of threads.
+/// Sweeps `system` through speeds. Directions, and independent speeds, run in parallel; results are the same for any
+/// number of threads.
 ///
-/// Each speed stands by itself: one that cannot go on from the speed beside it begins again in its own quasi-static equilibrium, and the speed behind one without an answer goes on from the
-/// last that has one. `seen` is told of each, and may end its way there. Outcomes are in order of ways, and of speeds as each way goes.
+/// A speed that cannot go on from its neighbour starts again in its own quasi-static equilibrium. After a speed without
+/// a result the sweep goes on from the last one that has a result. `seen` gets each outcome and may end its direction
+/// there. Outcomes are in the order of directions, and of speeds within each.
 ///
 /// # Errors
-/// [`MotionError::Options`] where a torque of its own drives: the sweep says the speed.
+/// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
 pub fn sweep(
     system: &PairMechanism,
     plan: &SweepPlan,
     seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
 ) -> Result<Vec<SweepOutcome>, PairMotionError> {
     if matches!(system.options().drive, Drive::Torque { .. }) {
-        return Err(MotionError::Options(
-            "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load",
-        ));
+        return Err(PairMotionError::SweepByTorque);
     }
-    let chain = |way: Way| {
+    let follow = |way: SweepDirection| {
         let mut state: Option<State> = None;
         let mut outcomes = Vec::with_capacity(plan.speeds.len());
         let mut speeds = plan.speeds.clone();
-        if way == Way::Down {
+        if way == SweepDirection::Down {
             speeds.reverse();
         }
         for speed in speeds {
-            let (outcome, end) = standing(system, plan, way, speed, state.as_ref());
+            let (outcome, end) = sweep_speed(system, plan, way, speed, state.as_ref());
             state = end.or(state);
             let goes_on = seen(&outcome);
             outcomes.push(outcome);
@@ -138,34 +139,35 @@ pub fn sweep(
         }
         outcomes
     };
-    let apart = |&speed: &f64| {
-        let (outcome, _) = standing(system, plan, Way::Apart, speed, None);
+    let independent = |&speed: &f64| {
+        let (outcome, _) = sweep_speed(system, plan, SweepDirection::Independent, speed, None);
         let _ = seen(&outcome);
         outcome
     };
-    let of_way = |&way: &Way| match way {
-        Way::Apart => plan.speeds.par_iter().map(apart).collect(),
-        _ => chain(way),
+    let of_direction = |&way: &SweepDirection| match way {
+        SweepDirection::Independent => plan.speeds.par_iter().map(independent).collect(),
+        _ => follow(way),
     };
-    let all: Vec<Vec<SweepOutcome>> = plan.ways.par_iter().map(of_way).collect();
+    let all: Vec<Vec<SweepOutcome>> = plan.ways.par_iter().map(of_direction).collect();
     Ok(all.into_iter().flatten().collect())
 }
 
-/// One speed from a state of another one, then from its own start where that does not get through; and where it ends.
-fn standing(
+/// One speed, started from the state of its neighbour; where that fails, from its own quasi-static equilibrium. Returns
+/// its outcome and its final state.
+fn sweep_speed(
     system: &PairMechanism,
     plan: &SweepPlan,
-    way: Way,
+    way: SweepDirection,
     speed: f64,
     state: Option<&State>,
 ) -> (SweepOutcome, Option<State>) {
-    // Teeth missing beside the window are no matter of the start.
-    let starved = |e: &PairMotionError| matches!(e, MotionError::Mechanism { source, .. } if source.is_starved());
-    let carried = state.map(|state| one(system, plan, way, speed, Some(state)));
+    // A starved window does not depend on the start.
+    let starved = |e: &PairMotionError| e.contact_error().is_some_and(StaticError::is_starved);
+    let carried = state.map(|state| steady_state_at(system, plan, way, speed, Some(state)));
     let found = match carried {
         Some(Ok(found)) => Ok(found),
         Some(Err(error)) if starved(&error) => Err(error),
-        Some(Err(_)) | None => one(system, plan, way, speed, None),
+        Some(Err(_)) | None => steady_state_at(system, plan, way, speed, None),
     };
     match found {
         Ok((point, end)) => (Ok(point), Some(end)),
@@ -173,10 +175,10 @@ fn standing(
     }
 }
 
-fn one(
+fn steady_state_at(
     system: &PairMechanism,
     plan: &SweepPlan,
-    way: Way,
+    way: SweepDirection,
     speed: f64,
     state: Option<&State>,
 ) -> Result<(SweepPoint, State), PairMotionError> {
@@ -185,7 +187,7 @@ fn one(
         Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
         _ => Drive::Speed(Speed::Constant(speed)),
     };
-    let mut own = system.with_drive(drive).map_err(|source| MotionError::Mechanism { time, source })?;
+    let mut own = system.with_drive(drive).map_err(|source| PairMotionError::contact(time, source))?;
     let own_start = state.is_none();
     let state = match state {
         Some(before) => State::new(time, before.q.clone(), before.v.clone()),
@@ -194,7 +196,7 @@ fn one(
     let mut motion = Motion::new(own, plan.settings.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
     if by == SteadyBy::Shooting {
-        shoot(&mut motion, 1, tolerance, SHOTS)?;
+        shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
     }
     let periodicity = run_to_steady(&mut motion, tolerance, most, |_, _| ())?;
     let mut point = SweepPoint {
@@ -210,7 +212,7 @@ fn one(
         ledger: Ledger::default(),
         throughput: 0.0,
         extremes: Extremes::default(),
-        changes: Changes::default(),
+        changes: ToothChanges::default(),
     };
     let mut row = |now: &crate::Instant, _: &Ledger| {
         point.transmission_error.push(now.transmission_error);
@@ -231,4 +233,4 @@ fn one(
 }
 
 /// Newton steps of shooting before waiting takes over.
-pub const SHOTS: usize = 12;
+pub const SHOOTING_NEWTON_STEPS: usize = 12;

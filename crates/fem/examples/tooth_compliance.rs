@@ -1,4 +1,5 @@
-//! How far does the tip of a tooth give way under a force? Stiffness matrix of a gear sector, condensed to one node at the tip.
+//! How far does the tip of a tooth give way under a force? Stiffness matrix of a gear sector, condensed to one node at
+//! the tip.
 //!
 //! `cargo run -p fem --example tooth_compliance`
 #![allow(clippy::print_stdout, reason = "an example prints")]

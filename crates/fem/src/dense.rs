@@ -1,4 +1,5 @@
-//! Dense kernels: column blocks in parallel, each block sequential, so that the bits are the same for any number of threads.
+//! Dense kernels: column blocks in parallel, each block sequential, so that the bits are the same for any number of
+//! threads.
 
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
@@ -43,7 +44,8 @@ pub fn cholesky(a: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
     }
 }
 
-/// Eigenvalues (ascending) and orthonormal eigenvectors (columns, in that order) of a symmetric matrix, of which the lower triangle is read.
+/// Eigenvalues (ascending) and orthonormal eigenvectors (columns, in that order) of a symmetric matrix, of which the
+/// lower triangle is read.
 ///
 /// # Errors
 /// [`FemError::NotFinite`] for a matrix that is not made of numbers, [`FemError::OutOfMemory`].

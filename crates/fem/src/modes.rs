@@ -27,7 +27,8 @@ pub struct Modes {
 /// An eigenvalue below zero by round-off counts as 0. Dense: up to some hundred unknowns.
 ///
 /// # Errors
-/// [`FemError::Shape`] when the sizes differ, [`FemError::NotFinite`], [`FemError::NotPositiveDefinite`] when some coordinate has no mass.
+/// [`FemError::Shape`] when the sizes differ, [`FemError::NotFinite`], [`FemError::NotPositiveDefinite`] when some
+/// coordinate has no mass.
 pub fn natural_modes(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<Modes, FemError> {
     let n = m.nrows();
     for (what, found) in [("columns of mass", m.ncols()), ("rows of stiffness", k.nrows()), ("its columns", k.ncols())]

@@ -1,4 +1,5 @@
-//! How long are the contact lines of a helical pair, and of how many tooth pairs, as the pinion turns through one pitch?
+//! How long are the contact lines of a helical pair, and of how many tooth pairs, as the pinion turns through one
+//! pitch?
 //!
 //! `cargo run -p geometry --example contact_lines`
 #![allow(clippy::print_stdout, reason = "an example prints")]

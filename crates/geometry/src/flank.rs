@@ -139,8 +139,8 @@ impl Flank {
         self.locate_with_normal(p).map(|(foot, _)| foot)
     }
 
-    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there: phi is the direction angle of the base point whose
-    /// generator runs through `p`, so no further angle is needed for it.
+    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there: phi is the direction angle of
+    /// the base point whose generator runs through `p`, so no further angle is needed for it.
     pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
         let s = self.side.sign();
         let square = p.x * p.x + p.y * p.y;

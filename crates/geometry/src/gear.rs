@@ -59,8 +59,8 @@ impl Gear {
         Ok(gear)
     }
 
-    /// The same gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness) stays
-    /// nominal.
+    /// The same gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness)
+    /// stays nominal.
     ///
     /// # Errors
     /// [`GeometryError`] when an amount is no micro-geometry, a relief starts off the flank, a grid misses it, or the
@@ -130,7 +130,8 @@ impl Gear {
         self.modified_flank_at(side, tooth, tooth)
     }
 
-    /// The flank of `tooth` at the place of tooth `place`: what a frame sees that is turned against the gear by whole pitches.
+    /// The flank of `tooth` at the place of tooth `place`: what a frame sees that is turned against the gear by whole
+    /// pitches.
     pub fn modified_flank_at(&self, side: Side, place: i64, tooth: i64) -> ModifiedFlank {
         ModifiedFlank::new(self.flank_of(side, place), self.field(side).clone(), self.pitch_depth(side, tooth))
     }

@@ -8,8 +8,8 @@ use std::{
 
 /// All bytes of a regular file.
 ///
-/// Folders, devices and named pipes are refused before they are opened: `/dev/zero` has no end, and a pipe that nobody writes into has
-/// no beginning.
+/// Folders, devices and named pipes are refused before they are opened: `/dev/zero` has no end, and a pipe that nobody
+/// writes into has no beginning.
 ///
 /// # Errors
 /// [`ErrorKind::InvalidInput`] for what is no regular file, else as [`fs::read`].

@@ -8,14 +8,16 @@ use crate::{Gear, GearPair};
 const SAMPLES: u32 = 240;
 
 impl GearPair {
-    /// Largest depth (mm, arc in the transverse section) to which the mate's tip edge enters a tooth of the pinion (0) or the wheel (1),
-    /// driving flanks touching along the line of action; 0: it passes free.
+    /// Largest depth (mm, arc in the transverse section) to which the mate's tip edge enters a tooth of the pinion (0)
+    /// or the wheel (1), driving flanks touching along the line of action; 0: it passes free.
     ///
     /// ```text
-    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]      s from the tip's contact onwards
+    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]
+    ///                              s from the tip's contact onwards
     /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
     /// ```
-    /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out again.
+    /// From where it touches, the corner goes on towards the line of centres, deeper into the tooth space, and out
+    /// again.
     pub fn interference(&self, gear: usize) -> f64 {
         let (own, mate) = if gear == 0 { (&self.pinion, &self.wheel) } else { (&self.wheel, &self.pinion) };
         let (rb, rb_mate, a) = (own.base_radius(), mate.base_radius(), self.centre_distance());

@@ -193,8 +193,9 @@ impl GearPair {
         self.wheel_angle_at(side, pinion_angle, [self.centre_distance, 0.0])
     }
 
-    /// [`Self::wheel_angle`] with the wheel's centre at `centre` (mm, from the pinion's), axes parallel: the formula with the
-    /// distance that is there, both angles counted from the line of centres. NaN where the base circles overlap.
+    /// [`Self::wheel_angle`] with the wheel's centre at `centre` (mm, from the pinion's), axes parallel: the formula
+    /// with the distance that is there, both angles counted from the line of centres. NaN where the base circles
+    /// overlap.
     pub fn wheel_angle_at(&self, side: Side, pinion_angle: f64, centre: [f64; 2]) -> f64 {
         let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());
         let (s1, s2) = (self.pinion.profile().base_half_angle(), self.wheel.profile().base_half_angle());

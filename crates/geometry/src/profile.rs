@@ -198,12 +198,14 @@ impl TransverseProfile {
         (r, self.half_pitch - space)
     }
 
-    /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; falls from nearly pi/2 at the root land.
+    /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; falls from nearly pi/2 at the root
+    /// land.
     pub fn fillet_tangent(&self, t: f64) -> f64 {
         self.rack.tangent(t * self.fillet_end, self.reference_radius) - self.half_pitch
     }
 
-    /// Where on the fillet, 0 .. 1, the tangent makes `angle` (rad) with the tooth's centre line; 1 when it is steeper everywhere.
+    /// Where on the fillet, 0 .. 1, the tangent makes `angle` (rad) with the tooth's centre line; 1 when it is steeper
+    /// everywhere.
     pub fn fillet_at_tangent(&self, angle: f64) -> f64 {
         if self.fillet_tangent(1.0) >= angle { 1.0 } else { bisect(0.0, 1.0, |t| self.fillet_tangent(t) - angle) }
     }

@@ -6,8 +6,9 @@
 //! q_1 - q_0 = h (v_0 + v_1) / 2,   M (v_1 - v_0) = h [f(t_m, q_m, v_m) + c W (q_1 - q_0)]
 //! c = -[V(t_m, q_1) - V(t_m, q_0) + f_c(q_m) . (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0),   W = M
 //! ```
-//! m: the middle of the step. Second order, no damping of its own at any frequency; forces with kinks (contact lost and gained) do no work that their
-//! potential does not know of. What V changes by itself between t_0 and t_1 is booked as parametric work.
+//! m: the middle of the step. Second order, without numerical damping at any frequency. Forces with kinks (contact lost
+//! and gained) do only the work that their potential accounts for. The change of V with time alone between t_0 and t_1
+//! is booked as parametric work.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -17,9 +18,10 @@ use crate::{
     stepper::{Step, Stepped, Stepper},
 };
 
-/// What V is not known better than, relative: over the small way of a motion that just begins such noise would be a large force.
+/// Relative accuracy of V. Over the short path of a motion that just begins, noise of that size would be a large force.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
-/// A way shorter than this over the motion's scale has no work that V could tell from noise: a search that starts elsewhere finds another last digit.
+/// Shortest path over the motion's scale whose work is distinguished from noise of V. Below it a search that starts
+/// elsewhere would end in other last digits.
 const NO_WAY: f64 = 1e-9;
 
 /// The method; it has no parameters.
@@ -34,8 +36,8 @@ impl Stepper for DiscreteGradient {
     /// The forces that are left are those of the middle of the step.
     fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
         let Step { system, from, h, scale, forces, ledger, .. } = step;
-        // The change of c with the end of the step is left out as long as that settles: the noise of V over a small way would
-        // be in it.
+        // The derivative of c is left out as long as the iteration converges without it: over a short path it would
+        // contain the noise of V.
         match iterate(system, from, h, scale, forces, ledger, false) {
             Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, ledger, true),
             done => done,
@@ -97,7 +99,8 @@ fn iterate<M: Mechanism>(
         let step = newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
         to.q -= step;
         if settled {
-            // What an earlier end would leave of the balance is work that nobody does: always of one sign, it would add up over many steps. Load and drive work over the last step as well.
+            // The residual of the balance is work that nothing does. It has one sign and would add up over many steps,
+            // so the iteration goes on to round-off. Load and drive do work over the last iteration as well.
             book.supplied += h * forces.supplied - forces.other.dot(step);
             let known = book.potential;
             let after = system.potential(middle, &to.q).map_err(fail(middle))?;
@@ -105,7 +108,7 @@ fn iterate<M: Mechanism>(
             book.dissipated += h * forces.dissipated;
             book.potential = system.potential(end, &to.q).map_err(fail(end))?;
             book.parametric += (book.potential - after) + (before - known);
-            // Third differences of the motion: what a midpoint step leaves out.
+            // Third differences of the motion: the leading error of a midpoint step.
             let error = h * h / 12.0 * (&to.a - &from.a);
             return Ok((to, error));
         }

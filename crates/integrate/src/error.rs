@@ -26,16 +26,6 @@ pub enum MotionError<E> {
         /// Last change, relative.
         change: f64,
     },
-    /// There is no equilibrium to begin with.
-    #[error(
-        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
-    )]
-    NoStart {
-        /// Time, s.
-        time: f64,
-        /// Last change, relative.
-        change: f64,
-    },
     /// The error control asked for a step below the least one.
     #[error("at {time:.9} s: a step of {step:.3e} s is needed for the tolerance, the least allowed is {least:.3e} s")]
     StepTooSmall {
@@ -66,12 +56,34 @@ pub enum MotionError<E> {
         /// Which.
         which: &'static str,
     },
-    /// Options that make no sense, or lengths that do not fit.
-    #[error("{0}")]
-    Options(&'static str),
-    /// No period to shoot for.
-    #[error("{0}")]
-    NoPeriod(&'static str),
+    /// Mass, scale and state are of different lengths.
+    #[error(
+        "mass, scale and state are of different lengths: {mass}, {scale}, and {coordinates} coordinates with {velocities} velocities"
+    )]
+    Lengths {
+        /// Rows of the mass matrix.
+        mass: usize,
+        /// Entries of the scale.
+        scale: usize,
+        /// Coordinates of the state.
+        coordinates: usize,
+        /// Velocities of the state.
+        velocities: usize,
+    },
+    /// A step, a tolerance, a scale or a count that must be positive is not.
+    #[error("{name} = {value} must be positive")]
+    NotPositive {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A spectral radius that generalised-alpha cannot have.
+    #[error("the spectral radius of generalised-alpha lies between 0 and 1, not at {rho}")]
+    SpectralRadius {
+        /// The radius asked for.
+        rho: f64,
+    },
 }
 
 impl<E> MotionError<E> {
@@ -84,9 +96,6 @@ impl<E> MotionError<E> {
             Self::NotConverged { .. } => {
                 "take a smaller fixed step (`steps_per_mesh_cycle`), or let the error control choose it (`error_tolerance`)"
             }
-            Self::NoStart { .. } => {
-                "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks"
-            }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
             }
@@ -94,8 +103,9 @@ impl<E> MotionError<E> {
                 "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), let an `error_tolerance` choose them, or take an implicit `method`"
             }
             Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
-            Self::Options(_) => "correct the integrator's options",
-            Self::NoPeriod(_) => "wait for the motion to settle instead of shooting for its periodic state",
+            Self::Lengths { .. } => "give one scale, one coordinate and one velocity for each row of the mass matrix",
+            Self::NotPositive { .. } => "give a positive number",
+            Self::SpectralRadius { .. } => "give `spectral_radius` a number from 0 to 1",
         }
     }
 }

@@ -25,7 +25,7 @@ pub struct Crossing {
 }
 
 /// Coordinates and velocities within a step, by the cubic through both ends with their velocities.
-pub(crate) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
+pub(crate) fn interpolated(from: &State, to: &State, share: f64) -> (DVector<f64>, DVector<f64>) {
     let h = to.time - from.time;
     let (s, r) = (share, 1.0 - share);
     let q = (r * r * (1.0 + 2.0 * s)) * &from.q + (s * s * (1.0 + 2.0 * r)) * &to.q + (h * s * r * r) * &from.v
@@ -36,7 +36,8 @@ pub(crate) fn between(from: &State, to: &State, share: f64) -> (DVector<f64>, DV
     (q, v)
 }
 
-/// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and false position in turns.
+/// Share of the step at which `value` changes sign, given its values at both ends (of different sign): bisection and
+/// false position in turns.
 pub(crate) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
     let ([mut low, mut high], [mut at_low, mut at_high]) = ([0.0, 1.0], ends);
     for i in 0..60 {
@@ -87,7 +88,7 @@ pub(crate) fn crossings<M: Mechanism>(
     for event in (0..before.len()).filter(|&i| (before[i] >= 0.0) != (after[i] >= 0.0)) {
         let h = to.time - from.time;
         let share = root([before[event], after[event]], |share| {
-            let (q, v) = between(from, to, share);
+            let (q, v) = interpolated(from, to, share);
             event_values(system, from.time + share * h, &q, &v).map(|values| values[event])
         })?;
         let direction = if before[event] < 0.0 { Direction::Up } else { Direction::Down };

@@ -1,7 +1,7 @@
 //! Generalised-alpha: second order, implicit, high frequencies damped as much as asked for.
 //!
-//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371; in the form that takes forces at the ends of steps only (M. Arnold, O. Bruels, Multibody Syst.
-//! Dyn. 18 (2007) 185).
+//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371; in the form that takes forces at the ends of steps only (M.
+//! Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185).
 //!
 //! ```text
 //! q_1 = q_0 + h v_0 + h^2 [(1/2 - beta) b_0 + beta b_1],   v_1 = v_0 + h [(1 - gamma) b_0 + gamma b_1]
@@ -26,7 +26,8 @@ pub(crate) struct Coefficients {
 }
 
 impl Coefficients {
-    /// With the spectral radius `rho` at infinite frequency, 0 .. 1: second order, and the least damping of low frequencies for that.
+    /// With the spectral radius `rho` at infinite frequency, 0 .. 1: second order, and the least damping of low
+    /// frequencies for that.
     pub(crate) fn generalised_alpha(rho: f64) -> Self {
         let (a_m, a_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let gamma = 0.5 + a_f - a_m;
@@ -38,8 +39,8 @@ impl Coefficients {
         Self { a_m: 0.0, a_f: 0.0, beta, gamma }
     }
 
-    /// The state at the end of a step of length `h` from `from`, and the local error of its coordinates. `forces` are those
-    /// of the end.
+    /// The state at the end of a step of length `h` from `from`, and the local error of its coordinates. `forces` are
+    /// those of the end.
     fn solve<M: Mechanism>(
         &self,
         system: &mut M,
@@ -102,7 +103,8 @@ impl Stepper for Coefficients {
         let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
         let mut off_path = |time: f64, q| system.potential_off_path(time, q).map_err(fail(time));
         let known = ledger.potential;
-        // What V changes by with the coordinates held, at either end. The end of the step comes last: a system may keep it.
+        // What V changes by with the coordinates held, at either end. The end of the step comes last: a system may keep
+        // it.
         let [moved, still] = [off_path(from.time, &to.q)?, off_path(to.time, &from.q)?];
         ledger.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
         let held = [still - known, ledger.potential - moved];

@@ -3,7 +3,8 @@
 //! ```text
 //! M q'' = f(t, q, q')
 //! ```
-//! The same integrators run the meshed pair, the lumped models and a one-degree oscillator: what is shown for one holds for all.
+//! The same integrators run the meshed pair, the lumped models and a one-degree oscillator: what is shown for one holds
+//! for all.
 
 mod energy;
 mod error;

@@ -24,8 +24,8 @@ pub trait Mechanism {
     /// The system's own.
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Self::Error>;
 
-    /// Potential energy at a place that the motion does not pass through, for the ledger alone. A system need not remember
-    /// anything of it, and may know it to twelve digits only.
+    /// Potential energy at a place off the path of the motion, for the ledger alone. A system need not keep anything of
+    /// that evaluation, and twelve correct digits are enough.
     ///
     /// # Errors
     /// The system's own.
@@ -52,7 +52,8 @@ pub trait Mechanism {
         Ok(())
     }
 
-    /// Called when a step has been taken for good: the place for a tooth change, which must leave q, v and forces as they are.
+    /// Called when a step has been taken for good: the place for a tooth change, which must leave q, v and forces as
+    /// they are.
     ///
     /// # Errors
     /// The system's own.
@@ -78,7 +79,8 @@ pub struct Forces {
     pub rates: bool,
     /// Power of drives and loads into the system.
     pub supplied: f64,
-    /// Explicit change of the potential with time at fixed coordinates, dV/dt, where [`Forces::rates`] asks for it; never together with tangents.
+    /// Explicit change of the potential with time at fixed coordinates, dV/dt, where [`Forces::rates`] asks for it;
+    /// never together with tangents.
     pub parametric: f64,
     /// Power that dampers and friction take.
     pub dissipated: f64,

@@ -1,10 +1,12 @@
 //! Newton's method on one implicit step.
 //!
-//! Where whole steps do not settle, because a contact opens and closes or friction turns round in turns, they are followed along their lines to where the residual's work along them ends: a friction
-//! that changes its sign within a tenth of a mm/s is found between two steps that both jump over it, however short the time step is.
+//! A line search follows where full steps do not converge because a contact opens and closes, or friction reverses, in
+//! turns. It goes along the step to where the residual does no more work. So a sign change of friction within a tenth
+//! of a mm/s is found between two steps that both jump over it, however short the time step is.
 //!
-//! The tangent is made once and kept as long as steps shrink fast with it: what such a step leaves is its own contraction times itself, so two steps tell when to stop. Where they do not
-//! shrink fast, because contact opens or closes, tangents are made anew.
+//! The tangent is factored once and kept while the steps decrease fast. The error after such a step is its contraction
+//! times the step, so two steps tell when to stop. Where steps decrease slowly, because contact opens or closes, the
+//! tangent is factored anew.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
@@ -12,62 +14,71 @@ use crate::Forces;
 
 /// Iterations before giving up; two or three do.
 pub(crate) const ITERATIONS: usize = 40;
-/// Last change that is round-off, relative to the motion's scale.
+/// Change that counts as round-off, relative to the motion's scale.
 const TOLERANCE: f64 = 1e-11;
-/// Iterations after which steps are followed along their lines: what jumps to and fro settles between.
-const PATIENCE: usize = 10;
-/// Share of the work at the beginning of a line that may be left where it ends.
-const OF_LINE: f64 = 0.5;
-/// Places on a line.
-const PLACES: u32 = 12;
-/// Changes up to this many times round-off that do not fall any more are the noise of the forces themselves. Forces from a contact solver are good to some 1e-11.
-const NOISE: f64 = 1e4;
-/// What a step must leave of the one before it for the tangent to be kept.
-const SLOW: f64 = 0.05;
-/// What may be left to go, over round-off.
-const LEFT: f64 = 0.5;
+/// Iterations after which the line search begins.
+const LINE_SEARCH_AFTER: usize = 10;
+/// Share of the work at the beginning of a line that may be left at its end.
+const LINE_TOLERANCE: f64 = 0.5;
+/// Evaluations along a line.
+const LINE_EVALUATIONS: u32 = 12;
+/// Changes up to this many times round-off that no longer decrease are noise of the forces. Forces of a contact solver
+/// are good to some 1e-11.
+const NOISE_LEVEL: f64 = 1e4;
+/// Largest ratio of two successive changes with which the tangent is kept.
+const SLOW_CONTRACTION: f64 = 0.05;
+/// Estimated remaining change that counts as converged, over round-off.
+const REMAINDER: f64 = 0.5;
 
 /// The iteration of one step.
 #[derive(Debug)]
 pub(crate) struct Newton {
     factor: Option<LU<f64, Dyn, Dyn>>,
     step: DVector<f64>,
-    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite after a part of a step, which says nothing of what is left.
+    /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite
+    /// after a part of a step, which says nothing of what is left.
     changes: [f64; 2],
     /// The same of the last step, also of a part.
     last: f64,
     /// The step that is being followed.
-    line: Option<Line>,
+    line: Option<LineSearch>,
     /// Whether the last step is a part of one.
     part: bool,
 }
 
 /// A step on the way along its line: q = q_0 - share step.
 #[derive(Debug)]
-struct Line {
+struct LineSearch {
     step: DVector<f64>,
     /// Work of the residual along the step where the line begins, > 0.
     work: f64,
     share: f64,
     /// Shares below which work is left, and beyond which it is against the step.
     bracket: [f64; 2],
-    places: u32,
+    evaluations: u32,
 }
 
-impl Line {
+impl LineSearch {
     /// From the residual `rest` where the line begins; `None` where the step does not go against it.
     fn along(step: &DVector<f64>, rest: &DVector<f64>) -> Option<Self> {
         let work = rest.dot(step);
-        (work > 0.0).then(|| Self { step: step.clone(), work, share: 1.0, bracket: [0.0, f64::INFINITY], places: 0 })
+        (work > 0.0).then(|| Self {
+            step: step.clone(),
+            work,
+            share: 1.0,
+            bracket: [0.0, f64::INFINITY],
+            evaluations: 0,
+        })
     }
 
-    /// What is to be taken away from the coordinates next, with the residual where they stand; `None` where the line ends.
-    fn onwards(&mut self, rest: &DVector<f64>) -> Option<DVector<f64>> {
+    /// What is to be taken away from the coordinates next, with the residual where they stand; `None` where the line
+    /// ends.
+    fn advance(&mut self, rest: &DVector<f64>) -> Option<DVector<f64>> {
         let left = rest.dot(&self.step) / self.work;
         self.bracket[usize::from(left < 0.0)] = self.share;
         let [low, high] = self.bracket;
-        self.places += 1;
-        if left.abs() <= OF_LINE || high.is_infinite() || left.is_nan() || self.places > PLACES {
+        self.evaluations += 1;
+        if left.abs() <= LINE_TOLERANCE || high.is_infinite() || left.is_nan() || self.evaluations > LINE_EVALUATIONS {
             return None;
         }
         let next = 0.5 * (low + high);
@@ -84,7 +95,7 @@ impl Newton {
         Self { factor: None, step: DVector::zeros(0), changes, last: f64::INFINITY, line: None, part: false }
     }
 
-    /// Has the tangent made anew at the next evaluation.
+    /// Discards the factor: the next evaluation makes a new one.
     pub fn renew(&mut self) {
         self.factor = None;
     }
@@ -92,14 +103,15 @@ impl Newton {
     /// Makes forces ready for the next evaluation, with tangents or without.
     pub fn prepare(&mut self, forces: &mut Forces) {
         let [last, before] = self.changes;
-        if self.line.is_some() || (before.is_finite() && last > SLOW * before) {
+        if self.line.is_some() || (before.is_finite() && last > SLOW_CONTRACTION * before) {
             self.factor = None;
         }
         forces.tangents = self.factor.is_none();
         forces.clear();
     }
 
-    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, made where its tangents are new, is singular or holds no numbers.
+    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, made where
+    /// its tangents are new, is singular or holds no numbers.
     pub fn step(
         &mut self,
         forces: &Forces,
@@ -107,15 +119,15 @@ impl Newton {
         rest: &DVector<f64>,
         iteration: usize,
     ) -> Option<&DVector<f64>> {
-        if let Some(by) = self.line.as_mut().and_then(|line| line.onwards(rest)) {
+        if let Some(by) = self.line.as_mut().and_then(|line| line.advance(rest)) {
             (self.step, self.part) = (by, true);
             return Some(&self.step);
         }
         (self.line, self.part) = (None, false);
         let factor = self.factor.get_or_insert_with(|| LU::new(matrix(forces)));
         self.step = factor.solve(rest).filter(|x| x.iter().all(|x| x.is_finite()))?;
-        if iteration >= PATIENCE {
-            self.line = Line::along(&self.step, rest);
+        if iteration >= LINE_SEARCH_AFTER {
+            self.line = LineSearch::along(&self.step, rest);
         }
         Some(&self.step)
     }
@@ -132,10 +144,13 @@ impl Newton {
         self.last
     }
 
-    /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are noise.
+    /// Whether the iteration is over: by the last change, by what two of them say is left, or because changes are
+    /// noise.
     pub fn settled(&self) -> bool {
         let [last, before] = self.changes;
         let shrinks = before.is_finite() && last < 0.5 * before;
-        last <= 1.0 || (shrinks && last * last <= LEFT * (before - last)) || (last <= NOISE && last > 0.5 * before)
+        last <= 1.0
+            || (shrinks && last * last <= REMAINDER * (before - last))
+            || (last <= NOISE_LEVEL && last > 0.5 * before)
     }
 }

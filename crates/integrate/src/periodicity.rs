@@ -9,10 +9,11 @@ use crate::State;
 
 /// Longest period that is looked for, periods.
 pub const LONGEST_PERIOD: usize = 8;
-/// A longer period must do this much better than a shorter one: what dies away in beats is nearer to itself after some cycles than after one.
-const CLEARLY: f64 = 0.03;
+/// Largest ratio of residuals with which a longer period replaces a shorter one: decaying beats come nearer to
+/// themselves after some cycles than after one.
+const CLEARLY_SMALLER: f64 = 0.03;
 /// Peak to peak below which a coordinate counts as still, over its scale.
-const STILL: f64 = 1e-6;
+const STILL_AMPLITUDE: f64 = 1e-6;
 
 /// Least and largest coordinates and velocities over some time, such as a period.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,10 +64,11 @@ impl Recurrence {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
     }
 
-    /// Takes the state at the end of a period. The shortest period wins that is within `tolerance`, else the best one; a longer one only where it does clearly better.
+    /// Takes the state at the end of a period. The result is the shortest period within `tolerance`, else the best one;
+    /// a longer period counts only where its residual is clearly smaller.
     ///
-    /// `scale`: sizes of the coordinates that are looked at, from the first on. The coordinate `free` has no place to return to
-    /// (a driver that a torque turns): only its velocity is looked at.
+    /// `scale`: sizes of the coordinates that are compared, from the first on. Of the coordinate `free`, which need not
+    /// return (a driver that a torque turns), only the velocity is compared.
     pub fn judge(
         &mut self,
         state: &State,
@@ -80,7 +82,7 @@ impl Recurrence {
         let mut best = Periodicity { period: 1, residual: f64::INFINITY };
         for (i, before) in self.starts.iter().rev().enumerate() {
             let residual = difference([&now, before], &size, scale, free);
-            if i == 0 || residual < CLEARLY * best.residual {
+            if i == 0 || residual < CLEARLY_SMALLER * best.residual {
                 best = Periodicity { period: i + 1, residual };
             }
             if best.residual <= tolerance {
@@ -106,7 +108,7 @@ pub fn difference(
     for k in 0..scale.len() {
         // A velocity is still when it belongs to a coordinate that is.
         let rate = if size[0][k] > 0.0 { size[1][k] / size[0][k] } else { 0.0 };
-        let least = [STILL * scale[k], STILL * scale[k] * rate];
+        let least = [STILL_AMPLITUDE * scale[k], STILL_AMPLITUDE * scale[k] * rate];
         for part in 0..2 {
             if part == 0 && free == Some(k) {
                 continue;

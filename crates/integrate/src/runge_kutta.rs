@@ -1,7 +1,8 @@
 //! Explicit Runge-Kutta methods, for comparison and for systems without stiff parts.
 //!
-//! Work of the forces is integrated along as further unknowns. The last stage of a table stands at the end of the step, with the weights of the
-//! method itself: it gives the accelerations there, and the estimate of the error a value to compare with.
+//! Work of the forces is integrated along as further unknowns. The last stage of a table stands at the end of the step,
+//! with the weights of the method itself: it gives the accelerations there, and the estimate of the error a value to
+//! compare with.
 
 use nalgebra::DVector;
 
@@ -23,8 +24,8 @@ pub(crate) struct Table<const S: usize> {
 
 /// Runge-Kutta's classical method of fourth order (W. Kutta, Z. Math. Phys. 46 (1901) 435).
 ///
-/// Its weight 1/6 of the fourth stage may be shared with the value at the end of the step in any proportion without loss of the third order: with a
-/// tenth there, the difference is h (k_4 - k_5) / 10.
+/// Its weight 1/6 of the fourth stage may be shared with the value at the end of the step in any proportion without
+/// loss of the third order: with a tenth there, the difference is h (k_4 - k_5) / 10.
 pub(crate) const CLASSICAL: Table<5> = Table {
     order: 4.0,
     nodes: [0.0, 0.5, 0.5, 1.0, 1.0],

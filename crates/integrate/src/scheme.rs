@@ -60,13 +60,14 @@ impl Scheme {
         self.stability_polynomial().is_some()
     }
 
-    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any step.
+    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any
+    /// step.
     pub fn stability_polynomial(&self) -> Option<Vec<f64>> {
         with_stepper!(self, stepper => stepper.stability_polynomial())
     }
 
-    /// Whether the method carries an acceleration of its own from step to step: a part of the state beside coordinates and
-    /// velocities.
+    /// Whether the method carries an acceleration of its own from step to step: a part of the state beside coordinates
+    /// and velocities.
     pub fn carries_acceleration(&self) -> bool {
         with_stepper!(self, stepper => stepper.carries_acceleration())
     }

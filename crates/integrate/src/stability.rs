@@ -3,21 +3,21 @@
 //! ```text
 //! M q'' + C q' + K q = 0,   q ~ exp(lambda t):   stable with steps h while |R(h lambda)| <= 1 for every lambda
 //! ```
-//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h lambda| = 2.828 and on the negative real one (damping alone) up to 2.785;
-//! Dormand-Prince 5(4) up to 0.998 and 3.307.
+//! R is the method's stability polynomial. Runge-Kutta 4 is stable on the imaginary axis (no damping) up to |h
+//! lambda| = 2.828 and on the negative real one (damping alone) up to 2.785; Dormand-Prince 5(4) up to 0.998 and 3.307.
 
 use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 
 use crate::{Forces, Scheme};
 
 /// Growth in a step that counts as none.
-const NONE: f64 = 1e-9;
+const GROWTH_TOLERANCE: f64 = 1e-9;
 /// Step of the search along a ray, and where it ends: no method of few stages is stable farther out.
 const RAY: [f64; 2] = [0.01, 40.0];
 /// Change of the tangents over which the limit of before is kept.
-const ALIKE: f64 = 0.02;
+const TANGENT_CHANGE: f64 = 0.02;
 /// Damped eigenvalues below this share of the largest move nothing.
-const STILL: f64 = 1e-9;
+const RIGID_SHARE: f64 = 1e-9;
 
 /// The longest stable step of an explicit method.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,10 +29,11 @@ pub struct StepLimit {
 }
 
 impl Scheme {
-    /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M symmetric positive definite.
+    /// Longest step with which no vibration of M q'' + C q' + K q = 0 grows that does not grow by itself; all n x n, M
+    /// symmetric positive definite.
     ///
-    /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where nothing moves by itself, and for matrices that hold no
-    /// numbers.
+    /// What grows by itself (flutter) is held to the limit of undamped motion. `None` for implicit methods, where
+    /// nothing moves by itself, and for matrices that hold no numbers.
     pub fn step_limit(
         &self,
         mass: &DMatrix<f64>,
@@ -72,18 +73,19 @@ fn limit(polynomial: &[f64], stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -
     first_order.view_mut((n, n), (n, n)).copy_from(&(damping / -scale));
     let all = first_order.complex_eigenvalues();
     let largest = all.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let moving = all.iter().filter(|x| x.norm() > STILL * largest);
+    let moving = all.iter().filter(|x| x.norm() > RIGID_SHARE * largest);
     let limits = moving.map(|x| StepLimit { step: reach(polynomial, *x) / (scale * x.norm()), rate: scale * x.norm() });
     limits.min_by(|a, b| a.step.total_cmp(&b.step))
 }
 
-/// |z| at which |R| first passes 1 on the way out from 0 in the direction of `towards`; directions of growth count as that of no damping.
+/// The value of |z| at which |R| first passes 1 on the ray from 0 in the direction of `towards`. Directions of growth
+/// count as undamped ones.
 fn reach(polynomial: &[f64], towards: Complex<f64>) -> f64 {
     let direction = Complex::new(towards.re.min(0.0), towards.im);
     let direction = if direction.norm() > 0.0 { direction / direction.norm() } else { Complex::i() };
     let grows = |r: f64| {
         let z = direction * r;
-        polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * z + c).norm() > 1.0 + NONE
+        polynomial.iter().rev().fold(Complex::new(0.0, 0.0), |sum, c| sum * z + c).norm() > 1.0 + GROWTH_TOLERANCE
     };
     let [step, end] = RAY;
     let (mut inside, mut outside) = (0.0, step);
@@ -124,7 +126,7 @@ impl Stiffest {
     }
 
     /// Looks at one more state, by its forces with tangents.
-    pub fn look(&mut self, forces: &Forces) {
+    pub fn include(&mut self, forces: &Forces) {
         let Some(both) = per_mass(&self.mass, [&forces.stiffness, &forces.damping]) else { return };
         let rate = bound([both[0].norm(), both[1].norm()]);
         if self.found.as_ref().is_none_or(|(before, _)| rate > *before) {
@@ -141,7 +143,7 @@ impl Stiffest {
 
 /// Watches the tangents of a motion under way: into how many parts a step has to be taken.
 #[derive(Debug, Clone)]
-pub(crate) struct Guard {
+pub(crate) struct StabilityGuard {
     polynomial: Vec<f64>,
     /// No eigenvalue below this over the step is unstable, in whatever direction it lies.
     safe: f64,
@@ -149,14 +151,15 @@ pub(crate) struct Guard {
     found: Option<([f64; 2], f64)>,
 }
 
-impl Guard {
+impl StabilityGuard {
     /// For an explicit method; `None` for others, which need none.
     pub fn new(scheme: Scheme) -> Option<Self> {
         let polynomial = scheme.stability_polynomial()?;
         Some(Self { safe: shortest_reach(&polynomial), polynomial, found: None })
     }
 
-    /// Longest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite where that is well within it.
+    /// Longest stable step with the tangents of `forces`, as far as it matters for a step of length `h`: infinite where
+    /// that is well within it.
     pub fn longest(&mut self, mass: &Cholesky<f64, Dyn>, forces: &Forces, h: f64) -> f64 {
         let Some([stiffness, damping]) = per_mass(mass, [&forces.stiffness, &forces.damping]) else {
             // What is no number says nothing of steps; it shows in the motion.
@@ -166,7 +169,8 @@ impl Guard {
         if h * bound(norms) <= self.safe {
             return f64::INFINITY;
         }
-        let alike = |(before, _): &([f64; 2], f64)| (0..2).all(|i| (norms[i] - before[i]).abs() <= ALIKE * before[i]);
+        let alike =
+            |(before, _): &([f64; 2], f64)| (0..2).all(|i| (norms[i] - before[i]).abs() <= TANGENT_CHANGE * before[i]);
         if let Some((_, limit)) = self.found.filter(alike) {
             return limit;
         }
@@ -184,7 +188,8 @@ mod tests {
         DMatrix::from_element(1, 1, x)
     }
 
-    /// Runge-Kutta 4: 2 sqrt 2 without damping, 2.7853 with damping alone (Hairer, Wanner, Solving Ordinary Differential Equations II, IV.2); Dormand-Prince 5(4): a real limit of 3.3066.
+    /// Runge-Kutta 4: 2 sqrt 2 without damping, 2.7853 with damping alone (Hairer, Wanner, Solving Ordinary
+    /// Differential Equations II, IV.2); Dormand-Prince 5(4): a real limit of 3.3066.
     #[test]
     fn limits_on_the_axes_are_those_of_the_books() {
         let undamped = |s: Scheme| s.step_limit(&single(2.0), &single(2.0 * 1e8), &single(0.0)).unwrap().step * 1e4;

@@ -40,7 +40,8 @@ pub(crate) trait Stepper {
         false
     }
 
-    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any step.
+    /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any
+    /// step.
     fn stability_polynomial(&self) -> Option<Vec<f64>> {
         None
     }

@@ -1,8 +1,9 @@
 //! Stations of a mesh cycle side by side.
 //!
-//! Groups of stations start afresh, each in the window that its stations ask for; so they can be solved at the same time, and what
-//! comes out does not depend on how many are. Tooth changes are then brought into order: where a change had to wait for its tooth to be free,
-//! so that the next group began in another window than the one before ended in, it is solved again from there.
+//! Stations are solved in groups, in parallel. Each group starts afresh, in the window that its stations ask for, so
+//! results do not depend on the number of threads. Afterwards tooth changes are put in order: a change may have had to
+//! wait for its tooth to be free of load, so that a group ended in another window than the next one began in. Then that
+//! next group is solved again from there.
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::ContactSet;
@@ -10,15 +11,15 @@ use rayon::prelude::*;
 
 use crate::{
     Equilibrium, StaticError, StaticPosition,
-    cycle_solver::{CycleSolver, Fixed},
+    cycle_solver::{CycleInputs, CycleSolver},
 };
 
-/// Stations of a group: the first one costs about twice as much as those that start from their neighbour.
+/// Stations of a group. The first station costs about twice as much as those that start from their neighbour.
 const GROUP: usize = 8;
 /// Stations that are solved before any is reported.
 const WAVE: usize = 8 * GROUP;
 
-/// Where the solver was when a station was solved.
+/// State of the solver after a station.
 #[derive(Debug)]
 pub(crate) struct SolverState {
     window: SlidingWindow,
@@ -30,11 +31,11 @@ pub(crate) struct SolverState {
 pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
 
 impl CycleSolver {
-    /// Goes back to where a station was solved, so that the next one goes on from there.
-    pub fn resume(&mut self, fixed: &Fixed<'_>, state: SolverState) -> Result<(), StaticError> {
+    /// Restores the state after a station, so that the next station goes on from there.
+    pub fn resume(&mut self, inputs: &CycleInputs<'_>, state: SolverState) -> Result<(), StaticError> {
         let SolverState { window, set, last, changes } = state;
         if self.window != window {
-            self.contact.enter(fixed.pair, fixed.gears, window.window(), set, &fixed.options.contact)?;
+            self.contact.enter(inputs.pair, inputs.gears, window.window(), set, &inputs.options.contact)?;
             self.window = window;
         }
         (self.last, self.changes) = (last, changes);
@@ -42,34 +43,34 @@ impl CycleSolver {
     }
 }
 
-/// How many stations to solve at a time: one where each takes long or windows have matrices of their own.
-pub(crate) fn wave(fixed: &Fixed<'_>, solver: &CycleSolver) -> usize {
+/// Number of stations to solve at a time: one where each takes long, or where windows have matrices of their own.
+pub(crate) fn wave(inputs: &CycleInputs<'_>, solver: &CycleSolver) -> usize {
     let window = solver.window.window();
-    let teeth = [fixed.pair.pinion.teeth(), fixed.pair.wheel.teeth()];
+    let teeth = [inputs.pair.pinion.teeth(), inputs.pair.wheel.teeth()];
     let shared = ToothWindow::new(window.first() + 1, window.count(), teeth)
-        .is_ok_and(|next| solver.contact.set.clone().move_to(fixed.gears, &next).is_ok_and(|moved| moved));
+        .is_ok_and(|next| solver.contact.set.clone().move_to(inputs.gears, &next).is_ok_and(|moved| moved));
     if solver.contact.slices.is_some() && shared { WAVE } else { 1 }
 }
 
 /// Results of some stations in order, up to the first that cannot be solved.
-pub(crate) fn solve(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
+pub(crate) fn solve(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
     let groups: Vec<&[Station]> = stations.chunks(GROUP).collect();
     // Where each group but the first begins: in the window of the station before it.
-    let starts: Option<Vec<Start>> =
-        groups.windows(2).map(|w| w[0].last().and_then(|before| Start::new(fixed, solver, before))).collect();
+    let starts: Option<Vec<GroupStart>> =
+        groups.windows(2).map(|w| w[0].last().and_then(|before| GroupStart::new(inputs, solver, before))).collect();
     let Some(starts) = starts else {
-        return one_by_one(fixed, solver, stations);
+        return solve_in_order(inputs, solver, stations);
     };
     let (first, rest) = groups.split_first().map_or((&[][..], &[][..]), |(f, r)| (*f, r));
     let (mut all, others) = rayon::join(
-        || one_by_one(fixed, solver, first),
+        || solve_in_order(inputs, solver, first),
         || {
-            let fresh = |(group, start): (&&[Station], &Start)| {
-                let mut solver = match CycleSolver::new(fixed, start.window, start.set.clone()) {
+            let fresh = |(group, start): (&&[Station], &GroupStart)| {
+                let mut solver = match CycleSolver::new(inputs, start.window, start.set.clone()) {
                     Ok(solver) => solver,
                     Err(e) => return vec![Err(e)],
                 };
-                one_by_one(fixed, &mut solver, group)
+                solve_in_order(inputs, &mut solver, group)
             };
             rest.par_iter().zip(&starts).map(fresh).collect::<Vec<_>>()
         },
@@ -86,12 +87,12 @@ pub(crate) fn solve(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Sta
             }
         } else {
             solver.last = None;
-            solved = one_by_one(fixed, solver, group);
+            solved = solve_in_order(inputs, solver, group);
         }
-        // The solver goes on from here, should the next group have to be solved again.
+        // The next group may have to be solved again: the solver goes on from here.
         if let Some(Ok((_, state))) = solved.last() {
             let (window, set, changes) = (state.window, state.set.clone(), state.changes);
-            if let Err(error) = solver.resume(fixed, SolverState { window, set, last: None, changes }) {
+            if let Err(error) = solver.resume(inputs, SolverState { window, set, last: None, changes }) {
                 all.extend(solved);
                 all.push(Err(error));
                 return all;
@@ -102,10 +103,10 @@ pub(crate) fn solve(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Sta
     all
 }
 
-fn one_by_one(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
+fn solve_in_order(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
     let mut all = Vec::with_capacity(stations.len());
     for &station in stations {
-        let solved = solver.advance(fixed, station, |_| ()).map(|position| {
+        let solved = solver.advance(inputs, station, |_| ()).map(|position| {
             let (window, set, last) = (solver.window, solver.contact.set.clone(), solver.last.clone());
             (position, SolverState { window, set, last, changes: solver.changes })
         });
@@ -118,19 +119,19 @@ fn one_by_one(fixed: &Fixed<'_>, solver: &mut CycleSolver, stations: &[Station])
     all
 }
 
-/// Where a group begins.
-struct Start {
+/// Window and matrices at the start of a group.
+struct GroupStart {
     window: SlidingWindow,
     set: ContactSet,
 }
 
-impl Start {
+impl GroupStart {
     /// In the window that the station before asks for; `None` where its flanks or matrices are not those at hand.
-    fn new(fixed: &Fixed<'_>, solver: &CycleSolver, before: &Station) -> Option<Self> {
+    fn new(inputs: &CycleInputs<'_>, solver: &CycleSolver, before: &Station) -> Option<Self> {
         let count = solver.window.window().count();
-        let teeth = [fixed.pair.pinion.teeth(), fixed.pair.wheel.teeth()];
-        let window = SlidingWindow::at(*before, count, teeth, fixed.options.contact.sense).ok()?;
+        let teeth = [inputs.pair.pinion.teeth(), inputs.pair.wheel.teeth()];
+        let window = SlidingWindow::at(*before, count, teeth, inputs.options.contact.sense).ok()?;
         let mut set = solver.contact.set.clone();
-        set.move_to(fixed.gears, window.window()).ok()?.then_some(Self { window, set })
+        set.move_to(inputs.gears, window.window()).ok()?.then_some(Self { window, set })
     }
 }

@@ -1,25 +1,25 @@
 //! A pair from station to station: window, contact and last solution.
 
 use ale::{SlidingWindow, Station};
-use contact::{Beside, ContactSet, WindowContact};
+use contact::{ContactSet, NeighbourPairs, WindowContact};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
-    Change, Equilibrium, FilletStress, Parts, RootStress, StaticError, StaticOptions, StaticPosition,
+    Equilibrium, FilletStress, RootStress, StaticError, StaticOptions, StaticPosition, ToothChange, WindowedPair,
     equilibrium::equilibrium, kinematic::Unloaded, loads,
 };
 
-/// What stays the same from station to station.
+/// What all stations have in common.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fixed<'a> {
+pub(crate) struct CycleInputs<'a> {
     pub pair: &'a GearPair,
     pub gears: &'a [ElasticGear; 2],
     pub options: &'a StaticOptions,
     pub root: Option<&'a RootStress>,
 }
 
-/// What goes from station to station.
+/// State that goes from station to station.
 #[derive(Debug)]
 pub(crate) struct CycleSolver {
     pub window: SlidingWindow,
@@ -33,62 +33,67 @@ impl CycleSolver {
     ///
     /// # Errors
     /// [`StaticError`] when the contact cannot be set up.
-    pub fn new(fixed: &Fixed<'_>, window: SlidingWindow, set: ContactSet) -> Result<Self, StaticError> {
-        let contact = WindowContact::new(fixed.pair, set, &fixed.options.contact)?;
+    pub fn new(inputs: &CycleInputs<'_>, window: SlidingWindow, set: ContactSet) -> Result<Self, StaticError> {
+        let contact = WindowContact::new(inputs.pair, set, &inputs.options.contact)?;
         Ok(Self { window, contact, last: None, changes: 0 })
     }
 
-    fn parts<'a>(&'a self, fixed: &Fixed<'a>) -> Parts<'a> {
-        let Fixed { pair, gears, options, .. } = *fixed;
-        Parts { pair, gears, set: &self.contact.set, window: self.window.window(), options }
+    fn windowed<'a>(&'a self, inputs: &CycleInputs<'a>) -> WindowedPair<'a> {
+        let CycleInputs { pair, gears, options, .. } = *inputs;
+        WindowedPair { pair, gears, set: &self.contact.set, window: self.window.window(), options }
     }
 
-    /// Solves a station with the window as it stands.
-    pub fn solve(&mut self, fixed: &Fixed<'_>, station: Station) -> Result<StaticPosition, StaticError> {
-        let Fixed { pair, gears, options, .. } = *fixed;
+    /// Solves a station in the current window.
+    pub fn solve(&mut self, inputs: &CycleInputs<'_>, station: Station) -> Result<StaticPosition, StaticError> {
+        let CycleInputs { pair, gears, options, .. } = *inputs;
         if options.torque == 0.0 {
-            let root_stress = self.root_stress(fixed, None)?;
-            return Ok(StaticPosition { root_stress, ..self.unloaded(fixed, station)? });
+            let root_stress = self.root_stress(inputs, None)?;
+            return Ok(StaticPosition { root_stress, ..self.unloaded(inputs, station)? });
         }
         let guess = self.last.take();
         let Self { contact: WindowContact { set, slices }, window, .. } = self;
-        let parts = Parts { pair, gears, set, window: window.window(), options };
-        let e = equilibrium(&parts, slices.as_mut(), station, guess.as_ref())?;
-        let result = self.position(fixed, &e)?;
-        let fed = self.check_beside(fixed, &e);
+        let windowed = WindowedPair { pair, gears, set, window: window.window(), options };
+        let e = equilibrium(&windowed, slices.as_mut(), station, guess.as_ref())?;
+        let result = self.position(inputs, &e)?;
+        let window_serves = self.check_neighbours(inputs, &e);
         self.last = Some(e);
-        fed.map(|()| result)
+        window_serves.map(|()| result)
     }
 
     /// Everything the results hold of a solved station.
-    fn position(&self, fixed: &Fixed<'_>, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
-        let root_stress = self.root_stress(fixed, Some(e))?;
-        Ok(StaticPosition { root_stress, ..loads::position(&self.parts(fixed), e, self.changes) })
+    fn position(&self, inputs: &CycleInputs<'_>, e: &Equilibrium) -> Result<StaticPosition, StaticError> {
+        let root_stress = self.root_stress(inputs, Some(e))?;
+        Ok(StaticPosition { root_stress, ..loads::position(&self.windowed(inputs), e, self.changes) })
     }
 
     /// Stress in the fillets of both windows, when it is asked for.
-    fn root_stress(&self, fixed: &Fixed<'_>, e: Option<&Equilibrium>) -> Result<[Vec<FilletStress>; 2], StaticError> {
-        let Some(root) = fixed.root else { return Ok(Default::default()) };
-        root.of(&self.parts(fixed), e.map(|e| e.displacements_on(&self.contact.set)).as_ref())
+    fn root_stress(
+        &self,
+        inputs: &CycleInputs<'_>,
+        e: Option<&Equilibrium>,
+    ) -> Result<[Vec<FilletStress>; 2], StaticError> {
+        let Some(root) = inputs.root else { return Ok(Default::default()) };
+        root.of(&self.windowed(inputs), e.map(|e| e.displacements_on(&self.contact.set)).as_ref())
     }
 
-    /// Refuses a window beside which a pair overlaps at the loaded pose.
-    fn check_beside(&self, fixed: &Fixed<'_>, e: &Equilibrium) -> Result<(), StaticError> {
-        let Fixed { pair, options, .. } = *fixed;
+    /// Refuses the window if a neighbouring pair outside it overlaps at the loaded pose.
+    fn check_neighbours(&self, inputs: &CycleInputs<'_>, e: &Equilibrium) -> Result<(), StaticError> {
+        let CycleInputs { pair, options, .. } = *inputs;
         let (set, window) = (&self.contact.set, self.window.window());
-        let beside = Beside { pair, options: &options.contact, set, window, station: e.station, poses: &e.poses };
+        let neighbours =
+            NeighbourPairs { pair, options: &options.contact, set, window, station: e.station, poses: &e.poses };
         let allowed = 1e-3 * e.elastic_error().abs();
-        Ok(self.window.check_beside(e.station, options.torque, allowed, |running| beside.gap(running))?)
+        Ok(self.window.check_neighbours(e.station, options.torque, allowed, |running| neighbours.gap(running))?)
     }
 
-    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error, others where
-    /// their least gap is.
-    fn unloaded(&self, fixed: &Fixed<'_>, station: Station) -> Result<StaticPosition, StaticError> {
-        let touch = Unloaded::new(fixed.pair, &fixed.options.contact, station)?;
+    /// Without torque the flanks just touch: nominal ones along the analytic lines and without transmission error,
+    /// others where their least gap is.
+    fn unloaded(&self, inputs: &CycleInputs<'_>, station: Station) -> Result<StaticPosition, StaticError> {
+        let touch = Unloaded::new(inputs.pair, &inputs.options.contact, station)?;
         let error = touch.transmission_error();
-        let theta1 = station.pinion_angle(fixed.pair, fixed.options.side(), fixed.options.contact.sense);
-        let lines = fixed.pair.contact_lines(fixed.options.side(), theta1);
-        let middle = station.middle_pair(fixed.options.contact.sense);
+        let theta1 = station.pinion_angle(inputs.pair, inputs.options.side(), inputs.options.contact.sense);
+        let lines = inputs.pair.contact_lines(inputs.options.side(), theta1);
+        let middle = station.middle_pair(inputs.options.contact.sense);
         let mut pairs: Vec<_> = self
             .window
             .window()
@@ -98,7 +103,7 @@ impl CycleSolver {
                 let length = if touch.is_nominal() { nominal } else { touch.line_length(running) };
                 let [pinion_tooth, wheel_tooth] = self.window.window().teeth_of(running);
                 crate::PairResult {
-                    pair: fixed.options.contact.sense.sign() * running,
+                    pair: inputs.options.contact.sense.sign() * running,
                     pinion_tooth,
                     wheel_tooth,
                     normal_force: 0.0,
@@ -111,7 +116,7 @@ impl CycleSolver {
             .collect();
         pairs.sort_by_key(|p| p.pair);
         Ok(StaticPosition {
-            pinion_angle: (station.cycle as f64 + station.phase - 0.5) * fixed.pair.pinion.pitch_angle(),
+            pinion_angle: (station.cycle as f64 + station.phase - 0.5) * inputs.pair.pinion.pitch_angle(),
             mesh_phase: station.phase,
             transmission_error: error,
             kinematic_transmission_error: error,
@@ -136,35 +141,36 @@ impl CycleSolver {
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(
         &mut self,
-        fixed: &Fixed<'_>,
+        inputs: &CycleInputs<'_>,
         before: &StaticPosition,
         station: Station,
     ) -> Result<StaticPosition, StaticError> {
-        self.enter(fixed, self.window.change(&self.forces(fixed, before))?)?;
+        self.enter(inputs, self.window.change(&self.forces(inputs, before))?)?;
         self.changes += 1;
         // The patches of the window have other numbers now: points are not remembered across a change.
         if let Some(last) = &mut self.last {
             last.solution.active.clear();
         }
-        self.solve(fixed, station)
+        self.solve(inputs, station)
     }
 
-    /// Normal forces of the window's pairs, N, ascending in running numbers; results number pairs in the sense of rotation.
-    fn forces(&self, fixed: &Fixed<'_>, position: &StaticPosition) -> Vec<f64> {
+    /// Normal forces of the window's pairs, N, ascending in running numbers; results number pairs in the sense of
+    /// rotation.
+    fn forces(&self, inputs: &CycleInputs<'_>, position: &StaticPosition) -> Vec<f64> {
         let force = |running: i64| {
-            let number = fixed.options.contact.sense.sign() * running;
+            let number = inputs.options.contact.sense.sign() * running;
             position.pairs.iter().find(|p| p.pair == number).map_or(0.0, |p| p.normal_force)
         };
         self.window.window().pairs().map(force).collect()
     }
 
-    /// Back to a window to begin from, nothing remembered: a run does not depend on those before it.
+    /// Begins in a given window with nothing remembered: a run does not depend on those before it.
     ///
     /// # Errors
     /// [`StaticError`] when the window cannot be entered.
-    pub fn begin(&mut self, fixed: &Fixed<'_>, window: SlidingWindow) -> Result<(), StaticError> {
+    pub fn begin(&mut self, inputs: &CycleInputs<'_>, window: SlidingWindow) -> Result<(), StaticError> {
         if self.window != window {
-            self.enter(fixed, window)?;
+            self.enter(inputs, window)?;
         }
         if let Some(slices) = &mut self.contact.slices {
             slices.forget();
@@ -173,9 +179,9 @@ impl CycleSolver {
         Ok(())
     }
 
-    fn enter(&mut self, fixed: &Fixed<'_>, window: SlidingWindow) -> Result<(), StaticError> {
+    fn enter(&mut self, inputs: &CycleInputs<'_>, window: SlidingWindow) -> Result<(), StaticError> {
         let set = self.contact.set.clone();
-        self.contact.enter(fixed.pair, fixed.gears, window.window(), set, &fixed.options.contact)?;
+        self.contact.enter(inputs.pair, inputs.gears, window.window(), set, &inputs.options.contact)?;
         self.window = window;
         Ok(())
     }
@@ -187,26 +193,27 @@ impl CycleSolver {
     /// [`StaticError`].
     pub fn advance(
         &mut self,
-        fixed: &Fixed<'_>,
+        inputs: &CycleInputs<'_>,
         station: Station,
-        mut seen: impl FnMut(&Change),
+        mut seen: impl FnMut(&ToothChange),
     ) -> Result<StaticPosition, StaticError> {
-        let mut result = self.solve(fixed, station);
+        let mut result = self.solve(inputs, station);
         while self.window.teeth_behind(station) > 0 {
             let before = match &result {
                 Ok(position) => position.clone(),
-                // A pair that comes in early is what the change is for; the outgoing tooth decides.
+                // An early contact of the oncoming pair is a reason to change; the outgoing tooth decides whether the
+                // change is allowed.
                 Err(e) if e.is_starved() => match &self.last {
-                    Some(e) => self.position(fixed, e)?,
+                    Some(e) => self.position(inputs, e)?,
                     None => break,
                 },
                 Err(_) => break,
             };
-            if self.window.due_change(station, &self.forces(fixed, &before))?.is_none() {
+            if self.window.due_change(station, &self.forces(inputs, &before))?.is_none() {
                 break;
             }
-            let after = self.change(fixed, &before, station)?;
-            seen(&Change { before, after: after.clone(), window: *self.window.window() });
+            let after = self.change(inputs, &before, station)?;
+            seen(&ToothChange { before, after: after.clone(), window: *self.window.window() });
             result = Ok(after);
         }
         result

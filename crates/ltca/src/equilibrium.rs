@@ -5,9 +5,9 @@ use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, So
 use geometry::GearPair;
 
 use crate::{
-    Parts, StaticError,
+    StaticError, WindowedPair,
     kinematic::Unloaded,
-    pose_solver::{Memory, Solver, Step, Touched, remembered},
+    pose_solver::{PoseSolution, PoseSolver, PoseStep, WarmStart, warm_start_of},
 };
 
 /// Solved contact at one station.
@@ -31,8 +31,8 @@ pub struct Equilibrium {
     pub slices: Vec<Slice>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
-    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames; empty for slices on reduced gears, where nothing
-    /// needs them: [`contact::ContactSet::displacements`] has them then.
+    /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames. Empty for slices on reduced
+    /// gears: [`Equilibrium::displacements_on`] computes them where they are needed.
     pub displacements: [Vec<f64>; 2],
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
@@ -44,35 +44,35 @@ pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 const POSE_STEPS: usize = 40;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
-/// Deflection over the module from which on it is the load that parts the flanks: teeth are some two modules high.
+/// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
-/// Guessed deflection of steel teeth over the module from which on no material stands the load.
+/// Estimated deflection of steel teeth over the module beyond which no search is begun.
 const HOPELESS: f64 = 10.0;
-/// Steps below this that do not fall any more are round-off: of gaps at kinks and edges, seen against a small approach.
+/// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
 const POSE_ROUND_OFF: f64 = 1e-9;
 
 /// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
-pub(crate) fn poses(parts: &Parts, station: Station, rotation: f64) -> [Pose; 2] {
-    let Parts { pair, set, window, options, .. } = *parts;
+pub(crate) fn poses(windowed: &WindowedPair, station: Station, rotation: f64) -> [Pose; 2] {
+    let WindowedPair { pair, set, window, options, .. } = *windowed;
     let mut turns = [0.0; 2];
     turns[options.driven()] = rotation;
     frames(pair, set, window, &options.contact, station, turns)
 }
 
 impl Equilibrium {
-    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that the
-    /// equilibrium was found on.
+    /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that
+    /// the equilibrium was found on.
     pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
-        match set.windows() {
-            Some(_) if self.displacements.iter().all(Vec::is_empty) => {
-                set.displacements_under(&self.rows, &self.solution.forces).unwrap_or_default()
-            }
-            _ => self.displacements.clone(),
+        if self.displacements.iter().all(Vec::is_empty)
+            && let Some(found) = set.displacements_under(&self.rows, &self.solution.forces)
+        {
+            return found;
         }
+        self.displacements.clone()
     }
 
-    pub(crate) fn memory(&self) -> Memory {
-        remembered(&self.rows, &self.solution)
+    pub(crate) fn warm_start(&self) -> WarmStart {
+        warm_start_of(&self.rows, &self.solution)
     }
 
     /// Transmission error that is due to load, mm.
@@ -88,31 +88,31 @@ impl Equilibrium {
 
 /// Turns the driven gear until contact balances its torque.
 ///
-/// Newton on the pose: at each step the gaps are taken anew from the smooth flanks where the gears then stand, and the
-/// contact problem with its one rotation is solved exactly; the step falls quadratically, since the levers are exact. `mesh` solves it
-/// where contact is made of slices on reduced gears.
+/// Newton's method on the pose. At each step the gaps are computed from the smooth flanks at the current pose, and the
+/// contact problem with its one rotation is solved exactly. The levers are exact, so convergence is quadratic. `mesh`
+/// solves the contact of slices on reduced gears.
 pub(crate) fn equilibrium(
-    parts: &Parts,
+    windowed: &WindowedPair,
     mesh: Option<&mut MeshContact>,
     station: Station,
     guess: Option<&Equilibrium>,
 ) -> Result<Equilibrium, StaticError> {
-    let Parts { pair, set, options, .. } = *parts;
+    let WindowedPair { pair, set, options, .. } = *windowed;
     let fail = |source: ContactError| StaticError::Contact { cycle: station.cycle, phase: station.phase, source };
     let side = options.side();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
     let unloaded = Unloaded::new(pair, &options.contact, station)?;
     let kinematic = unloaded.transmission_error();
     let mut solver = match mesh {
-        Some(mesh) => Solver::Mesh(mesh),
-        None => Solver::General {
-            line: set.line_points(&options.contact, &poses(parts, station, unloaded.rotation)),
-            memory: guess.map(Equilibrium::memory).unwrap_or_default(),
-            touched: None,
+        Some(mesh) => PoseSolver::Mesh(mesh),
+        None => PoseSolver::General {
+            line: set.line_points(&options.contact, &poses(windowed, station, unloaded.rotation)),
+            warm_start: guess.map(Equilibrium::warm_start).unwrap_or_default(),
+            last: None,
         },
     };
     let force = options.torque / base_radius;
-    // From the flanks' touch on by the deflection of the station before.
+    // Start: the position where the flanks touch, turned by the deflection of the station before.
     let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
     let mut rotation = unloaded.rotation + deflection;
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
@@ -121,20 +121,20 @@ pub(crate) fn equilibrium(
         let Station { cycle, phase } = station;
         StaticError::Overloaded { cycle, phase, torque_nm: 1e-3 * options.torque, deflection_mm, module_mm }
     };
-    // No search settles this: the numbers of the contact themselves are lost in round-off.
+    // Beyond this the contact problem is lost in round-off.
     if guessed > HOPELESS * module_mm {
         return Err(overloaded(guessed));
     }
-    // Facets stand up to their sagitta above the smooth flanks: look as far as the mesh may be off.
+    // Facets lie up to their sagitta above the smooth flanks: search as far as the mesh may be off.
     let facets = if options.contact.gap == contact::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
     let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
     let mut iterations = 0;
     let mut step_mm = f64::INFINITY;
     for _ in 0..POSE_STEPS {
-        let poses = poses(parts, station, rotation);
-        let (turn, steps) = match solver.step(parts, &poses, reach).map_err(fail)? {
-            Step::Turn(turn, steps) => (turn, steps),
-            Step::OutOfReach => {
+        let poses = poses(windowed, station, rotation);
+        let (turn, steps) = match solver.step(windowed, &poses, reach).map_err(fail)? {
+            PoseStep::Turn(turn, steps) => (turn, steps),
+            PoseStep::OutOfReach => {
                 if reach > module_mm {
                     let turned = base_radius * (rotation - unloaded.rotation).abs();
                     let deflection_mm = turned.max(guessed);
@@ -146,7 +146,7 @@ pub(crate) fn equilibrium(
                 reach = 4.0 * reach.max(1e-9);
                 continue;
             }
-            Step::TooShort(farthest) => {
+            PoseStep::ReachExceeded(farthest) => {
                 reach = 1.5 * farthest;
                 continue;
             }
@@ -161,9 +161,9 @@ pub(crate) fn equilibrium(
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
         let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
         if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
-            && let Some(touched) = solver.touched(&poses)
+            && let Some(found) = solver.take_solution(&poses)
         {
-            let Touched { rows, slices, solution, displacements } = *touched;
+            let PoseSolution { rows, slices, solution, displacements } = *found;
             return Ok(Equilibrium {
                 station,
                 poses,

@@ -56,7 +56,8 @@ pub enum StaticError {
         cycle: i64,
         /// Phase, 0 .. 1.
         phase: f64,
-        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative: farther apart. mm.
+        /// How far the gears have come nearer along the transverse line of action than flanks that touch; negative:
+        /// farther apart. mm.
         distance_mm: f64,
         /// Half a base pitch, mm.
         thickness_mm: f64,
@@ -74,6 +75,9 @@ pub enum StaticError {
     /// Tooth window.
     #[error(transparent)]
     Window(#[from] ale::AleError),
+    /// Nodal contact with corner contact switched off.
+    #[error("corner contact cannot be switched off in nodal contact: points cannot tell an edge from a flank")]
+    NodalCornerContact,
     /// A value out of its range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
@@ -115,6 +119,7 @@ impl StaticError {
             Self::PassedThrough { .. } => Some(format!("{SMALLER_STEPS}; is every torque in N m?")),
             Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
             Self::Window(e) => e.hint(),
+            Self::NodalCornerContact => Some("leave corner contact on, or take `contact.method = \"slice\"`".into()),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
         }
     }

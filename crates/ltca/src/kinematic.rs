@@ -2,7 +2,8 @@
 
 use ale::Station;
 use contact::{
-    ContactOptions, Pose, SurfacePair, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle,
+    ContactOptions, Pose, SurfacePair, Vec3, check_offsets, contact_intervals, covered, gear_pose, last_inside,
+    reference_angle,
 };
 use geometry::{Gear, GearPair, ModifiedFlank};
 
@@ -45,8 +46,8 @@ impl<'a> Unloaded<'a> {
     /// ```text
     /// min over pairs and z of min over u of g(u, z; theta) = 0,   theta <- theta - g / (dg/dtheta)
     /// ```
-    /// g is the gap between the flanks with their micro-geometry at the poses of the displaced gears. It is nearly linear
-    /// in theta. Unmodified flanks on parallel axes touch at zero by definition.
+    /// g is the gap between the flanks with their micro-geometry at the poses of the displaced gears. It is nearly
+    /// linear in theta. Unmodified flanks on parallel axes touch at zero by definition.
     ///
     /// # Errors
     /// [`StaticError::Apart`] when no flanks face each other.
@@ -70,7 +71,8 @@ impl<'a> Unloaded<'a> {
                 return Ok(unloaded);
             }
         }
-        // Two pairs that touch alternately at the last bits: the gap is far below any tolerance by then, or it is an error.
+        // Two pairs that touch alternately at the last bits: the gap is far below any tolerance by then, or it is an
+        // error.
         match unloaded.nearest(&unloaded.poses()) {
             Some(nearest) if nearest.gap.abs() <= 1e-3 * TOUCHING => Ok(unloaded),
             _ => Err(StaticError::Apart { cycle: station.cycle, phase: station.phase }),
@@ -139,16 +141,17 @@ impl<'a> Unloaded<'a> {
         let [first, _] = self.flanks(nearest.tooth);
         let [u, z] = nearest.at;
         let position = poses[0].transform_point(&first.point(u, z).into()).coords;
-        // Where they touch the normals are opposite, but at an edge there is only one: that of the flank that it touches. Both
-        // have the same lever to the order of the micro-geometry, and a step off by that much is made up by the next.
+        // Where they touch the normals are opposite, but at an edge there is only one: that of the flank that it
+        // touches. Both have the same lever to the order of the micro-geometry, and a step off by that much is made up
+        // by the next.
         let normal = -(poses[0].rotation * first.normal(u, z));
         let arm = position - poses[driven].translation.vector;
         let sign = if driven == 0 { 1.0 } else { -1.0 };
         sign * arm.cross(&normal).dot(&(poses[driven].rotation * Vec3::z()))
     }
 
-    /// Length of the contact line (mm) of the pair of a running number: the stretch on which the flanks touch to a nanometre, over
-    /// cos b_b.
+    /// Length of the contact line (mm) of the pair of a running number: the stretch on which the flanks touch to a
+    /// nanometre, over cos b_b.
     pub fn line_length(&self, running: i64) -> f64 {
         let poses = self.poses();
         let flanks = self.flanks(running - self.station.middle_pair(self.options.sense));
@@ -225,12 +228,7 @@ impl<'a> FlankGap<'a> {
         if self.at(to).is_some() {
             return to;
         }
-        let (mut inside, mut outside) = (from, to);
-        for _ in 0..GOLDEN_STEPS {
-            let middle = 0.5 * (inside + outside);
-            if self.at(middle).is_some() { inside = middle } else { outside = middle }
-        }
-        inside
+        last_inside(|z| self.at(z).is_some(), [from, to], GOLDEN_STEPS, 0.0)
     }
 
     /// Place of the least gap between `a` and `b`, ends included.
@@ -252,7 +250,8 @@ impl<'a> FlankGap<'a> {
             }
         }
         let inner = if gx <= gy { (x, gx) } else { (y, gy) };
-        // At an end of the flanks the gap may still fall: the end itself is the place then, and no golden section reaches it.
+        // At an end of the flanks the gap may still fall: the end itself is the place then, and no golden section
+        // reaches it.
         ends.into_iter().fold(inner, |best, end| if end.1 <= best.1 { end } else { best }).0
     }
 }
@@ -266,7 +265,8 @@ fn by_gap(a: &(f64, [f64; 2]), b: &(f64, [f64; 2])) -> std::cmp::Ordering {
 /// It needs no mesh. Zero for unmodified flanks on parallel axes.
 ///
 /// # Errors
-/// [`StaticError::Apart`] when no flanks face each other; [`StaticError::OutOfRange`] for offsets with which they cannot.
+/// [`StaticError::Apart`] when no flanks face each other; [`StaticError::OutOfRange`] for offsets with which they
+/// cannot.
 pub fn kinematic_transmission_error(
     pair: &GearPair,
     options: &ContactOptions,

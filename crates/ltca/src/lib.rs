@@ -1,7 +1,7 @@
 //! How does the loaded pair stand through a mesh cycle? Loaded tooth contact analysis.
 //!
-//! The driver stands at a given angle, the driven gear turns until the contact forces balance its torque. Station by station
-//! over mesh cycles, with tooth changes in between.
+//! The driver stands at a given angle, the driven gear turns until the contact forces balance its torque. Station by
+//! station over mesh cycles, with tooth changes in between.
 
 mod cycle;
 mod cycle_solver;
@@ -11,19 +11,19 @@ mod kinematic;
 mod line;
 mod loads;
 mod options;
-mod parts;
 mod pose_solver;
 mod result;
 mod root_stress;
 mod slice_count;
 mod statics;
+mod windowed_pair;
 
 pub use equilibrium::Equilibrium;
 pub use error::StaticError;
 pub use kinematic::kinematic_transmission_error;
 pub use options::StaticOptions;
-pub use parts::Parts;
-pub use result::{Certificate, PairResult, StaticHistory, StaticPosition};
+pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange};
 pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};
-pub use statics::{Change, StaticModel};
+pub use statics::StaticModel;
+pub use windowed_pair::WindowedPair;

@@ -2,11 +2,11 @@
 
 use contact::{line_station, nodal_contact_line, slice_line};
 
-use crate::{Equilibrium, parts::Parts};
+use crate::{Equilibrium, WindowedPair};
 
 /// Axial intervals over which window pair `k` touches.
-pub(crate) fn contact_line(parts: &Parts, e: &Equilibrium, k: usize) -> Vec<[f64; 2]> {
-    let Parts { pair, set, options, .. } = *parts;
+pub(crate) fn contact_line(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> Vec<[f64; 2]> {
+    let WindowedPair { pair, set, options, .. } = *windowed;
     let side = options.side();
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();

@@ -4,9 +4,10 @@ use contact::{
     ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, local_energy, slice_result, wrenches,
 };
 
-use crate::{Certificate, Equilibrium, PairResult, Parts, StaticPosition, line::contact_line};
+use crate::{Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line};
 
-/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see it.
+/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see
+/// it.
 fn action_reaction(e: &Equilibrium) -> f64 {
     let total = |body: usize| {
         let mut sum = Vec3::zeros();
@@ -22,15 +23,15 @@ fn action_reaction(e: &Equilibrium) -> f64 {
 }
 
 /// Everything the results hold of a station.
-pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> StaticPosition {
-    let Parts { pair, window, options, .. } = *parts;
+pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: u64) -> StaticPosition {
+    let WindowedPair { pair, window, options, .. } = *windowed;
     let side = options.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
     let wrench = wrenches(&e.poses, &e.rows, &e.solution.forces);
     // Torque is about the gear's own axis, which may be tilted.
     let torque = Vec3::from(wrench[driven].moment).dot(&(e.poses[driven].rotation * Vec3::z()));
-    let mut pairs: Vec<PairResult> = (0..window.count()).map(|k| pair_result(parts, e, k)).collect();
+    let mut pairs: Vec<PairResult> = (0..window.count()).map(|k| pair_result(windowed, e, k)).collect();
     // Ascending in the sense of rotation, so that a mirrored pair has the mirrored pair's table.
     pairs.sort_by_key(|p| p.pair);
     let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
@@ -75,26 +76,26 @@ pub(crate) fn position(parts: &Parts, e: &Equilibrium, tooth_changes: u64) -> St
             complementarity_residual: e.solution.residual,
             action_reaction_residual: action_reaction(e),
             iterations: e.iterations,
-            bulk_compliance_error: bulk_error(parts),
+            bulk_compliance_error: bulk_error(windowed),
             window_edge_load: if total > 0.0 { edge / total } else { 0.0 },
         },
         pairs,
     }
 }
 
-fn bulk_error(parts: &Parts) -> f64 {
-    let tables = parts.set.slices().and_then(|s| s.bulk());
+fn bulk_error(windowed: &WindowedPair) -> f64 {
+    let tables = windowed.set.slices().and_then(|s| s.bulk());
     tables.map_or(0.0, |both| both.iter().map(contact::BulkTable::error).fold(0.0, f64::max))
 }
 
-fn pair_result(parts: &Parts, e: &Equilibrium, k: usize) -> PairResult {
-    let Parts { pair, gears, set, window, options } = *parts;
+fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult {
+    let WindowedPair { pair, gears, set, window, options } = *windowed;
     let running = window.first() + k as i64;
     let [pinion_tooth, wheel_tooth] = window.teeth_of(running);
     let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
     let loaded: Vec<(&ContactRow, f64)> =
         e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
-    let line = contact_line(parts, e, k);
+    let line = contact_line(windowed, e, k);
     let along = 1.0 / pair.base_helix_angle().cos();
     let half = 0.5 * pair.face_width();
     let modulus =

@@ -1,4 +1,4 @@
-//! The contact of one pose while the driven gear looks for its place.
+//! The contact problem of one pose, solved for forces and the turn of the driven gear.
 
 use std::collections::BTreeMap;
 
@@ -7,82 +7,82 @@ use contact::{
     complementarity,
 };
 
-use crate::Parts;
+use crate::WindowedPair;
 
-/// Forces by (pair of patches counted by running number, point): what a next solve starts from.
-pub(crate) type Memory = BTreeMap<(usize, usize, usize), f64>;
+/// Forces by (patches, point), from which the next solution starts.
+pub(crate) type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
-/// The contact of one pose with the driven gear's turn as an unknown.
-pub(crate) struct Touched {
+/// Contact at one pose.
+pub(crate) struct PoseSolution {
     pub rows: Vec<ContactRow>,
     pub slices: Vec<Slice>,
     pub solution: Solution,
     pub displacements: [Vec<f64>; 2],
 }
 
-/// Who solves the contact of a pose.
-pub(crate) enum Solver<'a> {
+/// How the contact of a pose is solved.
+pub(crate) enum PoseSolver<'a> {
     /// Slices on reduced gears.
     Mesh(&'a mut MeshContact),
-    /// Points, and gears with all their degrees of freedom: what was touched last is kept.
-    General { line: LinePoints, memory: Memory, touched: Option<Box<Touched>> },
+    /// Points, and gears with all their degrees of freedom; the last solution is kept.
+    General { line: LinePoints, warm_start: WarmStart, last: Option<Box<PoseSolution>> },
 }
 
-/// What a pose came to.
-pub(crate) enum Step {
+/// Result of one pose.
+pub(crate) enum PoseStep {
     /// Turn of the driven gear, rad, and iterations.
     Turn(f64, usize),
     /// No row that could carry the torque is within reach.
     OutOfReach,
-    /// Rows beyond the reach could close: the farthest way of a row, mm.
-    TooShort(f64),
+    /// Rows beyond the search distance could close: the farthest approach of a row, mm.
+    ReachExceeded(f64),
 }
 
-impl Solver<'_> {
-    pub fn step(&mut self, parts: &Parts, poses: &[Pose; 2], reach: f64) -> Result<Step, ContactError> {
-        let Parts { pair, options, .. } = *parts;
+impl PoseSolver<'_> {
+    pub fn step(&mut self, windowed: &WindowedPair, poses: &[Pose; 2], reach: f64) -> Result<PoseStep, ContactError> {
+        let WindowedPair { pair, options, .. } = *windowed;
         let driven = options.driven();
         let moment = -options.side().sign() * options.torque;
         let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
         let short = |rows: &[ContactRow], turn: f64| {
-            // A row that the step can close must have been among the rows.
+            // Every row that the step can close must be among the rows.
             let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));
-            (1.05 * farthest > reach).then_some(Step::TooShort(farthest))
+            (1.05 * farthest > reach).then_some(PoseStep::ReachExceeded(farthest))
         };
         match self {
             Self::Mesh(mesh) => {
                 mesh.prepare(poses, Some(reach));
                 if !carries(mesh.rows()) {
-                    return Ok(Step::OutOfReach);
+                    return Ok(PoseStep::OutOfReach);
                 }
                 mesh.solve(Balance::Moment(moment), driven)?;
                 let (turn, iterations) = (mesh.solver().rotation(), mesh.solver().iterations());
-                Ok(short(mesh.rows(), turn).unwrap_or(Step::Turn(turn, iterations)))
+                Ok(short(mesh.rows(), turn).unwrap_or(PoseStep::Turn(turn, iterations)))
             }
-            Self::General { line, memory, touched } => {
-                let (rows, slices) = candidates(parts, line, poses, reach);
+            Self::General { line, warm_start, last } => {
+                let (rows, slices) = candidates(windowed, line, poses, reach);
                 let rows: Vec<ContactRow> = match Friction::new(pair, &options.contact) {
                     Some(friction) => rows.into_iter().map(|row| friction.on(poses, row)).collect(),
                     None => rows,
                 };
                 if !carries(&rows) {
-                    return Ok(Step::OutOfReach);
+                    return Ok(PoseStep::OutOfReach);
                 }
-                let (solution, displacements) = general(parts, &rows, &slices, moment, memory)?;
+                let (solution, displacements) = general(windowed, &rows, &slices, moment, warm_start)?;
                 if let Some(short) = short(&rows, solution.rotation) {
                     return Ok(short);
                 }
-                *memory = remembered(&rows, &solution);
-                let step = Step::Turn(solution.rotation, solution.iterations);
-                *touched = Some(Box::new(Touched { rows, slices, solution, displacements }));
+                *warm_start = warm_start_of(&rows, &solution);
+                let step = PoseStep::Turn(solution.rotation, solution.iterations);
+                *last = Some(Box::new(PoseSolution { rows, slices, solution, displacements }));
                 Ok(step)
             }
         }
     }
 
-    pub fn touched(&mut self, poses: &[Pose; 2]) -> Option<Box<Touched>> {
+    pub fn take_solution(&mut self, poses: &[Pose; 2]) -> Option<Box<PoseSolution>> {
         match self {
-            Self::General { touched, .. } => touched.take(),
+            Self::General { last, .. } => last.take(),
             Self::Mesh(mesh) => {
                 let rows = mesh.supported_rows(poses);
                 let solver = mesh.solver();
@@ -96,15 +96,20 @@ impl Solver<'_> {
                     residual: solver.residual(),
                 };
                 let slices = mesh.slices().to_vec();
-                Some(Box::new(Touched { rows, slices, solution, displacements: Default::default() }))
+                Some(Box::new(PoseSolution { rows, slices, solution, displacements: Default::default() }))
             }
         }
     }
 }
 
 /// Rows within `reach` (mm), and their slices.
-fn candidates(parts: &Parts, line: &LinePoints, poses: &[Pose; 2], reach: f64) -> (Vec<ContactRow>, Vec<Slice>) {
-    let Parts { set, options, .. } = *parts;
+fn candidates(
+    windowed: &WindowedPair,
+    line: &LinePoints,
+    poses: &[Pose; 2],
+    reach: f64,
+) -> (Vec<ContactRow>, Vec<Slice>) {
+    let WindowedPair { set, options, .. } = *windowed;
     if let Some(slices) = set.slices() {
         return slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), poses, reach);
     }
@@ -115,16 +120,16 @@ fn candidates(parts: &Parts, line: &LinePoints, poses: &[Pose; 2], reach: f64) -
 
 /// Solution on any elastic model, and the displacements of its boundary coordinates.
 fn general(
-    parts: &Parts,
+    windowed: &WindowedPair,
     rows: &[ContactRow],
     slices: &[Slice],
     moment: f64,
-    memory: &Memory,
+    warm_start: &WarmStart,
 ) -> Result<(Solution, [Vec<f64>; 2]), ContactError> {
-    let Parts { gears, set, options, .. } = *parts;
+    let WindowedPair { gears, set, options, .. } = *windowed;
     let driven = options.driven();
     let start: Vec<f64> =
-        rows.iter().map(|r| memory.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
+        rows.iter().map(|r| warm_start.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
     let mut bodies = set.bodies(gears, rows)?;
     let solution = if set.slices().is_some() {
         let local = |i: usize, force: f64| {
@@ -139,7 +144,7 @@ fn general(
     Ok((solution, displacements))
 }
 
-pub(crate) fn remembered(rows: &[ContactRow], solution: &Solution) -> Memory {
+pub(crate) fn warm_start_of(rows: &[ContactRow], solution: &Solution) -> WarmStart {
     let active = solution.active.iter();
     active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect()
 }

@@ -1,5 +1,6 @@
 //! What a quasi-static analysis hands on, position by position.
 
+use ale::ToothWindow;
 use contact::{SliceResult, Wrench};
 use serde::Serialize;
 
@@ -37,7 +38,8 @@ pub struct Certificate {
     pub action_reaction_residual: f64,
     /// Newton (active-set) iterations.
     pub iterations: usize,
-    /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0 where it is exact.
+    /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0
+    /// where it is exact.
     pub bulk_compliance_error: f64,
     /// Force on the teeth at the window's ends relative to the total: how close the window is to being too small.
     pub window_edge_load: f64,
@@ -52,8 +54,9 @@ pub struct StaticPosition {
     pub mesh_phase: f64,
     /// Transmission error, mm on the transverse line of action; positive when the driven gear lags.
     pub transmission_error: f64,
-    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the transmission
-    /// error does, from where the unmodified flanks would touch with the axes parallel through the gears' centres.
+    /// Transmission error without load, mm: that of the micro-geometry and the misalignment alone. It counts, as the
+    /// transmission error does, from where the unmodified flanks would touch with the axes parallel through the gears'
+    /// centres.
     pub kinematic_transmission_error: f64,
     /// F_bt / (te - kinematic te), N/mm; NaN without load.
     pub secant_stiffness: f64,
@@ -69,8 +72,8 @@ pub struct StaticPosition {
     pub wrench: [Wrench; 2],
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty when not
-    /// asked for.
+    /// Stress in the root fillets of the window's teeth on pinion and wheel, tooth by tooth counter-clockwise; empty
+    /// when not asked for.
     pub root_stress: [Vec<FilletStress>; 2],
     /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
     pub friction_work: f64,
@@ -89,4 +92,15 @@ pub struct StaticHistory {
     pub positions: Vec<StaticPosition>,
     /// What the user should know: neglected, doubtful, adjusted.
     pub warnings: Vec<String>,
+}
+
+/// A tooth change as it happened: the same station solved with the window before and the one after.
+#[derive(Debug, Clone)]
+pub struct ToothChange {
+    /// Result with the old window.
+    pub before: StaticPosition,
+    /// Result with the new window.
+    pub after: StaticPosition,
+    /// The new window.
+    pub window: ToothWindow,
 }

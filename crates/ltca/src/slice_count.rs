@@ -1,7 +1,8 @@
-//! How many slices a pair asks for. Theory (21c).
+//! Number of slices that a pair needs under its load, and the errors of the spring model with that number.
 //!
-//! The count is chosen on a model of the pair that costs milliseconds: a row of equal springs along every contact line, over the exact gaps of the flanks at some phases of a mesh cycle. Cut into
-//! slices it is wrong in the way that the contact is: where load ends within a slice, at tip edges and end faces, beside a crowning, a relief or a misalignment.
+//! The count is chosen on a cheap model: a row of equal springs along every contact line, over the exact gaps of the
+//! flanks at some phases of a mesh cycle. When it is cut into slices, the model shows the same errors as the contact:
+//! where load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
 
 use ale::Station;
 use contact::{FlankPatch, Pose, RigidFlanks, SliceHint, Surface, check_offsets, gear_pose, reference_angle};
@@ -17,9 +18,10 @@ const PHASES: usize = 8;
 const PLACES: [usize; 3] = [64, 768, 2048];
 /// How far beyond the ends of the path of contact gaps are taken, in base pitches: loaded tips meet early.
 const BEYOND: f64 = 0.15;
-/// What the springs may be off by: mean and peak to peak of their approach relative to what it is cut into infinitely many, the latter relative to itself or,
-/// where that is next to nothing, to a share of the mean; largest line load. Measured on pairs of 5, 8, 15 and 40 modules, crowned and misaligned, elastic gears are off by less
-/// (`tests/tests/micro_geometry/width_and_crowning.rs`): teeth share the load with their neighbourhood, springs stand alone.
+/// Largest errors of the spring model, relative to infinitely many slices: mean approach; its peak to peak, relative to
+/// itself or to a share of the mean where it is small; largest line load. Elastic gears have smaller errors, because
+/// teeth share load with their neighbourhood and springs do not: measured on pairs of 5, 8, 15 and 40 modules, crowned
+/// and misaligned (`tests/tests/micro_geometry/width_and_crowning.rs`).
 const MEAN: f64 = 0.0125;
 const SWING: f64 = 0.025;
 const LEAST_SWING: f64 = 0.01;
@@ -34,7 +36,7 @@ pub struct SliceCount {
     pub errors: SpringErrors,
 }
 
-/// What a row of springs loses by being cut into slices, relative.
+/// Errors of a row of springs that is cut into slices, relative.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SpringErrors {
     /// Of the mean approach.
@@ -52,14 +54,15 @@ impl SpringErrors {
     }
 }
 
-/// The least of the counts tried with which a row of springs over the pair's gaps is good to 1.25 % in the mean approach, 2.5 % in its peak to peak and 4 % in the largest line load; the largest
-/// one where none is.
+/// The least of the counts tried with which a row of springs over the pair's gaps is good to 1.25 % in the mean
+/// approach, 2.5 % in its peak to peak and 4 % in the largest line load; the largest one where none is.
 ///
 /// ```text
 /// sum over the contact lines of k h max(0, delta - g_i) = F_bn cos b_b,   h = b / n
 /// ```
-/// k is a typical mesh stiffness, g the gap of the flanks, with micro-geometry and misalignment, at the position of zero transmission error; both sides of a cut are
-/// solved exactly at eight phases. Without torque, or where the flanks face each other nowhere, the first count.
+/// k is a typical mesh stiffness, g the gap of the flanks, with micro-geometry and misalignment, at the position of
+/// zero transmission error; both sides of a cut are solved exactly at eight phases. Without torque, or where the flanks
+/// face each other nowhere, the first count.
 pub fn slices_needed(pair: &GearPair, options: &StaticOptions) -> SliceCount {
     let springs = Springs::new(pair, options);
     let of = |count: usize| SliceCount { count, errors: springs.errors(count) };
@@ -78,7 +81,8 @@ struct Springs {
     load: f64,
 }
 
-/// Gaps along the face of one pair at evenly spaced places in the middles of as many strips, mm; infinite where the flanks do not face each other.
+/// Gaps along the face of one pair at evenly spaced places in the middles of as many strips, mm; infinite where the
+/// flanks do not face each other.
 type Line = Vec<f64>;
 
 impl Springs {
@@ -94,7 +98,8 @@ impl Springs {
         Self { phases, load }
     }
 
-    /// The worst of three counts next to each other: an error that comes and goes with the place of the stations is not missed where it happens to be zero.
+    /// The worst of three counts next to each other: an error that comes and goes with the place of the stations is not
+    /// missed where it happens to be zero.
     fn errors(&self, count: usize) -> SpringErrors {
         let of = [count - count / 8, count, count + count / 8].map(|n| self.errors_of(n.max(1)));
         let worst = |value: fn(&SpringErrors) -> f64| of.iter().map(value).fold(0.0, f64::max);
@@ -196,7 +201,8 @@ fn lines(pair: &GearPair, options: &StaticOptions, station: Station) -> Vec<Line
     teeth.map(of_tooth).filter(|line| line.iter().any(|g| g.is_finite())).collect()
 }
 
-/// Gaps of the pair `tooth` teeth from the middle one, `running` its number: those of the nominal flanks, as they stand, and the depths that are ground off where they are nearest.
+/// Gaps of the pair `tooth` teeth from the middle one, `running` its number: those of the nominal flanks, as they
+/// stand, and the depths that are ground off where they are nearest.
 fn line(
     pair: &GearPair,
     options: &StaticOptions,

@@ -1,31 +1,22 @@
 //! Station by station through mesh cycles, with tooth changes.
 
+use std::{ops::ControlFlow, sync::Arc};
+
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, Method, check_offsets};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
-    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, cycle,
-    cycle_solver::{CycleSolver, Fixed},
+    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, ToothChange, cycle,
+    cycle_solver::{CycleInputs, CycleSolver},
 };
-
-/// A tooth change as it happened: the same station solved with the window before and the one after.
-#[derive(Debug, Clone)]
-pub struct Change {
-    /// Result with the old window.
-    pub before: StaticPosition,
-    /// Result with the new window.
-    pub after: StaticPosition,
-    /// The new window.
-    pub window: ToothWindow,
-}
 
 /// A pair of elastic gears under torque.
 #[derive(Debug)]
 pub struct StaticModel {
     pair: GearPair,
-    gears: [ElasticGear; 2],
+    gears: Arc<[ElasticGear; 2]>,
     options: StaticOptions,
     root: Option<RootStress>,
     solver: CycleSolver,
@@ -40,11 +31,16 @@ impl StaticModel {
         Ok(first_window(pair, options)?.window().first_teeth())
     }
 
-    /// A model at the start of cycle 0.
+    /// A model at the start of cycle 0. Models may share their gears, and be solved side by side.
     ///
     /// # Errors
     /// [`StaticError`] when a value has no meaning, or meshes and geometry do not fit.
-    pub fn new(pair: GearPair, gears: [ElasticGear; 2], options: StaticOptions) -> Result<Self, StaticError> {
+    pub fn new(
+        pair: GearPair,
+        gears: impl Into<Arc<[ElasticGear; 2]>>,
+        options: StaticOptions,
+    ) -> Result<Self, StaticError> {
+        let gears = gears.into();
         let fine = options.torque.is_finite() && options.torque >= 0.0;
         if !fine {
             let value = options.torque;
@@ -66,21 +62,20 @@ impl StaticModel {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });
         }
         if !options.contact.corner_contact && options.contact.method == Method::Nodal {
-            let expected = "1 (on): points cannot tell an edge from a flank";
-            return Err(StaticError::OutOfRange { name: "corner contact", value: 0.0, expected });
+            return Err(StaticError::NodalCornerContact);
         }
         check_offsets(&pair, &options.contact)?;
         let window = first_window(&pair, &options)?;
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact)?;
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
-        let fixed = Fixed { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
-        let solver = CycleSolver::new(&fixed, window, set)?;
+        let inputs = CycleInputs { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
+        let solver = CycleSolver::new(&inputs, window, set)?;
         Ok(Self { pair, gears, options, root, solver })
     }
 
-    fn split(&mut self) -> (Fixed<'_>, &mut CycleSolver) {
+    fn split(&mut self) -> (CycleInputs<'_>, &mut CycleSolver) {
         let Self { pair, gears, options, root, solver } = self;
-        (Fixed { pair, gears, options, root: root.as_ref() }, solver)
+        (CycleInputs { pair, gears, options, root: root.as_ref() }, solver)
     }
 
     /// The pair.
@@ -94,7 +89,7 @@ impl StaticModel {
     }
 
     /// The gears back, reduced as they are: for a model of the same meshes with another torque or micro-geometry.
-    pub fn into_gears(self) -> [ElasticGear; 2] {
+    pub fn into_gears(self) -> Arc<[ElasticGear; 2]> {
         self.gears
     }
 
@@ -123,8 +118,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError`], among them [`ale::AleError::Starved`] when a pair outside the window would touch.
     pub fn solve(&mut self, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.solve(&fixed, station)
+        let (inputs, solver) = self.split();
+        solver.solve(&inputs, station)
     }
 
     /// Moves the window one tooth on at the station just solved, and solves it again.
@@ -132,8 +127,8 @@ impl StaticModel {
     /// # Errors
     /// [`StaticError::Window`] when the outgoing tooth carries load: it is never dropped.
     pub fn change(&mut self, before: &StaticPosition, station: Station) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.change(&fixed, before, station)
+        let (inputs, solver) = self.split();
+        solver.change(&inputs, before, station)
     }
 
     /// Solves a station, with the tooth changes that are due: as soon as another window is nearer to the middle and the
@@ -141,16 +136,16 @@ impl StaticModel {
     ///
     /// # Errors
     /// [`StaticError`].
-    pub fn advance(&mut self, station: Station, seen: impl FnMut(&Change)) -> Result<StaticPosition, StaticError> {
-        let (fixed, solver) = self.split();
-        solver.advance(&fixed, station, seen)
+    pub fn advance(&mut self, station: Station, seen: impl FnMut(&ToothChange)) -> Result<StaticPosition, StaticError> {
+        let (inputs, solver) = self.split();
+        solver.advance(&inputs, station, seen)
     }
 
-    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told of each result in order (for progress), the model standing
-    /// where that result was found.
+    /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told
+    /// of each result in order (for progress), the model standing where that result was found.
     ///
-    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are the same for any number of
-    /// threads.
+    /// Slices on cyclic gears are solved in groups of stations side by side on all cores (`cycle.rs`); the results are
+    /// the same for any number of threads.
     ///
     /// # Errors
     /// [`StaticError`] of the first station that cannot be solved.
@@ -160,25 +155,44 @@ impl StaticModel {
         cycles: usize,
         mut seen: impl FnMut(usize, &StaticPosition, &Self),
     ) -> Result<StaticHistory, StaticError> {
+        self.run_while(positions, cycles, |index, position, model| {
+            seen(index, position, model);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// As [`StaticModel::run`]; `seen` may end the run, and the history has what was solved until then.
+    ///
+    /// # Errors
+    /// [`StaticError`] of the first station that cannot be solved.
+    pub fn run_while(
+        &mut self,
+        positions: usize,
+        cycles: usize,
+        mut seen: impl FnMut(usize, &StaticPosition, &Self) -> ControlFlow<()>,
+    ) -> Result<StaticHistory, StaticError> {
         let stations: Vec<Station> = (0..positions * cycles)
             .map(|i| Station { cycle: (i / positions) as i64, phase: (i % positions) as f64 / positions as f64 })
             .collect();
         let start = first_window(&self.pair, &self.options)?;
-        let (fixed, solver) = self.split();
-        solver.begin(&fixed, start)?;
+        let (inputs, solver) = self.split();
+        solver.begin(&inputs, start)?;
         let mut history = StaticHistory::default();
         let mut left = &stations[..];
         while !left.is_empty() {
-            let (fixed, solver) = self.split();
-            let (wave, rest) = left.split_at(cycle::wave(&fixed, solver).min(left.len()));
+            let (inputs, solver) = self.split();
+            let (wave, rest) = left.split_at(cycle::wave(&inputs, solver).min(left.len()));
             left = rest;
-            for solved in cycle::solve(&fixed, solver, wave) {
+            for solved in cycle::solve(&inputs, solver, wave) {
                 let (position, state) = solved?;
-                let (fixed, solver) = self.split();
-                solver.resume(&fixed, state)?;
+                let (inputs, solver) = self.split();
+                solver.resume(&inputs, state)?;
                 let i = history.positions.len();
-                seen(i, &position, self);
+                let goes_on = seen(i, &position, self);
                 history.positions.push(position);
+                if goes_on.is_break() {
+                    return Ok(history);
+                }
             }
         }
         Ok(history)

@@ -122,6 +122,9 @@ pub enum LumpedError {
     /// Contact or displacements under steady loads were not found.
     #[error("no static equilibrium: something is free to move, or contact does not settle")]
     NoEquilibrium,
+    /// A driver whose torque balances the load needs elastic teeth.
+    #[error("rigid gears are driven by a speed or by a torque of its own")]
+    BalancedDrive,
     /// The integrator stopped.
     #[error(transparent)]
     Motion(#[from] integrate::MotionError<std::convert::Infallible>),
@@ -153,6 +156,7 @@ impl LumpedError {
             Self::NoEquilibrium => {
                 "is every shaft held in x, y, z and against tilting, and is every stiffness in its unit?".into()
             }
+            Self::BalancedDrive => "give the driver a speed, or a torque of its own".into(),
             Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),
         })

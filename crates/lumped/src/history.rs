@@ -73,10 +73,15 @@ impl RunPlan {
     /// The same in time, for a mesh cycle that takes `period` (s).
     ///
     /// # Errors
-    /// [`MotionError::Options`] for a plan without rows.
+    /// [`MotionError::NotPositive`] for a plan without rows.
     fn recording(&self, period: f64) -> Result<Recording, MotionError<Infallible>> {
-        if self.rows_per_cycle == 0 || self.steps_per_row == 0 || self.cycles == 0 {
-            return Err(MotionError::Options("a run takes at least one cycle, row and step"));
+        let counts = [
+            ("rows in a mesh cycle", self.rows_per_cycle as f64),
+            ("steps in a row", self.steps_per_row as f64),
+            ("mesh cycles of a run", self.cycles as f64),
+        ];
+        if let Some((name, value)) = counts.into_iter().find(|(_, count)| *count == 0.0) {
+            return Err(MotionError::NotPositive { name, value });
         }
         let steps = self.rows_per_cycle as f64 * self.steps_per_row as f64;
         Ok(Recording {

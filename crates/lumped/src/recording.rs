@@ -40,7 +40,7 @@ pub(crate) fn record<M: Mechanism<Error = Infallible>, R>(
     mut row: impl FnMut(&mut M, &State) -> R,
 ) -> Result<Recorded<R>, MotionError<Infallible>> {
     if plan.rows == 0 {
-        return Err(MotionError::Options("a run takes at least one row"));
+        return Err(MotionError::NotPositive { name: "rows of a run", value: 0.0 });
     }
     let mut integrator = Integrator::new(plan.scheme, plan.control, scale);
     let first = state.time + plan.settle;

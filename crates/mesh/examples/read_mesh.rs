@@ -18,7 +18,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let info = MeshInfo::new(&mesh);
     println!("{}: {} nodes, volume {:.1} mm^3", path.display(), info.nodes, info.volume);
 
-    // Everything that would make a result wrong, worst first: inverted elements, loose nodes, metres taken for millimetres.
+    // Everything that would make a result wrong, worst first: inverted elements, loose nodes, metres taken for
+    // millimetres.
     let names = GroupNames::default();
     let report = MeshReport::of_gear(&mesh, &names, Some(teeth));
     for finding in &report.findings {

@@ -45,17 +45,34 @@ pub struct FlankDeviation {
     pub coverage: f64,
 }
 
+impl GearMesh {
+    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
+    /// ([`FlankFit`] with the default tolerance, also returned).
+    ///
+    /// # Errors
+    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
+    pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
+        names.check()?;
+        if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
+            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
+        }
+        let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
+        let fit = FlankFit::new(mesh, gear, names, tolerance)?;
+        Ok((fit.gear.clone(), Some(fit)))
+    }
+}
+
 impl FlankFit {
     /// Finds the flanks of `gear` in a mesh.
     ///
-    /// A boundary face belongs to the flank of tooth k when all its nodes lie within `tolerance` (mm) of that
-    /// helicoid, between form and tip circle, and its normal agrees within 30 deg. The bore is the group
-    /// of that name, or the boundary faces on the bore cylinder; cuts are known by their groups alone. A mesh
-    /// turned about z is found out, by the angle at which most nodes lie on left and on right flanks alike, and turned back.
+    /// A boundary face belongs to the flank of tooth k when all its nodes lie within `tolerance` (mm) of that helicoid,
+    /// between form and tip circle, and its normal agrees within 30 deg. The bore is the group of that name, or the
+    /// boundary faces on the bore cylinder; cuts are known by their groups alone. A mesh turned about z is found out,
+    /// by the angle at which most nodes lie on left and on right flanks alike, and turned back.
     ///
     /// # Errors
-    /// [`MeshError::NoFlanks`], [`MeshError::ToothThickness`], [`MeshError::MidFace`], [`MeshError::NoBore`] when the mesh
-    /// is not of this gear; errors of the named groups as [`GearMesh::from_groups`].
+    /// [`MeshError::NoFlanks`], [`MeshError::ToothThickness`], [`MeshError::MidFace`], [`MeshError::NoBore`] when the
+    /// mesh is not of this gear; errors of the named groups as [`GearMesh::from_groups`].
     pub fn new(mut mesh: Mesh, gear: &Gear, names: &GroupNames, tolerance: f64) -> Result<Self, MeshError> {
         check_mid_face(&mesh, tolerance)?;
         let table = FaceTable::new(&mesh);

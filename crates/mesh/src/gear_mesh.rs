@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use geometry::{Gear, Side};
+use geometry::Side;
 
-use crate::{DEFAULT_TOLERANCE_MODULES, Face, FaceTable, FlankFit, GroupNames, Mesh, MeshError, SurfaceGroup};
+use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
 
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,21 +47,6 @@ impl GearMesh {
         }
         let cuts = Self::find_cuts(&mesh, names, &table)?;
         Ok(Self::from_parts(mesh, teeth, bore, flanks, cuts))
-    }
-
-    /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
-    /// ([`FlankFit`] with the default tolerance, also returned).
-    ///
-    /// # Errors
-    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
-    pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
-        names.check()?;
-        if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
-            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
-        }
-        let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
-        let fit = FlankFit::new(mesh, gear, names, tolerance)?;
-        Ok((fit.gear.clone(), Some(fit)))
     }
 
     /// The group of that name, normals outwards.

@@ -20,7 +20,7 @@ mod sector;
 pub mod structured;
 
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
-pub use element::{ElementKind, FaceKind};
+pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;
 pub use faces::{FaceOwner, FaceTable};
 pub use flank_fit::{DEFAULT_TOLERANCE_MODULES, FlankDeviation, FlankFit};

@@ -31,7 +31,8 @@ impl Numbered {
     }
 }
 
-/// Names with those that differ in a number only as one pattern with its range, in the order in which each appears first.
+/// Names with those that differ in a number only as one pattern with its range, in the order in which each appears
+/// first.
 pub(crate) fn folded(names: &[String]) -> Vec<String> {
     let parsed: Vec<Option<Numbered>> = names.iter().map(|n| Numbered::of(n)).collect();
     let numbers = |pattern: &str| -> Vec<i64> {

@@ -1,7 +1,7 @@
 //! Which nodes lie on the surface of the root fillets?
 //!
-//! No mesh names its fillets, so they are found by where they are: on the free surface between the teeth, from the
-//! root circle up to a circle below the root form circle. That works on any mesh, structured or not, whole gear or sector.
+//! No mesh names its fillets, so they are found by where they are: on the free surface between the teeth, from the root
+//! circle up to a circle below the root form circle. That works on any mesh, structured or not, whole gear or sector.
 
 use std::collections::BTreeMap;
 
@@ -16,8 +16,9 @@ const ABOVE_MODULES: f64 = 1e-4;
 /// The fillet is followed up to where its tangent makes this angle with the tooth's centre line, rad (20 deg).
 ///
 /// Bending stress is greatest near 30 deg (the critical section of ISO 6336-3, clause 6.2). Farther up, next to the
-/// flank, a mesh coarser than the contact band smears the stress of contact over the nodes: with a tooth just coming into contact
-/// at its corner that is more than the bending of any tooth, and it grows with every refinement of the fillet.
+/// flank, a mesh coarser than the contact band smears the stress of contact over the nodes: with a tooth just coming
+/// into contact at its corner that is more than the bending of any tooth, and it grows with every refinement of the
+/// fillet.
 const STEEPEST_TANGENT: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// From this |n_z| on a face is an end face; the teeth of a 60 deg helix have 0.87.
 const END_FACE_NORMAL: f64 = 0.95;
@@ -26,8 +27,9 @@ const MIDDLE_PITCHES: f64 = 1e-6;
 
 /// Surface nodes of the root fillets, by tooth and side, and the free faces that they are on.
 ///
-/// The fillet on the left of tooth k reaches from where its tangent makes 20 deg with the tooth's centre line (or from the root
-/// form circle, if the fillet ends before) to the middle of the tooth space between k and k + 1; half of the root land belongs to it. A node on that middle belongs to both fillets of the space.
+/// The fillet on the left of tooth k reaches from where its tangent makes 20 deg with the tooth's centre line (or from
+/// the root form circle, if the fillet ends before) to the middle of the tooth space between k and k + 1; half of the
+/// root land belongs to it. A node on that middle belongs to both fillets of the space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootFillets {
     nodes: BTreeMap<(u32, Side), Vec<u32>>,
@@ -37,9 +39,9 @@ pub struct RootFillets {
 impl RootFillets {
     /// Finds the fillets of all teeth that the mesh has.
     ///
-    /// A node counts when it lies on a boundary face that is neither bore nor cut nor end face (|n_z| above 0.95), at a radius
-    /// from the root circle of `gear` to the upper end of the fillet, and on no flank, where contact forces act. The angle against the tooth's twisted centre
-    /// line says whose fillet it is on.
+    /// A node counts when it lies on a boundary face that is neither bore nor cut nor end face (|n_z| above 0.95), at a
+    /// radius from the root circle of `gear` to the upper end of the fillet, and on no flank, where contact forces act.
+    /// The angle against the tooth's twisted centre line says whose fillet it is on.
     pub fn new(mesh: &GearMesh, gear: &Gear) -> Self {
         let body = mesh.mesh();
         let module = gear.data().normal_module;
@@ -106,8 +108,9 @@ impl RootFillets {
         Self { nodes, faces }
     }
 
-    /// Every free face with a node of a fillet on it, those that go on above the upper end included: those of right fillets, then those of
-    /// left ones, which meet in the middle of a tooth space. A sector may be cut there: what goes by surfaces finds the same on a whole mesh.
+    /// Every free face with a node of a fillet on it, those that go on above the upper end included: those of right
+    /// fillets, then those of left ones, which meet in the middle of a tooth space. A sector may be cut there: what
+    /// goes by surfaces finds the same on a whole mesh.
     pub fn faces(&self) -> &[Vec<Face>; 2] {
         &self.faces
     }

@@ -1,4 +1,5 @@
-//! A whole gear, condensed from one tooth: how many unknowns are left, how stiff are the flanks, how slow is its slowest vibration?
+//! A whole gear, condensed from one tooth: how many unknowns are left, how stiff are the flanks, how slow is its
+//! slowest vibration?
 //!
 //! `cargo run -p reduction --example reduce_gear`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -70,8 +70,8 @@ impl GeneralGear {
         }
     }
 
-    /// Forces on a window's coordinates that do the work of given ones, n x k: T' force for a window that is last, else P' K^-1 force,
-    /// which is their displacement.
+    /// Forces on a window's coordinates that do the work of given ones, n x k: T' force for a window that is last, else
+    /// P' K^-1 force, which is their displacement.
     fn adjoint(&self, seen: Seen, force: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
         match seen {
             Seen::Last => Ok(self.factor.condense(force.as_ref())?),
@@ -93,11 +93,13 @@ impl GeneralGear {
         (nodes.iter().flat_map(|&p| 3 * p..3 * p + 3).collect(), loads)
     }
 
-    /// Stress at some nodes, 6 rows a node: for unit coordinates (MPa/mm) of a window that is last, else for unit forces (MPa/N).
+    /// Stress at some nodes, 6 rows a node: for unit coordinates (MPa/mm) of a window that is last, else for unit
+    /// forces (MPa/N).
     ///
-    /// Made from whichever has fewer columns: the rows of D B, sparse vectors that go through the forward substitution once
-    /// (the adjoint way, `S' = T' (D B)'`), or the columns of T, of which back substitution finds what D B asks for. Either way the
-    /// branches of the factor that neither window nor nodes are in are passed over, so put nodes in the order of their place.
+    /// Made from whichever has fewer columns: the rows of D B, sparse vectors that go through the forward substitution
+    /// once (the adjoint way, `S' = T' (D B)'`), or the columns of T, of which back substitution finds what D B asks
+    /// for. Either way the branches of the factor that neither window nor nodes are in are passed over, so put nodes in
+    /// the order of their place.
     pub(crate) fn stress(
         &self,
         seen: Seen,
@@ -132,8 +134,8 @@ impl GeneralGear {
 
     /// M^ = T' M T (t) of a window with `stiffness` K^.
     ///
-    /// Column block by column block: T c by back-substitution, M times that, T' by forward substitution. Phi_IC is never
-    /// held as a whole.
+    /// Column block by column block: T c by back-substitution, M times that, T' by forward substitution. Phi_IC is
+    /// never held as a whole.
     pub(crate) fn mass(
         &self,
         seen: Seen,

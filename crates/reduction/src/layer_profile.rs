@@ -11,18 +11,21 @@ use crate::{
 
 /// Constant c of a half tooth under a line load, along the profile.
 ///
-/// When everything but the half between the loaded flank and the tooth's centre surface is clamped (as in [`crate::HalfTooth`]), a Hertzian line
-/// load q with half-width a dents the flank by
+/// When everything but the half between the loaded flank and the tooth's centre surface is clamped (as in
+/// [`crate::LocalCompliance`]), a Hertzian line load q with half-width a dents the flank by
 ///
 /// ```text
 /// delta = K q [ln(2 t / a) + 1/2 + c(u) + eta ln(t / d)],   K = 2 (1 - nu^2) / (pi E)
 /// t = (r sin(psi) + o) cos(b_b),   d = r_b (u_a^2 - u^2) / 2
 /// ```
-/// as long as a is small against t and d. The last term is the wedge's at the tip (eta of its angle, `contact::wedge_softening`): it is split off because it has no limit at the edge, while c is smooth up to it.
-/// A bonded layer of even depth and no ends would have one constant everywhere (`contact::layer_constant`); a tooth's differs from it by 0.1 to 0.8, most at the foot.
+/// as long as a is small against t and d. The last term is the wedge's at the tip (eta of its angle,
+/// `contact::wedge_softening`): it is split off because it has no limit at the edge, while c is smooth up to it. A
+/// bonded layer of even depth and no ends would have one constant everywhere (`contact::layer_constant`); a tooth's
+/// differs from it by 0.1 to 0.8, most at the foot.
 ///
-/// Found by plane strain on the section normal to the contact line (some hundred quadratic elements, a few milliseconds): the half-plane's answer to
-/// a point force is subtracted, so that what the elements must know is smooth, and c does not depend on them (0.01).
+/// Found by plane strain on the section normal to the contact line (some hundred quadratic elements, a few
+/// milliseconds): the half-plane's answer to a point force is subtracted, so that what the elements must know is
+/// smooth, and c does not depend on them (0.01).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerProfile {
     /// Arc lengths from the tip edge, mm, ascending from 0.
@@ -57,7 +60,8 @@ impl LayerProfile {
     /// [`ReductionError::Fem`].
     ///
     /// # Example
-    /// The layer without ends has -0.527; the middle of a real flank is 0.1 softer, the foot, next to where it is clamped, stiffer.
+    /// The layer without ends has -0.527; the middle of a real flank is 0.1 softer, the foot, next to where it is
+    /// clamped, stiffer.
     /// ```
     /// let gear = geometry::Gear::new(geometry::GearData::default())?;
     /// let profile = reduction::LayerProfile::new(&gear, 0.3, 0.0)?;
@@ -158,9 +162,11 @@ struct Station {
     depth: f64,
 }
 
-/// The half tooth's section as a lattice: rows at constant radius from tip to foot, columns from the flank to the clamped surface.
+/// The half tooth's section as a lattice: rows at constant radius from tip to foot, columns from the flank to the
+/// clamped surface.
 ///
-/// In the section normal to the contact line the profile keeps its length and all lengths across the tooth shrink by cos(b_b).
+/// In the section normal to the contact line the profile keeps its length and all lengths across the tooth shrink by
+/// cos(b_b).
 struct Section {
     /// Radius (mm) and half tooth angle (rad) of every row, half elements.
     rows: Vec<[f64; 2]>,

@@ -6,17 +6,17 @@
 //! ```text
 //! Phi_IC = -K_II^-1 K_IB,  T = [I; Phi_IC],  K^ = T' K T,  M^ = T' M T,  C = K^^-1
 //! ```
-//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and joined with itself, for
-//! a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear for any other. Coordinates are three
-//! displacements a boundary node (x, y, z), mm, in the window's own frame.
+//! Two ways lead to the same C and, when asked for, K^, M^, fields and stress modes S = D B T: one sector condensed and
+//! joined with itself, for a gear that is the same after a turn by one pitch, and one sparse factor of the whole gear
+//! for any other. Coordinates are three displacements a boundary node (x, y, z), mm, in the window's own frame.
 
 mod cyclic;
 mod elastic;
 mod error;
 mod general;
-mod half_tooth;
 mod layer_profile;
 mod load;
+mod local_compliance;
 mod modes;
 mod plane_strain;
 mod record;
@@ -28,9 +28,9 @@ mod window;
 pub use cyclic::pitch_permutation;
 pub use elastic::{ElasticGear, FullGear};
 pub use error::ReductionError;
-pub use half_tooth::HalfTooth;
 pub use layer_profile::LayerProfile;
 pub use load::{FlankGrid, FlankGrids};
+pub use local_compliance::LocalCompliance;
 pub use modes::{GearModes, LowestFrequencies, ModeChoice};
 pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
 pub use reducer::{GearReducer, ReductionOptions, ReductionWay};

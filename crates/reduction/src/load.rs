@@ -1,4 +1,5 @@
-//! What the coordinates of a reduced gear are: flank nodes, or means over them with the weights of unit loads on a grid.
+//! What the coordinates of a reduced gear are: flank nodes, or means over them with the weights of unit loads on a
+//! grid.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +13,8 @@ pub(crate) type Load = Vec<(u32, f64)>;
 
 /// A coarse mesh of faces over one flank; loads on its nodes act on the nodes of the fine mesh about them.
 ///
-/// W - W_c of slice contact is smooth over half a tooth thickness, so a grid as coarse as that holds it, and the size of the reduced
-/// gear does not grow with the mesh. Positions and loads are in the gear's own frame.
+/// W - W_c of slice contact is smooth over half a tooth thickness, so a grid as coarse as that holds it, and the size
+/// of the reduced gear does not grow with the mesh. Positions and loads are in the gear's own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankGrid {
     /// Faces; node numbers count the grid's nodes from 0.

@@ -10,7 +10,8 @@ use mesh::FaceKind;
 pub(crate) type Vec2 = [f64; 2];
 
 const NODES: usize = 8;
-/// Full-integration quad8 would lock as nu nears 1/2; with 2 x 2 points it does not, and clamped sides leave no zero mode.
+/// Full-integration quad8 would lock as nu nears 1/2; with 2 x 2 points it does not, and clamped sides leave no zero
+/// mode.
 const GAUSS_2: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 /// Gauss points and weights on an edge; tractions of a force next to the edge need more than stiffness does.
 const GAUSS_6: [(f64, f64); 6] = [
@@ -79,12 +80,13 @@ impl PlaneBody {
         Ok(Self { points, free_edges, rows, poisson, coupling, factor })
     }
 
-    /// Regular part of the dent under a unit force on node `node`, along `inward` (unit vector into the material): the body's answer less
-    /// the half-plane's, in units of K = 2 (1 - nu^2) / pi, so that the dent at distance r is -ln(r) + regular.
+    /// Regular part of the dent under a unit force on node `node`, along `inward` (unit vector into the material): the
+    /// body's answer less the half-plane's, in units of K = 2 (1 - nu^2) / pi, so that the dent at distance r is
+    /// -ln(r) + regular.
     ///
-    /// The half-plane's displacements and stresses (Flamant; Johnson, Contact Mechanics, 1985, section 2.2) are subtracted: what is left
-    /// is smooth and coarse elements know it well. It has minus the half-plane's tractions on the free edges and minus its
-    /// displacements on the clamped nodes.
+    /// The half-plane's displacements and stresses (Flamant; Johnson, Contact Mechanics, 1985, section 2.2) are
+    /// subtracted: what is left is smooth and coarse elements know it well. It has minus the half-plane's tractions on
+    /// the free edges and minus its displacements on the clamped nodes.
     pub fn regular_dents(&self, stations: &[(usize, Vec2)]) -> Result<Vec<f64>, FemError> {
         let mut rhs = Mat::<f64>::zeros(self.factor.n(), stations.len());
         for (column, &(node, inward)) in stations.iter().enumerate() {

@@ -9,18 +9,18 @@ use crate::{
 };
 
 impl GearReducer {
-    /// Displacement (mm) of every node of the mesh in the gear's own frame when the window's coordinates are `u` and all else is free
-    /// of load: T u = [u_B; Phi_IC u_B].
+    /// Displacement (mm) of every node of the mesh in the gear's own frame when the window's coordinates are `u` and
+    /// all else is free of load: T u = [u_B; Phi_IC u_B].
     ///
     /// # Errors
-    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from coordinates: a grid with
-    /// more nodes than the mesh can tell apart.
+    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from
+    /// coordinates: a grid with more nodes than the mesh can tell apart.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
         Ok(self.field(window, &[u], None)?.pop().unwrap_or_default())
     }
 
-    /// The same at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear only the sectors that hold the nodes
-    /// are gone through, and the factor once for all.
+    /// The same at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear only
+    /// the sectors that hold the nodes are gone through, and the factor once for all.
     ///
     /// # Errors
     /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.

@@ -8,9 +8,11 @@ use crate::{GearReducer, ReductionError, Window};
 /// How the stress at a node comes from the displacement of the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum StressRecovery<'a> {
-    /// From Gauss points of the elements, the mean over the elements of a node ([`fem::StressOperator::new`]): any node.
+    /// From Gauss points of the elements, the mean over the elements of a node ([`fem::StressOperator::new`]): any
+    /// node.
     Volume,
-    /// From these free faces alone, the mean over the faces of a node ([`fem::StressOperator::on_surface`]): nodes on them.
+    /// From these free faces alone, the mean over the faces of a node ([`fem::StressOperator::on_surface`]): nodes on
+    /// them.
     ///
     /// On a cyclic gear the faces must be whole orbits, or all that are about the nodes.
     Surface(&'a [Vec<Face>]),
@@ -27,8 +29,8 @@ pub(crate) enum StressRecovery<'a> {
 /// |           |             |        | the mean over the elements of the node ([`fem::StressOperator`])     |
 /// | S         | 6 m x n_B   | MPa/mm | row 6 i + k: component k (xx, yy, zz, xy, yz, zx) at node i          |
 ///
-/// Exact for loads on the boundary, as T is. Components are in the frame of the window's matrices; principal and equivalent
-/// stresses do not depend on it. Source of T: Craig and Bampton, AIAA J. 6(7), 1968.
+/// Exact for loads on the boundary, as T is. Components are in the frame of the window's matrices; principal and
+/// equivalent stresses do not depend on it. Source of T: Craig and Bampton, AIAA J. 6(7), 1968.
 #[derive(Debug, Clone)]
 pub struct StressModes {
     nodes: Vec<u32>,
@@ -68,19 +70,20 @@ impl StressModes {
 impl GearReducer {
     /// Stress modes of a window for `nodes` (numbers of the mesh in the frame of the window's matrices).
     ///
-    /// A cyclic gear has the same modes in all its windows: `S = (D B) [X f + T u_c]` sector by sector, f = K^ u_B. With one factor of
-    /// the whole gear they are read off it for the window whose boundary is last in it; other windows take solves:
-    /// S = D B K^-1 R' K^, R the window's freedoms.
+    /// A cyclic gear has the same modes in all its windows: `S = (D B) [X f + T u_c]` sector by sector, f = K^ u_B.
+    /// With one factor of the whole gear they are read off it for the window whose boundary is last in it; other
+    /// windows take solves: S = D B K^-1 R' K^, R the window's freedoms.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`] when a node does not exist; [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
+    /// [`ReductionError::Fem`] when a node does not exist; [`ReductionError::NotPositiveDefinite`] as for
+    /// [`GearReducer::expand`].
     pub fn stress_modes(&self, window: &Window, nodes: &[u32]) -> Result<StressModes, ReductionError> {
         let modes = self.stress_of(window, nodes, StressRecovery::Volume)?;
         Ok(StressModes { nodes: nodes.to_vec(), modes })
     }
 
-    /// The same for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the frame of the window's
-    /// matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
+    /// The same for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the frame
+    /// of the window's matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
     ///
     /// # Errors
     /// As [`GearReducer::stress_modes`].

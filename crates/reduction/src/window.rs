@@ -13,8 +13,8 @@ pub struct ReducedGear {
     pub teeth: Vec<u32>,
     /// Sides of the teeth whose nodes are kept.
     pub sides: Vec<Side>,
-    /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in turn);
-    /// coordinate 3 i + axis belongs to `nodes[i]`.
+    /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in
+    /// turn); coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
     /// C, mm/N, 3 n x 3 n.
     pub compliance: Mat<f64>,
@@ -47,7 +47,8 @@ impl ReducedGear {
         self.stiffness.get_or_init(inverse).as_ref()
     }
 
-    /// Forces K^ u (N) that hold the coordinates at u (mm); one step of refinement makes up for the round-off of the inverse.
+    /// Forces K^ u (N) that hold the coordinates at u (mm); one step of refinement makes up for the round-off of the
+    /// inverse.
     pub(crate) fn forces(&self, u: &[f64]) -> Option<Vec<f64>> {
         let stiffness = self.stiffness()?;
         let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
@@ -72,7 +73,7 @@ impl ReducedGear {
 pub struct Window {
     /// Matrices, shared by all windows of a cyclic gear.
     pub reduced: Arc<ReducedGear>,
-    /// Pitches by which the frame of the matrices is turned against the gear's own frame: tooth t of the matrices is the
-    /// gear's tooth t + `shift` (mod z).
+    /// Pitches by which the frame of the matrices is turned against the gear's own frame: tooth t of the matrices is
+    /// the gear's tooth t + `shift` (mod z).
     pub shift: u32,
 }

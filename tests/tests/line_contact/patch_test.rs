@@ -137,7 +137,7 @@ fn deviation(kind: ElementKind, per_edge: usize, law: Law) -> [f64; 2] {
         let mut nodes: Vec<u32> = body.top.iter().flat_map(|f| f.nodes().to_vec()).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let number = |node: u32| nodes.binary_search(&node).map_or(u32::MAX, |i| i as u32);
+        let number = |node: u32| nodes.binary_search(&node).ok().map(|i| i as u32);
         patches.push(FlankPatch::new(0, Box::new(Plane { up }), &body.mesh.nodes, &body.top, number, 1e-9).unwrap());
         compliances.push(compliance(body, &nodes));
         all.push(nodes);

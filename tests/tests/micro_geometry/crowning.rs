@@ -1,6 +1,8 @@
 //! Lead crowning: pressure ends before the edge of the face; unmodified flanks press up to it.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
+use std::sync::Arc;
+
 use geometry::{FlankModification, GearModifications};
 use ltca::StaticModel;
 use mesh::Extent;
@@ -10,7 +12,7 @@ use verification::{default_data, modified, quadratic};
 fn crowned_flanks_end_their_pressure_before_the_edge() {
     let case = quadratic(default_data(20.0), None, 150e3, [3, 2, 2, 4, 1], Extent::Sector(5));
     let options = case.slice_options();
-    let mut gears = case.reduced_gears(&options);
+    let mut gears = Arc::new(case.reduced_gears(&options));
     let outermost = 0.5 * case.pair.face_width() * (1.0 - 1.0 / options.contact.slices as f64);
     let mut spans = Vec::new();
     for crowning in [0.0, 0.03, 0.06, 0.12] {

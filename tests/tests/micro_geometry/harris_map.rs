@@ -4,6 +4,8 @@
 //! Source: S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958): every relief has a load at which STE is flattest,
 //! and is worse than none far below it.
 
+use std::sync::Arc;
+
 use geometry::{
     FlankModification, GearModifications, GearPair,
     modification::{ProfilePlace, Relief, ReliefShape},
@@ -32,7 +34,7 @@ fn relieved(pair: &GearPair, amount_um: f64) -> GearPair {
 #[test]
 fn relief_flattens_ste_at_its_own_load() {
     let case = quadratic(default_data(0.0), None, 150e3, [3, 2, 2, 3, 1], Extent::Sector(5));
-    let mut gears = case.reduced_gears(&case.slice_options());
+    let mut gears = Arc::new(case.reduced_gears(&case.slice_options()));
     let mut map = [[0.0; 5]; 5];
     for (r, amount) in RELIEFS_UM.iter().enumerate() {
         for (t, torque) in TORQUES_NM.iter().enumerate() {

@@ -3,6 +3,8 @@
 //!
 //! Pairs of 30/30 teeth, module 3 mm, helix angle 20 degrees, at the line load of the default pair.
 
+use std::sync::Arc;
+
 use contact::Misalignment;
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
 use ltca::{SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
@@ -53,7 +55,7 @@ fn flank_case(plain: &GearPair, base: &StaticOptions, [crowning, misaligned]: [f
 }
 
 /// A mesh cycle of 16 positions with a window wide enough for all widths; the gears back.
-fn answer(pair: &GearPair, gears: [ElasticGear; 2], options: &StaticOptions) -> (Answer, [ElasticGear; 2]) {
+fn answer(pair: &GearPair, gears: Arc<[ElasticGear; 2]>, options: &StaticOptions) -> (Answer, Arc<[ElasticGear; 2]>) {
     let mut model = StaticModel::new(pair.clone(), gears, options.clone()).unwrap_or_else(|e| panic!("{e}"));
     let positions = model.run(16, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}")).positions;
     let elastic = positions.iter().map(|p| 1e3 * (p.transmission_error - p.kinematic_transmission_error));
@@ -110,7 +112,7 @@ fn counts_follow_width_and_load() {
 fn lengths_do_not_ripple_with_the_slices() {
     let case = quadratic(default_data(20.0), None, 150e3, [3, 2, 2, 4, 1], Extent::Periodic);
     let base = case.slice_options();
-    let mut gears = Some(case.reduced_gears(&base));
+    let mut gears = Some(Arc::new(case.reduced_gears(&base)));
     let mut lengths = |slices: usize| {
         let options = base.clone().with_contact(|c| c.slices = slices);
         let mut model = StaticModel::new(case.pair.clone(), gears.take().unwrap(), options).unwrap();
@@ -145,7 +147,7 @@ fn lengths_do_not_ripple_with_the_slices() {
 fn short_lines_have_their_length() {
     let case = quadratic(default_data(20.0), None, 150e3, [3, 2, 2, 4, 1], Extent::Periodic);
     let base = case.slice_options();
-    let mut gears = Some(case.reduced_gears(&base));
+    let mut gears = Some(Arc::new(case.reduced_gears(&base)));
     for crowning in [200.0, 500.0, 1000.0] {
         let (pair, options) = flank_case(&case.pair, &base, [crowning, 0.0]);
         let chosen = slices_needed(&pair, &options).count;
@@ -173,7 +175,7 @@ fn slices_alone() {
     for (width, face) in WIDTHS.into_iter().zip([6, 10, 16]).rev() {
         let case = case(width, [3, 2, 2, face, 2]);
         let base = options(&case);
-        let mut gears = Some(case.reduced_gears(&base));
+        let mut gears = Some(Arc::new(case.reduced_gears(&base)));
         for flank in FLANKS {
             let (pair, options) = flank_case(&case.pair, &base, flank);
             let mut of = |slices: usize| {
@@ -203,7 +205,7 @@ fn face_elements_alone() {
         for face in counts.into_iter().rev() {
             let case = case(width, [3, 2, 2, face, 2]);
             let base = options(&case);
-            let mut gears = Some(case.reduced_gears(&base));
+            let mut gears = Some(Arc::new(case.reduced_gears(&base)));
             for (k, flank) in FLANKS.into_iter().enumerate() {
                 let (pair, options) = flank_case(&case.pair, &base, flank);
                 let (found, back) =
@@ -227,7 +229,7 @@ const SECTION: [u32; 4] = [3, 2, 2, 1];
 struct Reduced {
     pair: GearPair,
     base: StaticOptions,
-    gears: Option<[ElasticGear; 2]>,
+    gears: Option<Arc<[ElasticGear; 2]>>,
 }
 
 impl Reduced {
@@ -236,7 +238,7 @@ impl Reduced {
         let counts = [profile, fillet, thickness, face, rim];
         let case = of_order(order, data, None, 7500.0 * width * MODULE, counts, Extent::Periodic);
         let base = options(&case);
-        let gears = Some(case.reduced_gears(&base));
+        let gears = Some(Arc::new(case.reduced_gears(&base)));
         Self { pair: case.pair, base, gears }
     }
 

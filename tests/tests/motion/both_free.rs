@@ -4,8 +4,8 @@
 use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
-    Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
-    Torque, Way, quasi_static_start, sweep,
+    Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepDirection,
+    SweepPlan, Torque, quasi_static_start, sweep,
 };
 use integrate::{Mechanism, Scheme};
 use ltca::{StaticError, StaticOptions};
@@ -112,7 +112,7 @@ fn the_drive_changes_the_clock_only() {
     let at = |system: &PairMechanism| {
         let plan = SweepPlan {
             speeds: [0.5, 0.9, 1.1].map(|r| bench.speed(r * system.mesh_resonance_hz())).to_vec(),
-            ways: vec![Way::Apart],
+            ways: vec![SweepDirection::Independent],
             settings: bench.settings(system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
             steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-7, most: 300, cycles: 1 },
             guess: bench.ste[0],
@@ -136,7 +136,7 @@ fn shooting_and_waiting_agree() {
     let system = bench.system(2500.0, balanced(bench, 2500.0));
     let plan = |by| SweepPlan {
         speeds: vec![bench.speed(2500.0)],
-        ways: vec![Way::Apart],
+        ways: vec![SweepDirection::Independent],
         settings: bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
         steady: SteadyOptions { by, tolerance: 1e-8, most: 400, cycles: 1 },
         guess: bench.ste[0],
@@ -154,7 +154,7 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
     let system = bench.system(1000.0, |o| o.damping = MeshDamping::Ratio(0.3));
     let plan = |speeds: &[f64]| SweepPlan {
         speeds: speeds.iter().map(|f| bench.speed(*f)).collect(),
-        ways: vec![Way::Up, Way::Down, Way::Apart],
+        ways: vec![SweepDirection::Up, SweepDirection::Down, SweepDirection::Independent],
         settings: bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, 16),
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-3, most: 60, cycles: 1 },
         guess: bench.ste[0],
@@ -167,7 +167,7 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
     let misses: Vec<_> = all.iter().filter_map(|o| o.as_ref().err()).collect();
     assert_eq!(
         misses.iter().map(|m| (m.way, m.speed)).collect::<Vec<_>>(),
-        [(Way::Up, 0.0), (Way::Down, 0.0), (Way::Apart, 0.0)]
+        [(SweepDirection::Up, 0.0), (SweepDirection::Down, 0.0), (SweepDirection::Independent, 0.0)]
     );
     assert!(misses.iter().all(|m| m.error.to_string().contains("stand still")), "{misses:?}");
     let solved: Vec<_> = all.into_iter().filter_map(Result::ok).collect();

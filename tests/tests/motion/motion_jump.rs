@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint, Way};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepDirection, SweepPlan, SweepPoint};
 use fem::ElementOptions;
 use integrate::{Integrator, Scheme, State, StepControl};
 use ltca::StaticOptions;
@@ -38,7 +38,7 @@ fn both_ways(ratios: &[f64], tolerance: f64) -> [Vec<SweepPoint>; 2] {
     };
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * resonance)).collect(),
-        ways: vec![Way::Up, Way::Down],
+        ways: vec![SweepDirection::Up, SweepDirection::Down],
         settings,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance, most: 240, cycles: 1 },
         guess: pair.ste[0],

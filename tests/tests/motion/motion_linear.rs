@@ -8,7 +8,7 @@
 //! stiffness, k(t) must hardly vary: the pair has an overlap ratio of one, and contact lines of constant length.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, Way};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepDirection, SweepPlan};
 use geometry::GearData;
 use integrate::Scheme;
 use ltca::StaticOptions;
@@ -69,7 +69,7 @@ fn a_heavily_loaded_pair_is_a_linear_oscillator() {
     };
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * f_0)).collect(),
-        ways: vec![Way::Apart],
+        ways: vec![SweepDirection::Independent],
         settings,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-4, most: 100, cycles: 1 },
         guess: pair.ste[0],

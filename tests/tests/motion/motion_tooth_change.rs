@@ -127,10 +127,10 @@ impl Mechanism for Forced {
         // Counter-clockwise, pair 0 is in the middle of cycle 0, and numbers fall.
         let centre = 0.5 - (t * self.cycles_per_second + self.early);
         let due = ToothWindow::nominal_first(centre, self.teeth);
-        let mut place = self.pair.place();
+        let mut place = self.pair.mechanism_state();
         if place.driving.first != due {
             place.driving.first = due;
-            self.pair.stand(&place)?;
+            self.pair.restore(&place)?;
         }
         Ok(())
     }

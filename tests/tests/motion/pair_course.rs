@@ -4,11 +4,12 @@
 use std::sync::OnceLock;
 
 use dynamics::{
-    Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, SHOTS, SteadyBy,
-    SteadyOptions, SweepPlan, Torque, Way, quasi_static_start, run_to_steady, shoot,
+    Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism,
+    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepDirection, SweepPlan, Torque, quasi_static_start,
+    run_to_steady, shoot,
 };
 use geometry::{Driver, Sense};
-use integrate::{MotionError, Scheme};
+use integrate::Scheme;
 use ltca::StaticError;
 use nalgebra::Matrix6;
 use verification::moving::{MovingPair, rows, swept, worst};
@@ -73,7 +74,7 @@ fn shooting_finds_what_waiting_finds() {
         let cycles = waited.cycle();
         assert!(found.residual <= 1e-7, "{scheme:?}: off by {found:?} after {cycles} cycles");
         let mut shot_at = motion(bench, bench.system(1500.0, weak), scheme);
-        let shot = shoot(&mut shot_at, 1, 1e-8, SHOTS).unwrap();
+        let shot = shoot(&mut shot_at, 1, 1e-8, SHOOTING_NEWTON_STEPS).unwrap();
         let [a, b] = [rows(&mut waited, 1), rows(&mut shot_at, 1)];
         let off = worst(&a, &b) / bench.ste[0];
         println!(
@@ -187,7 +188,7 @@ fn a_sweep_is_the_same_from_either_side() {
     let pitch = bench.case.pair.pinion.pitch_angle();
     let plan = SweepPlan {
         speeds: [800.0, 1100.0].map(|f| f * pitch).to_vec(),
-        ways: vec![Way::Up, Way::Down, Way::Apart],
+        ways: vec![SweepDirection::Up, SweepDirection::Down, SweepDirection::Independent],
         settings: settings(bench, &system, Scheme::GeneralisedAlpha { rho: 0.9 }),
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-6, most: 300, cycles: 1 },
         guess: bench.ste[0],
@@ -213,9 +214,6 @@ fn a_starved_window_is_an_error() {
     let mut motion = motion(bench, bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
     let error = (0..2).find_map(|_| motion.run_cycle(None).err()).expect("two cycles with teeth missing");
     println!("{error}");
-    let starved = matches!(
-        &error,
-        MotionError::Mechanism { source: StaticError::Window(ale::AleError::Starved { window: 3, .. }), .. }
-    );
+    let starved = matches!(error.contact_error(), Some(StaticError::Window(ale::AleError::Starved { window: 3, .. })));
     assert!(starved, "{error}");
 }

@@ -14,7 +14,6 @@ use super::{
 use crate::{
     elastic_gears::material,
     error::CommandError,
-    gears,
     partial::Partial,
     run,
     scene::{MisalignmentScene, ModificationScene, Rotation, Scene},
@@ -32,7 +31,7 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
     let failed = |e: CalculixError| CommandError::failed(&e, e.hint());
     let calculix = Calculix::find(rayon::current_num_threads()).map_err(failed)?;
     beyond_calculix(scene)?;
-    let pair = gears::pair(scene)?;
+    let pair = scene.gear_pair()?;
     let meshes = point_meshes(scene)?;
     let options = run::options(scene, &pair);
     let materials = [material(scene, 0)?, material(scene, 1)?];

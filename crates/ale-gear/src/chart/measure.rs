@@ -8,7 +8,7 @@ use crate::{
     cache::Cache,
     error::CommandError,
     facts::Solved,
-    gears, meshes,
+    meshes,
     output::ResultDirectory,
     phases::Phases,
     run,
@@ -96,7 +96,7 @@ fn time_closed_form(scene: &Scene, results: &ResultDirectory) -> Result<f64, Com
 /// # Errors
 /// As reading and meshing complain.
 pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], CommandError> {
-    let pair = gears::pair(scene)?;
+    let pair = scene.gear_pair()?;
     let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
     let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
     Ok([pinion.gear, wheel.gear])
@@ -111,7 +111,7 @@ pub(super) fn degrees_of_freedom(scene: &Scene) -> Result<usize, CommandError> {
     if scene.analysis.model == Model::Iso || (crate::ladder::has(scene) && !fed) {
         return Ok(0);
     }
-    let pair = gears::pair(scene)?;
+    let pair = scene.gear_pair()?;
     let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
     let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
     Ok(3 * (pinion.facts.nodes + wheel.facts.nodes))

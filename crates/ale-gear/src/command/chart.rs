@@ -85,7 +85,7 @@ impl ChartArgs {
         }
         let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
             chart(&scene, &options, &results, |what| {
-                progress.say(what);
+                progress.say(what.to_owned());
                 progress.tick();
             })
         })?;

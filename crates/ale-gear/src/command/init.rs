@@ -10,7 +10,6 @@ use dialoguer::{Confirm, Input, Select};
 
 use crate::{
     error::CommandError,
-    gears,
     rexs::read_pair,
     scene::{Kind, Scene},
     starter::Starter,
@@ -198,7 +197,7 @@ fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], Comm
 /// The scene as text; what would not run is not written.
 fn checked(starter: &Starter, shown: &str) -> Result<String, CommandError> {
     let text = starter.text(shown);
-    gears::pair(&Scene::parse(&text, Path::new(shown))?)?;
+    Scene::parse(&text, Path::new(shown))?.gear_pair()?;
     Ok(text)
 }
 

@@ -1,5 +1,6 @@
 //! `ale-gear mesh`: look at, check or make meshes.
 
+use mesh::MshFormat;
 use std::{
     fmt::Write,
     path::{Path, PathBuf},
@@ -8,7 +9,7 @@ use std::{
 use clap::{Subcommand, ValueEnum};
 use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Numbered, Severity};
 
-use crate::{error::CommandError, gears, meshes, scene::Scene};
+use crate::{error::CommandError, meshes, scene::Scene};
 
 /// Subcommands of `ale-gear mesh`.
 #[derive(Debug, Subcommand)]
@@ -216,13 +217,27 @@ fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Res
 }
 
 fn generate(scene: &Path, which: WhichGear, output: &Path, format: &str, ascii: bool) -> Result<String, CommandError> {
-    let format = meshes::format(format, ascii)?;
+    let format = msh_format(format, ascii)?;
     let scene = Scene::read(scene)?;
-    let pair = gears::pair(&scene)?;
+    let pair = scene.gear_pair()?;
     let mesh = match which {
         WhichGear::Pinion => meshes::generated(&scene, "pinion", &scene.pinion, &pair.pinion)?,
         WhichGear::Wheel => meshes::generated(&scene, "wheel", &scene.wheel, &pair.wheel)?,
     };
     mesh.write(output, format).map_err(|e| CommandError::failed(&e, e.hint()))?;
     Ok(format!("{}: {} nodes, {} elements\n", output.display(), mesh.nodes.len(), mesh.element_count()))
+}
+
+/// Format of a mesh file by the words of the command line.
+///
+/// # Errors
+/// Exit status 2 for another version than 4.1 and 2.2.
+fn msh_format(version: &str, ascii: bool) -> Result<MshFormat, CommandError> {
+    match (version, ascii) {
+        ("4.1", true) => Ok(MshFormat::Ascii41),
+        ("4.1", false) => Ok(MshFormat::Binary41),
+        ("2.2", true) => Ok(MshFormat::Ascii22),
+        ("2.2", false) => Ok(MshFormat::Binary22),
+        _ => Err(CommandError::input(format_args!("`--format` is {version}, allowed is 4.1 or 2.2"), None)),
+    }
 }

@@ -219,5 +219,5 @@ fn write_static(
     let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
     let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
-    Ok(Written { table, verdict: facts.certificate.verdict(scene) })
+    Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
 }

@@ -83,7 +83,7 @@ pub(super) fn stable_step(
         forces.clear();
         let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
         let Ok(()) = model.forces(time, &start.q, &start.v, &mut forces);
-        stiffest.look(&forces);
+        stiffest.include(&forces);
     }
     Ok(stiffest.limit())
 }

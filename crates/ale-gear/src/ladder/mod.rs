@@ -125,7 +125,7 @@ impl Case<'_> {
         let scene = &recipe.scene;
         let coordinates = made.coordinates();
         let Made { mut model, resonance_hz, mut warnings, shafts } = made;
-        warnings.extend(gears::doubts(&recipe.pair));
+        warnings.extend(gears::warnings(&recipe.pair));
         warnings.extend(no_backlash(recipe));
         let mut facts = facts(recipe, coordinates);
         if let Some((resolution, said)) = cut(recipe) {
@@ -200,7 +200,7 @@ impl Case<'_> {
         let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
         results.write("summary.json", summary.as_bytes())?;
         let table = ladder_table(scene, &facts, &cost, &headline, &warnings);
-        Ok(Written { table, verdict: facts.certificate.verdict(scene) })
+        Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
     }
 }
 

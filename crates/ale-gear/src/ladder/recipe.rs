@@ -14,7 +14,6 @@ use super::{
 };
 use crate::{
     error::CommandError,
-    gears,
     scene::{Driver, Model as Name, MotionScene, Scene},
 };
 
@@ -53,7 +52,7 @@ impl Recipe {
     /// # Errors
     /// Exit status 2 for a pair that is none; those of the reduced model where it feeds the mesh.
     pub fn gather(scene: &Scene, sources: &mut Sources<'_>) -> Result<Self, CommandError> {
-        let pair = gears::pair(scene)?;
+        let pair = scene.gear_pair()?;
         let plane = match scene.analysis.model {
             Name::Shaft18 => shafts::plane(scene, &pair),
             _ => lumped::plane(scene, &pair),

@@ -65,7 +65,7 @@ fn over(value: f64, scale: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Changes, Extremes, Way};
+    use dynamics::{Extremes, SweepDirection, ToothChanges};
     use integrate::Ledger;
     use integrate::Periodicity;
 
@@ -75,7 +75,7 @@ mod tests {
     fn sound() -> SweepPoint {
         SweepPoint {
             speed: 100.0,
-            way: Way::Apart,
+            way: SweepDirection::Independent,
             own_start: true,
             periodicity: Periodicity { period: 1, residual: 0.0 },
             waited: 10,
@@ -86,7 +86,7 @@ mod tests {
             ledger: Ledger { kinetic: 1.0, supplied: 1.0, turnover: 1.0, ..Ledger::default() },
             throughput: 50.0,
             extremes: Extremes { least_force: Some(1.0), largest_force: 100.0, ..Extremes::default() },
-            changes: Changes { count: 10, jump: 1e-5 },
+            changes: ToothChanges { count: 10, jump: 1e-5 },
         }
     }
 

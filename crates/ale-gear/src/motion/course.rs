@@ -1,6 +1,9 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
-use dynamics::{Motion, PairMechanism, PairMotionError, SHOTS, ShootingResult, quasi_static_start, shoot};
+use analysis::Progress;
+use dynamics::{
+    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, quasi_static_start, shoot,
+};
 use integrate::{Envelope, Periodicity, Recurrence};
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +16,7 @@ use report::results::GearPattern;
 
 use crate::{
     error::CommandError,
-    phases::{Phases, Progress},
+    phases::Phases,
     run::Failure,
     scene::{MotionScene, Run, Scene},
 };
@@ -115,7 +118,9 @@ pub(super) fn run(
             motion = Motion::new(own, settings.clone(), start);
             shot = None;
             if let (Run::Shooting, Some((tolerance, _))) = (words.run, goal.settle) {
-                shot = Some(phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOTS)).map_err(fail)?);
+                shot = Some(
+                    phases.run("shoot", || shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)).map_err(fail)?,
+                );
             }
             let returns = Recurrence::from(motion.state());
             course = CourseState { recording: goal.settle.is_none(), recorded: 0, returns, periodicity: None };
@@ -172,7 +177,7 @@ fn settle(
     course: &mut CourseState,
     rows: &mut Rows,
     (tolerance, most): (f64, u64),
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     while motion.cycle() < most {
         let swing = motion.run_cycle(None).map_err(|e| failure(keep.scene, e))?;
@@ -197,7 +202,7 @@ fn record(
     course: &mut CourseState,
     rows: &mut Rows,
     goal: Goal,
-    progress: &Progress,
+    progress: &dyn Progress,
 ) -> Result<bool, Failure> {
     let tolerance = goal.settle.map_or(1e-6, |(tolerance, _)| tolerance);
     while course.recorded < goal.cycles && motion.goes_on() {
@@ -225,15 +230,11 @@ fn judge(course: &mut CourseState, motion: &Motion, swing: &Envelope, tolerance:
 
 /// Contact that another window may cure, or the end.
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
-    match error {
-        PairMotionError::Mechanism { source, .. } if source.is_starved() => Failure::Static(source),
-        other => {
-            let hint = match &other {
-                PairMotionError::Mechanism { source, .. } => source.hint(),
-                _ => None,
-            };
-            let hint = hint.unwrap_or_else(|| other.hint().to_owned());
-            Failure::Command(CommandError::failed(format_args!("{}: {other}", scene.file.display()), Some(hint)))
+    match error.contact_error() {
+        Some(source) if source.is_starved() => Failure::Static(source.clone()),
+        _ => {
+            let hint = error.hint();
+            Failure::Command(CommandError::failed(format_args!("{}: {error}", scene.file.display()), Some(hint)))
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use dynamics::{PairMechanism, PairMotionError, quasi_static_start, stable_step};
-use integrate::{Integrator, MotionError, Scheme, State, StepControl, StepLimit};
+use integrate::{Integrator, Scheme, State, StepControl, StepLimit};
 
 use super::{
     course::failure,
@@ -172,5 +172,5 @@ impl<'a> Bench<'a> {
 /// The pair at its beginning.
 fn again(prepared: &Prepared) -> Result<PairMechanism, PairMotionError> {
     let drive = prepared.system.options().drive.clone();
-    prepared.system.with_drive(drive).map_err(|source| MotionError::Mechanism { time: 0.0, source })
+    prepared.system.with_drive(drive).map_err(|source| PairMotionError::contact(0.0, source))
 }

@@ -1,5 +1,6 @@
 //! Everything before the first step: gears, the quasi-static cycle that the motion starts from, the mechanism.
 
+use analysis::GearCache;
 use std::sync::Arc;
 
 use dynamics::{MotionSettings, PairMechanism};
@@ -42,7 +43,7 @@ impl<'a> Inputs<'a> {
         phases: &mut Phases,
         cache: &'a Cache,
     ) -> Result<Self, CommandError> {
-        let pair = phases.run("geometry", || gears::pair(scene))?;
+        let pair = phases.run("geometry", || scene.gear_pair())?;
         let meshes = phases.run("mesh", || meshes::pair_meshes(scene, &pair))?;
         Ok(Self { scene, words, pair, meshes, cache })
     }
@@ -100,8 +101,9 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     let both = scene.contact.flanks == Flanks::Both;
     let sides = if both { 2.0 } else { 1.0 };
     let (driving, coast) = phases.run_foreseen("reduce", sides * run::foreseen_s(scene, meshes), || {
-        let driving = elastic_gears(scene, pair, &contact, meshes, cache)?;
-        let coast = both.then(|| elastic_gears(scene, pair, &contact.driven_backwards(), meshes, cache)).transpose()?;
+        let driving = elastic_gears(scene, pair, &contact, meshes, *cache)?;
+        let coast =
+            both.then(|| elastic_gears(scene, pair, &contact.driven_backwards(), meshes, *cache)).transpose()?;
         Ok::<_, CommandError>((driving, coast))
     })?;
     let ElasticGears { gears, keys, mut warnings } = driving;
@@ -117,7 +119,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     let quasi_static = QuasiStatic::of(&history);
     let (resolution, said) = resolution(scene, pair, &contact);
     warnings.extend(said);
-    warnings.extend(gears::doubts(pair));
+    warnings.extend(gears::warnings(pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(run::body_warnings(&model));
     let view = phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings)).map(View::quasi_static);
@@ -137,7 +139,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
     if scene.output.root_stress {
         warnings.extend(iso_root::add(&mut facts, scene, pair));
     }
-    let gears = Arc::new(model.into_gears());
+    let gears = model.into_gears();
     let (coast, coast_keys) = match coast {
         Some(ElasticGears { gears, keys, warnings: said }) => {
             warnings.extend(said);
@@ -155,6 +157,7 @@ pub(super) fn prepare(inputs: &Inputs<'_>, phases: &mut Phases, window: Option<u
             None => Ok(system),
         }
     })?;
+    let cache: &dyn GearCache = *cache;
     if cache.is_on() {
         phases.run("store", || {
             warnings.extend(keys.save(cache, &gears));

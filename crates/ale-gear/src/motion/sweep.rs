@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{self, PairMotionError, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, Way};
-use integrate::MotionError;
+use dynamics::{self, PairMotionError, SteadyOptions, SweepDirection, SweepMiss, SweepOutcome, SweepPlan, SweepPoint};
 use ltca::StaticError;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
@@ -106,10 +105,7 @@ pub(crate) struct SweepHeadline {
 
 /// The error of teeth missing beside the window, which a wider one may cure.
 fn starved(error: &PairMotionError) -> Option<&StaticError> {
-    match error {
-        MotionError::Mechanism { source, .. } if source.is_starved() => Some(source),
-        _ => None,
-    }
+    error.contact_error().filter(|source| source.is_starved())
 }
 
 /// Runs the sweep of a scene. `wider`: whether a wider window may cure an error.
@@ -126,9 +122,9 @@ pub(super) fn run(
     let (motion, sweep) = words;
     let speeds: Vec<f64> = sweep.all_rpm().iter().map(|n| n * RPM).collect();
     let ways = sweep.ways.iter().map(|w| match w {
-        SweepWay::Apart => Way::Apart,
-        SweepWay::Up => Way::Up,
-        SweepWay::Down => Way::Down,
+        SweepWay::Apart => SweepDirection::Independent,
+        SweepWay::Up => SweepDirection::Up,
+        SweepWay::Down => SweepDirection::Down,
     });
     let plan = SweepPlan {
         ways: ways.collect(),
@@ -169,11 +165,11 @@ pub(super) fn run(
     }
 }
 
-fn way_of(way: Way) -> SweepWay {
+fn way_of(way: SweepDirection) -> SweepWay {
     match way {
-        Way::Apart => SweepWay::Apart,
-        Way::Up => SweepWay::Up,
-        Way::Down => SweepWay::Down,
+        SweepDirection::Independent => SweepWay::Apart,
+        SweepDirection::Up => SweepWay::Up,
+        SweepDirection::Down => SweepWay::Down,
     }
 }
 
@@ -251,7 +247,7 @@ pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), CommandErr
 }
 
 /// A speed without a motion.
-fn missing((way, speed): (Way, f64), teeth: f64, reason: String) -> SweepRow {
+fn missing((way, speed): (SweepDirection, f64), teeth: f64, reason: String) -> SweepRow {
     let (speed_rpm, none) = (speed / RPM, f64::NAN);
     SweepRow {
         way: way_of(way),

@@ -109,7 +109,7 @@ pub(super) fn write_motion(
     let summary = write_summary(scene, &facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
     let table = motion_table(scene, &facts, &cost, &headline, &warnings);
-    Ok(Written { table, verdict: facts.certificate.verdict(scene) })
+    Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
 }
 
 /// Wall time of a step in these phases, as far as they took so many.
@@ -161,6 +161,11 @@ pub(super) fn write_sweep(
     let summary = write_summary(scene, &prepared.facts, &cost, &headline, &warnings, &files);
     results.write("summary.json", summary.as_bytes())?;
     let table = sweep_table(scene, &prepared.facts, &cost, &headline, &warnings);
-    let verdict = prepared.facts.certificate.verdict(scene).and_then(|()| sweep::verdict(scene, &rows));
+    let verdict = prepared
+        .facts
+        .certificate
+        .verdict(scene)
+        .map_err(CommandError::from)
+        .and_then(|()| sweep::verdict(scene, &rows));
     Ok(Written { table, verdict })
 }

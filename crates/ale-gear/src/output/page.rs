@@ -8,7 +8,6 @@ use report::{charts::embedded, page::Rendered, view::View};
 use super::table::model_name;
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
-use crate::gears;
 use crate::scene::{Driver, Scene};
 
 /// What a page shows of a run.
@@ -37,7 +36,7 @@ impl<H: Serialize> Page<'_, H> {
         let Self { scene, facts, cost, headline, charts, pattern, view, warnings } = self;
         let view = match view {
             Some(view) => embedded("view", view),
-            None => embedded("view", &View::of_geometry(scene, &gears::pair(scene)?)),
+            None => embedded("view", &View::of_geometry(scene, &scene.gear_pair()?)),
         };
         let context = context! {
             name => &scene.name,

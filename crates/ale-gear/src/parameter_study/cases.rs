@@ -1,5 +1,6 @@
 //! Runs the scenes of a study, each into a folder of its own, side by side.
 
+use crate::scene::SceneError;
 use std::{
     path::Path,
     sync::{
@@ -54,6 +55,12 @@ pub(crate) struct CaseMiss {
     pub error: CommandError,
     /// Whether its files are there to be looked at: those of a result that does not hold.
     pub has_folder: bool,
+}
+
+impl From<SceneError> for CaseMiss {
+    fn from(error: SceneError) -> Self {
+        CommandError::from(error).into()
+    }
 }
 
 impl From<CommandError> for CaseMiss {
@@ -121,7 +128,7 @@ fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> 
     Ok(CaseRun {
         rows,
         cost,
-        geometry: gears::geometry_facts(&gears::pair(&case.scene)?),
+        geometry: gears::geometry_facts(&case.scene.gear_pair()?),
         steps: summary["headline"]["certificate"]["steps"].as_u64(),
         warnings: warnings.iter().filter_map(|w| Some(w.as_str()?.to_owned())).collect(),
     })

@@ -1,4 +1,5 @@
-//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used again. Theory (37).
+//! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used
+//! again. Theory (37).
 
 use dyn_stack::MemBuffer;
 use faer::{
@@ -6,8 +7,11 @@ use faer::{
     linalg::{cholesky::llt, lu::partial_pivoting as lu},
 };
 
-use super::{TOLERANCE, pivots::PIVOT_TOLERANCE, tangent::RIGID};
+use super::{TOLERANCE, pivots::PIVOT_TOLERANCE};
 use crate::ContactError;
+
+/// Coordinates of two rigid bodies.
+pub(super) const RIGID: usize = 12;
 
 /// What stands against the contact forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +43,8 @@ pub struct DenseProblem<'a> {
     pub balance: Balance,
 }
 
-/// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps do not settle.
+/// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps
+/// do not settle.
 pub struct DenseSolver {
     pub(super) forces: Vec<f64>,
     pub(super) openings: Vec<f64>,
@@ -53,7 +58,7 @@ pub struct DenseSolver {
     pub(super) scratch: MemBuffer,
     pub(super) symmetric: bool,
     /// Whether the factor is that of a solution that was put away.
-    pub(super) held: bool,
+    pub(super) saved: bool,
     pub(super) rotation: f64,
     pub(super) stiffness: f64,
     pub(super) iterations: usize,
@@ -87,7 +92,7 @@ impl DenseSolver {
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(cholesky.or(lu).or(solve)),
             symmetric: true,
-            held: false,
+            saved: false,
             rotation: 0.0,
             stiffness: 0.0,
             iterations: 0,
@@ -130,12 +135,12 @@ impl DenseSolver {
         self.residual
     }
 
-    /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start row i from, 0 where
-    /// there is none.
+    /// Solves the contact. `local(i, F)` gives delta_i (mm) and its slope (mm/N, positive); `start` the force to start
+    /// row i from, 0 where there is none.
     ///
-    /// Newton on forces and active set at once (semi-smooth Newton; Hintermueller, Ito, Kunisch, SIAM J. Optim. 13(3), 2003): rows that
-    /// pull leave, rows that overlap enter, each with the tangent of its delta. Where that goes in circles, tangents are held while the
-    /// set is found by pivots that cannot.
+    /// Newton on forces and active set at once (semi-smooth Newton; Hintermueller, Ito, Kunisch, SIAM J. Optim. 13(3),
+    /// 2003): rows that pull leave, rows that overlap enter, each with the tangent of its delta. Where that goes in
+    /// circles, tangents are held while the set is found by pivots that cannot.
     ///
     /// # Errors
     /// [`ContactError::NotConverged`], [`ContactError::NoLever`], [`ContactError::NotPositiveDefinite`].
@@ -189,7 +194,7 @@ impl DenseSolver {
                 return Ok(());
             }
         }
-        self.carefully(problem, local)
+        self.solve_by_active_set(problem, local)
     }
 
     /// Rows that touch first, with a force that is not far off.

@@ -7,14 +7,14 @@ use faer::{
     perm::PermRef,
 };
 
-use super::{DenseProblem, DenseSolver, tangent::RIGID};
+use super::{DenseProblem, DenseSolver, dense::RIGID};
 use crate::ContactError;
 
 impl DenseSolver {
     /// Factor of S + diag(slopes) on the active rows.
     pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
-        self.held = false;
+        self.saved = false;
         self.factor.clear();
         for &j in &self.active {
             let column = problem.compliance.col(j);
@@ -63,7 +63,8 @@ impl DenseSolver {
     }
 }
 
-/// Solves L L' x = b for one right-hand side in place, L lower triangular, column by column: what a general solver prepares costs more than this for some fifty rows.
+/// Solves L L' x = b for one right-hand side in place, L lower triangular, column by column: what a general solver
+/// prepares costs more than this for some fifty rows.
 fn solve_one(factor: &[f64], x: &mut [f64]) {
     let m = x.len();
     let below = |j: usize| &factor[j * m + j..(j + 1) * m];

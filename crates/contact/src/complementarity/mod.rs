@@ -4,12 +4,12 @@
 //! g_i = g0_i + l_i dtheta + o_i(F) + d_i F_i,    sum_i l_i F_i = M
 //! F_i >= 0,  g_i >= 0,  F_i g_i = 0
 //! ```
-//! With friction the moment of a force has a lever of its own, and the openings are those by normal and friction force together.
-//! g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the penalty law, 0
-//! with exact contact. The problem is the optimality condition of a convex quadratic programme, so the answer
-//! for the rotation and the gaps is unique.
+//! With friction the moment of a force has a lever of its own, and the openings are those by normal and friction force
+//! together. g0 undeformed gap, l lever, o opening by elastic deflection, d local compliance: 1/(k A_i) with the
+//! penalty law, 0 with exact contact. The problem is the optimality condition of a convex quadratic programme, so the
+//! answer for the rotation and the gaps is unique.
 
-mod careful;
+mod active_set_fallback;
 mod dense;
 mod factor;
 mod near;
@@ -21,7 +21,7 @@ mod tangent;
 use crate::{ContactError, ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
-pub use near::HeldSolution;
+pub use near::SavedSolution;
 pub use proximal::solve;
 pub use slices::solve_slices;
 

@@ -1,17 +1,18 @@
-//! Contact whose gaps have moved by little: the factor of a tangent near by in place of one for every step.
+//! Contact whose gaps have changed by little: Newton's method with the factor of an earlier tangent (modified Newton).
 //!
 //! ```text
 //! F <- F - (S + diag delta'_0)^-1 (g0 + S F + delta(F))
 //! ```
-//! Newton's method with a tangent that is held. What it leaves of an error is the change of the local slopes since the tangent was made, some thousandths of it; that it has arrived is told by the same
-//! conditions as for any solution, and where it does not, or where rows come or go, Newton's own steps go on from there.
+//! Each step reduces the error by the relative change of the local slopes since the tangent was factored, to some
+//! thousandths. Convergence is checked by the conditions of any solution. Where it fails, or where rows become active
+//! or inactive, full Newton steps go on from there.
 
 use super::{DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
 use crate::ContactError;
 
-/// A solution and the factor of its tangent, put away.
+/// A solution and the factor of its tangent, saved for later.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct HeldSolution {
+pub struct SavedSolution {
     forces: Vec<f64>,
     openings: Vec<f64>,
     approach: Vec<f64>,
@@ -22,13 +23,13 @@ pub struct HeldSolution {
     symmetric: bool,
 }
 
-/// Steps with a held tangent before Newton's own; three or four do.
+/// Steps with the saved tangent before full Newton steps; three or four are enough.
 const STEPS: usize = 8;
-/// What a step must leave of the violation for another one with the same tangent.
+/// Largest ratio of two successive violations with which the saved tangent is kept.
 const SLOW: f64 = 0.25;
 
-impl HeldSolution {
-    /// Whether there is none.
+impl SavedSolution {
+    /// Whether nothing has been saved.
     pub fn is_empty(&self) -> bool {
         self.forces.is_empty()
     }
@@ -41,36 +42,38 @@ impl HeldSolution {
 }
 
 impl DenseSolver {
-    /// Puts the last solution away, with its factor.
-    pub fn put_away(&mut self, held: &mut HeldSolution) {
-        held.forces.clone_from(&self.forces);
-        held.openings.clone_from(&self.openings);
-        held.approach.clone_from(&self.approach);
-        held.slopes.clone_from(&self.slopes);
-        held.active.clone_from(&self.active);
-        held.factor.clone_from(&self.factor);
-        held.permutation.clone_from(&self.permutation);
-        held.symmetric = self.symmetric;
-        self.held = true;
+    /// Saves the last solution with its factor.
+    pub fn save(&mut self, saved: &mut SavedSolution) {
+        saved.forces.clone_from(&self.forces);
+        saved.openings.clone_from(&self.openings);
+        saved.approach.clone_from(&self.approach);
+        saved.slopes.clone_from(&self.slopes);
+        saved.active.clone_from(&self.active);
+        saved.factor.clone_from(&self.factor);
+        saved.permutation.clone_from(&self.permutation);
+        saved.symmetric = self.symmetric;
+        self.saved = true;
     }
 
-    /// Takes up a solution that was put away, as if it had just been found.
-    pub fn take_up(&mut self, held: &HeldSolution) {
-        self.forces.clone_from(&held.forces);
-        self.openings.clone_from(&held.openings);
-        self.approach.clone_from(&held.approach);
-        self.slopes.clone_from(&held.slopes);
-        self.active.clone_from(&held.active);
-        self.factor.clone_from(&held.factor);
-        self.permutation.clone_from(&held.permutation);
-        (self.symmetric, self.held) = (held.symmetric, true);
+    /// Restores a saved solution, as if it had just been computed.
+    pub fn restore(&mut self, saved: &SavedSolution) {
+        self.forces.clone_from(&saved.forces);
+        self.openings.clone_from(&saved.openings);
+        self.approach.clone_from(&saved.approach);
+        self.slopes.clone_from(&saved.slopes);
+        self.active.clone_from(&saved.active);
+        self.factor.clone_from(&saved.factor);
+        self.permutation.clone_from(&saved.permutation);
+        (self.symmetric, self.saved) = (saved.symmetric, true);
         (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
     }
 
-    /// Solves the contact of bodies that are held, from the last solution on: of the same rows with the same compliance, whose gaps have moved by little. `accuracy`: violation of
-    /// the conditions, relative to the largest approach, that counts as solved; where it is below that of any solution it is raised to that.
+    /// Solves the contact of bodies that do not turn, starting from the last solution of the same rows with the same
+    /// compliance. `accuracy` is the violation of the conditions, relative to the largest approach, that counts as
+    /// solved; it is at least that of any solution.
     ///
-    /// The factor remains the one that was at hand unless rows come or go, so [`DenseSolver::tangent_of`] belongs to forces near by.
+    /// The factor is kept unless rows become active or inactive. So [`DenseSolver::tangent_of`] belongs to nearby
+    /// forces.
     ///
     /// # Errors
     /// As [`DenseSolver::solve`].
@@ -138,8 +141,8 @@ impl DenseSolver {
             .any(|i| active.next_if(|a| **a == i).is_none() && problem.gaps[i] + self.openings[i] < least)
     }
 
-    /// Whether the factor is that of a solution that was put away or taken up: rows have neither come nor gone since.
-    pub fn is_held(&self) -> bool {
-        self.held
+    /// Whether the factor is that of a saved or restored solution: the set of active rows has not changed since.
+    pub fn has_saved_factor(&self) -> bool {
+        self.saved
     }
 }

@@ -5,14 +5,15 @@ use crate::ContactError;
 
 /// Block pivots without progress before single steps take over.
 const PATIENCE: usize = 10;
-/// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a solve
-/// with the last compliance.
+/// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a
+/// solve with the last compliance.
 pub(super) const PIVOT_TOLERANCE: f64 = 2e-12;
-/// The same at most, where single steps go round in circles; what is left is for the proximal steps, and the residual tells.
+/// The same at most, where single steps go round in circles; what is left is for the proximal steps, and the residual
+/// tells.
 const LOOSEST_PIVOT: f64 = 1e-7;
 
-/// The active set on which no inactive row is penetrated and no active row pulls: block pivots while they make progress,
-/// then single steps that cannot cycle.
+/// The active set on which no inactive row is penetrated and no active row pulls: block pivots while they make
+/// progress, then single steps that cannot cycle.
 pub(super) fn pivot(
     bodies: &mut dyn LinearContact,
     problem: &Problem,
@@ -91,7 +92,8 @@ fn single_steps(
     let mut working: Vec<usize> = (0..n).filter(|&i| force[i] > 0.0).collect();
     let (mut tolerance, mut steps) = (PIVOT_TOLERANCE, 0);
     while tolerance <= LOOSEST_PIVOT {
-        // Rows that neither press nor gape (all gaps alike, more points than nodes) change sides by round-off: let them be.
+        // Rows that neither press nor gape (all gaps alike, more points than nodes) change sides by round-off: let them
+        // be.
         steps += 1;
         if steps > 50 + 2 * n {
             (tolerance, steps) = (10.0 * tolerance, 0);

@@ -21,10 +21,11 @@ const PENALTY_TOLERANCE: f64 = 1e-9;
 
 /// Solves the contact of `rows` under `moment` (N mm) about the axis of body number `body`.
 ///
-/// Block principal pivoting (all violated points change at once); where that stops making progress, the primal active-set
-/// method, which ends because every step lowers the energy. Exact contact with more points than nodes has no unique forces and no
-/// regular matrix; the proximal-point method (a local compliance about the forces of the step before, smaller from step to step)
-/// converges to zero penetration all the same. `start`: forces of an earlier solution at these rows, or zeros.
+/// Block principal pivoting (all violated points change at once); where that stops making progress, the primal
+/// active-set method, which ends because every step lowers the energy. Exact contact with more points than nodes has no
+/// unique forces and no regular matrix; the proximal-point method (a local compliance about the forces of the step
+/// before, smaller from step to step) converges to zero penetration all the same. `start`: forces of an earlier
+/// solution at these rows, or zeros.
 ///
 /// # Errors
 /// [`ContactError::NotConverged`], [`ContactError::NoLever`].
@@ -93,9 +94,10 @@ pub fn solve(
 
 /// How many steps like the last one proximal continuation may go at once where it creeps.
 ///
-/// Where more points press than the faces can tell apart, forces drift from one to the other at a rate that the proximal compliance sets,
-/// until one of them is free. As far as the residual would take to vanish at its `ratio` from step to step (Aitken), and not
-/// past the first force that becomes zero. Any forces are a fair start of the next proximal step.
+/// Where more points press than the faces can tell apart, forces drift from one to the other at a rate that the
+/// proximal compliance sets, until one of them is free. As far as the residual would take to vanish at its `ratio` from
+/// step to step (Aitken), and not past the first force that becomes zero. Any forces are a fair start of the next
+/// proximal step.
 fn extrapolation(before: &[f64], now: &[f64], ratio: f64) -> f64 {
     let to_zero = |(b, f): (&f64, &f64)| if f < b && *f > 0.0 { f / (b - f) } else { f64::INFINITY };
     let first = before.iter().zip(now).map(to_zero).fold(f64::INFINITY, f64::min);

@@ -13,9 +13,10 @@ const SLICE_STEPS: usize = 60;
 /// ```text
 /// g_i = g0_i + l_i dtheta + o_i(F) + delta_i(F_i)
 /// ```
-/// Newton on the complementarity: delta is replaced by its tangent at the last forces, the resulting linear problem is solved
-/// exactly, active set and all; the tangents are exact, so the error falls quadratically. delta grows slower and slower with the load, so the steps
-/// approach from below and need no damping. `local(i, F)` gives delta_i (mm) and its slope (mm/N); slopes are positive.
+/// Newton on the complementarity: delta is replaced by its tangent at the last forces, the resulting linear problem is
+/// solved exactly, active set and all; the tangents are exact, so the error falls quadratically. delta grows slower and
+/// slower with the load, so the steps approach from below and need no damping. `local(i, F)` gives delta_i (mm) and its
+/// slope (mm/N); slopes are positive.
 ///
 /// # Errors
 /// [`ContactError::NotConverged`], [`ContactError::NoLever`].

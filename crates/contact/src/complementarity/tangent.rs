@@ -2,16 +2,13 @@
 
 use faer::{MatMut, MatRef, Par, linalg::triangular_solve};
 
-use super::DenseSolver;
-
-/// Coordinates of two rigid bodies.
-pub(super) const RIGID: usize = 12;
+use super::{DenseSolver, dense::RIGID};
 
 impl DenseSolver {
     /// How forces and moments on two rigid bodies follow their motion, active rows alone.
     ///
-    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal without friction). See
-    /// [`DenseSolver::tangent_of`].
+    /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal
+    /// without friction). See [`DenseSolver::tangent_of`].
     pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
         let mut flat = [0.0; RIGID * RIGID];
         let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {
@@ -23,12 +20,14 @@ impl DenseSolver {
         std::array::from_fn(|p| std::array::from_fn(|q| flat[RIGID * p + q]))
     }
 
-    /// How generalised forces of any number of coordinates follow these, active rows alone, row by row into `tangent` (n x n).
+    /// How generalised forces of any number of coordinates follow these, active rows alone, row by row into `tangent`
+    /// (n x n).
     ///
     /// ```text
     /// T = -J_t' (S + diag delta')^-1 J
     /// ```
-    /// `row(i, J_i, J_t,i)` fills what the coordinates do to gap i and what a unit normal force does along them, n each; `memory` has room for both, 2n.
+    /// `row(i, J_i, J_t,i)` fills what the coordinates do to gap i and what a unit normal force does along them, n
+    /// each; `memory` has room for both, 2n.
     pub fn tangent_of(&mut self, memory: &mut [f64], row: impl Fn(usize, &mut [f64], &mut [f64]), tangent: &mut [f64]) {
         let (m, n) = (self.active.len(), memory.len() / 2);
         tangent.fill(0.0);

@@ -2,7 +2,8 @@
 
 use crate::FlankPatch;
 
-/// Cells over the surface coordinates of a patch; each has four lines along the profile and three along the face, ends shared.
+/// Cells over the surface coordinates of a patch; each has four lines along the profile and three along the face, ends
+/// shared.
 #[derive(Debug, Clone)]
 pub(crate) struct FlankGridLines {
     /// Ends of the cells, ascending, in either coordinate.
@@ -55,7 +56,8 @@ impl FlankGridLines {
 
     /// Surface coordinates of a grid point.
     pub fn point(&self, p: usize) -> [f64; 2] {
-        // Along the profile first: contact lines run along the face, and the points around each place shall lie side by side.
+        // Along the profile first: contact lines run along the face, and the points around each place shall lie side by
+        // side.
         let number = [p % self.lines(0), p / self.lines(0)];
         [0, 1].map(|k| {
             let parts: &[f64] = if k == 0 { &PROFILE } else { &FACE };

@@ -1,5 +1,5 @@
-//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom, with
-//! normal modes beside.
+//! How rows of contact deform both gears: from condensed matrices, from tables of these, with all degrees of freedom,
+//! with normal modes beside.
 
 mod bulk_grid;
 mod bulk_table;
@@ -7,7 +7,7 @@ mod condensed;
 mod full;
 mod modal;
 
-pub use bulk_table::{BulkCompliance, BulkTable, TablePlace, TableWork};
+pub use bulk_table::{BulkCompliance, BulkTable, TablePoint, TableWork};
 pub use condensed::{Condensed, opening};
 pub use full::FullContact;
 pub(crate) use modal::ModalRows;

@@ -3,14 +3,16 @@
 use faer::Mat;
 use reduction::{ElasticGear, GearModes};
 
-use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePlace, opening};
+use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePoint, opening};
 
 /// Modes of both gears on the rows of a contact.
 ///
 /// ```text
-/// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B,   forces on the modes: H_t' F
+/// g_i = g0_i + H_i q + sum_j R_ij F_j + delta_i(F_i),   R = S - H Omega^-2 H_t',   H = A Phi_B
+/// forces on the modes: H_t' F
 /// ```
-/// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as loads, friction included.
+/// S the slices' compliance: what the kept modes share of it answers with their inertia, the rest at once. H_t: as
+/// loads, friction included.
 #[derive(Debug)]
 pub struct ModalFlanks {
     /// Modes of either gear.
@@ -76,12 +78,12 @@ impl ModalFlanks {
     /// The modes on the flanks of a window.
     ///
     /// # Errors
-    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::OutOfRange`] for gears with all their degrees of freedom.
+    /// [`ContactError::Reduction`] for modes of another gear; [`ContactError::ModesOnFullGear`] for gears with all
+    /// their degrees of freedom.
     pub fn new(gears: &[ElasticGear; 2], modes: [&GearModes; 2], set: &ContactSet) -> Result<Self, ContactError> {
         let shapes = |g: usize| -> Result<Shapes, ContactError> {
             let (ElasticGear::Reduced(reducer), Some(windows)) = (&gears[g], set.windows()) else {
-                let expected = "reduced gears";
-                return Err(ContactError::OutOfRange { name: "normal modes", value: 0.0, expected });
+                return Err(ContactError::ModesOnFullGear { gear: ["pinion", "wheel"][g] });
             };
             let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][g], source };
             let on_nodes = modes[g].on_window(reducer, &windows[g]).map_err(fail)?;
@@ -130,8 +132,8 @@ impl ModalFlanks {
         &self.amplitudes
     }
 
-    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window where they are counts as one that moves them by a tenth
-    /// of what the others do.
+    /// Largest normal displacement of a flank by one unit of each mode; a mode that leaves the flanks of this window
+    /// where they are counts as one that moves them by a tenth of what the others do.
     pub fn sizes(&self) -> &[f64] {
         &self.sizes
     }
@@ -146,7 +148,7 @@ impl ModalFlanks {
     }
 
     /// Takes the openings of a gear's places in its table, or its loads.
-    pub(crate) fn read_places(&self, of: &mut ModalRows, gear: usize, places: &[TablePlace], loads: bool) {
+    pub(crate) fn read_places(&self, of: &mut ModalRows, gear: usize, places: &[TablePoint], loads: bool) {
         let (m, start) = (self.count().max(1), if gear == 0 { 0 } else { self.counts[0] });
         let Shapes::Table(samples) = &self.shapes[gear] else { return };
         let list = if loads { &mut of.loads } else { &mut of.openings };

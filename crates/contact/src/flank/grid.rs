@@ -8,12 +8,14 @@ use reduction::{FlankGrid, FlankGrids};
 
 use crate::{ContactError, FlankPatch};
 
-/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as for flank patches.
+/// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as
+/// for flank patches.
 ///
 /// A grid node's load is shared among the mesh nodes of the face it lies on by that face's shape functions.
 ///
 /// # Errors
-/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on its smooth surface.
+/// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on
+/// its smooth surface.
 pub fn flank_grids(
     gear: &GearMesh,
     geometry: &Gear,
@@ -32,7 +34,7 @@ pub fn flank_grids(
             };
             let faces = gear.flank(tooth, side).ok_or_else(missing)?;
             let surface = Box::new(geometry.flank_of(side, i64::from(tooth)));
-            let patch = FlankPatch::new(i64::from(tooth), surface, &gear.mesh().nodes, faces, |n| n, tolerance)
+            let patch = FlankPatch::new(i64::from(tooth), surface, &gear.mesh().nodes, faces, Some, tolerance)
                 .map_err(|source| ContactError::Flank { gear: NAME, source: Box::new(source) })?;
             grids.insert((tooth, side), grid(&patch, counts).ok_or_else(missing)?);
         }

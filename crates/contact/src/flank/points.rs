@@ -1,6 +1,6 @@
 //! Contact points: quadrature points of the flank faces of body 1.
 
-use mesh::FaceKind;
+use mesh::{FaceKind, gauss_legendre};
 
 use crate::{FacePoint, FlankPatch, GapSource, Vec3};
 
@@ -21,8 +21,8 @@ pub struct ContactPoint {
 ///
 /// Every weight is positive, and a uniform pressure gives consistent nodal forces from 2 (linear) or 3 (quadratic
 /// faces) points an edge on. 6 do in every case: a band narrower than an element is then seen by several points, and on
-/// faces finer than the band the nodal pressure converges to Hertz's (`tests/tests/line_contact/hertz.rs`). A single point a face
-/// leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
+/// faces finer than the band the nodal pressure converges to Hertz's (`tests/tests/line_contact/hertz.rs`). A single
+/// point a face leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
 pub fn contact_points(patch: &FlankPatch, per_edge: usize, source: GapSource) -> Vec<ContactPoint> {
     let gauss = gauss_legendre(per_edge.max(1));
     let mut points = Vec::with_capacity(patch.face_count() * gauss.len() * gauss.len());
@@ -48,52 +48,4 @@ pub fn contact_points(patch: &FlankPatch, per_edge: usize, source: GapSource) ->
         }
     }
     points
-}
-
-/// Abscissas and weights of the n-point Gauss-Legendre rule on [-1, 1], ascending.
-///
-/// Newton on P_n from Chebyshev's estimate; weights 2 / ((1 - x^2) P_n'^2).
-fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
-    let polynomial = |x: f64| {
-        let (mut before, mut now) = (1.0, x);
-        for k in 2..=n {
-            let k = k as f64;
-            (before, now) = (now, ((2.0 * k - 1.0) * x * now - (k - 1.0) * before) / k);
-        }
-        (now, n as f64 * (x * now - before) / (x * x - 1.0))
-    };
-    (0..n)
-        .rev()
-        .map(|i| {
-            let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-            for _ in 0..100 {
-                let (p, slope) = polynomial(x);
-                let step = p / slope;
-                x -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            let slope = polynomial(x).1;
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::gauss_legendre;
-
-    /// n points integrate polynomials of degree 2n - 1 exactly.
-    #[test]
-    fn gauss_rule_has_its_degree() {
-        for n in 1..=12 {
-            let rule = gauss_legendre(n);
-            for degree in 0..2 * n {
-                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(degree as i32)).sum();
-                let exact = if degree % 2 == 1 { 0.0 } else { 2.0 / (degree as f64 + 1.0) };
-                assert!((sum - exact).abs() < 1e-13, "n {n}, degree {degree}: {sum} not {exact}");
-            }
-        }
-    }
 }

@@ -7,8 +7,8 @@ use crate::Vec3;
 pub struct Foot {
     /// Surface coordinates of the foot.
     pub at: [f64; 2],
-    /// Signed distance of the point, mm; positive outside the material. Of a surface with [`Surface::depth`]: distance from the
-    /// nominal surface plus the depth at the foot, zero exactly on the surface itself.
+    /// Signed distance of the point, mm; positive outside the material. Of a surface with [`Surface::depth`]: distance
+    /// from the nominal surface plus the depth at the foot, zero exactly on the surface itself.
     pub distance: f64,
 }
 
@@ -32,8 +32,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn curvature(&self, at: [f64; 2]) -> f64;
     /// Foot point of `p`; `None` where there is none.
     fn locate(&self, p: &Vec3) -> Option<Foot>;
-    /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal surface: their
-    /// nodes lie on it and not on this one.
+    /// How far the surface lies below the nominal one, mm, along the nominal normal. Meshes are made of the nominal
+    /// surface: their nodes lie on it and not on this one.
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
@@ -41,8 +41,8 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn nominal_normal(&self, at: [f64; 2]) -> Vec3 {
         self.normal(at)
     }
-    /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place, and any
-    /// search that goes downhill finds it.
+    /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place,
+    /// and any search that goes downhill finds it.
     fn is_single_arc(&self) -> bool {
         false
     }
@@ -104,8 +104,8 @@ impl Surface for geometry::ModifiedFlank {
         self.tangents(u, z)[0]
     }
 
-    /// That of the nominal flank and that of the depth, as a band of 0.1 mm either way sees it: where a relief starts with a kink there
-    /// is none to be had at a point.
+    /// That of the nominal flank and that of the depth, as a band of 0.1 mm either way sees it: where a relief starts
+    /// with a kink there is none to be had at a point.
     fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
         let nominal = self.nominal();
         let arc = nominal.base_radius * u.max(f64::MIN_POSITIVE);

@@ -1,20 +1,20 @@
 //! Length of a contact line from the contact state. Theory (21).
 
-/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at height z, is
-/// at most `tolerance`.
+use crate::bracketing::last_inside;
+
+/// Bisections to an end of contact: to a 10^4th of a step.
+const END_BISECTIONS: usize = 14;
+
+/// Axial intervals [from, to], mm, over which a tooth pair touches: where `gap(z)` (mm), the least deformed gap at
+/// height z, is at most `tolerance`.
 ///
 /// `samples` equally spaced stations of `range` tell where contact begins and ends; each end is then bisected to a
-/// 10^4th of a step, so the length is continuous in the position of the gears. A stretch of contact shorter than a step can be missed.
+/// 10^4th of a step, so the length is continuous in the position of the gears. A stretch of contact shorter than a step
+/// can be missed.
 pub fn contact_intervals(gap: impl Fn(f64) -> f64, range: [f64; 2], samples: usize, tolerance: f64) -> Vec<[f64; 2]> {
     let touches = |z: f64| gap(z) <= tolerance;
     let step = (range[1] - range[0]) / (samples.max(2) - 1) as f64;
-    let end = |mut inside: f64, mut outside: f64| {
-        for _ in 0..14 {
-            let middle = 0.5 * (inside + outside);
-            if touches(middle) { inside = middle } else { outside = middle }
-        }
-        inside
-    };
+    let end = |inside: f64, outside: f64| last_inside(touches, [inside, outside], END_BISECTIONS, 0.0);
     let mut intervals = Vec::new();
     let mut open: Option<f64> = None;
     let mut before = None;

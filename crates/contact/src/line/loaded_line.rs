@@ -1,11 +1,12 @@
 //! Where the loaded parts of a line of slices begin and end, between its stations. Theory (21b).
 
-use crate::slice::bracket_zero_within;
+use crate::bracketing::bracket_zero_within;
 
 /// A station of a contact line as the solved contact left it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineStation {
-    /// Gap under load without the local approach, mm: what the flanks overlap by where the station presses (below 0), what is left open where it does not.
+    /// Gap under load without the local approach, mm: what the flanks overlap by where the station presses (below 0),
+    /// what is left open where it does not.
     pub gap: f64,
     /// What of it is not the undeformed flanks' own gap, mm: the bulk's deflection, smooth along the line.
     pub opened: f64,
@@ -25,12 +26,14 @@ const AROUND: usize = 4;
 /// ```text
 /// w(z) = g(z) + o(z) < 0
 /// ```
-/// g: gap of the undeformed flanks at the loaded pose, exact at every z (`gap(i, z)` with station `i` the next one to z; infinite where they do not face each other);
-/// o: [`LineStation::opened`], a parabola through the next three stations. At the stations w is what the solution has, so the ends are those of the very line whose load the slices carry,
-/// and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end face, or between three stations that are about to touch.
+/// g: gap of the undeformed flanks at the loaded pose, exact at every z (`gap(i, z)` with station `i` the next one to
+/// z; infinite where they do not face each other); o: [`LineStation::opened`], a parabola through the next three
+/// stations. At the stations w is what the solution has, so the ends are those of the very line whose load the slices
+/// carry, and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end
+/// face, or between three stations that are about to touch.
 ///
-/// `stations` (mm) are evenly spaced, ascending, half a step inside of the faces at -+ `half`; `solved` has `None` for stations that are too far
-/// apart to have been looked at.
+/// `stations` (mm) are evenly spaced, ascending, half a step inside of the faces at -+ `half`; `solved` has `None` for
+/// stations that are too far apart to have been looked at.
 pub fn loaded_intervals(
     stations: &[f64],
     solved: &[Option<LineStation>],
@@ -86,7 +89,8 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
         self.zero(i, [self.stations[i], face], None)
     }
 
-    /// A part of the line that no station carries, beside station `i`, which is open: at an end face, or where the gap dips between stations.
+    /// A part of the line that no station carries, beside station `i`, which is open: at an end face, or where the gap
+    /// dips between stations.
     fn unreached(&mut self, i: usize, half: f64) -> Option<[f64; 2]> {
         let here = self.solved[i]?.gap;
         let z = self.stations[i];
@@ -153,7 +157,8 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
         known.iter().enumerate().map(|(i, (_, opened))| weight(i) * opened).sum()
     }
 
-    /// Where between `inside`, a station that presses, and `outside` the line ends; all of the way if it does not. `there`: gap at `outside`, if it is known.
+    /// Where between `inside`, a station that presses, and `outside` the line ends; all of the way if it does not.
+    /// `there`: gap at `outside`, if it is known.
     fn zero(&mut self, station: usize, [inside, outside]: [f64; 2], there: Option<f64>) -> f64 {
         let here = self.solved[station].map_or(0.0, |s| s.gap);
         let there = there.unwrap_or_else(|| self.under_load(station, outside));

@@ -1,4 +1,5 @@
-//! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would touch.
+//! The contact line of a pair: where it touches, how hard it is pressed, and whether a pair outside the window would
+//! touch.
 
 use ale::{Station, ToothWindow};
 use geometry::GearPair;
@@ -11,8 +12,8 @@ use crate::{
 /// Axial stations at which the least gap of a pair is looked at.
 const LINE_SAMPLES: usize = 97;
 /// A station is in contact when its flanks are nearer than this share of the approach: between points that touch, the
-/// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap rises
-/// by as much within a few hundredths of a millimetre.
+/// interpolated deflection of the faces leaves gaps up to about a tenth of it open. Beyond the ends of the path the gap
+/// rises by as much within a few hundredths of a millimetre.
 const TOUCHING: f64 = 0.15;
 /// Width of the axial bins for the line load behind the Hertzian pressure, in face elements: points press one by one,
 /// and only over more than an element do their forces add up to a line load.
@@ -20,8 +21,8 @@ const BIN_ELEMENTS: f64 = 1.5;
 
 /// Largest Hertzian pressure along the line of a pair, MPa, from the line load in axial bins.
 ///
-/// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's force is
-/// spread over one element of face width about it, and bins of [`BIN_ELEMENTS`] elements take their share.
+/// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's
+/// force is spread over one element of face width about it, and bins of [`BIN_ELEMENTS`] elements take their share.
 pub fn line_pressure(
     pair: &GearPair,
     patch: &FlankPatch,
@@ -67,9 +68,9 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
     rho * (length - rho) / (length * pair.base_helix_angle().cos())
 }
 
-/// Axial intervals over which a pair of patches touches, by the deformed gap where the undeformed flanks at the loaded pose are
-/// nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach` that of the flanks under load, mm;
-/// `half` half the face width, mm.
+/// Axial intervals over which a pair of patches touches, by the deformed gap where the undeformed flanks at the loaded
+/// pose are nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach` that of the flanks
+/// under load, mm; `half` half the face width, mm.
 pub fn nodal_contact_line(
     set: &ContactSet,
     options: &ContactOptions,
@@ -95,7 +96,8 @@ pub fn nodal_contact_line(
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * approach)
 }
 
-/// The same from slices: `opened` is what of a row's gap under load is not the undeformed flanks' own ([`LineStation`]).
+/// The same from slices: `opened` is what of a row's gap under load is not the undeformed flanks' own
+/// ([`LineStation`]).
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],
@@ -113,14 +115,15 @@ pub fn slice_line(
         (solved[point], hints[point]) = (Some(station), SliceHint::near(&slice));
     }
     let gap = |near: usize, z: f64| {
-        let found = flanks.place(z, &mut hints[near]);
+        let found = flanks.nearest_point(z, &mut hints[near]);
         let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
         touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
     };
     loaded_intervals(stations, &solved, half, gap)
 }
 
-/// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included, which its force (N) makes. `other`: what opens it besides, mm.
+/// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included,
+/// which its force (N) makes. `other`: what opens it besides, mm.
 pub fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f64) -> LineStation {
     if force > 0.0 {
         let approach = slice.local.under(force / slice.length).approach;
@@ -132,7 +135,7 @@ pub fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f6
 
 /// A window at given poses, for a look at the pairs beside it.
 #[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+pub struct NeighbourPairs<'a> {
     /// The pair.
     pub pair: &'a GearPair,
     /// Flanks and offsets.
@@ -147,10 +150,10 @@ pub struct Beside<'a> {
     pub poses: &'a [Pose; 2],
 }
 
-impl Beside<'_> {
+impl NeighbourPairs<'_> {
     /// Least gap of the two pairs beside the window, mm, undeformed.
     pub fn least_gap(&self) -> f64 {
-        self.window.beside().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
+        self.window.neighbours().into_iter().map(|running| self.gap(running)).fold(f64::INFINITY, f64::min)
     }
 
     /// Least gap of a pair that the window does not hold, mm, undeformed smooth flanks at the loaded pose.
@@ -160,8 +163,8 @@ impl Beside<'_> {
 }
 
 /// Least gap (mm) at the loaded pose of a pair that the window does not hold, undeformed smooth flanks.
-fn outside_gap(beside: &Beside<'_>, running: i64) -> f64 {
-    let Beside { pair, options, set, window, station, poses } = *beside;
+fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
+    let NeighbourPairs { pair, options, set, window, station, poses } = *neighbours;
     let side = options.side();
     let [f1, f2] = set.first_teeth();
     let last = window.first() + window.count() as i64 - 1;

@@ -9,8 +9,8 @@ use crate::{ContactRow, FlankPatch};
 /// ```text
 /// p_i = sum_j |N_i(x_j)| F_j / integral of |N_i|
 /// ```
-/// The forces of single points scatter where points outnumber nodes: only their sums on the nodes act on the body. These
-/// are what converges with the mesh. `patches` are all patches of the body, `rows` all rows of the contact.
+/// The forces of single points scatter where points outnumber nodes: only their sums on the nodes act on the body.
+/// These are what converges with the mesh. `patches` are all patches of the body, `rows` all rows of the contact.
 pub fn nodal_pressures(patches: &[FlankPatch], body: usize, rows: &[ContactRow], forces: &[f64]) -> BTreeMap<u32, f64> {
     let mut areas = BTreeMap::new();
     for (node, area) in patches.iter().flat_map(FlankPatch::nodal_areas) {

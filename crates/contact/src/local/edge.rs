@@ -1,28 +1,29 @@
 //! Contact near a tip edge, at it, and past it.
 //!
-//! Near its tip a tooth is a wedge. With x the distance from the edge along the flank, in half-widths a of the Hertzian band that the
-//! same load would make far from the edge, the band lies where the gap (x - D)^2 a^2 / (2 R), x > 0, is closed: D > 1 on the
-//! flank, -1 < D < 1 cut off by the edge, D < 0 with the edge off the line of action (the flanks recede from each other by the
-//! angle -D a / R there). A force on the flank of a wedge dents it by
+//! Near its tip a tooth is a wedge. With x the distance from the edge along the flank, in half-widths a of the Hertzian
+//! band that the same load would make far from the edge, the band lies where the gap (x - D)^2 a^2 / (2 R), x > 0, is
+//! closed: D > 1 on the flank, -1 < D < 1 cut off by the edge, D < 0 with the edge off the line of action (the flanks
+//! recede from each other by the angle -D a / R there). A force on the flank of a wedge dents it by
 //!
 //! ```text
 //! u(x; s) = K q [-ln|x - s| - eta/2 ln(x s) + G(ln(x/s))] + const,   K = 2 (1 - nu^2) / (pi E)
 //! G(y) = 2 int_0^inf [L(w) - coth(pi w) / (2 w)] (cos(w y) - 1) dw
 //! L(w) = [(cosh(O w) - cos O) / (sinh(O w) + w sin O) + (cosh(O w) + cos O) / (sinh(O w) - w sin O)] / (4 w)
 //! ```
-//! O: the wedge's angle (Mellin transform of the elastic wedge). Solving this contact for wedge angles of 95 to 150 degrees and mates
-//! of any stiffness shows that approach depends on D and on the one number e = eta K / (K + K') alone (K' of the mate),
-//! and that it parts into what the missing half of the band costs and what the wedge's softness costs:
+//! O: the wedge's angle (Mellin transform of the elastic wedge). Solving this contact for wedge angles of 95 to 150
+//! degrees and mates of any stiffness shows that approach depends on D and on the one number e = eta K / (K + K') alone
+//! (K' of the mate), and that it parts into what the missing half of the band costs and what the wedge's softness
+//! costs:
 //!
 //! ```text
 //! approach = (K + K') q [ln(2/a) + 1/2 + P(D) - e ln(a l(D, e))],   a l: distance of the load from the edge
 //! ```
-//! P is exact ([`cut_off`]), l a fit to the solved contact ([`reach`]); together within 0.02 of the bracket for e < 0.4, 0.05 for e < 1.3,
-//! -10 < D (`tests/tests/line_contact/local_approach.rs`).
+//! P is exact ([`cut_off`]), l a fit to the solved contact ([`reach`]); together within 0.02 of the bracket for e <
+//! 0.4, 0.05 for e < 1.3, -10 < D (`tests/tests/line_contact/local_approach.rs`).
 //!
-//! An edge rounded by an arc of radius r, tangent to flank and tip land, softens the tooth exactly as the sharp corner would from which the
-//! arc was cut (resolved by finite elements: 0.5 %), but the flank ends at the tangent point, and beyond it the gap opens with
-//! the arc's curvature as well.
+//! An edge rounded by an arc of radius r, tangent to flank and tip land, softens the tooth exactly as the sharp corner
+//! would from which the arc was cut (resolved by finite elements: 0.5 %), but the flank ends at the tangent point, and
+//! beyond it the gap opens with the arc's curvature as well.
 
 use std::f64::consts::PI;
 
@@ -46,8 +47,9 @@ type Dual = (f64, f64);
 /// c = 2 / (sqrt(D^2 + 3) - D),   e = c/2 - D
 /// P = -ln(c/2) - 1/2 - c^2/8 + c e + max(D, 0)^2
 /// ```
-/// Band 0 < x < c, pressure proportional to sqrt((c - x)/x) (x + e): the smooth flank of one body on a sharp edge of the other, both with the kernel
-/// of a half-plane. P ~ ln|D| + 1 + ln 2 - 1/2 for D << 0, where the flanks meet at a constant angle.
+/// Band 0 < x < c, pressure proportional to sqrt((c - x)/x) (x + e): the smooth flank of one body on a sharp edge of
+/// the other, both with the kernel of a half-plane. P ~ ln|D| + 1 + ln 2 - 1/2 for D << 0, where the flanks meet at a
+/// constant angle.
 fn cut_off(d: f64) -> Dual {
     if d >= 1.0 {
         return (0.0, 0.0);
@@ -96,7 +98,8 @@ fn reach(d: f64, e: f64) -> Dual {
 /// Tip edge of one body, and where the band lies to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
-    /// Distance d of the contact from the sharp corner along the flank, mm; negative when the flanks would meet past it.
+    /// Distance d of the contact from the sharp corner along the flank, mm; negative when the flanks would meet past
+    /// it.
     pub distance: f64,
     /// Angle between flank and tip land, rad.
     pub angle: f64,
@@ -169,7 +172,8 @@ mod tests {
         assert!((wedge_softening(118.65f64.to_radians()) - 0.473).abs() < 1e-3);
     }
 
-    /// Half of a band cut away, by quadrature of its pressure: 0.5493; a band just inside the edge loses nothing, to first order.
+    /// Half of a band cut away, by quadrature of its pressure: 0.5493; a band just inside the edge loses nothing, to
+    /// first order.
     #[test]
     fn what_a_cut_band_costs() {
         assert!((cut_off(0.0).0 - 0.549_306).abs() < 1e-6, "{}", cut_off(0.0).0);
@@ -179,8 +183,8 @@ mod tests {
         assert!(far.abs() < 1e-7, "{far}");
     }
 
-    /// Far round the arc the band is Hertz's for the arc's own curvature beside the mate's, 1/R + 1/r: narrower by sqrt(1 + R/r), so its approach is larger by half a logarithm of
-    /// that. On the flank the arc costs nothing.
+    /// Far round the arc the band is Hertz's for the arc's own curvature beside the mate's, 1/R + 1/r: narrower by
+    /// sqrt(1 + R/r), so its approach is larger by half a logarithm of that. On the flank the arc costs nothing.
     #[test]
     fn round_the_arc_the_band_is_that_of_its_curvature() {
         for m in [0.5, 4.0, 50.0] {
@@ -190,7 +194,8 @@ mod tests {
         }
     }
 
-    /// The arc touches the flank and the tip land: its centre, one radius above the tangent point, is one radius from the land as well.
+    /// The arc touches the flank and the tip land: its centre, one radius above the tangent point, is one radius from
+    /// the land as well.
     #[test]
     fn the_arc_is_tangent_to_flank_and_land() {
         for degrees in [95.0f64, 118.0, 150.0] {

@@ -5,8 +5,9 @@
 pub struct EndFace {
     /// Distance along the contact line, mm.
     pub distance: f64,
-    /// How far the face leans from the line's normal plane, rad: positive where it meets the flank at an acute angle (PI/2 - lean), negative where
-    /// the angle is obtuse. On a helical tooth the base helix angle, acute at one end and obtuse at the other.
+    /// How far the face leans from the line's normal plane, rad: positive where it meets the flank at an acute angle
+    /// (PI/2 - lean), negative where the angle is obtuse. On a helical tooth the base helix angle, acute at one end and
+    /// obtuse at the other.
     pub lean: f64,
 }
 
@@ -21,9 +22,10 @@ const LEAN_STEP_DEG: f64 = 10.0;
 const LEANS: usize = 9;
 /// Weights of the two terms of [`Softening`], leans from -40 to 40 deg.
 ///
-/// Fitted to a bonded layer with a free end, resolved in 3-D under the same line load everywhere
-/// (`cargo run --release -p contact --example end_faces`); within 5 % of the softening at distances over a quarter of the half-width, 0.03 where it is small.
-/// Known in closed form are nu = 0 with an upright face (0: plane strain satisfies it) and the growth with the logarithm.
+/// Fitted to a bonded layer with a free end, resolved in 3-D under the same line load everywhere (`cargo run --release
+/// -p contact --example end_faces`); within 5 % of the softening at distances over a quarter of the half-width, 0.03
+/// where it is small. Known in closed form are nu = 0 with an upright face (0: plane strain satisfies it) and the
+/// growth with the logarithm.
 #[rustfmt::skip]
 const WEIGHTS: [[[f64; 2]; LEANS]; POISSON.len()] = [
     [[-0.779, 0.407], [-0.721, 0.373], [-0.598, 0.300], [-0.372, 0.176], [0.000, 0.000], [0.537, -0.171], [1.308, -0.239], [2.410, 0.079], [3.616, 1.956]],
@@ -39,7 +41,8 @@ const UNIT_DECAY: f64 = 0.4;
 const SERIES: f64 = 0.01;
 /// Distance over depth past which no face is felt.
 const FAR: f64 = 20.0;
-/// Distance over depth past which E goes with the square of the half-width: the fourth power is a hundred millionth of it.
+/// Distance over depth past which E goes with the square of the half-width: the fourth power is a hundred millionth of
+/// it.
 const STRAIGHT: f64 = 1.0;
 /// Part of the half-width within which the band is too wide to feel the face any more.
 const BLUNT: f64 = 0.28;
@@ -49,8 +52,8 @@ const BLUNT: f64 = 0.28;
 /// ```text
 /// E = B_1 ln coth(1.6 s/t) + B_2 ln coth(1.2 s/t),   s^2 = distance^2 + (0.28 a)^2
 /// ```
-/// Near the face it grows with ln(t/s), as any load does that nears an edge; a depth away it is gone. An acute end softens much, an obtuse one stiffens a
-/// little; Poisson's ratio softens all (the face is free to bulge).
+/// Near the face it grows with ln(t/s), as any load does that nears an edge; a depth away it is gone. An acute end
+/// softens much, an obtuse one stiffens a little; Poisson's ratio softens all (the face is free to bulge).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Softening {
     /// Distance over depth.
@@ -142,7 +145,8 @@ mod tests {
         assert!(softening(&EndFace::FAR, 0.3, 2.0, 0.1).0 == 0.0);
     }
 
-    /// Between the ratios and leans that were resolved the softening has no jump, and passes through their mean half-way.
+    /// Between the ratios and leans that were resolved the softening has no jump, and passes through their mean
+    /// half-way.
     #[test]
     fn between_resolved_cases_it_is_straight() {
         let at =

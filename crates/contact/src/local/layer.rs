@@ -6,8 +6,9 @@
 /// c_L = int_0^inf [k(w) - 1 + exp(-w)] / w dw
 /// k(w) = [x (1 - e^2) - 4 w e] / [x (1 + e^2) + (4 w^2 + x^2 + 1) e],   e = exp(-2 w),  x = 3 - 4 nu
 /// ```
-/// Far from its edges a layer of depth t sinks under a Hertzian line load q by K q [ln(2 t / a) + 1/2 + c_L]. A real half tooth
-/// has a tip, a foot and a tapering depth: `reduction::LayerProfile` gives the constant at every place of its flank.
+/// Far from its edges a layer of depth t sinks under a Hertzian line load q by K q [ln(2 t / a) + 1/2 + c_L]. A real
+/// half tooth has a tip, a foot and a tapering depth: `reduction::LayerProfile` gives the constant at every place of
+/// its flank.
 pub fn layer_constant(poisson: f64) -> f64 {
     let x = 3.0 - 4.0 * poisson;
     let integrand = |w: f64| {

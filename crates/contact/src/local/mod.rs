@@ -24,12 +24,13 @@ pub struct LocalBody {
     pub layer: f64,
     /// Depth t of the layer, mm: from the flank to the centre surface of its tooth.
     pub depth: f64,
-    /// Distance d from the contact to the tip edge along the profile, mm, the sharp corner even where it is rounded; 0 when
-    /// the edge itself touches.
+    /// Distance d from the contact to the tip edge along the profile, mm, the sharp corner even where it is rounded; 0
+    /// when the edge itself touches.
     pub tip_distance: f64,
     /// Angle between flank and tip land, inside the material, rad; PI where there is no edge.
     pub tip_angle: f64,
-    /// d/dx [c + (1 + eta) ln t] at the tip, x the distance from the edge, 1/mm: the band of an edge contact lies a little inside the edge.
+    /// d/dx [c + (1 + eta) ln t] at the tip, x the distance from the edge, 1/mm: the band of an edge contact lies a
+    /// little inside the edge.
     pub tip_gradient: f64,
     /// Radius of the arc that rounds the tip edge, tangent to flank and tip land, mm; 0: sharp.
     pub edge_radius: f64,
@@ -44,8 +45,8 @@ pub struct LocalContact {
     pub bodies: [LocalBody; 2],
     /// Relative radius of curvature in the normal plane, mm.
     pub radius: f64,
-    /// How far past the tip edge the smooth flanks would touch, mm of arc of the edge's own flank continued; 0 on the line of
-    /// action. The edge is that of the body with the smaller `tip_distance`.
+    /// How far past the tip edge the smooth flanks would touch, mm of arc of the edge's own flank continued; 0 on the
+    /// line of action. The edge is that of the body with the smaller `tip_distance`.
     ///
     /// It is radius times the angle (rad) at which the flanks recede from each other at the edge.
     pub off_line: f64,
@@ -71,10 +72,10 @@ impl LocalContact {
     /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + E + eta ln(t / l) + g (l - d)] + (K_1 + K_2) q P
     /// K_b = 2 (1 - nu^2) / (pi E)
     /// ```
-    /// a: half-width after Hertz; c: [`LocalBody::layer`]; E: softening by the end faces; eta: [`wedge_softening`]; l: distance between load and tip edge, d where the band
-    /// is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost where the edge cuts the band off. All continuous with their slopes, from the
-    /// middle of the flank to an edge far off the line of action. Without load, all is 0 and the slope is that of a load small enough not
-    /// to matter.
+    /// a: half-width after Hertz; c: [`LocalBody::layer`]; E: softening by the end faces; eta: [`wedge_softening`]; l:
+    /// distance between load and tip edge, d where the band is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost
+    /// where the edge cuts the band off. All continuous with their slopes, from the middle of the flank to an edge far
+    /// off the line of action. Without load, all is 0 and the slope is that of a load small enough not to matter.
     pub fn under(&self, load: f64) -> LocalState {
         self.law().under(load)
     }
@@ -100,8 +101,8 @@ impl LocalContact {
         LocalLaw { modulus, radius: self.radius, bodies }
     }
 
-    /// What rounding the edge adds to the gap between the sharp flanks, mm: the arc lies behind the corner that it replaces.
-    /// 0 without an edge radius and away from the edge.
+    /// What rounding the edge adds to the gap between the sharp flanks, mm: the arc lies behind the corner that it
+    /// replaces. 0 without an edge radius and away from the edge.
     pub fn edge_opening(&self) -> f64 {
         self.edges().iter().map(Edge::opening).sum()
     }
@@ -129,10 +130,12 @@ pub struct LocalLaw {
     bodies: [BodyLaw; 2],
 }
 
-/// Distances from edges and end faces, in radii of curvature (the half-width is 2 p / E* of it, a fortieth), from which on what they add goes with the square of the half-width.
+/// Distances from edges and end faces, in radii of curvature (the half-width is 2 p / E* of it, a fortieth), from which
+/// on what they add goes with the square of the half-width.
 const FAR_EDGE: f64 = 0.5;
 const FAR_FACE: f64 = 0.2;
-/// Points and weights on 0 .. 1 that integrate x times any cubic, and four orders more, exactly (Gauss and Jacobi; Abramowitz and Stegun, table 25.8).
+/// Points and weights on 0 .. 1 that integrate x times any cubic, and four orders more, exactly (Gauss and Jacobi;
+/// Abramowitz and Stegun, table 25.8).
 const JACOBI: [(f64, f64); 4] = [
     (0.139_759_864_343_780_55, 0.031_180_970_950_008_08),
     (0.416_409_567_631_083_2, 0.129_847_547_608_232_44),
@@ -172,13 +175,16 @@ impl LocalLaw {
         LocalState { approach, slope, half_width, pressure: hertz::line_pressure(q, self.radius, self.modulus) }
     }
 
-    /// Energy of a line load `load` q (N/mm) per length of contact line beyond half of load times approach, N mm/mm, <= 0 on a flank: its slope falls as the load grows.
+    /// Energy of a line load `load` q (N/mm) per length of contact line beyond half of load times approach, N mm/mm, <=
+    /// 0 on a flank: its slope falls as the load grows.
     ///
     /// ```text
     /// q delta / 2 - int_0^q delta dq' = -q^2 int_0^1 x [B(a sqrt x) - B(a)] dx,   delta = q B(a)
-    /// B = -(K_1 + K_2) ln a + R(a):   the logarithm leaves (K_1 + K_2) / 8, R by quadrature, or -R' / 12 (R' = dR / d ln a) where it goes with a^2, far from any edge
+    /// B = -(K_1 + K_2) ln a + R(a):   the logarithm leaves (K_1 + K_2) / 8, R by quadrature,
+    ///     or -R' / 12 (R' = dR / d ln a) where it goes with a^2, far from any edge
     /// ```
-    /// So strain energy is the integral of the very law, and forces are its derivatives: to 1e-7 of it next to edges, else to round-off.
+    /// So strain energy is the integral of the very law, and forces are its derivatives: to 1e-7 of it next to edges,
+    /// else to round-off.
     pub fn curved_energy(&self, load: f64) -> f64 {
         let least = self.least();
         if load <= least {
@@ -205,7 +211,8 @@ impl LocalLaw {
         self.bodies.iter().all(far)
     }
 
-    /// A load so small that it does not matter, N/mm: the compliance of a vanishing one is infinite, if only as a logarithm.
+    /// A load so small that it does not matter, N/mm: the compliance of a vanishing one is infinite, if only as a
+    /// logarithm.
     fn least(&self) -> f64 {
         1e-15 * self.modulus * self.radius
     }

@@ -2,17 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Candidates, ContactPoint, FacePoint, FlankPatch, Pose, Vec3, flank::Interpolation, least_gap};
-
-/// What a gap is measured between.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum GapSource {
-    /// The smooth flanks.
-    #[default]
-    Smooth,
-    /// The finite-element faces as they are: shows the facet error h^2 / (8 rho); for study only.
-    Facet,
-}
+use crate::{Candidates, ContactPoint, FacePoint, FlankPatch, GapSource, Pose, Vec3, flank::Interpolation, least_gap};
 
 /// Both bodies of a contact with their patches.
 #[derive(Debug, Clone, Copy)]
@@ -71,10 +61,11 @@ pub struct ContactRow {
     pub normal: Vec3,
     /// Surface coordinates on body 1.
     pub coordinates: [f64; 2],
-    /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns the body with
-    /// just this moment.
+    /// d gap / d angle of each body about its own z axis, wherever its pose points it, mm; a unit normal force turns
+    /// the body with just this moment.
     pub levers: [f64; 2],
-    /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no friction.
+    /// Moment of a unit normal force, friction included, about each body's own z axis, mm: the levers where there is no
+    /// friction.
     pub torque_levers: [f64; 2],
     /// Force on body 1 for a unit normal force, common frame: `normal`, and friction on top.
     pub traction: Vec3,

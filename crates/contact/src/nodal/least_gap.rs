@@ -1,11 +1,14 @@
 //! Where two flanks are nearest at an axial station.
 
-use crate::{FlankPatch, Pose, Surface, slice::bracket_zero};
+use crate::{
+    FlankPatch, Pose, Surface,
+    bracketing::{bracket_zero, last_inside},
+};
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.
 const SCAN: usize = 24;
 /// Bisection steps to the end of the facing part: it is found to round-off.
-const STEPS: usize = 60;
+const BISECTIONS: usize = 60;
 
 /// Two smooth surfaces at the poses of their bodies.
 #[derive(Debug, Clone, Copy)]
@@ -19,8 +22,8 @@ pub struct SurfacePair<'a> {
 }
 
 impl SurfacePair<'_> {
-    /// Gap (mm) from the point at `at` of the first surface to the second, and its slope along the profile; `None` where the
-    /// foot is not on the second surface (`covers`).
+    /// Gap (mm) from the point at `at` of the first surface to the second, and its slope along the profile; `None`
+    /// where the foot is not on the second surface (`covers`).
     ///
     /// The slope is n_2 . dx_1/du, n_2 the normal at the foot; both surfaces with their micro-geometry.
     fn gap_and_slope(&self, at: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool) -> Option<(f64, f64)> {
@@ -35,12 +38,13 @@ impl SurfacePair<'_> {
         Some((foot.distance, normal.dot(&tangent)))
     }
 
-    /// First surface coordinate of the place at height `z` (mm), between those of `range`, where the gap is least, and the gap
-    /// there, mm; ends of `range` and of what `covers` the second surface (tip edges) included. `None` where no point of the
-    /// station faces the second surface.
+    /// First surface coordinate of the place at height `z` (mm), between those of `range`, where the gap is least, and
+    /// the gap there, mm; ends of `range` and of what `covers` the second surface (tip edges) included. `None` where no
+    /// point of the station faces the second surface.
     ///
-    /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not to its square
-    /// root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the jump is found as well.
+    /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not
+    /// to its square root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the
+    /// jump is found as well.
     pub fn least_gap(&self, range: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool, z: f64) -> Option<(f64, f64)> {
         let [from, to] = range;
         let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
@@ -53,12 +57,7 @@ impl SurfacePair<'_> {
             if gap_and_slope(neighbour).is_some() {
                 return neighbour;
             }
-            let (mut inside, mut outside) = (at(nearest), neighbour);
-            for _ in 0..STEPS {
-                let middle = 0.5 * (inside + outside);
-                if gap_and_slope(middle).is_some() { inside = middle } else { outside = middle }
-            }
-            inside
+            last_inside(|u| gap_and_slope(u).is_some(), [at(nearest), neighbour], BISECTIONS, 0.0)
         };
         let (a, b) = (end(at(nearest.saturating_sub(1))), end(at((nearest + 1).min(SCAN - 1))));
         let slope = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);
@@ -75,8 +74,8 @@ impl SurfacePair<'_> {
     }
 }
 
-/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of the
-/// faces included. `None` where no point of the station faces `second`. See [`SurfacePair::least_gap`].
+/// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of
+/// the faces included. `None` where no point of the station faces `second`. See [`SurfacePair::least_gap`].
 pub fn least_gap(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], z: f64) -> Option<[f64; 2]> {
     let [low, high] = first.range();
     // The edge nodes lie on the surface to round-off or, from Gmsh, to a nanometre: stay inside the faces.

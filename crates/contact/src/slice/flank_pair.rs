@@ -1,9 +1,9 @@
 //! Contact by axial slices: at each station the one place of the profile where two flanks are nearest.
 
 use crate::{
-    ContactRow, FacePoint, FlankPatch, LocalContact, Pose, ToothLayer,
+    ContactRow, FlankPatch, LocalContact, Pose, SliceHint, ToothLayer,
     nodal::row_at,
-    slice::profile_search::{Facing, Look, Place},
+    slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
 };
 
 /// One flank as slices see it.
@@ -28,54 +28,47 @@ pub struct Slice {
     pub local: LocalContact,
 }
 
-/// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct SliceHint {
-    pub(crate) roll: Option<f64>,
-    faces: [Option<FacePoint>; 2],
-}
-
 /// Two flanks at the poses of their bodies, ready to be cut into slices.
 #[derive(Debug, Clone, Copy)]
 pub struct FlankPair<'a> {
     flanks: [SliceFlank<'a>; 2],
     poses: &'a [Pose; 2],
-    facing: Facing<'a>,
+    profiles: ProfilePair<'a>,
 }
 
 /// Place of a slice before anything is made of it.
 #[derive(Debug, Clone, Copy)]
-pub struct SlicePlace {
-    place: Place,
-    look: Look,
+pub struct SlicePoint {
+    point: LeastGapPoint,
+    sample: GapSample,
     z: f64,
 }
 
-impl SlicePlace {
+impl SlicePoint {
     /// Least gap between the flanks along the profile, mm; what rounding of an edge adds to it is left out.
     pub fn gap(&self) -> f64 {
-        self.look.gap
+        self.sample.gap
     }
 }
 
-/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None` where the
-/// flanks do not face each other.
+/// The slice at height `z` (mm, body 1's own frame) standing for `length` mm of contact line, and its gap row; `None`
+/// where the flanks do not face each other.
 ///
-/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip, the
-/// tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of its own.
-/// So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
+/// Flank against flank: the gap's slope along the profile, n_2 . dx_1/du, is zero. Where that place lies past a tip,
+/// the tip edge presses on the other flank, along that flank's normal: contact off the line of action needs no case of
+/// its own. So does the kink at which a linear relief begins: a kink has no normal, the flank it presses on has.
 pub fn slice(
     flanks: [SliceFlank; 2],
     poses: &[Pose; 2],
     patches: (usize, usize),
-    point: usize,
+    station: usize,
     z: f64,
     length: f64,
 ) -> Option<(ContactRow, Slice)> {
     let pair = FlankPair::new(flanks, poses);
     let mut hint = SliceHint::default();
-    let place = pair.place(z, &mut hint)?;
-    let (mut row, slice) = pair.slice(&place, patches, point, length)?;
+    let point = pair.nearest_point(z, &mut hint)?;
+    let (mut row, slice) = pair.slice(&point, patches, station, length)?;
     pair.support(&mut row, &slice, &mut hint).then_some((row, slice))
 }
 
@@ -84,31 +77,13 @@ impl SliceHint {
     pub fn near(slice: &Slice) -> Self {
         Self { roll: Some(slice.at[0][0]), ..Self::default() }
     }
-
-    /// Where a search goes on from here that was at `before` a station ago: as far again.
-    #[must_use]
-    pub fn beyond(&self, before: &Self) -> Self {
-        let roll = match (self.roll, before.roll) {
-            (Some(here), Some(there)) => Some(2.0 * here - there),
-            (here, _) => here,
-        };
-        Self { roll, faces: Default::default() }
-    }
-
-    /// Follows body 1's turn about its own axis (rad): contact stays on its line in space, so the place of flank `patch` moves by as
-    /// much in roll angle.
-    pub fn turn(&mut self, side: f64, angle: f64) {
-        if let Some(roll) = &mut self.roll {
-            *roll += side * angle;
-        }
-    }
 }
 
 impl<'a> FlankPair<'a> {
     /// Two flanks with their bodies at `poses`.
     pub fn new(flanks: [SliceFlank<'a>; 2], poses: &'a [Pose; 2]) -> Self {
-        let facing = Facing::new(flanks.map(|f| f.patch), [&poses[0], &poses[1]]);
-        Self { flanks, poses, facing }
+        let profiles = ProfilePair::new(flanks.map(|f| f.patch), [&poses[0], &poses[1]]);
+        Self { flanks, poses, profiles }
     }
 
     fn patches(&self) -> [&'a FlankPatch; 2] {
@@ -116,35 +91,36 @@ impl<'a> FlankPair<'a> {
     }
 
     /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.
-    pub fn place(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePlace> {
-        let (place, look) = self.facing.place(z, hint)?;
-        Some(SlicePlace { place, look, z })
+    pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePoint> {
+        let (point, sample) = self.profiles.nearest_point(z, hint)?;
+        Some(SlicePoint { point, sample, z })
     }
 
-    /// The gap that the slice at a place has, mm: [`SlicePlace::gap`] and what the rounding of an edge adds.
-    pub fn gap(&self, found: &SlicePlace) -> f64 {
-        let SlicePlace { place, look, z } = *found;
-        match place {
-            Place::OtherKink(_) => look.gap,
-            Place::OtherEnd(_) => {
-                let Some((at, look, off)) = self.other_edge(&look) else { return look.gap };
-                look.gap + self.edge_opening(at, off)
+    /// The gap that the slice at a place has, mm: [`SlicePoint::gap`] and what the rounding of an edge adds.
+    pub fn gap(&self, nearest: &SlicePoint) -> f64 {
+        let SlicePoint { point, sample, z } = *nearest;
+        match point {
+            LeastGapPoint::OtherKink(_) => sample.gap,
+            LeastGapPoint::OtherEnd(_) => {
+                let Some((at, sample, off)) = self.other_edge(&sample) else { return sample.gap };
+                sample.gap + self.edge_opening(at, off)
             }
-            Place::Inside(_) | Place::OwnEnd(_) => {
-                let at = [[place.roll(), z], look.foot];
-                let inside = matches!(place, Place::Inside(_));
-                look.gap + self.edge_opening(at, if inside { 0.0 } else { off_line(self.patches(), look.slope, at) })
+            LeastGapPoint::Inside(_) | LeastGapPoint::OwnEnd(_) => {
+                let at = [[point.roll(), z], sample.foot];
+                let inside = matches!(point, LeastGapPoint::Inside(_));
+                sample.gap
+                    + self.edge_opening(at, if inside { 0.0 } else { off_line(self.patches(), sample.slope, at) })
             }
         }
     }
 
     /// Whether an edge presses at a place, off the line of action.
-    pub fn is_off_line(&self, found: &SlicePlace) -> bool {
-        let SlicePlace { place, look, .. } = *found;
-        match place {
-            Place::Inside(_) | Place::OtherKink(_) => false,
-            Place::OwnEnd(_) => look.slope != 0.0,
-            Place::OtherEnd(_) => self.other_edge(&look).is_some_and(|(_, _, off)| off != 0.0),
+    pub fn is_off_line(&self, nearest: &SlicePoint) -> bool {
+        let SlicePoint { point, sample, .. } = *nearest;
+        match point {
+            LeastGapPoint::Inside(_) | LeastGapPoint::OtherKink(_) => false,
+            LeastGapPoint::OwnEnd(_) => sample.slope != 0.0,
+            LeastGapPoint::OtherEnd(_) => self.other_edge(&sample).is_some_and(|(_, _, off)| off != 0.0),
         }
     }
 
@@ -153,42 +129,42 @@ impl<'a> FlankPair<'a> {
         if rounded { local(self.flanks, at, off_line).edge_opening() } else { 0.0 }
     }
 
-    /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen there, and how far
-    /// off the line of action.
-    fn other_edge(&self, look: &Look) -> Option<([[f64; 2]; 2], Look, f64)> {
+    /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen
+    /// there, and how far off the line of action.
+    fn other_edge(&self, sample: &GapSample) -> Option<([[f64; 2]; 2], GapSample, f64)> {
         let [a, b] = self.patches();
-        let (edge, seen) = facing_edge([a, b], self.poses, look)?;
-        Some(([seen.foot, edge], seen, off_line([b, a], seen.slope, [edge, seen.foot])))
+        let (edge, opposite) = opposite_edge([a, b], self.poses, sample)?;
+        Some(([opposite.foot, edge], opposite, off_line([b, a], opposite.slope, [edge, opposite.foot])))
     }
 
-    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests on:
-    /// [`FlankPair::support`] finds these for who needs them.
+    /// The slice at a place, standing for `length` mm of contact line, and its gap row without the nodes that it rests
+    /// on: [`FlankPair::support`] finds these for who needs them.
     pub fn slice(
         &self,
-        found: &SlicePlace,
+        nearest: &SlicePoint,
         numbers: (usize, usize),
-        point: usize,
+        station: usize,
         length: f64,
     ) -> Option<(ContactRow, Slice)> {
-        let SlicePlace { place, look, z } = *found;
+        let SlicePoint { point, sample, z } = *nearest;
         let (patches, poses) = (self.patches(), self.poses);
-        let at = [[place.roll(), z], look.foot];
-        match place {
-            Place::Inside(_) | Place::OwnEnd(_) => {
-                let mut row = row_at(patches, poses, numbers, point, at, look.gap);
-                let inside = matches!(place, Place::Inside(_));
-                let off = if inside { 0.0 } else { off_line(patches, look.slope, at) };
+        let at = [[point.roll(), z], sample.foot];
+        match point {
+            LeastGapPoint::Inside(_) | LeastGapPoint::OwnEnd(_) => {
+                let mut row = row_at(patches, poses, numbers, station, at, sample.gap);
+                let inside = matches!(point, LeastGapPoint::Inside(_));
+                let off = if inside { 0.0 } else { off_line(patches, sample.slope, at) };
                 let local = local(self.flanks, at, off);
                 row.gap += local.edge_opening();
                 Some((row, Slice { z, at, length, local }))
             }
-            Place::OtherKink(_) => {
-                let row = self.edge_row(numbers, point, at, look.gap);
+            LeastGapPoint::OtherKink(_) => {
+                let row = self.edge_row(numbers, station, at, sample.gap);
                 Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0) }))
             }
-            Place::OtherEnd(_) => {
-                let (at, look, off) = self.other_edge(&look)?;
-                let mut row = self.edge_row(numbers, point, at, look.gap);
+            LeastGapPoint::OtherEnd(_) => {
+                let (at, sample, off) = self.other_edge(&sample)?;
+                let mut row = self.edge_row(numbers, station, at, sample.gap);
                 let local = local(self.flanks, at, off);
                 row.gap += local.edge_opening();
                 Some((row, Slice { z, at, length, local }))
@@ -200,17 +176,17 @@ impl<'a> FlankPair<'a> {
     pub fn support(&self, row: &mut ContactRow, slice: &Slice, hint: &mut SliceHint) -> bool {
         let patches = self.patches();
         (0..2).all(|i| {
-            let Some(found) = patches[i].nearest_face_from(slice.at[i], hint.faces[i]) else { return false };
-            hint.faces[i] = Some(found);
-            row.supports[i].rest_on(patches[i], found);
+            let Some(nearest) = patches[i].nearest_face_from(slice.at[i], hint.faces[i]) else { return false };
+            hint.faces[i] = Some(nearest);
+            row.supports[i].rest_on(patches[i], nearest);
             true
         })
     }
 
     /// Row of an edge of body 2 that presses on body 1: the force acts along body 1's normal.
-    fn edge_row(&self, numbers: (usize, usize), point: usize, at: [[f64; 2]; 2], gap: f64) -> ContactRow {
+    fn edge_row(&self, numbers: (usize, usize), station: usize, at: [[f64; 2]; 2], gap: f64) -> ContactRow {
         let (patches, poses) = (self.patches(), self.poses);
-        let mut row = row_at(patches, poses, numbers, point, at, gap);
+        let mut row = row_at(patches, poses, numbers, station, at, gap);
         let normal = -(poses[0].rotation * patches[0].surface().normal(at[0]));
         row.position = poses[1].transform_point(&patches[1].surface().point(at[1]).into()).coords;
         row.normal = normal;
@@ -226,14 +202,18 @@ impl<'a> FlankPair<'a> {
 }
 
 /// Body 2's tip edge at the foot of a look, and what is seen of body 1 from there.
-pub(crate) fn facing_edge([a, b]: [&FlankPatch; 2], poses: &[Pose; 2], look: &Look) -> Option<([f64; 2], Look)> {
-    let turned = Facing::new([b, a], [&poses[1], &poses[0]]);
-    let edge = [b.range()[1][0], look.foot[1]];
-    Some((edge, turned.look(edge)?))
+pub(crate) fn opposite_edge(
+    [a, b]: [&FlankPatch; 2],
+    poses: &[Pose; 2],
+    sample: &GapSample,
+) -> Option<([f64; 2], GapSample)> {
+    let turned = ProfilePair::new([b, a], [&poses[1], &poses[0]]);
+    let edge = [b.range()[1][0], sample.foot[1]];
+    Some((edge, turned.sample(edge)?))
 }
 
-/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's arc: by the angle at
-/// which the flanks recede from each other there.
+/// How far past an edge of body 1 that presses off the line of action the smooth flanks would touch, mm of its flank's
+/// arc: by the angle at which the flanks recede from each other there.
 ///
 /// ```text
 /// o = R epsilon,   epsilon = |dg/du| / (r_b u),   1/R: relative curvature

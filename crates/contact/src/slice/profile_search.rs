@@ -1,22 +1,25 @@
-//! Where along the profile two flanks are nearest at a height of body 1. Theory (35).
+//! Search for the least gap of two profiles at a height of body 1. Theory (35).
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{FlankPatch, Pose, SliceHint, Vec3};
+use crate::{
+    FlankPatch, Pose, SliceHint, Vec3,
+    bracketing::{bracket_zero, last_inside},
+};
 
-/// Two patches as one sees the other: body 1's points in body 2's frame.
+/// Two flank patches, with body 1's points in body 2's frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Facing<'a> {
+pub(crate) struct ProfilePair<'a> {
     pub patches: [&'a FlankPatch; 2],
     turn: Matrix3<f64>,
     shift: Vector3<f64>,
-    /// Both profiles are convex arcs: whatever goes downhill arrives.
+    /// Whether both profiles are convex arcs: the gap then has one minimum, and Newton's method finds it.
     single: bool,
 }
 
-/// Which end of the feasible part of the profile stops the search for the least gap.
+/// Point of least gap, by what bounds it: the zero of the gap's slope, an edge or a kink.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum LeastGapPoint {
     /// Flank against flank, at this roll angle of the searched body.
     Inside(f64),
     /// The searched body's own end (tip edge or root form circle).
@@ -27,10 +30,10 @@ pub(crate) enum Place {
     OtherKink(f64),
 }
 
-/// A point of body 1's profile held against body 2.
+/// Gap at a point of body 1's profile.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Look {
-    /// mm.
+pub(crate) struct GapSample {
+    /// Gap along the normal of body 2, mm.
     pub gap: f64,
     /// n_2 . dx_1/du, mm.
     pub slope: f64,
@@ -38,22 +41,23 @@ pub(crate) struct Look {
     pub foot: [f64; 2],
 }
 
-/// How far beyond an end face of body 2 a foot may lie, as a share of its width: feet wander by gap times sin(b_b).
+/// How far beyond an end face of body 2 a foot point may lie, as a share of its width: foot points move by gap times
+/// sin(b_b).
 const BEYOND: f64 = 1e-3;
-/// Places along the profile that are looked at where there may be several dips.
+/// Sample points along a profile on which the gap may have several minima.
 const SCAN: usize = 16;
-/// Steps downhill before the scan takes over; four do.
+/// Newton steps before the scan takes over; four are enough.
 const NEWTON_STEPS: usize = 24;
-/// Roll angles nearer than this are one, rad: below it the step of a superlinear search is round-off.
+/// Roll angles nearer than this count as equal, rad: shorter steps are round-off.
 const RESOLUTION: f64 = 1e-13;
-/// A step longer than this is followed by another look, rad: slopes are not yet straight lines.
+/// After a longer step than this the gap is sampled again, rad: the slope is not yet linear.
 const NEAR: f64 = 1e-6;
-/// Evaluations of a bracketed zero before it is taken as it is; bisection alone needs 50.
-const BRACKET_STEPS: usize = 120;
+/// Bisections to the end of the part of a profile that faces the other; some fifty reach round-off.
+const BISECTIONS: usize = 100;
 /// Turn of the normal within the last bracket that is a kink, rad.
 const KINK: f64 = 1e-7;
 
-impl Place {
+impl LeastGapPoint {
     /// Roll angle on the searched body.
     pub fn roll(self) -> f64 {
         let (Self::Inside(u) | Self::OwnEnd(u) | Self::OtherEnd(u) | Self::OtherKink(u)) = self;
@@ -61,7 +65,7 @@ impl Place {
     }
 }
 
-impl<'a> Facing<'a> {
+impl<'a> ProfilePair<'a> {
     pub fn new(patches: [&'a FlankPatch; 2], poses: [&Pose; 2]) -> Self {
         let relative = poses[1].inverse() * poses[0];
         Self {
@@ -73,15 +77,15 @@ impl<'a> Facing<'a> {
     }
 
     /// A point of body 1's flank in body 2's frame.
-    pub fn carried(&self, at: [f64; 2]) -> Vec3 {
+    pub fn in_frame_of_second(&self, at: [f64; 2]) -> Vec3 {
         self.turn * self.patches[0].surface().point(at) + self.shift
     }
 
-    /// Gap and its slope along the profile; `None` where there is no foot.
-    pub fn look(&self, at: [f64; 2]) -> Option<Look> {
+    /// Gap and its slope along the profile; `None` where the point has no foot on body 2.
+    pub fn sample(&self, at: [f64; 2]) -> Option<GapSample> {
         let [point, tangent] = self.patches[0].surface().point_and_profile(at);
         let (foot, normal) = self.patches[1].surface().locate_with_normal(&(self.turn * point + self.shift))?;
-        Some(Look { gap: foot.distance, slope: normal.dot(&(self.turn * tangent)), foot: foot.at })
+        Some(GapSample { gap: foot.distance, slope: normal.dot(&(self.turn * tangent)), foot: foot.at })
     }
 
     fn rolls(&self, body: usize) -> [f64; 2] {
@@ -89,59 +93,61 @@ impl<'a> Facing<'a> {
         [low, high]
     }
 
-    /// Where the flanks are nearest at height `z` (mm) of body 1, and what is seen from there; `None` where they do not face each other.
-    pub fn place(&self, z: f64, hint: &mut SliceHint) -> Option<(Place, Look)> {
-        let place = self.nearest(z, hint.roll)?;
-        hint.roll = Some(place.roll());
-        let look = self.look([place.roll(), z])?;
+    /// Point of least gap at height `z` (mm) of body 1, and the gap there. `None` where the flanks do not face each
+    /// other.
+    pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
+        let point = self.search(z, hint.roll)?;
+        hint.roll = Some(point.roll());
+        let sample = self.sample([point.roll(), z])?;
         // Gears displaced along their axes face each other on a part of their width only.
         let [[_, low], [_, high]] = self.patches[1].range();
         let slack = BEYOND * (high - low);
-        (look.foot[1] >= low - slack && look.foot[1] <= high + slack).then_some((place, look))
+        (sample.foot[1] >= low - slack && sample.foot[1] <= high + slack).then_some((point, sample))
     }
 
-    /// Place of the least gap at height z of body 1; `near`: a roll angle to start from.
-    pub fn nearest(&self, z: f64, near: Option<f64>) -> Option<Place> {
+    /// Point of least gap at height `z` of body 1; `near` is a roll angle to start from.
+    pub fn search(&self, z: f64, near: Option<f64>) -> Option<LeastGapPoint> {
         if self.single
-            && let Ok(place) = self.downhill(z, near)
+            && let Ok(point) = self.newton_search(z, near)
         {
-            return place;
+            return point;
         }
-        self.scanned(z)
+        self.scan_search(z)
     }
 
-    /// Newton on the slope, whose derivative is the relative curvature times the square of the tangent's length, then secants.
+    /// Newton's method on the slope of the gap, then the secant method. The derivative of the slope is the relative
+    /// curvature times the tangent's length squared.
     ///
-    /// Slope and foot are monotonous between convex arcs, so what stands at the zero of the slope decides which end, if any, comes before it.
-    /// `Err` when something is not as it should be between convex arcs.
-    fn downhill(&self, z: f64, near: Option<f64>) -> Result<Option<Place>, ()> {
+    /// Between convex arcs slope and foot point are monotonous. So the foot point at the zero of the slope tells which
+    /// end of a profile, if any, comes before it. `Err` where that does not hold.
+    fn newton_search(&self, z: f64, near: Option<f64>) -> Result<Option<LeastGapPoint>, ()> {
         let [low, high] = self.rolls(0);
         let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
         let (mut below, mut above) = (None::<f64>, None::<f64>);
         let mut before: Option<(f64, f64)> = None;
         let mut found = None;
         for _ in 0..NEWTON_STEPS {
-            let look = self.look([u, z]).ok_or(())?;
-            if look.slope < 0.0 {
+            let sample = self.sample([u, z]).ok_or(())?;
+            if sample.slope < 0.0 {
                 below = Some(u)
             } else {
                 above = Some(u)
             }
-            let at_end = (look.slope < 0.0 && u >= high) || (look.slope > 0.0 && u <= low);
+            let at_end = (sample.slope < 0.0 && u >= high) || (sample.slope > 0.0 && u <= low);
             if at_end {
-                found = Some((u, look.foot[0], true));
+                found = Some((u, sample.foot[0], true));
                 break;
             }
-            let secant = before.map(|(v, s)| (look.slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
-            let derivative = secant.unwrap_or_else(|| self.slope_derivative([u, z], look.foot));
-            let step = -look.slope / derivative;
+            let secant = before.map(|(v, s)| (sample.slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
+            let derivative = secant.unwrap_or_else(|| self.slope_derivative([u, z], sample.foot));
+            let step = -sample.slope / derivative;
             if !step.is_finite() {
                 return Err(());
             }
-            // What a secant step misses is about itself times the step before it.
+            // The error after a secant step is about the product of the last two steps.
             let missed = before.map_or(step, |(v, _)| step * (u - v));
             if step.abs() <= RESOLUTION || (step.abs() <= NEAR && missed.abs() <= RESOLUTION) {
-                found = Some((u + step, look.foot[0], false));
+                found = Some((u + step, sample.foot[0], false));
                 break;
             }
             let mut next = (u + step).clamp(low, high);
@@ -150,21 +156,21 @@ impl<'a> Facing<'a> {
             {
                 next = 0.5 * (a + b);
                 if (b - a).abs() <= RESOLUTION {
-                    found = Some((next, look.foot[0], false));
+                    found = Some((next, sample.foot[0], false));
                     break;
                 }
             }
-            before = Some((u, look.slope));
+            before = Some((u, sample.slope));
             u = next;
         }
         let (u, foot, at_end) = found.ok_or(())?;
         let [other_low, other_high] = self.rolls(1);
         if foot >= other_low && foot <= other_high {
-            return Ok(Some(if at_end { Place::OwnEnd(u) } else { Place::Inside(u) }));
+            return Ok(Some(if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) }));
         }
-        // The higher up the one profile, the lower down the other.
+        // Foot points go down the other profile as points go up this one.
         let (bound, end) = if foot > other_high { (other_high, high) } else { (other_low, low) };
-        let past = |u: f64| self.look([u, z]).map(|l| l.foot[0] - bound).ok_or(());
+        let past = |u: f64| self.sample([u, z]).map(|l| l.foot[0] - bound).ok_or(());
         let (here, there) = (foot - bound, past(end)?);
         if here * there > 0.0 {
             return Ok(None);
@@ -183,9 +189,9 @@ impl<'a> Facing<'a> {
         if failed {
             return Err(());
         }
-        // The side on which the other flank is faced: that of `end`.
+        // Of the bracket, the side from which the other flank is faced: that of `end`.
         let u = if (inner - end).abs() < (outer - end).abs() { inner } else { outer };
-        Ok(Some(if foot > other_high { Place::OtherEnd(u) } else { Place::OwnEnd(u) }))
+        Ok(Some(if foot > other_high { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) }))
     }
 
     /// d slope / du where flanks touch, mm.
@@ -194,36 +200,33 @@ impl<'a> Facing<'a> {
         first.profile_tangent(at).norm_squared() * (first.curvature(at) + second.curvature(foot))
     }
 
-    /// Any profiles: the best of some places, its neighbours as a bracket, the zero of the slope in it.
-    fn scanned(&self, z: f64) -> Option<Place> {
+    /// For any profiles: the sample of least gap, its neighbours as a bracket, and the zero of the slope in it.
+    fn scan_search(&self, z: f64) -> Option<LeastGapPoint> {
         let [low, high] = self.rolls(0);
         let [other_low, other_high] = self.rolls(1);
-        let faces = |foot: f64| foot >= other_low && foot <= other_high;
-        let look = |u: f64| self.look([u, z]);
-        let facing = |u: f64| look(u).is_some_and(|l| faces(l.foot[0]));
+        let is_faced = |foot: f64| foot >= other_low && foot <= other_high;
+        let sample = |u: f64| self.sample([u, z]);
+        let faces_at = |u: f64| sample(u).is_some_and(|l| is_faced(l.foot[0]));
         let step = (high - low) / (SCAN - 1) as f64;
         let at = |i: usize| (low + step * i as f64).min(high);
-        let of = |i: usize| self.patches[1].surface().locate(&self.carried([at(i), z])).filter(|f| faces(f.at[0]));
+        let of = |i: usize| {
+            self.patches[1].surface().locate(&self.in_frame_of_second([at(i), z])).filter(|f| is_faced(f.at[0]))
+        };
         let (_, nearest) = (0..SCAN).filter_map(|i| Some((of(i)?.distance, i))).min_by(|a, b| a.0.total_cmp(&b.0))?;
         // Bracket: the neighbours, or where the facing part of the profile ends before them.
         let end = |neighbour: f64| {
-            if facing(neighbour) {
+            if faces_at(neighbour) {
                 return (neighbour, false);
             }
-            let (mut inside, mut outside) = (at(nearest), neighbour);
-            while (outside - inside).abs() > f64::EPSILON {
-                let middle = 0.5 * (inside + outside);
-                if facing(middle) { inside = middle } else { outside = middle }
-            }
-            (inside, true)
+            (last_inside(faces_at, [at(nearest), neighbour], BISECTIONS, f64::EPSILON), true)
         };
         let (a, cut_a) = end(at(nearest.saturating_sub(1)));
         let (b, cut_b) = end(at((nearest + 1).min(SCAN - 1)));
-        let slope = |u: f64| look(u).map_or(0.0, |l| l.slope);
+        let slope = |u: f64| sample(u).map_or(0.0, |l| l.slope);
         let stop = |u: f64, cut: bool| {
             // The other flank ends at its tip, or at its root form circle, which is no edge.
-            let at_tip = look(u).is_some_and(|l| 2.0 * l.foot[0] > other_low + other_high);
-            if cut && at_tip { Place::OtherEnd(u) } else { Place::OwnEnd(u) }
+            let at_tip = sample(u).is_some_and(|l| 2.0 * l.foot[0] > other_low + other_high);
+            if cut && at_tip { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) }
         };
         let slopes = [slope(a), slope(b)];
         if slopes[0] >= 0.0 {
@@ -233,89 +236,9 @@ impl<'a> Facing<'a> {
             return Some(stop(b, cut_b));
         }
         let [a, b] = bracket_zero(slope, [a, b], slopes);
-        let normal = |u: f64| Some(self.patches[1].surface().normal(look(u)?.foot));
+        let normal = |u: f64| Some(self.patches[1].surface().normal(sample(u)?.foot));
         let turn = normal(b)? - normal(a)?;
         let middle = 0.5 * (a + b);
-        Some(if turn.norm() > KINK { Place::OtherKink(middle) } else { Place::Inside(middle) })
-    }
-}
-
-/// Shrinks a bracket of a zero of `f`, or of a jump through zero, to round-off.
-///
-/// Chandrupatla's method (Adv. Eng. Software 28(3), 1997): inverse quadratic interpolation where three points say that it is safe,
-/// bisection otherwise.
-pub(crate) fn bracket_zero(f: impl FnMut(f64) -> f64, ends: [f64; 2], values: [f64; 2]) -> [f64; 2] {
-    bracket_zero_within(f, ends, values, 0.0)
-}
-
-/// The same to a bracket as wide as `within`, or to round-off.
-pub(crate) fn bracket_zero_within(
-    mut f: impl FnMut(f64) -> f64,
-    [a, b]: [f64; 2],
-    [fa, fb]: [f64; 2],
-    within: f64,
-) -> [f64; 2] {
-    if fa == 0.0 {
-        return [a, a];
-    }
-    // x1: newest, x2: the other end of the bracket, x3: the one before.
-    let (mut x1, mut x2, mut f1, mut f2) = (b, a, fb, fa);
-    let mut t: f64 = 0.5;
-    for _ in 0..BRACKET_STEPS {
-        if f1 == 0.0 {
-            return [x1, x1];
-        }
-        let width = x2 - x1;
-        let resolution = (2.0 * f64::EPSILON * x1.abs().max(x2.abs())).max(0.5 * within);
-        if width.abs() <= 2.0 * resolution {
-            break;
-        }
-        let least = resolution / width.abs();
-        let x = x1 + t.clamp(least, 1.0 - least) * width;
-        let fx = f(x);
-        let (x3, f3) = if (fx > 0.0) == (f1 > 0.0) { (x1, f1) } else { (x2, f2) };
-        if (fx > 0.0) != (f1 > 0.0) {
-            (x2, f2) = (x1, f1);
-        }
-        (x1, f1) = (x, fx);
-        let (xi, phi) = ((x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2));
-        t = if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
-            f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
-        } else {
-            0.5
-        };
-        if t.is_nan() {
-            t = 0.5;
-        }
-    }
-    [x1, x2]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bracket_zero;
-
-    /// Smooth, flat, steep and broken functions: the bracket holds the place and is round-off wide.
-    #[test]
-    fn brackets_close_on_zeros_and_jumps() {
-        type Case = (&'static str, fn(f64) -> f64, f64);
-        let functions: [Case; 5] = [
-            ("line", |x| x - 0.3, 0.3),
-            ("cubic", |x| (x - 0.3).powi(3), 0.3),
-            ("exponential", |x| (20.0 * x).exp() - 7.0, 7f64.ln() / 20.0),
-            ("jump", |x| if x < 0.7 { -1.0 } else { 1e-3 }, 0.7),
-            ("kink", |x| if x < 0.7 { x - 0.7 } else { 50.0 * (x - 0.7) }, 0.7),
-        ];
-        for (name, f, place) in functions {
-            let mut count = 0;
-            let counted = |x: f64| {
-                count += 1;
-                f(x)
-            };
-            let [a, b] = bracket_zero(counted, [0.0, 1.0], [f(0.0), f(1.0)]);
-            let flat = if name == "cubic" { 1e-5 } else { 1e-15 };
-            assert!((a - place).abs() <= flat && (b - place).abs() <= flat, "{name}: {a} .. {b}, not {place}");
-            assert!(count <= 110, "{name}: {count} evaluations");
-        }
+        Some(if turn.norm() > KINK { LeastGapPoint::OtherKink(middle) } else { LeastGapPoint::Inside(middle) })
     }
 }

@@ -1,10 +1,11 @@
-//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory (19a), (19b).
+//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory
+//! (19a), (19b).
 
 use std::sync::Arc;
 
 use faer::Mat;
 use geometry::{Gear, GearPair, Side};
-use reduction::{ElasticGear, HalfTooth, Window};
+use reduction::{ElasticGear, LocalCompliance, Window};
 
 use crate::{
     Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, ContactRow, FlankPatch, Pose, Slice, SliceFlank,
@@ -17,7 +18,7 @@ pub struct SliceSet {
     stations: Vec<f64>,
     /// Length of contact line of one slice, mm.
     length: f64,
-    halves: [Vec<Half>; 2],
+    bodies: [Vec<FlankBody>; 2],
     /// Whether edges may press off the line of action.
     corner_contact: bool,
     /// Bulk compliance of both gears in tables, unless it is to be exact.
@@ -26,15 +27,16 @@ pub struct SliceSet {
 
 /// The half tooth behind one patch.
 #[derive(Debug)]
-struct Half {
+struct FlankBody {
     layer: ToothLayer,
-    tooth: Arc<HalfTooth>,
+    local: Arc<LocalCompliance>,
     /// Boundary number of each of the half tooth's nodes, ascending.
     boundary: Vec<u32>,
 }
 
 impl SliceSet {
-    /// Slices for the patches of both gears; `sides` and `teeth` name the flank of each patch, `number` a mesh node among the boundary.
+    /// Slices for the patches of both gears; `sides` and `teeth` name the flank of each patch, `number` a mesh node
+    /// among the boundary.
     ///
     /// # Errors
     /// [`ContactError::Reduction`] when a half tooth cannot be condensed.
@@ -42,24 +44,32 @@ impl SliceSet {
         pair: &GearPair,
         gears: &[ElasticGear; 2],
         flanks: [&[(u32, Side)]; 2],
-        number: impl Fn(usize, (u32, Side), u32) -> u32,
+        number: impl Fn(usize, (u32, Side), u32) -> Option<u32>,
         options: &ContactOptions,
     ) -> Result<Self, ContactError> {
         let count = options.slices.max(1);
         let width = pair.face_width();
         let stations = (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
         let geometry = [&pair.pinion, &pair.wheel];
-        let mut halves = [Vec::new(), Vec::new()];
-        for (i, of_gear) in halves.iter_mut().enumerate() {
+        let mut bodies = [Vec::new(), Vec::new()];
+        for (i, of_gear) in bodies.iter_mut().enumerate() {
             for &(tooth, side) in flanks[i] {
-                of_gear.push(half(&gears[i], geometry[i], tooth, side, |node| number(i, (tooth, side), node), i)?);
+                of_gear.push(flank_body(
+                    &gears[i],
+                    geometry[i],
+                    tooth,
+                    side,
+                    |node| number(i, (tooth, side), node),
+                    i,
+                )?);
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
-        Ok(Self { stations, length, halves, corner_contact: options.corner_contact, bulk: None })
+        Ok(Self { stations, length, bodies, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as asked.
+    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as
+    /// asked.
     pub(crate) fn with_tables(
         mut self,
         patches: [&[FlankPatch]; 2],
@@ -70,7 +80,7 @@ impl SliceSet {
             let table = |i: usize| {
                 let bulk = BulkCompliance {
                     whole: windows[i].reduced.compliance.as_ref(),
-                    halves: self.halves[i].iter().map(|h| (&h.boundary[..], h.tooth.compliance.as_ref())).collect(),
+                    local: self.bodies[i].iter().map(|h| (&h.boundary[..], h.local.compliance.as_ref())).collect(),
                     patches: patches[i],
                 };
                 BulkTable::new(&bulk, tolerance)
@@ -109,10 +119,11 @@ impl SliceSet {
     /// One patch of each gear as slices see them.
     pub(crate) fn flanks<'a>(&'a self, patches: [&'a [FlankPatch]; 2], pair: (usize, usize)) -> [SliceFlank<'a>; 2] {
         let number = [pair.0, pair.1];
-        [0, 1].map(|i| SliceFlank { patch: &patches[i][number[i]], layer: &self.halves[i][number[i]].layer })
+        [0, 1].map(|i| SliceFlank { patch: &patches[i][number[i]], layer: &self.bodies[i][number[i]].layer })
     }
 
-    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair and height.
+    /// Rows of the given pairs of patches with the gears at `poses` whose gap is at most `reach` (mm), in order of pair
+    /// and height.
     pub fn rows(
         &self,
         patches: [&[FlankPatch]; 2],
@@ -134,10 +145,10 @@ impl SliceSet {
         let mut start = 0;
         // Rows come pair by pair, and a tooth belongs to one pair.
         for group in rows.chunk_by(|a, b| a.patches == b.patches) {
-            let halves = [&self.halves[0][group[0].patches.0], &self.halves[1][group[0].patches.1]];
-            for (b, half) in halves.iter().enumerate() {
-                let local: Vec<Support> = group.iter().map(|row| half.own(&row.supports[b])).collect();
-                for (j, column) in local.iter().map(|s| half.displacement(s)).enumerate() {
+            let bodies = [&self.bodies[0][group[0].patches.0], &self.bodies[1][group[0].patches.1]];
+            for (b, flank_body) in bodies.iter().enumerate() {
+                let local: Vec<Support> = group.iter().map(|row| flank_body.own(&row.supports[b])).collect();
+                for (j, column) in local.iter().map(|s| flank_body.displacement(s)).enumerate() {
                     for (i, support) in local.iter().enumerate() {
                         x[(start + i, start + j)] -= opening(support, &column);
                     }
@@ -149,7 +160,7 @@ impl SliceSet {
     }
 }
 
-impl Half {
+impl FlankBody {
     /// A support in the half tooth's own numbers.
     fn own(&self, support: &Support) -> Support {
         let mut own = *support;
@@ -161,7 +172,7 @@ impl Half {
 
     /// W_c A' for a unit force at the support, mm/N.
     fn displacement(&self, support: &Support) -> Vec<f64> {
-        let w = &self.tooth.compliance;
+        let w = &self.local.compliance;
         let mut u = vec![0.0; w.nrows()];
         for k in 0..support.count {
             for axis in 0..3 {
@@ -174,25 +185,28 @@ impl Half {
     }
 }
 
-fn half(
+fn flank_body(
     gear: &ElasticGear,
     geometry: &Gear,
     tooth: u32,
     side: Side,
-    number: impl Fn(u32) -> u32,
+    number: impl Fn(u32) -> Option<u32>,
     which: usize,
-) -> Result<Half, ContactError> {
+) -> Result<FlankBody, ContactError> {
     let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][which], source };
-    let half = match gear {
-        ElasticGear::Reduced(r) => r.half_tooth(geometry, tooth, side).map_err(fail)?,
+    let local = match gear {
+        ElasticGear::Reduced(r) => r.local_compliance(geometry, tooth, side).map_err(fail)?,
         ElasticGear::Full(f) => {
-            Arc::new(HalfTooth::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
+            Arc::new(LocalCompliance::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
         }
     };
     let material = gear.material();
     let flank = geometry.flank_of(side, i64::from(tooth));
-    let (profile, edge_radius) = (half.layer.clone(), geometry.data().tip_edge_radius);
-    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), half.overshoot, profile, edge_radius);
-    let boundary = half.nodes.iter().map(|&n| number(n)).collect();
-    Ok(Half { layer, tooth: half, boundary })
+    let (profile, edge_radius) = (local.layer.clone(), geometry.data().tip_edge_radius);
+    let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), local.overshoot, profile, edge_radius);
+    let known = |&node: &u32| {
+        number(node).ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })
+    };
+    let boundary = local.nodes.iter().map(known).collect::<Result<_, _>>()?;
+    Ok(FlankBody { layer, local, boundary })
 }

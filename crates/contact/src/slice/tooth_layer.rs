@@ -17,9 +17,9 @@ pub struct ToothLayer {
 }
 
 impl ToothLayer {
-    /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`, clamped
-    /// `overshoot` (mm) past the centre surface; `profile` is the layer's constant for that. The tip edge is rounded by
-    /// `edge_radius` (mm), or sharp (0).
+    /// The layer behind `flank`, of a material with Young's modulus `young` (MPa) and Poisson's ratio `poisson`,
+    /// clamped `overshoot` (mm) past the centre surface; `profile` is the layer's constant for that. The tip edge is
+    /// rounded by `edge_radius` (mm), or sharp (0).
     pub fn new(
         flank: Flank,
         young: f64,
@@ -58,7 +58,8 @@ impl ToothLayer {
             edge_radius: self.edge_radius,
             ends: [1.0, -1.0].map(|end| EndFace {
                 distance: (f.half_width - end * z).max(0.0) / f.base_helix_angle.cos(),
-                // The flank's outward normal has -s sin(b_b) along z: it turns away from one face and towards the other.
+                // The flank's outward normal has -s sin(b_b) along z: it turns away from one face and towards the
+                // other.
                 lean: end * f.side.sign() * f.base_helix_angle,
             }),
         }

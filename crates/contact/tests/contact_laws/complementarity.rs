@@ -47,8 +47,8 @@ fn row(gap: f64, lever: f64) -> ContactRow {
     }
 }
 
-/// C = B B' + bending: of rank + 1, entries about 1e-5 mm/N. Bending alike at all rows: as on a tooth, no set of pressing forces leaves it
-/// undeflected.
+/// C = B B' + bending: of rank + 1, entries about 1e-5 mm/N. Bending alike at all rows: as on a tooth, no set of
+/// pressing forces leaves it undeflected.
 fn compliance(n: usize, rank: usize, seed: &[f64]) -> Mat<f64> {
     let b = Mat::from_fn(n, rank, |i, j| {
         1e-3 * seed[(i * 7919 + j * 104_729) % seed.len()] + if i % rank == j { 3e-3 } else { 0.0 }

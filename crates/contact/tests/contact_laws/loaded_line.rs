@@ -2,7 +2,8 @@
 
 use contact::{LineStation, covered, loaded_intervals};
 
-/// Length of the line of a gap g and a deflection o, from `count` stations over a face of 20 mm of which those that gape by more than `reach` are not known.
+/// Length of the line of a gap g and a deflection o, from `count` stations over a face of 20 mm of which those that
+/// gape by more than `reach` are not known.
 fn length(g: impl Fn(f64) -> f64, o: impl Fn(f64) -> f64, count: usize, reach: f64) -> f64 {
     let stations: Vec<f64> = (0..count).map(|i| 20.0 * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
     let known = |&z: &f64| (g(z) <= reach).then(|| LineStation { gap: g(z) + o(z), opened: o(z) });
@@ -26,7 +27,8 @@ fn crowned_lines_have_their_length_from_few_stations() {
     }
 }
 
-/// A line that ends at tip edges, where the gap rises steeply and stations beyond are not looked at: continuous, exact, also where it has come over an end face but to no station.
+/// A line that ends at tip edges, where the gap rises steeply and stations beyond are not looked at: continuous, exact,
+/// also where it has come over an end face but to no station.
 #[test]
 fn lines_that_end_at_edges_are_continuous() {
     for k in 0..200 {

@@ -6,7 +6,8 @@ use contact::{EndFace, LocalBody, LocalContact, layer_constant, wedge_softening}
 
 const RADIUS: f64 = 5.0;
 
-/// Two steel teeth, the first one touching `distance` mm from its tip edge (negative: the edge presses past the line of action).
+/// Two steel teeth, the first one touching `distance` mm from its tip edge (negative: the edge presses past the line of
+/// action).
 fn contact(distance: f64, edge_radius: f64) -> LocalContact {
     let steel = |tip_distance: f64, depth: f64| {
         let omega = 118f64.to_radians();
@@ -30,7 +31,8 @@ fn contact(distance: f64, edge_radius: f64) -> LocalContact {
     }
 }
 
-/// Far from tips and ends the approach is what the layer's kernel K [c - ln(r/t)] makes of Hertz's pressure over the band, by quadrature: to a millionth.
+/// Far from tips and ends the approach is what the layer's kernel K [c - ln(r/t)] makes of Hertz's pressure over the
+/// band, by quadrature: to a millionth.
 #[test]
 fn approach_is_the_layers_kernel_under_hertzian_pressure() {
     let (young, poisson) = (2.06e5, 0.3);
@@ -67,8 +69,9 @@ fn approach_is_the_layers_kernel_under_hertzian_pressure() {
     }
 }
 
-/// A band far narrower than its distance d from the tip edge sees a wedge whose load acts at d: K q [ln(2 t / a) + 1/2 + c + eta ln(t / d)], with a sharp edge and with a rounded one, which
-/// ends the flank nearer and leaves the corner where it was.
+/// A band far narrower than its distance d from the tip edge sees a wedge whose load acts at d: K q [ln(2 t / a) +
+/// 1/2 + c + eta ln(t / d)], with a sharp edge and with a rounded one, which ends the flank nearer and leaves the
+/// corner where it was.
 #[test]
 fn well_within_the_flank_the_load_acts_where_the_band_is() {
     let load = 1e-3;
@@ -83,7 +86,8 @@ fn well_within_the_flank_the_load_acts_where_the_band_is() {
                 softness * load * ((2.0 * b.depth / found.half_width).ln() + 0.5 + b.layer + wedge)
             };
             let wanted: f64 = c.bodies.iter().map(of_body).sum();
-            // What is left goes with the square of the band over the distance, and with its product with the gradient at the tip.
+            // What is left goes with the square of the band over the distance, and with its product with the gradient
+            // at the tip.
             assert!(
                 (found.approach / wanted - 1.0).abs() < 2e-5,
                 "{distance} mm from an edge of {edge_radius} mm: {:e} mm, not {wanted:e}",
@@ -113,8 +117,8 @@ fn slope_is_derivative_of_approach() {
     }
 }
 
-/// What is stored is what the load does: the derivative of the energy is the load times that of the approach, to round-off on the flank; to a ten-thousandth within a band of the
-/// edge, where the band's kinks meet its quadrature.
+/// What is stored is what the load does: the derivative of the energy is the load times that of the approach, to
+/// round-off on the flank; to a ten-thousandth within a band of the edge, where the band's kinks meet its quadrature.
 #[test]
 fn stored_energy_is_the_work_of_the_load() {
     for edge_radius in [0.0, 0.1] {
@@ -135,8 +139,8 @@ fn stored_energy_is_the_work_of_the_load() {
     }
 }
 
-/// Nothing jumps as the contact runs over the edge: approach, and its rate along the flank less the geometric d^2/(2 R) that the least gap
-/// takes over past the edge.
+/// Nothing jumps as the contact runs over the edge: approach, and its rate along the flank less the geometric d^2/(2 R)
+/// that the least gap takes over past the edge.
 #[test]
 fn smooth_over_the_edge() {
     for edge_radius in [0.0, 0.05, 0.3] {

@@ -39,7 +39,7 @@ fn flanks_of(order: u32, [profile, face]: [u32; 2]) -> Flanks {
         for tooth in parts.teeth() {
             let faces = parts.flank(tooth, Side::Left).unwrap();
             let surface = Box::new(gear.flank_of(Side::Left, i64::from(tooth)));
-            made.push(FlankPatch::new(i64::from(tooth), surface, &parts.mesh().nodes, faces, |n| n, 1e-9).unwrap());
+            made.push(FlankPatch::new(i64::from(tooth), surface, &parts.mesh().nodes, faces, Some, 1e-9).unwrap());
         }
         made
     });
@@ -59,8 +59,8 @@ fn poses(pair: &GearPair, turn: f64, lag: f64, shift: [f64; 3], tilt: [f64; 2]) 
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
-    /// Random poses, misaligned ones among them: what the bounding volumes let through contains every point that is nearer
-    /// than the reach, and the gaps are the same.
+    /// Random poses, misaligned ones among them: what the bounding volumes let through contains every point that is
+    /// nearer than the reach, and the gaps are the same.
     #[test]
     fn two_stages_find_what_brute_force_finds(
         turn in -0.15..0.15f64, lag in -3e-2..3e-2f64, shift in prop::array::uniform3(-0.3..0.3f64),
@@ -98,7 +98,8 @@ proptest! {
 
 /// 10^5 poses, misaligned and with edges and corners at the very limit of reach among them: no contact missed.
 ///
-/// Few points on few faces, so that brute force stays affordable; the middle tooth of the pinion against all three of the wheel.
+/// Few points on few faces, so that brute force stays affordable; the middle tooth of the pinion against all three of
+/// the wheel.
 #[test]
 fn a_hundred_thousand_poses() {
     const POSES: u64 = 100_000;
@@ -156,8 +157,9 @@ fn a_hundred_thousand_poses() {
     }
 }
 
-/// Boxes of faces that lie askew are thick, and have margins: contacts within them are found whatever the reach. On small faces millimetres apart it is the reach that finds them:
-/// contacts lie where the boxes are farther apart than six tenths of it.
+/// Boxes of faces that lie askew are thick, and have margins: contacts within them are found whatever the reach. On
+/// small faces millimetres apart it is the reach that finds them: contacts lie where the boxes are farther apart than
+/// six tenths of it.
 #[test]
 fn the_reach_finds_what_boxes_alone_do_not() {
     let set = flanks_of(1, [16, 32]);
@@ -197,8 +199,8 @@ fn the_reach_finds_what_boxes_alone_do_not() {
     assert!(beyond > 50, "only {beyond} contacts need the reach");
 }
 
-/// A row's weights sum to one on both bodies, its forces are opposite, and the weights interpolate the point: a uniform field
-/// opens no gap, a rigid turn opens it by lever times angle.
+/// A row's weights sum to one on both bodies, its forces are opposite, and the weights interpolate the point: a uniform
+/// field opens no gap, a rigid turn opens it by lever times angle.
 #[test]
 fn supports_carry_rigid_motions() {
     let set = flanks(2);

@@ -1,4 +1,5 @@
-//! The least gap of a slice = the least over a fine scan of the whole profile, modified and misaligned flanks, edges among them.
+//! The least gap of a slice = the least over a fine scan of the whole profile, modified and misaligned flanks, edges
+//! among them.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use contact::{FlankPatch, Pose, RigidFlanks, Slice, SliceFlank, SliceHint, ToothLayer, Vec3, slice};
@@ -58,7 +59,7 @@ fn flanks(modified: bool) -> Flanks {
             GearMesh::from_groups(generate(gear, &options).unwrap(), &GroupNames::default(), gear.teeth()).unwrap();
         let surface = Box::new(gear.modified_flank_at(Side::Left, 0, 0));
         let faces = parts.flank(0, Side::Left).unwrap();
-        let patch = FlankPatch::new(0, surface, &parts.mesh().nodes, faces, |n| n, 0.05).unwrap();
+        let patch = FlankPatch::new(0, surface, &parts.mesh().nodes, faces, Some, 0.05).unwrap();
         let profile = reduction::LayerProfile::new(gear, 0.3, 0.0).unwrap();
         (patch, ToothLayer::new(gear.flank_of(Side::Left, 0), 206e3, 0.3, 0.0, profile, 0.0))
     });

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{PairMechanism, Touching, external::about_own_axis};
+use super::{PairMechanism, external::about_own_axis};
 use crate::{
     COORDINATES, Displacement,
-    mesh_side::MeshSide,
-    modal::{ModalBalance, Posture, expansion},
+    elastic_displacement::ElasticDisplacement,
+    mesh_side::{MeshSide, SideContacts},
+    modal::{ModalBalance, expansion},
 };
 use integrate::{Forces, Mechanism};
 use ltca::StaticError;
@@ -19,13 +20,13 @@ impl Mechanism for PairMechanism {
     }
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), StaticError> {
-        let (at, moving) = (self.posture(t, q), self.posture(t, v));
+        let (at, moving) = (self.elastic_displacement(t, q), self.elastic_displacement(t, v));
         let (d, rate) = (at.d, moving.d);
-        let moment = self.moment(t);
-        let Touching { driving, coast, .. } = self.contact(t, &at, out.tangents)?;
+        let nominal = self.nominal_state(t);
+        let SideContacts { driving, coast, .. } = self.contact(t, &at, out.tangents)?;
         let cycles = self.cycles(t);
         let mut normal = Displacement::zeros();
-        let mut other = self.external(t, &moment);
+        let mut other = self.external(t, &nominal);
         out.supplied = other.dot(&rate);
         let mut stiffness = self.bearing[0];
         let mut damping = self.bearing[1];
@@ -40,14 +41,15 @@ impl Mechanism for PairMechanism {
             let (damped, power) = side.damping(&poses, &rate, self.damping, matrix);
             other += damped;
             out.dissipated += power;
-            // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part that counts.
+            // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part
+            // that counts.
             out.dissipated -= force.friction.dot(&rate);
             match &mut modal {
                 None => stiffness += force.stiffness,
                 Some(modal) => out.dissipated += modal.add(force, &moving.q),
             }
         }
-        let gyroscopic = self.gyroscopic(&moment);
+        let gyroscopic = self.gyroscopic(&nominal);
         other -= self.bearing[1] * rate;
         other -= gyroscopic * rate;
         damping += gyroscopic;
@@ -65,7 +67,7 @@ impl Mechanism for PairMechanism {
             None => {}
             Some(mut modal) => {
                 let coupling = self.coupling(t);
-                out.supplied += modal.accelerate(&coupling, &moment).dot(&moving.q);
+                out.supplied += modal.accelerate(&coupling, &nominal).dot(&moving.q);
                 out.dissipated += modal.dissipated;
                 conservative -= coupling.tr_mul(&modal.conservative);
                 other -= coupling.tr_mul(&modal.other);
@@ -86,7 +88,7 @@ impl Mechanism for PairMechanism {
         if out.rates {
             // A ten-thousandth of a mesh cycle either way; at rest nothing changes.
             let way = 1e-4 * self.pair.pinion.pitch_angle();
-            let [speed, growth] = [moment.velocity[0].abs(), moment.acceleration[0].abs()];
+            let [speed, growth] = [nominal.velocity[0].abs(), nominal.acceleration[0].abs()];
             let step = (way / speed).min((2.0 * way / growth).sqrt());
             out.parametric = if !step.is_finite() {
                 0.0
@@ -98,16 +100,16 @@ impl Mechanism for PairMechanism {
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-        let at = self.posture(t, q);
+        let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
         let of = |side: &MeshSide| side.contact().strain_energy();
         let contact = of(&self.drive_side) + self.coast_side.as_ref().map_or(0.0, of);
-        Ok(contact + self.energy_besides(&at))
+        Ok(contact + self.bearing_and_modal_energy(&at))
     }
 
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-        let at = self.posture(t, q);
-        Ok(self.contact_energy(t, &at)? + self.energy_besides(&at))
+        let at = self.elastic_displacement(t, q);
+        Ok(self.contact_energy(t, &at)? + self.bearing_and_modal_energy(&at))
     }
 
     fn events(&self) -> usize {
@@ -116,7 +118,7 @@ impl Mechanism for PairMechanism {
 
     /// Least gap of the driving flanks and of the coast flanks, mm, with the sign turned: positive in contact.
     fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), StaticError> {
-        let at = self.posture(t, q);
+        let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
         let pair = &self.pair;
@@ -130,7 +132,7 @@ impl Mechanism for PairMechanism {
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
         self.check_passage(t, &at.d)?;
         let turned = self.turned_cycles(t, &at.d);
         for side in std::iter::once(&self.drive_side).chain(&self.coast_side) {
@@ -147,7 +149,7 @@ impl Mechanism for PairMechanism {
                 coast_side.as_mut().map_or(Ok(false), |side| side.follow(pair, turned))?,
             ];
             if moved == [false; 2] {
-                self.gather(t, &before.at.1, &rate, turned)?;
+                self.update_extremes(t, &before.at.1, &rate, turned)?;
                 return Ok(());
             }
             self.last = None;
@@ -156,7 +158,7 @@ impl Mechanism for PairMechanism {
                 [Some(&mut self.drive_side), self.coast_side.as_mut()].into_iter().zip(moved).zip(sums)
             {
                 if let (Some(side), true, Some(sum)) = (side, moved, sum) {
-                    side.book_jump(sum);
+                    side.record_jump(sum);
                 }
             }
         }
@@ -165,7 +167,7 @@ impl Mechanism for PairMechanism {
 
 impl PairMechanism {
     /// Energy of bearings and modes, N mm.
-    fn energy_besides(&self, at: &Posture) -> f64 {
+    fn bearing_and_modal_energy(&self, at: &ElasticDisplacement) -> f64 {
         let modes = self.modal.as_ref().map_or(0.0, |modal| at.q.dot(&modal.squares.component_mul(&at.q)));
         0.5 * (at.d.dot(&(self.bearing[0] * at.d)) + modes)
     }

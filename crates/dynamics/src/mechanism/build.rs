@@ -5,17 +5,17 @@ use std::sync::Arc;
 use geometry::GearPair;
 use nalgebra::{DMatrix, SMatrix};
 
-use super::{Extremes, PairMechanism};
+use super::PairMechanism;
 use crate::{
-    Bearing, COORDINATES, Coordinates, Drive, GearVibration, MeshDamping, MotionOptions, Nominal, RigidBody, Speed,
-    mesh_side::MeshSide, modal::Modal,
+    Bearing, COORDINATES, Coordinates, Drive, Extremes, GearVibration, MeshDamping, MotionOptions, Nominal, Speed,
+    equivalent_mass::equivalent_mass_of, mesh_side::MeshSide, modal::Modal,
 };
 use ltca::StaticError;
 use reduction::ElasticGear;
 
 impl PairMechanism {
-    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `means`: mesh stiffness (N/mm on the base
-    /// circle) and length of contact lines (mm) that a damping ratio refers to.
+    /// A pair whose driving flanks' gears are `driving`, and, for contact on the coast flanks, `coast`. `means`: mesh
+    /// stiffness (N/mm on the base circle) and length of contact lines (mm) that a damping ratio refers to.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -40,8 +40,8 @@ impl PairMechanism {
     /// [`StaticError`].
     pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
         let options = MotionOptions { drive, ..self.options.clone() };
-        let drive_side = self.drive_side.again(&self.pair)?;
-        let coast_side = self.coast_side.as_ref().map(|side| side.again(&self.pair)).transpose()?;
+        let drive_side = self.drive_side.copy_at_start(&self.pair)?;
+        let coast_side = self.coast_side.as_ref().map(|side| side.copy_at_start(&self.pair)).transpose()?;
         let mut other = Self::of(self.pair.clone(), drive_side, coast_side, options, self.means);
         if let Some(modal) = self.modal.clone() {
             other.add_modes(modal);
@@ -49,14 +49,17 @@ impl PairMechanism {
         Ok(other)
     }
 
-    /// The same pair with normal modes of both gears as coordinates of their own: what they share of the teeth's and bodies' compliance gets its inertia, the rest stays quasi-static.
+    /// The same pair with normal modes of both gears as coordinates of their own: what they share of the teeth's and
+    /// bodies' compliance gets its inertia, the rest stays quasi-static.
     ///
-    /// The coordinates are p = q + L D d, amplitudes with what rigid motion shares of them: so mass is constant and without coupling, and a gear that moves as
-    /// a rigid body for a moment keeps its p. Neither they nor their velocities change with the window.
+    /// The coordinates are p = q + L D d, amplitudes with what rigid motion shares of them: so mass is constant and
+    /// without coupling, and a gear that moves as a rigid body for a moment keeps its p. Neither they nor their
+    /// velocities change with the window.
     ///
     /// # Errors
-    /// [`StaticError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no number >= 0, and where the bodies' inertia
-    /// is less than what the modes share of it: given for other gears than were meshed.
+    /// [`StaticError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no
+    /// number >= 0, and where the bodies' inertia is less than what the modes share of it: given for other gears than
+    /// were meshed.
     pub fn with_modes(mut self, gears: [GearVibration; 2]) -> Result<Self, StaticError> {
         if let Some(value) = gears.iter().map(|g| g.damping_ratio).find(|z| !z.is_finite() || *z < 0.0) {
             return Err(StaticError::OutOfRange { name: "modal damping ratio", value, expected: "a number >= 0" });
@@ -142,28 +145,5 @@ impl PairMechanism {
             extremes,
             roots,
         }
-    }
-}
-
-/// Inertias of both gears on their base circles, J / r_b^2, t.
-pub(super) fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
-    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
-    [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]))
-}
-
-/// Reduced mass of the pair's turns on the base circles, t: the driven gear's alone where the driver's angle is prescribed.
-pub(super) fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
-    let inertia = masses_on_base_circles(pair, &options.bodies);
-    let driver = 1 - options.statics.driven();
-    let held = matches!(options.drive, Drive::Speed(_));
-    equivalent_mass(inertia, held.then_some(driver))
-}
-
-/// Reduced mass on the base circles of two inertias, one of them perhaps held, t.
-pub fn equivalent_mass([a, b]: [f64; 2], held: Option<usize>) -> f64 {
-    match held {
-        Some(0) => b,
-        Some(_) => a,
-        None => a * b / (a + b),
     }
 }

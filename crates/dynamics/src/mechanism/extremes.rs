@@ -1,32 +1,21 @@
 //! What is worth knowing of a whole motion, gathered at the end of every step.
 
-use serde::{Deserialize, Serialize};
-
 use super::PairMechanism;
-use crate::{Displacement, mesh_side::MeshSide, modal::Posture};
+use crate::{Displacement, elastic_displacement::ElasticDisplacement, mesh_side::MeshSide};
 use ltca::StaticError;
-
-/// What is worth knowing of a whole motion, gathered step by step.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Extremes {
-    /// Least normal force of a slice in contact, damping included, N; none before the first step in contact. Below 0 a flank would pull.
-    pub least_force: Option<f64>,
-    /// Largest sum of normal forces on the driving flanks, damping included, N.
-    pub largest_force: f64,
-    /// Largest gap between the driving flanks of all pairs, mm; 0 when contact was never lost at the end of a step.
-    pub largest_gap: f64,
-    /// Steps whose end has no contact on the driving flanks.
-    pub steps_apart: u64,
-    /// Steps whose end has contact on the coast flanks.
-    pub steps_on_coast: u64,
-}
 
 impl PairMechanism {
     /// Extremes of the step that has just been taken; and whether a pair beside a window ought to carry load.
-    pub(super) fn gather(&mut self, t: f64, at: &Posture, rate: &Displacement, turned: f64) -> Result<(), StaticError> {
+    pub(super) fn update_extremes(
+        &mut self,
+        t: f64,
+        at: &ElasticDisplacement,
+        rate: &Displacement,
+        turned: f64,
+    ) -> Result<(), StaticError> {
         let (cycles, d) = (self.cycles(t), &at.d);
         let poses = self.drive_side.poses(&self.pair, cycles, d);
-        self.drive_side.check_beside(&self.pair, turned, &poses)?;
+        self.drive_side.check_neighbours(&self.pair, turned, &poses)?;
         let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
         let mut least = f64::INFINITY;
         if touches(&self.drive_side) {
@@ -43,7 +32,7 @@ impl PairMechanism {
             && touches(side)
         {
             let poses = side.poses(&self.pair, cycles, d);
-            side.check_beside(&self.pair, turned, &poses)?;
+            side.check_neighbours(&self.pair, turned, &poses)?;
             least = least.min(side.normal_forces(&poses, rate, self.damping)[1]);
             self.extremes.steps_on_coast += 1;
         }

@@ -6,24 +6,21 @@ mod external;
 mod extremes;
 mod observe;
 mod passage;
-mod touching;
+mod side_contacts;
 
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Changes, Coordinates, Displacement, MeshResonance, Moment, MotionOptions, Nominal, SidePlace,
-    mesh_side::MeshSide,
-    modal::{Modal, Posture},
+    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
+    ToothChanges,
+    elastic_displacement::ElasticDisplacement,
+    equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
+    mesh_side::{MeshSide, SideContacts},
+    modal::Modal,
 };
 use ltca::{RootStress, StaticError};
-
-pub use build::equivalent_mass;
-pub use extremes::Extremes;
-
-use build::{equivalent_mass_of, masses_on_base_circles};
-use touching::Touching;
 
 /// A pair of gears as an integrator sees it.
 ///
@@ -31,9 +28,9 @@ use touching::Touching;
 /// M q'' = T' [w(d) + w_f(d) + w_d(d, d') - K_b d - C_b d' + gyroscopic + load + drive - M a_nominal],   d = T q
 /// V = strain energy of teeth and bodies + d' K_b d / 2
 /// ```
-/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w. Coordinates are
-/// deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With [`PairMechanism::with_modes`] coordinates of
-/// normal modes of both gears come behind the rigid ones.
+/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w.
+/// Coordinates are deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With
+/// [`PairMechanism::with_modes`] coordinates of normal modes of both gears come behind the rigid ones.
 #[derive(Debug)]
 pub struct PairMechanism {
     pair: GearPair,
@@ -49,25 +46,25 @@ pub struct PairMechanism {
     /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
     means: [f64; 2],
     modal: Option<Modal>,
-    last: Option<Touching>,
+    last: Option<SideContacts>,
     extremes: Extremes,
     /// Fillets, where their stress is asked for; none with normal modes.
     roots: Option<RootStress>,
 }
 
-/// Where both windows stand and what has been gathered: with a [`integrate::State`] all that a motion is.
+/// Windows of both sides and extremes so far. With an [`integrate::State`] this is the whole state of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct MechanismState {
     /// Driving flanks.
-    pub driving: SidePlace,
+    pub driving: SideState,
     /// Coast flanks.
-    pub coast: Option<SidePlace>,
+    pub coast: Option<SideState>,
     /// Gathered so far.
     pub extremes: Extremes,
 }
 
 impl PairMechanism {
-    /// Forgets what contact remembers of its last solution: what comes then depends on state and place alone, bit by bit.
+    /// Forgets the last contact solution: later results depend on state and windows alone, bit by bit.
     pub fn forget(&mut self) {
         self.drive_side.forget();
         if let Some(side) = &mut self.coast_side {
@@ -76,26 +73,26 @@ impl PairMechanism {
         self.last = None;
     }
 
-    /// Where the windows stand.
-    pub fn place(&self) -> Place {
-        let coast = self.coast_side.as_ref().map(MeshSide::place);
-        Place { driving: self.drive_side.place(), coast, extremes: self.extremes }
+    /// Windows and extremes, to be restored later.
+    pub fn mechanism_state(&self) -> MechanismState {
+        let coast = self.coast_side.as_ref().map(MeshSide::state);
+        MechanismState { driving: self.drive_side.state(), coast, extremes: self.extremes }
     }
 
-    /// Puts the windows where they stood; what contact remembers is forgotten.
+    /// Restores windows and extremes; the last contact solution is forgotten.
     ///
     /// # Errors
     /// [`StaticError`].
-    pub fn stand(&mut self, place: &Place) -> Result<(), StaticError> {
-        self.drive_side.stand(&self.pair, place.driving)?;
-        if let (Some(side), Some(place)) = (&mut self.coast_side, place.coast) {
-            side.stand(&self.pair, place)?;
+    pub fn restore(&mut self, state: &MechanismState) -> Result<(), StaticError> {
+        self.drive_side.restore(&self.pair, state.driving)?;
+        if let (Some(side), Some(coast)) = (&mut self.coast_side, state.coast) {
+            side.restore(&self.pair, coast)?;
         }
-        (self.last, self.extremes) = (None, place.extremes);
+        (self.last, self.extremes) = (None, state.extremes);
         Ok(())
     }
 
-    /// What has been gathered since the start.
+    /// Extremes since the start.
     pub fn extremes(&self) -> &Extremes {
         &self.extremes
     }
@@ -106,8 +103,8 @@ impl PairMechanism {
     }
 
     /// Tooth changes of the driving flanks.
-    pub fn changes(&self) -> Changes {
-        self.drive_side.place().changes
+    pub fn changes(&self) -> ToothChanges {
+        self.drive_side.state().changes
     }
 
     /// What is asked of the motion.
@@ -115,19 +112,22 @@ impl PairMechanism {
         &self.options
     }
 
-    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean tangent stiffness.
+    /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
+    /// tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
         (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
     }
 
-    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of the drive.
+    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of
+    /// the drive.
     pub fn mesh_resonances_hz(&self) -> [f64; 2] {
         let inertia = self.base_circle_masses();
         let driver = 1 - self.options.statics.driven();
         [None, Some(driver)].map(|held| (self.means[0] / equivalent_mass(inertia, held)).sqrt() / std::f64::consts::TAU)
     }
 
-    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact lines.
+    /// The mesh resonance with the damping ratio of the mesh: c / 2 sqrt(k_m m_e), c of the mean length of contact
+    /// lines.
     pub fn mesh_resonance(&self) -> MeshResonance {
         let cos = self.pair.base_helix_angle().cos();
         let damping =
@@ -140,7 +140,8 @@ impl PairMechanism {
         masses_on_base_circles(&self.pair, &self.options.bodies)
     }
 
-    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is prescribed.
+    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is
+    /// prescribed.
     pub fn equivalent_mass(&self) -> f64 {
         equivalent_mass_of(&self.pair, &self.options)
     }
@@ -167,8 +168,9 @@ impl PairMechanism {
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
 
-    /// How the coordinates of a motion that repeats itself go on from mesh cycle to mesh cycle: rigid ones come back, amplitudes of modes, which are in the gears' own frames, are
-    /// those of gears that stand a pitch further. n x n; `None` where the modes of a gear do not go over into each other, which then repeats itself after whole turns at best.
+    /// Map of the coordinates of a periodic motion from one mesh cycle to the next, n x n. Rigid coordinates repeat.
+    /// Amplitudes of modes are in the gears' own frames: they become those of gears turned by a pitch. `None` where the
+    /// modes of a gear are not mapped into each other; such a motion repeats after whole turns at best.
     pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);
@@ -193,7 +195,7 @@ impl PairMechanism {
         self.nominal.cycles(&self.pair, &self.options.statics, t)
     }
 
-    fn moment(&self, t: f64) -> Moment {
+    fn nominal_state(&self, t: f64) -> NominalState {
         self.nominal.at(&self.pair, &self.options.statics, t)
     }
 
@@ -219,12 +221,12 @@ impl PairMechanism {
     }
 
     /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.
-    fn posture(&self, t: f64, q: &DVector<f64>) -> Posture {
+    fn elastic_displacement(&self, t: f64, q: &DVector<f64>) -> ElasticDisplacement {
         let d = self.coordinates.displacement(q);
         let q = match &self.modal {
             None => DVector::zeros(0),
             Some(modal) => modal.amplitudes(&self.coupling(t), &d, &q.as_slice()[self.coordinates.count()..]),
         };
-        Posture { d, q }
+        ElasticDisplacement { d, q }
     }
 }

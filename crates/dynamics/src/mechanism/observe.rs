@@ -2,11 +2,12 @@
 
 use nalgebra::DVector;
 
-use super::{PairMechanism, Touching};
+use super::PairMechanism;
 use crate::{
-    COORDINATES, Displacement, Instant, Moment, contact_line,
-    mesh_side::SideForce,
-    modal::{ModalBalance, Posture},
+    COORDINATES, Displacement, Instant, NominalState, contact_line,
+    elastic_displacement::ElasticDisplacement,
+    mesh_side::{SideContacts, SideForce},
+    modal::ModalBalance,
 };
 use ltca::StaticError;
 
@@ -16,9 +17,9 @@ impl PairMechanism {
     /// # Errors
     /// [`StaticError`].
     pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
-        let (at, rate) = (self.posture(t, q), self.coordinates.displacement(v));
+        let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
         let d = at.d;
-        let Touching { driving, coast, .. } = self.contact(t, &at, false)?;
+        let SideContacts { driving, coast, .. } = self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
         let poses = self.drive_side.poses(&self.pair, cycles, &d);
         let mut losses = driving.friction + self.drive_side.damping(&poses, &rate, self.damping, None).0;
@@ -32,13 +33,13 @@ impl PairMechanism {
         }
         let mesh = normal + losses;
         let contact = self.drive_side.contact();
-        let slices = self.drive_side.pressed_slices();
+        let slices = self.drive_side.loaded_slices();
         let max_pressure = slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure));
         let (window, tooth_changes) = self.drive_side.window();
-        let moment = self.moment(t);
-        let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &moment);
+        let nominal = self.nominal_state(t);
+        let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &nominal);
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
-        let speeds = [0, 1].map(|g| moment.velocity[g] + rate[of_turn(g)]);
+        let speeds = [0, 1].map(|g| nominal.velocity[g] + rate[of_turn(g)]);
         let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
         let contact_line_length = contact_line::length(&self.pair, contact, &poses);
         let root_stress = match &self.roots {
@@ -52,7 +53,7 @@ impl PairMechanism {
             transmission_error: q[self.coordinates.lag()],
             transmission_error_rate: v[self.coordinates.lag()],
             displacement: d,
-            drive_torque: self.drive_torque(t, &moment, &(mesh - shared), &losses),
+            drive_torque: self.drive_torque(t, &nominal, &(mesh - shared), &losses),
             load_torque: self.options.load.at(t),
             bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
             pair_forces,
@@ -71,18 +72,18 @@ impl PairMechanism {
     fn modal_reaction(
         &self,
         t: f64,
-        at: &Posture,
+        at: &ElasticDisplacement,
         v: &DVector<f64>,
         sides: [Option<&SideForce>; 2],
-        moment: &Moment,
+        nominal: &NominalState,
     ) -> Displacement {
         let Some(modal) = &self.modal else { return Displacement::zeros() };
-        let (coupling, rate) = (self.coupling(t), self.posture(t, v).q);
+        let (coupling, rate) = (self.coupling(t), self.elastic_displacement(t, v).q);
         let mut balance = ModalBalance::new(modal, &at.q, &rate);
         sides.into_iter().flatten().for_each(|side| {
             balance.add(side, &rate);
         });
-        balance.accelerate(&coupling, moment);
+        balance.accelerate(&coupling, nominal);
         let all = coupling.tr_mul(&(balance.conservative + balance.other));
         Displacement::from_fn(|i, _| all[i])
     }

@@ -20,8 +20,10 @@ impl PairMechanism {
         sin * (d[0] - d[COORDINATES]) + side * (cos * (d[1] - d[COORDINATES + 1]) + turns)
     }
 
-    /// Refuses a state in which teeth are nearer by half a base pitch than flanks that touch, or farther apart by the backlash and as much again: on their line of action teeth are half a base pitch
-    /// thick, so that they have gone through each other. A step that leaps so far finds an equilibrium between other teeth, and nothing else would tell.
+    /// Refuses a state in which teeth are nearer by half a base pitch than flanks that touch, or farther apart by the
+    /// backlash and as much again: on their line of action teeth are half a base pitch thick, so that they have gone
+    /// through each other. A step that leaps so far finds an equilibrium between other teeth, and nothing else would
+    /// tell.
     ///
     /// # Errors
     /// [`StaticError::PassedThrough`].

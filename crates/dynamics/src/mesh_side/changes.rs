@@ -1,7 +1,7 @@
-//! Tooth changes of one side: when the window moves, and what that leaves behind.
+//! Tooth changes of one side: when the window moves, and what changes with it.
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{Beside, ContactSet, Pose};
+use contact::{ContactSet, NeighbourPairs, Pose};
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};
 use serde::{Deserialize, Serialize};
@@ -10,51 +10,51 @@ use super::MeshSide;
 
 /// Tooth changes of one side so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Changes {
+pub struct ToothChanges {
     /// How many.
     pub count: u64,
-    /// Largest difference of the sum of normal forces before and after a change at the same place, N: contact is solved anew on the new window, so a force that
-    /// was dropped shows here.
+    /// Largest jump of the sum of normal forces across a change at the same place, N. Contact is solved anew in the new
+    /// window, so a force that was dropped shows here.
     pub jump: f64,
 }
 
-/// Where the window of one side stands; all that contact remembers from step to step.
+/// Window of one side, and its tooth changes so far.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct SidePlace {
+pub struct SideState {
     /// First running number of the window.
     pub first: i64,
     /// Tooth changes so far.
-    pub changes: Changes,
+    pub changes: ToothChanges,
 }
 
 impl MeshSide {
-    /// Where the window stands.
-    pub fn place(&self) -> SidePlace {
-        SidePlace { first: self.window.window().first(), changes: self.changes }
+    /// The window and its tooth changes, to be restored later.
+    pub fn state(&self) -> SideState {
+        SideState { first: self.window.window().first(), changes: self.changes }
     }
 
-    /// Puts the window where it stood.
-    pub fn stand(&mut self, pair: &GearPair, place: SidePlace) -> Result<(), StaticError> {
+    /// Restores the window.
+    pub fn restore(&mut self, pair: &GearPair, state: SideState) -> Result<(), StaticError> {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
-        let window = ToothWindow::new(place.first, self.window.window().count(), teeth)?;
+        let window = ToothWindow::new(state.first, self.window.window().count(), teeth)?;
         self.enter(pair, self.window.with_window(window), self.home.1.clone())?;
-        self.changes = place.changes;
+        self.changes = state.changes;
         Ok(())
     }
 
-    /// Goes over to a window, with the matrices of `set` where they serve it.
+    /// Enters a window, with the matrices of `set` where they serve it.
     fn enter(&mut self, pair: &GearPair, window: SlidingWindow, set: ContactSet) -> Result<(), StaticError> {
         self.contact.enter_window(pair, &self.gears, window.window(), set, &self.options.contact)?;
         self.window = window;
         Ok(())
     }
 
-    /// Refuses a window beside which a pair overlaps, by the poses of the last evaluation.
+    /// Refuses the window if a neighbouring pair outside it overlaps at the poses of the last evaluation.
     ///
     /// # Errors
     /// [`ale::AleError::Starved`].
-    pub fn check_beside(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
-        // Nothing is pressed where nothing overlaps, and a pair beside the window comes last.
+    pub fn check_neighbours(&mut self, pair: &GearPair, cycles: f64, poses: &[Pose; 2]) -> Result<(), StaticError> {
+        // Without overlap nothing is loaded, and a neighbouring pair outside the window comes into contact last.
         let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
         if deepest == 0.0 {
             return Ok(());
@@ -63,12 +63,12 @@ impl MeshSide {
             self;
         let (set, window) = (contact.contact_set().clone(), sliding.window());
         let station = Station::at_cycles(cycles + *ahead);
-        let gap = |poses: &[Pose; 2]| Beside { pair, options, set: &set, window, station, poses }.least_gap();
-        if contact.gap_beside(poses, gap) > -1e-3 * deepest {
+        let gap = |poses: &[Pose; 2]| NeighbourPairs { pair, options, set: &set, window, station, poses }.least_gap();
+        if contact.gap_of_neighbours(poses, gap) > -1e-3 * deepest {
             return Ok(());
         }
-        let beside = Beside { pair, options, set: &set, window, station, poses };
-        Ok(sliding.check_beside(station, *torque, 1e-3 * deepest, |running| beside.gap(running))?)
+        let neighbours = NeighbourPairs { pair, options, set: &set, window, station, poses };
+        Ok(sliding.check_neighbours(station, *torque, 1e-3 * deepest, |running| neighbours.gap(running))?)
     }
 
     /// Refuses gears that have turned past the whole window since it moved last.
@@ -79,11 +79,11 @@ impl MeshSide {
         Ok(self.window.check_pace(cycles + self.ahead)?)
     }
 
-    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the last
-    /// evaluation; `cycles` are those that the gears have turned.
+    /// Moves the window by one tooth where that is due and the outgoing tooth carries nothing, by the forces of the
+    /// last evaluation; `cycles` are those that the gears have turned.
     ///
-    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change leaves no
-    /// trace in the motion as long as no force is dropped.
+    /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change
+    /// leaves no trace in the motion as long as no force is dropped.
     pub fn follow(&mut self, pair: &GearPair, cycles: f64) -> Result<bool, StaticError> {
         let station = Station::at_cycles(cycles + self.ahead);
         let Some(next) = self.window.due_change(station, &self.contact.force().pair_forces)? else { return Ok(false) };
@@ -92,8 +92,8 @@ impl MeshSide {
         Ok(true)
     }
 
-    /// Books what a change has done to the sum of normal forces, N.
-    pub fn book_jump(&mut self, before: f64) {
+    /// Records the jump of the sum of normal forces across a change, N.
+    pub fn record_jump(&mut self, before: f64) {
         let after = self.contact.force().pair_forces.iter().sum::<f64>();
         self.changes.jump = self.changes.jump.max((after - before).abs());
     }

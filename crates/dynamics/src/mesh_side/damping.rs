@@ -7,7 +7,7 @@ use super::MeshSide;
 use crate::{COORDINATES, Displacement};
 
 /// A slice that carries force.
-struct Pressed {
+struct DampedSlice {
     /// Normal force, N.
     force: f64,
     /// Damping, N s/mm.
@@ -18,7 +18,7 @@ struct Pressed {
     opening: f64,
 }
 
-impl Pressed {
+impl DampedSlice {
     /// Force against the approach (N, positive where flanks part), its slope, and its power.
     fn resisted(&self) -> [f64; 3] {
         let Self { force, damping, opening, .. } = *self;
@@ -29,12 +29,12 @@ impl Pressed {
 
 impl MeshSide {
     /// Slices that carry force, with the gears at `poses` moving at `rate`.
-    fn pressed<'a>(
+    fn damped_slices<'a>(
         &'a self,
         poses: &'a [Pose; 2],
         rate: &'a Displacement,
         per_length: f64,
-    ) -> impl Iterator<Item = Pressed> + 'a {
+    ) -> impl Iterator<Item = DampedSlice> + 'a {
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
         rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| {
             let mut j = Displacement::zeros();
@@ -45,20 +45,22 @@ impl MeshSide {
                     j[COORDINATES * g + 3 + i] = sign * moment[i];
                 }
             }
-            Pressed { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
+            DampedSlice { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
         })
     }
 
-    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to `matrix`.
+    /// Damping of the slices that carry force: force on the coordinates and power taken; -df/d(velocity) is added to
+    /// `matrix`.
     ///
     /// ```text
     /// F_d = -c h dg/dt,  |F_d| <= F
     /// ```
-    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no harder than they press, so that the force
-    /// does not jump where contact begins.
+    /// Parting flanks let go at most as much as they press, so that none pulls; and flanks that meet are damped no
+    /// harder than they press, so that the force does not jump where contact begins.
     ///
-    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole compliance of the mesh, and its ratio does not mean another
-    /// thing with every mode that is taken out of it. Modes have dampers of their own.
+    /// dg/dt is the approach of the rigid bodies, also where modes are kept: the damper stands beside the whole
+    /// compliance of the mesh, and its ratio does not mean another thing with every mode that is taken out of it. Modes
+    /// have dampers of their own.
     pub fn damping(
         &self,
         poses: &[Pose; 2],
@@ -67,7 +69,7 @@ impl MeshSide {
         mut matrix: Option<&mut SMatrix<f64, 12, 12>>,
     ) -> (Displacement, f64) {
         let (mut total, mut taken) = (Displacement::zeros(), 0.0);
-        for slice in self.pressed(poses, rate, per_length) {
+        for slice in self.damped_slices(poses, rate, per_length) {
             let [force, slope, power] = slice.resisted();
             total -= force * slice.j;
             taken += power;
@@ -78,10 +80,11 @@ impl MeshSide {
         (total, taken)
     }
 
-    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any flank pulls. Zeros without contact.
+    /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any
+    /// flank pulls. Zeros without contact.
     pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
-        for slice in self.pressed(poses, rate, per_length) {
+        for slice in self.damped_slices(poses, rate, per_length) {
             let total = slice.force - slice.resisted()[0];
             sum += total;
             least = least.min(total);

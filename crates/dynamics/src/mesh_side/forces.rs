@@ -1,11 +1,11 @@
 //! Forces of one side, with their slopes.
 
-use contact::{ContactError, Pose, Want, Wrench};
+use contact::{ContactError, EvaluationLevel, Pose, Wrench};
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::MeshSide;
-use crate::{COORDINATES, Displacement, modal::Posture};
+use crate::{COORDINATES, Displacement, elastic_displacement::ElasticDisplacement};
 
 /// Forces of one side on the twelve coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,12 +31,22 @@ pub(crate) struct ModalForce {
     pub stiffness: Option<DMatrix<f64>>,
 }
 
+/// Contact of both sides at one time and displacement.
+#[derive(Debug, Clone)]
+pub(crate) struct SideContacts {
+    pub at: (f64, ElasticDisplacement),
+    pub driving: SideForce,
+    pub coast: Option<SideForce>,
+    /// Whether stiffness is among what was asked for.
+    pub tangents: bool,
+}
+
 impl MeshSide {
     /// Strain energy of contact with the gears displaced and deformed, N mm; the last evaluation is lost.
-    pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> Result<f64, ContactError> {
+    pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<f64, ContactError> {
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
-        self.contact.evaluate_near(&poses, Want::Energy)?;
+        self.contact.evaluate_near(&poses, EvaluationLevel::Energy)?;
         Ok(self.contact.strain_energy())
     }
 
@@ -45,12 +55,14 @@ impl MeshSide {
         &mut self,
         pair: &GearPair,
         cycles: f64,
-        at: &Posture,
+        at: &ElasticDisplacement,
         tangents: bool,
     ) -> Result<SideForce, ContactError> {
         let poses = self.poses(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
-        let force = self.contact.evaluate_near(&poses, if tangents { Want::Tangent } else { Want::Forces })?;
+        let force = self
+            .contact
+            .evaluate_near(&poses, if tangents { EvaluationLevel::Tangent } else { EvaluationLevel::Forces })?;
         let all = vector(&force.wrench);
         let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
         let friction = self.friction(&poses);
@@ -65,9 +77,9 @@ impl MeshSide {
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })
     }
 
-    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm; negative where they are apart. Then, with modes, the last evaluation
-    /// is lost.
-    pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &Posture) -> f64 {
+    /// Deepest overlap of the flanks at the place of the last evaluation, deformed by the kept modes alone, mm;
+    /// negative where they are apart. Then, with modes, the last evaluation is lost.
+    pub fn overlap(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> f64 {
         // Where flanks overlap the deepest place is among the rows.
         let deepest = self.contact.rows().iter().fold(f64::MIN, |m, row| m.max(-row.gap));
         if deepest > 0.0 {

@@ -9,14 +9,14 @@ use std::sync::Arc;
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, MeshContact, Pose, frames, reference_angle, slice_result};
 use geometry::GearPair;
-use ltca::{FilletStress, Parts, RootStress, StaticError, StaticOptions};
+use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use reduction::{ElasticGear, GearModes};
 
-use super::{COORDINATES, Displacement, PressedSlice};
+use super::{COORDINATES, Displacement, LoadedSlice};
 
-pub use changes::{Changes, SidePlace};
-pub(super) use forces::SideForce;
+pub use changes::{SideState, ToothChanges};
+pub(super) use forces::{SideContacts, SideForce};
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.
 #[derive(Debug)]
@@ -25,17 +25,19 @@ pub(super) struct MeshSide {
     gears: Arc<[ElasticGear; 2]>,
     window: SlidingWindow,
     contact: MeshContact,
-    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from there.
+    /// Flanks and matrices that the first window had: where one set serves all windows, its frames are counted from
+    /// there.
     home: (SlidingWindow, ContactSet),
     /// Mesh cycles that this side is ahead of the pair's counting.
     ahead: f64,
     /// Turn of the wheel from where these flanks touch to where the driving ones do, rad: backlash on the coast side.
     slack: f64,
-    changes: Changes,
+    changes: ToothChanges,
 }
 
 impl MeshSide {
-    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the pair's counting.
+    /// The side on which `options` has the load, at the beginning of a motion; `reference` are the options of the
+    /// pair's counting.
     pub fn new(
         pair: &GearPair,
         gears: Arc<[ElasticGear; 2]>,
@@ -44,8 +46,8 @@ impl MeshSide {
         cycles: f64,
     ) -> Result<Self, StaticError> {
         let pitch = pair.pinion.pitch_angle();
-        let apart = pair.middle_angle(reference.side()) - pair.middle_angle(options.side());
-        let ahead = reference.contact.sense.sign() as f64 * apart / pitch;
+        let side_angle = pair.middle_angle(reference.side()) - pair.middle_angle(options.side());
+        let ahead = reference.contact.sense.sign() as f64 * side_angle / pitch;
         let own = Station::at_cycles(cycles + ahead);
         let theta = [(own, &options), (Station::at_cycles(cycles), reference)].map(|(station, options)| {
             reference_angle(pair, &options.contact, station.pinion_angle(pair, options.side(), options.contact.sense))
@@ -59,7 +61,7 @@ impl MeshSide {
         let set = ContactSet::new(pair, &gears, window.window(), &options.contact)?;
         let contact = MeshContact::new(pair, set.clone(), &options.contact)?;
         let home = (window, set);
-        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: Changes::default() })
+        Ok(Self { options, gears, window, contact, home, ahead, slack, changes: ToothChanges::default() })
     }
 
     /// Takes normal modes of both gears for coordinates of their own.
@@ -68,9 +70,9 @@ impl MeshSide {
     }
 
     /// The same side at its beginning, with the same gears and tables.
-    pub fn again(&self, pair: &GearPair) -> Result<Self, StaticError> {
+    pub fn copy_at_start(&self, pair: &GearPair) -> Result<Self, StaticError> {
         let (window, set) = self.home.clone();
-        let mut again = Self {
+        let mut copy_at_start = Self {
             options: self.options.clone(),
             gears: Arc::clone(&self.gears),
             contact: MeshContact::new(pair, set.clone(), &self.options.contact)?,
@@ -78,12 +80,12 @@ impl MeshSide {
             home: (window, set),
             ahead: self.ahead,
             slack: self.slack,
-            changes: Changes::default(),
+            changes: ToothChanges::default(),
         };
         if let Some(modes) = self.contact.modes() {
-            again.keep_modes(modes.clone())?;
+            copy_at_start.keep_modes(modes.clone())?;
         }
-        Ok(again)
+        Ok(copy_at_start)
     }
 
     /// Forgets forces and places of the last solution: what comes then depends on the state alone.
@@ -97,12 +99,12 @@ impl MeshSide {
     }
 
     /// Slices that carried load in the last evaluation.
-    pub fn pressed_slices(&self) -> Vec<PressedSlice> {
+    pub fn loaded_slices(&self) -> Vec<LoadedSlice> {
         let (contact, set) = (&self.contact, self.contact.contact_set());
         let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces());
         loaded
             .filter(|(_, f)| **f > 0.0)
-            .map(|((row, slice), &f)| PressedSlice {
+            .map(|((row, slice), &f)| LoadedSlice {
                 pair: self.window.window().first() + set.pair_of(row.patches.0) as i64,
                 slice: slice_result(slice, set.side(row.patches.0), f),
             })
@@ -120,7 +122,8 @@ impl MeshSide {
         let set = self.contact.contact_set();
         let displacements =
             (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
-        let parts = Parts { pair, gears: &self.gears, set, window: self.window.window(), options: &self.options };
+        let parts =
+            WindowedPair { pair, gears: &self.gears, set, window: self.window.window(), options: &self.options };
         roots.of(&parts, displacements.as_ref())
     }
 

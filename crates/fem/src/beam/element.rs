@@ -15,7 +15,8 @@ pub enum BeamTheory {
 
 /// Coordinates of an element: those of both nodes.
 const SIZE: usize = 12;
-/// Bending in the plane of x: displacements, and turns that are slopes. In that of y turns are slopes with the sign turned.
+/// Bending in the plane of x: displacements, and turns that are slopes. In that of y turns are slopes with the sign
+/// turned.
 const IN_X: [(usize, f64); 4] = [(0, 1.0), (4, 1.0), (6, 1.0), (10, 1.0)];
 const IN_Y: [(usize, f64); 4] = [(1, 1.0), (3, -1.0), (7, 1.0), (9, -1.0)];
 /// Four Gauss points on 0 .. 1 and their weights: exact for the products of cubics.
@@ -37,7 +38,8 @@ fn shear_ratio(section: &BeamSection, length: f64, theory: BeamTheory) -> f64 {
 /// Stiffness of a beam of `length` > 0 mm, N/mm, N, N mm.
 ///
 /// ```text
-/// bending   E I / ((1 + Phi) l^3) [12, 6l, -12, 6l; ., (4 + Phi) l^2, -6l, (2 - Phi) l^2; ., ., 12, -6l; ., ., ., (4 + Phi) l^2]
+/// bending   E I / ((1 + Phi) l^3)
+///           [12, 6l, -12, 6l; ., (4 + Phi) l^2, -6l, (2 - Phi) l^2; ., ., 12, -6l; ., ., ., (4 + Phi) l^2]
 /// axial     E A / l [1, -1; -1, 1],   torsion   G I_p / l [1, -1; -1, 1]
 /// ```
 /// Exact for loads at the nodes. Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, section 5.6.
@@ -70,7 +72,8 @@ pub fn beam_stiffness(section: &BeamSection, length: f64, theory: BeamTheory) ->
 /// Consistent mass of a beam of `length` > 0 mm, t, t mm, t mm^2, with the shapes that the stiffness belongs to.
 ///
 /// ```text
-/// M = integral of [rho A N_w' N_w + rho I N_theta' N_theta] dz   (rotary inertia with Timoshenko only),   rho A l / 6, rho I_p l / 6 [2, 1; 1, 2]
+/// M = integral of [rho A N_w' N_w + rho I N_theta' N_theta] dz   (rotary inertia with Timoshenko only)
+/// axial and torsion: rho A l / 6, rho I_p l / 6 times [2, 1; 1, 2]
 /// ```
 /// Source: Z. Friedman, J. B. Kosmatka, Comput. Struct. 47 (1993) 473.
 pub fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {

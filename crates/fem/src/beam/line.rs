@@ -25,7 +25,8 @@ pub struct BeamLine {
 }
 
 impl BeamLine {
-    /// Pieces one after the other, with nodes at their ends and at `places` (mm), elements no longer than `longest` (mm).
+    /// Pieces one after the other, with nodes at their ends and at `places` (mm), elements no longer than `longest`
+    /// (mm).
     ///
     /// # Errors
     /// [`FemError::Length`] where a length is not positive or a place is not on the shaft.

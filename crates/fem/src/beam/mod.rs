@@ -1,6 +1,7 @@
 //! Straight shafts as beams along z, with the coordinates of a gear at every node.
 //!
-//! Coordinates of a node: displacements x, y, z (mm), turns about x, y, z (rad). In bending u_x' = theta_y and u_y' = -theta_x, but for shear.
+//! Coordinates of a node: displacements x, y, z (mm), turns about x, y, z (rad). In bending u_x' = theta_y and u_y' =
+//! -theta_x, but for shear.
 
 mod element;
 mod line;

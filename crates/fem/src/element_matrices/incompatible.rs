@@ -9,7 +9,7 @@
 
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
-use super::{IncompatibleModes, kernels::block_index};
+use super::{IncompatibleModes, blocks::block_index};
 
 /// Number of bubble functions.
 pub(crate) const BUBBLES: usize = 3;

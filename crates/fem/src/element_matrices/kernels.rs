@@ -4,15 +4,12 @@ use faer::Mat;
 use mesh::{ElementKind, element::QuadratureRule};
 
 use super::{
-    BUBBLES, ElementOptions, IncompatibleModes, Integration, Table, bubble_gradients, checked_jacobian, gradients,
+    BUBBLES, ElementOptions, IncompatibleModes, Integration, Table,
+    blocks::block_index,
+    bubble_gradients, checked_jacobian, gradients,
     incompatible::{Condensed, condense},
 };
 use crate::{FemError, Material};
-
-/// Place of block (i, j), i >= j, in a lower triangle stored row by row.
-pub(crate) const fn block_index(i: usize, j: usize) -> usize {
-    i * (i + 1) / 2 + j
-}
 
 /// Largest number of block rows: 27 nodes, or 8 nodes and 3 bubbles.
 const MAX_ROWS: usize = 27;

@@ -5,13 +5,15 @@
 //! M_ij = sum_q w det J rho N_i N_j                                                                   [t]
 //! ```
 
+mod blocks;
 mod geometry;
 mod incompatible;
 mod kernels;
 mod options;
 
+pub(crate) use blocks::block_index;
 pub(crate) use geometry::{Table, checked_jacobian, gradients};
 pub(crate) use incompatible::{BUBBLES, Condensed, bubble_gradients};
-pub(crate) use kernels::{MassKernel, StiffnessKernel, block_index};
+pub(crate) use kernels::{MassKernel, StiffnessKernel};
 pub use kernels::{element_mass, element_stiffness};
 pub use options::{ElementOptions, IncompatibleModes, Integration};

@@ -19,9 +19,9 @@ pub enum IncompatibleModes {
 pub enum Integration {
     /// 3 x 3 x 3 points: no zero modes but the rigid ones.
     Full,
-    /// 2 x 2 x 2 points: softer, and on coarse meshes much nearer to the limit (six elements along the profile of a tooth: transmission
-    /// error 0.3 % below it, with 27 points 1 %). Each element has six zero modes more; they die out where
-    /// elements lie side by side, but not along a single stack, which is then refused as movable.
+    /// 2 x 2 x 2 points: softer, and on coarse meshes much nearer to the limit (six elements along the profile of a
+    /// tooth: transmission error 0.3 % below it, with 27 points 1 %). Each element has six zero modes more; they die
+    /// out where elements lie side by side, but not along a single stack, which is then refused as movable.
     #[default]
     Reduced,
 }

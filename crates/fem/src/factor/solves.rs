@@ -40,8 +40,8 @@ impl BoundaryLastFactor {
     /// ```text
     /// u = [u_I; u_B],   u_I = K_II^-1 (f_I - K_IB u_B)
     /// ```
-    /// `force`: n x k (N) in the matrix's own numbering, its boundary rows have no effect; `boundary`: n_B x k (mm); result:
-    /// n x k (mm).
+    /// `force`: n x k (N) in the matrix's own numbering, its boundary rows have no effect; `boundary`: n_B x k (mm);
+    /// result: n x k (mm).
     ///
     /// # Errors
     /// [`FemError::Shape`] when `force` does not have n rows, `boundary` not n_B, or they differ in columns.
@@ -66,11 +66,12 @@ impl BoundaryLastFactor {
 
     /// Rows `wanted` of [`BoundaryLastFactor::expand`], in that order.
     ///
-    /// Back substitution passes over all branches of the elimination tree that hold none of them: for one region of a gear
-    /// that is most of the factor.
+    /// Back substitution passes over all branches of the elimination tree that hold none of them: for one region of a
+    /// gear that is most of the factor.
     ///
     /// # Errors
-    /// [`FemError::Shape`] as for [`BoundaryLastFactor::expand`]; [`FemError::BadDof`] for a degree of freedom that does not exist.
+    /// [`FemError::Shape`] as for [`BoundaryLastFactor::expand`]; [`FemError::BadDof`] for a degree of freedom that
+    /// does not exist.
     pub fn expand_rows(&self, boundary: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.boundary.len(), boundary.nrows())?;
@@ -147,8 +148,8 @@ impl BoundaryLastFactor {
         Ok(result)
     }
 
-    /// Where the freedoms `wanted` are, and which supernodes back substitution needs for them: those that hold one, and all
-    /// their ancestors.
+    /// Where the freedoms `wanted` are, and which supernodes back substitution needs for them: those that hold one, and
+    /// all their ancestors.
     fn near(&self, wanted: &[usize]) -> Result<Near, FemError> {
         let mut owner = vec![0; self.n()];
         let mut needed = Vec::new();

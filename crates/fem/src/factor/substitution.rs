@@ -29,8 +29,8 @@ impl BoundaryLastFactor {
     ///
     /// With `end` = n this is L^-1 x; with `end` = interior the boundary rows become f_B - L_BI L_II^-1 f_I.
     ///
-    /// Supernodes that only meet zeros are passed over: columns with few entries near each other (one fillet's stress, one
-    /// tooth's load) touch their own branch of the elimination tree and nothing else.
+    /// Supernodes that only meet zeros are passed over: columns with few entries near each other (one fillet's stress,
+    /// one tooth's load) touch their own branch of the elimination tree and nothing else.
     pub(super) fn forward(&self, mut x: MatMut<'_, f64>, end: usize) {
         let width = x.ncols();
         for node in self.supernodes().take_while(|s| s.start < end) {

@@ -165,7 +165,8 @@ fn same_neighbours(matrix: &SymmetricMatrix, left_out: &[bool]) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    /// Two nodes of three degrees of freedom, coupled, make one group; a third that couples to one axis only stays apart.
+    /// Two nodes of three degrees of freedom, coupled, make one group; a third that couples to one axis only stays
+    /// apart.
     #[test]
     fn equal_neighbours_make_one_group() {
         let mut triplets = Vec::new();

@@ -37,7 +37,8 @@ impl Ordering {
     /// Nested dissection of everything but `last` (matrix rows), then `last` as given.
     ///
     /// # Errors
-    /// [`FemError::BadDof`] for a row that does not exist or is named twice, [`FemError::TooLarge`], [`FemError::Ordering`].
+    /// [`FemError::BadDof`] for a row that does not exist or is named twice, [`FemError::TooLarge`],
+    /// [`FemError::Ordering`].
     pub fn new(matrix: &SymmetricMatrix, last: &[usize]) -> Result<Self, FemError> {
         let n = matrix.n();
         let mut is_last = vec![false; n];

@@ -152,11 +152,12 @@ impl StressOperator {
         Ok(Self { rows, free_count: dofs.free_count() })
     }
 
-    /// The same on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress across it.
-    /// Theory (22c), (22d).
+    /// The same on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress
+    /// across it. Theory (22c), (22d).
     ///
-    /// By polynomials through the most accurate points of the faces about each corner, which do not reach from one surface into another;
-    /// the mean over those of the faces that a node is on, zero at a node that is on none. Faces must be free of traction where nodes are asked for.
+    /// By polynomials through the most accurate points of the faces about each corner, which do not reach from one
+    /// surface into another; the mean over those of the faces that a node is on, zero at a node that is on none. Faces
+    /// must be free of traction where nodes are asked for.
     ///
     /// # Errors
     /// [`FemError::Shape`] when `dofs` is for another number of nodes or a node (of `nodes` or a face) does not exist.

@@ -1,16 +1,18 @@
 //! Patch recovery on a surface: a polynomial through the most accurate points of the faces about a corner.
 //!
-//! Carried to the nodes face by face, stress overshoots at every crest: the line through two Gauss points h/sqrt 3 apart is
-//! kappa h^2 / 12 above a crest of curvature kappa at the end of the face, on both sides of it, so that the mean does not mend it.
-//! A polynomial of second order through the points of all faces about a corner has no such error.
+//! Carried to the nodes face by face, stress overshoots at every crest: the line through two Gauss points h/sqrt 3
+//! apart is kappa h^2 / 12 above a crest of curvature kappa at the end of the face, on both sides of it, so that the
+//! mean does not mend it. A polynomial of second order through the points of all faces about a corner has no such
+//! error.
 //!
 //! ```text
 //! sigma(x) = sum_t c_t p_t(alpha, beta),    p = 1, alpha, beta, alpha beta, alpha^2, beta^2 (order 2);  1 (order 1)
 //! min_c sum_q (sigma(x_q) - sigma_q)^2      over the points q of the faces about the corner
 //! sigma_i = sum_c N_c(xi_i) sigma^c(x_i)    at a node of a face, N_c the (bi)linear shape functions of its corners
 //! ```
-//! alpha, beta are measured along the edges of one face about the corner, lengths along the surface; components are in the frame of the corner,
-//! which is turned with the normal. A corner on the rim of the surface has too few points: it takes the polynomial of the corners beside it.
+//! alpha, beta are measured along the edges of one face about the corner, lengths along the surface; components are in
+//! the frame of the corner, which is turned with the normal. A corner on the rim of the surface has too few points: it
+//! takes the polynomial of the corners beside it.
 //!
 //! Source: Zienkiewicz and Zhu, IJNME 33, 1992, 1331-1364.
 
@@ -40,7 +42,8 @@ struct Fit {
     chart: Chart,
     /// Whether no term had to be left out.
     whole: bool,
-    /// By term of [`terms`], zero for those left out: stress 11, 22, 12 in the corner's frame for a unit move of a node.
+    /// By term of [`terms`], zero for those left out: stress 11, 22, 12 in the corner's frame for a unit move of a
+    /// node.
     coefficients: BTreeMap<u32, Vec<Plane>>,
 }
 
@@ -54,7 +57,8 @@ struct Chart {
 }
 
 impl Chart {
-    /// Normal to the mean of the faces' normals, so that nothing but the direction of the axes depends on which face comes first.
+    /// Normal to the mean of the faces' normals, so that nothing but the direction of the axes depends on which face
+    /// comes first.
     fn new(origin: [f64; 3], faces: &[(Frame, [f64; 3])]) -> Option<Self> {
         let &(first, [length, shear, height]) = faces.first()?;
         let mut sum = [0.0; 3];
@@ -82,8 +86,8 @@ impl Chart {
     }
 }
 
-/// Terms of the polynomial that faces of this order bear: those of order 1 have one point each, and a slope through few of them runs wild at
-/// the rim of a coarse mesh.
+/// Terms of the polynomial that faces of this order bear: those of order 1 have one point each, and a slope through few
+/// of them runs wild at the rim of a coarse mesh.
 fn terms(order: usize, [a, b]: [f64; 2]) -> Vec<f64> {
     if order == 1 { vec![1.0] } else { vec![1.0, a, b, a * b, a * a, b * b] }
 }
@@ -99,8 +103,8 @@ impl<'a> Patches<'a> {
         Self { positions, faces, kernels, about, fits: BTreeMap::new() }
     }
 
-    /// Blocks (6 x 3, row-major, MPa/mm) of the stress at node `i` of a face, by node that moves. Empty where the faces about it are
-    /// folded to lines.
+    /// Blocks (6 x 3, row-major, MPa/mm) of the stress at node `i` of a face, by node that moves. Empty where the faces
+    /// about it are folded to lines.
     pub fn at_node(&mut self, face: usize, i: usize) -> Vec<(u32, [f64; 18])> {
         let Face { kind, .. } = self.faces[face];
         let xi = kind.reference_nodes()[i];
@@ -138,7 +142,8 @@ impl<'a> Patches<'a> {
         &self.kernels[FaceKind::ALL.iter().position(|k| *k == kind).unwrap_or_default()]
     }
 
-    /// Corners whose polynomials hold at a corner: its own, or on a rim those one edge from it, one face from it, again its own.
+    /// Corners whose polynomials hold at a corner: its own, or on a rim those one edge from it, one face from it, again
+    /// its own.
     fn owners(&mut self, corner: u32) -> Vec<u32> {
         if self.whole(corner) {
             return vec![corner];

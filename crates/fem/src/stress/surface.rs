@@ -1,15 +1,17 @@
 //! Stress on a free surface from the displacement of that surface alone.
 //!
-//! On a surface without traction the stress is plane in the tangent plane, and the three strains in that plane are those of
-//! the surface's own displacement: no derivative into the body is needed, which is where a coarse mesh is worst.
+//! On a surface without traction the stress is plane in the tangent plane, and the three strains in that plane are
+//! those of the surface's own displacement: no derivative into the body is needed, which is where a coarse mesh is
+//! worst.
 //!
 //! ```text
 //! grad_s u = sum_j u_j (x) g_j,   g_j = dN_j/dxi a^1 + dN_j/deta a^2        a^1, a^2 dual to the tangents a_1, a_2
 //! eps = sym(P grad_s u P),        P = I - n n'                              3 x 3, in the tangent plane
 //! sigma = 2 mu eps + E nu / (1 - nu^2) tr(eps) P                            plane stress, MPa
 //! ```
-//! Evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss points, triangles of order 2: three,
-//! faces of order 1: the centre), in frames that follow the face; [`super::patch`] carries it to the nodes.
+//! Evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss points, triangles
+//! of order 2: three, faces of order 1: the centre), in frames that follow the face; [`super::patch`] carries it to the
+//! nodes.
 
 use mesh::FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6};
 
@@ -56,8 +58,8 @@ impl SurfaceStress {
         [0, 1, 2].map(|k| x.iter().zip(&shape).map(|(x, n)| n * x[k]).sum())
     }
 
-    /// Frame at `xi`, the tangents in it (|a_1|, a_2 t_1, a_2 t_2, mm) and the shape functions' derivatives. `None` for a face that is
-    /// folded to a line.
+    /// Frame at `xi`, the tangents in it (|a_1|, a_2 t_1, a_2 t_2, mm) and the shape functions' derivatives. `None` for
+    /// a face that is folded to a line.
     pub(super) fn tangents(&self, xi: [f64; 2], x: &[[f64; 3]]) -> Option<(Frame, [f64; 3], [[f64; 2]; 9])> {
         let mut dn = [[0.0; 2]; 9];
         self.kind.shape_gradient(xi, &mut dn);
@@ -79,7 +81,8 @@ impl SurfaceStress {
         Some(([t1, t2, n], [length, dot(a[1], t1), dot(a[1], t2)], dn))
     }
 
-    /// Frame at `xi`, and for each node and axis the stress 11, 22, 12 in that frame for a unit move: `[node][axis][component]`.
+    /// Frame at `xi`, and for each node and axis the stress 11, 22, 12 in that frame for a unit move:
+    /// `[node][axis][component]`.
     pub(super) fn at(&self, xi: [f64; 2], x: &[[f64; 3]]) -> Option<(Frame, Vec<Plane>)> {
         let ([t1, t2, n], [length, shear, height], dn) = self.tangents(xi, x)?;
         let [mu, lambda] = self.moduli;

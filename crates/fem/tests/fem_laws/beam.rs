@@ -24,14 +24,16 @@ fn kept(a: &DMatrix<f64>, held: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])])
 }
 
-/// Every load at the end of a cantilever: deflection, slope, stretch and twist of elementary theory, with any number of elements.
+/// Every load at the end of a cantilever: deflection, slope, stretch and twist of elementary theory, with any number of
+/// elements.
 #[test]
 fn cantilever_deflects_as_theory_says() {
     let s = section();
     let (l, ei, gip, ea) = (LENGTH, s.bending_stiffness(), s.torsional_stiffness(), s.axial_stiffness());
     for theory in [BeamTheory::Timoshenko, BeamTheory::Euler] {
         let shear = if theory == BeamTheory::Timoshenko { l / s.shear_stiffness() } else { 0.0 };
-        // Displacement of the end by its load: x by f_x, theta_y by f_x, theta_y by m_y, y by f_y, theta_x by f_y, z, theta_z.
+        // Displacement of the end by its load: x by f_x, theta_y by f_x, theta_y by m_y, y by f_y, theta_x by f_y, z,
+        // theta_z.
         let cases = [
             (0, 0, l.powi(3) / (3.0 * ei) + shear),
             (4, 0, l * l / (2.0 * ei)),
@@ -91,9 +93,9 @@ fn rigid_motions_cost_nothing_and_carry_the_whole_mass() {
     }
 }
 
-/// Pinned at both ends. Euler: omega_k = (k pi/l)^2 sqrt(E I / rho A). Timoshenko: the lower root of
-/// omega^4 rho^2 / (kappa G E) - omega^2 [rho A/(E I) + q^2 rho/E (1 + E/(kappa G))] + q^4 = 0, q = k pi/l. Shear is constant within an element, so the error
-/// falls with the square of its length; without shear it is of fourth order.
+/// Pinned at both ends. Euler: omega_k = (k pi/l)^2 sqrt(E I / rho A). Timoshenko: the lower root of omega^4 rho^2 /
+/// (kappa G E) - omega^2 [rho A/(E I) + q^2 rho/E (1 + E/(kappa G))] + q^4 = 0, q = k pi/l. Shear is constant within an
+/// element, so the error falls with the square of its length; without shear it is of fourth order.
 #[test]
 fn pinned_beam_vibrates_at_the_closed_form() {
     let s = section();

@@ -66,7 +66,8 @@ fn condensed_stiffness_compliance_and_modes_agree_with_dense_algebra() {
     }
 }
 
-/// With the boundary held where it is, the interior carries the forces on it, and forces on the boundary have no effect.
+/// With the boundary held where it is, the interior carries the forces on it, and forces on the boundary have no
+/// effect.
 #[test]
 fn a_held_boundary_leaves_the_interior_its_forces() {
     let (mesh, dofs, k) = clamped(ElementKind::Hex8, [5, 4, 4]);

@@ -49,8 +49,8 @@ fn uniform_stress_is_exact() {
     }
 }
 
-/// Pure bending: quadratic displacements, stress linear along one pair of free faces. Quadratic faces carry it exactly to their nodes, in
-/// any position in space; linear faces have it at their centres.
+/// Pure bending: quadratic displacements, stress linear along one pair of free faces. Quadratic faces carry it exactly
+/// to their nodes, in any position in space; linear faces have it at their centres.
 #[test]
 fn linear_stress_is_exact_on_quadratic_faces() {
     let (young, nu, curvature) = (STEEL.young_mpa(), STEEL.poisson(), 1e-3);
@@ -162,7 +162,8 @@ fn errors_at_the_hole(kind: ElementKind, n: usize) -> [f64; 2] {
     worst
 }
 
-/// The notch with a closed form: one order more than carried face by face, and nearer than the values carried from Gauss points.
+/// The notch with a closed form: one order more than carried face by face, and nearer than the values carried from
+/// Gauss points.
 #[test]
 fn stress_at_a_hole_converges() {
     for (kind, order, most) in

@@ -189,8 +189,8 @@ fn check_amount(name: &'static str, value: f64) -> Result<(), GeometryError> {
     Err(GeometryError::OutOfRange { name, value, expected: "-1 mm to 1 mm" })
 }
 
-/// The grid over roll angle and height. It must cover at least half of the flank either way: less is a wrong unit (radius for
-/// diameter, degrees for mm) rather than a measurement.
+/// The grid over roll angle and height. It must cover at least half of the flank either way: less is a wrong unit
+/// (radius for diameter, degrees for mm) rather than a measurement.
 fn grid(t: &Topography, size: FlankSize) -> Result<Bicubic, GeometryError> {
     let rolls = match t.profile() {
         ProfileAxis::Roll(rolls) => rolls.clone(),

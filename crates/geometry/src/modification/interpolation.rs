@@ -2,9 +2,10 @@
 
 /// Values on a grid; between them a cubic in either direction.
 ///
-/// Tensor product of the one-dimensional Hermite cubic whose slope at each node is that of the parabola through the node
-/// and its two neighbours (at the ends, through the last three nodes). The result is continuous with its first derivatives, is
-/// linear in the values, and reproduces any polynomial of degree 2 in either direction. Outside the grid it goes on along the tangent.
+/// Tensor product of the one-dimensional Hermite cubic whose slope at each node is that of the parabola through the
+/// node and its two neighbours (at the ends, through the last three nodes). The result is continuous with its first
+/// derivatives, is linear in the values, and reproduces any polynomial of degree 2 in either direction. Outside the
+/// grid it goes on along the tangent.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bicubic {
     x: Vec<f64>,

@@ -1,15 +1,15 @@
 //! Micro-geometry: what is ground off the involute helicoid.
 //!
-//! Every modification is a **depth**, mm, normal to the flank, positive where material is removed, as a function of roll
-//! angle u and height z. Names after ISO 21771, evaluation ranges after ISO 1328-1:
+//! Every modification is a **depth**, mm, normal to the flank, positive where material is removed, as a function of
+//! roll angle u and height z. Names after ISO 21771, evaluation ranges after ISO 1328-1:
 //!
 //! ```text
 //! p = (2 u - u_1 - u_2) / (u_2 - u_1)    -1 .. 1 from the start of the evaluation range to the tip circle
 //! q = 2 z / b                            -1 .. 1 over the face width
 //! ```
 //!
-//! u_1 is the root form circle unless [`FlankModification::evaluation_start`] says otherwise. Beyond the ranges (there is
-//! no flank, but a foot point may lie there) every function goes on as it is.
+//! u_1 is the root form circle unless [`FlankModification::evaluation_start`] says otherwise. Beyond the ranges (there
+//! is no flank, but a foot point may lie there) every function goes on as it is.
 //!
 //! | modification | symbol | depth |
 //! |---|---|---|
@@ -23,8 +23,8 @@
 //! | end relief | C_beta I, II | the same from its start to the end face; I: z = -b/2, II: z = +b/2 |
 //! | topography | | measured grid, see [`Topography`] |
 //!
-//! ISO 1328-1 counts deviations of slope the other way: f_Halpha > 0 where the flank stands proud at the tip. Depths add
-//! up. A pitch error turns a whole tooth about the gear's axis ([`GearModifications::pitch_errors`]).
+//! ISO 1328-1 counts deviations of slope the other way: f_Halpha > 0 where the flank stands proud at the tip. Depths
+//! add up. A pitch error turns a whole tooth about the gear's axis ([`GearModifications::pitch_errors`]).
 
 mod data_file;
 mod depth;
@@ -67,8 +67,8 @@ pub struct FlankModification {
     pub bias: f64,
     /// Measured depths.
     pub topography: Option<Topography>,
-    /// Where the evaluation range of profile crowning, profile slope and bias starts (profile control circle of ISO 1328-1);
-    /// `None`: at the root form circle.
+    /// Where the evaluation range of profile crowning, profile slope and bias starts (profile control circle of ISO
+    /// 1328-1); `None`: at the root form circle.
     pub evaluation_start: Option<ProfilePlace>,
 }
 
@@ -79,9 +79,9 @@ pub struct GearModifications {
     pub left: FlankModification,
     /// Of the right flanks.
     pub right: FlankModification,
-    /// Cumulative pitch deviation (index deviation) of each tooth, mm of arc on the reference circle in the transverse plane;
-    /// positive: the tooth as a whole stands too far counter-clockwise, in the direction in which teeth are numbered.
-    /// Empty, or one value a tooth.
+    /// Cumulative pitch deviation (index deviation) of each tooth, mm of arc on the reference circle in the transverse
+    /// plane; positive: the tooth as a whole stands too far counter-clockwise, in the direction in which teeth are
+    /// numbered. Empty, or one value a tooth.
     pub pitch_errors: Vec<f64>,
 }
 

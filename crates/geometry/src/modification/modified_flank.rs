@@ -42,7 +42,8 @@ impl ModifiedFlank {
         depth
     }
 
-    /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along it.
+    /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along
+    /// it.
     pub fn is_offset_helicoid(&self) -> bool {
         self.field.is_none()
     }
@@ -109,11 +110,12 @@ impl ModifiedFlank {
         [radius * e_r - depth.by_roll * n, generator / cos_b - s * self.flank.twist * radius * e_r - depth.by_z * n]
     }
 
-    /// Foot of `p` (mm, gear's own frame) on the **nominal** helicoid, with `distance` + depth there in place of the distance.
+    /// Foot of `p` (mm, gear's own frame) on the **nominal** helicoid, with `distance` + depth there in place of the
+    /// distance.
     ///
-    /// It is zero exactly on the modified surface. Near it, with g the slope of the depth along the surface and w the gap, the
-    /// true distance is w (1 - g^2 / 2) up to w^2 times the curvature of the depth: of a gap of 20 um over a relief of
-    /// 20 um in 2 mm, one nanometre. `None` below the base cylinder.
+    /// It is zero exactly on the modified surface. Near it, with g the slope of the depth along the surface and w the
+    /// gap, the true distance is w (1 - g^2 / 2) up to w^2 times the curvature of the depth: of a gap of 20 um over a
+    /// relief of 20 um in 2 mm, one nanometre. `None` below the base cylinder.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
         let foot = self.flank.locate(p)?;
         if self.is_nominal() {

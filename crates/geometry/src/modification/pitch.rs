@@ -12,8 +12,8 @@ pub fn read_pitch_errors(path: &Path) -> Result<Vec<f64>, DataFileError> {
     parse_pitch_errors(&text(path)?, path)
 }
 
-/// Cumulative pitch deviations (um) from plain text, returned in mm: one number a tooth, tooth 0 first, in any number of lines,
-/// separated by commas, semicolons or blanks; `#` begins a comment.
+/// Cumulative pitch deviations (um) from plain text, returned in mm: one number a tooth, tooth 0 first, in any number
+/// of lines, separated by commas, semicolons or blanks; `#` begins a comment.
 ///
 /// # Errors
 /// [`DataFileError`] with file and line.

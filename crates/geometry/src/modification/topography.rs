@@ -18,8 +18,8 @@ pub enum ProfileAxis {
 
 /// Depths over (roll angle or diameter, z), mm, positive where material is removed.
 ///
-/// Between the grid lines a bicubic with continuous slope, in (roll angle, z); beyond the outermost lines it goes on along
-/// the tangent. The file is plain text or CSV:
+/// Between the grid lines a bicubic with continuous slope, in (roll angle, z); beyond the outermost lines it goes on
+/// along the tangent. The file is plain text or CSV:
 ///
 /// ```text
 /// # depths in um, positive: material removed
@@ -29,9 +29,9 @@ pub enum ProfileAxis {
 ///        95.5,  8.0,  6.2,  7.7
 /// ```
 ///
-/// First row: `diameter_mm` or `roll_deg`, then the heights z (mm, own frame of the gear, 0 at mid-face), ascending. Every
-/// further row: a diameter or roll angle, ascending, then one depth in um a height. At least two rows and two columns of depths.
-/// Commas, semicolons and blanks separate; `#` begins a comment.
+/// First row: `diameter_mm` or `roll_deg`, then the heights z (mm, own frame of the gear, 0 at mid-face), ascending.
+/// Every further row: a diameter or roll angle, ascending, then one depth in um a height. At least two rows and two
+/// columns of depths. Commas, semicolons and blanks separate; `#` begins a comment.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Topography {
     profile: ProfileAxis,

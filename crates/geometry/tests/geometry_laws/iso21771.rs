@@ -181,8 +181,8 @@ fn fillet_joins_the_involute() {
     }
 }
 
-/// Without thinning there is no backlash at the nominal centre distance; thinning E a gear opens 2 E cos(a_n) / cos(b_b)
-/// normal to the flank, that is 2 E cos(a_t)/cos(b) in the transverse section.
+/// Without thinning there is no backlash at the nominal centre distance; thinning E a gear opens 2 E cos(a_n) /
+/// cos(b_b) normal to the flank, that is 2 E cos(a_t)/cos(b) in the transverse section.
 #[test]
 fn backlash_is_what_thinning_leaves() {
     assert!(pair([20, 41], 2.0, 12.0, 10.0, [0.3, 0.2], None).backlash().abs() < 1e-11);
@@ -214,8 +214,8 @@ fn impossible_gears_are_refused() {
     ));
 }
 
-/// The fillet's tangent is the derivative of its points, from the root land (square to the centre line of the space) to the form
-/// circle, for helical, spur and undercut gears.
+/// The fillet's tangent is the derivative of its points, from the root land (square to the centre line of the space) to
+/// the form circle, for helical, spur and undercut gears.
 #[test]
 fn fillet_tangent_is_the_derivative_of_the_fillet() {
     let data = GearData::default();

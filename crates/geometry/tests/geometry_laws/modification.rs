@@ -107,7 +107,8 @@ fn normal_is_across_the_surface() {
     }
 }
 
-/// The surface itself is located at distance 0 at its own coordinates; beside it the distance is the true one to second order.
+/// The surface itself is located at distance 0 at its own coordinates; beside it the distance is the true one to second
+/// order.
 #[test]
 fn the_surface_is_where_it_is_located() {
     let gear = modified(20.0, &all(ReliefShape::Parabolic));

@@ -56,7 +56,8 @@ fn interference_is_what_turning_the_gears_shows() {
     }
 }
 
-/// The deepest place of the wheel's tip corners within the pinion's teeth over a turn by three pitches, nominal distance, no backlash.
+/// The deepest place of the wheel's tip corners within the pinion's teeth over a turn by three pitches, nominal
+/// distance, no backlash.
 fn deepest(pinion: &Gear, wheel: &Gear) -> f64 {
     // A pair with shorter tips stands at the same distance and turns alike.
     let short = |g: &Gear| Gear::new(GearData { addendum_coefficient: 0.8, ..g.data().clone() }).unwrap();

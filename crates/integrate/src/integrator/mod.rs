@@ -7,7 +7,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 use crate::{
     Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
     events::{crossings, event_values},
-    stability::Guard,
+    stability::StabilityGuard,
 };
 
 /// What a caller sees of a motion after every step.
@@ -31,7 +31,7 @@ pub struct Integrator {
     scale: DVector<f64>,
     stop_at_events: bool,
     /// Where an explicit method is kept within its stability limit.
-    guard: Option<Guard>,
+    guard: Option<StabilityGuard>,
     /// Time (s) of the tangents in `forces`; none where they are of another place.
     tangents_at: Option<f64>,
     forces: Forces,
@@ -59,12 +59,13 @@ impl Integrator {
         }
     }
 
-    /// Takes a step of given length in parts where an explicit method is not stable with the whole: the tangents at its beginning tell. Theory (48a).
+    /// Divides a step of given length where an explicit method would be unstable with the whole; the tangents at its
+    /// beginning decide. Theory (48a).
     ///
-    /// Steps that an error tolerance chooses need no such care: what grows is an error that shortens them.
+    /// Steps chosen by an error tolerance need no such care: instability shows as an error that shortens them.
     #[must_use]
     pub fn keeping_stable(self) -> Self {
-        let guard = matches!(self.control, StepControl::Fixed(_)).then(|| Guard::new(self.scheme)).flatten();
+        let guard = matches!(self.control, StepControl::Fixed(_)).then(|| StabilityGuard::new(self.scheme)).flatten();
         Self { guard, ..self }
     }
 
@@ -120,7 +121,7 @@ impl Integrator {
             let before = state.clone();
             let h = wanted.min(until - state.time);
             let shortened = h < wanted;
-            // A sliver at the end would be a step of its own.
+            // Avoids a last step of round-off length.
             let h = if until - state.time - h < 1e-9 * h { until - state.time } else { h };
             let (mut to, mut book, next) = self.accepted_step(system, &mass, &before, h)?;
             let mut now = event_values(system, to.time, &to.q, &to.v)?;
@@ -137,7 +138,7 @@ impl Integrator {
                 now = event_values(system, to.time, &to.q, &to.v)?;
                 crossed.retain(|c| c.time <= first);
             }
-            // A step that was short because the time was up says nothing against the length wanted.
+            // A step that was shortened to meet the end says nothing against the length wanted.
             to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
             self.ledger = Some(book);
             self.steps += 1;
@@ -160,22 +161,23 @@ impl Integrator {
     fn check<M: Mechanism>(&self, system: &M, state: &State) -> Result<Cholesky<f64, Dyn>, MotionError<M::Error>> {
         let n = system.mass().nrows();
         if self.scale.len() != n || state.q.len() != n || state.v.len() != n {
-            return Err(MotionError::Options("mass, scale and state are of different lengths"));
+            let (scale, coordinates, velocities) = (self.scale.len(), state.q.len(), state.v.len());
+            return Err(MotionError::Lengths { mass: n, scale, coordinates, velocities });
         }
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        let steps = match self.control {
-            StepControl::Fixed(h) => positive(h),
+        let controls = match self.control {
+            StepControl::Fixed(h) => [("step", h); 4],
             StepControl::Adaptive { tolerance, first, least, largest } => {
-                [tolerance, first, least, largest].into_iter().all(positive)
+                [("tolerance", tolerance), ("first step", first), ("least step", least), ("largest step", largest)]
             }
         };
-        if !steps || !self.scale.iter().all(|&s| positive(s)) {
-            return Err(MotionError::Options("steps, tolerance and scales must be positive"));
+        let scales = self.scale.iter().map(|&s| ("scale of a coordinate", s));
+        if let Some((name, value)) = controls.into_iter().chain(scales).find(|(_, x)| !(*x > 0.0 && x.is_finite())) {
+            return Err(MotionError::NotPositive { name, value });
         }
         if let Scheme::GeneralisedAlpha { rho } = self.scheme
             && !(0.0..=1.0).contains(&rho)
         {
-            return Err(MotionError::Options("the spectral radius of generalised-alpha lies between 0 and 1"));
+            return Err(MotionError::SpectralRadius { rho });
         }
         Cholesky::new(system.mass().clone()).ok_or(MotionError::Singular { time: state.time, which: "mass" })
     }

@@ -82,7 +82,8 @@ impl Integrator {
         Ok((here, book))
     }
 
-    /// Longest step with which an explicit method is stable at a state, as far as it matters for a step of length `h`; infinite where nobody asked.
+    /// Longest step with which an explicit method is stable at a state, as far as it matters for a step of length `h`;
+    /// infinite where nobody asked.
     fn longest_stable<M: Mechanism>(
         &mut self,
         system: &mut M,
@@ -102,8 +103,8 @@ impl Integrator {
         Ok(guard.longest(mass, &self.forces, h))
     }
 
-    /// A step of given length. One without a solution, where contact opens and closes within it, is taken as its two halves, so often as
-    /// `halvings` says; to the caller it stays one step.
+    /// A step of given length. One without a solution, where contact opens and closes within it, is taken as its two
+    /// halves, so often as `halvings` says; to the caller it stays one step.
     fn whole_step<M: Mechanism>(
         &mut self,
         system: &mut M,

@@ -6,7 +6,8 @@ use std::f64::consts::{PI, TAU};
 use integrate::{Direction, Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use nalgebra::{DMatrix, DVector, dvector};
 
-/// x'' + 2 zeta x' + k(tau) f(x) = F_m + F_ah W^2 cos(W tau), f the dead zone of half-width 1, k = 1 + parametric cos(W tau).
+/// x'' + 2 zeta x' + k(tau) f(x) = F_m + F_ah W^2 cos(W tau), f the dead zone of half-width 1, k = 1 + parametric cos(W
+/// tau).
 #[derive(Clone)]
 struct Oscillator {
     mass: DMatrix<f64>,
@@ -70,7 +71,8 @@ impl Mechanism for Oscillator {
 
 const PER_CYCLE: f64 = 64.0;
 
-/// Peak to peak of the last cycles of `cycles` at frequency `w`, from `state` on, which goes along; time starts anew at each frequency.
+/// Peak to peak of the last cycles of `cycles` at frequency `w`, from `state` on, which goes along; time starts anew at
+/// each frequency.
 fn peak_to_peak(of: &Oscillator, scheme: Scheme, w: f64, state: &mut State, cycles: usize) -> f64 {
     let mut system = Oscillator { frequency: w, ..of.clone() };
     let period = TAU / w;
@@ -154,7 +156,8 @@ fn parametric_clearance_oscillator() {
     }
 }
 
-/// Free vibration about the loaded equilibrium, undamped, so large that contact is lost in every cycle: a million steps.
+/// Free vibration about the loaded equilibrium, undamped, so large that contact is lost in every cycle: a million
+/// steps.
 #[test]
 fn energy_of_free_vibration_does_not_drift() {
     let mut system = Oscillator::new(0.0, 0.1, 0.0, 0.0, 0.0);
@@ -274,7 +277,8 @@ fn thousand_steps(hertz: f64, scheme: Scheme, h: f64, keeping: bool) -> (f64, u6
     (largest, integrator.steps()[1])
 }
 
-/// x'' + x = 0 at 0.9 and 1.1 of the limit that the stability polynomial says: bounded and without bounds; watched, the longer steps are parted and bounded too.
+/// x'' + x = 0 at 0.9 and 1.1 of the limit that the stability polynomial says: bounded and without bounds; watched, the
+/// longer steps are parted and bounded too.
 #[test]
 fn explicit_methods_are_stable_up_to_their_limit() {
     let one = DMatrix::identity(1, 1);
@@ -290,7 +294,8 @@ fn explicit_methods_are_stable_up_to_their_limit() {
     }
 }
 
-/// A contact that stiffens on the way makes steps too long that were well within the limit at rest: those are parted, and only those.
+/// A contact that stiffens on the way makes steps too long that were well within the limit at rest: those are parted,
+/// and only those.
 #[test]
 fn steps_that_stiffening_makes_too_long_are_parted() {
     let one = DMatrix::identity(1, 1);
@@ -384,8 +389,8 @@ fn what_cannot_be_integrated_is_an_error() {
     assert!(run(&mut system, Scheme::Energy, StepControl::Fixed(0.1), 1.0).unwrap_err().contains("mass matrix"));
 }
 
-/// x'' = -100 sign(x) |x|^0.02 - x' + 3: all but a jump at the origin, which neither Newton's steps nor the way along them hit where inertia does
-/// not hold them back.
+/// x'' = -100 sign(x) |x|^0.02 - x' + 3: all but a jump at the origin, which neither Newton's steps nor the way along
+/// them hit where inertia does not hold them back.
 struct Root(DMatrix<f64>);
 
 impl Mechanism for Root {
@@ -410,7 +415,8 @@ impl Mechanism for Root {
     }
 }
 
-/// A step of given length without a solution is taken as its halves: the same bits as if they had been asked for, and one step to the caller.
+/// A step of given length without a solution is taken as its halves: the same bits as if they had been asked for, and
+/// one step to the caller.
 #[test]
 fn a_step_without_a_solution_is_taken_in_halves() {
     let scheme = Scheme::Newmark;

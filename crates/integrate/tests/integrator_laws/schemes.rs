@@ -1,4 +1,5 @@
-//! What the coefficients of each method promise, to the digits that a wrong coefficient changes: on linear oscillators, where theory says all of it.
+//! What the coefficients of each method promise, to the digits that a wrong coefficient changes: on linear oscillators,
+//! where theory says all of it.
 
 use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -73,8 +74,8 @@ fn radius(scheme: Scheme, x: f64) -> f64 {
     amplification(scheme, x).complex_eigenvalues().iter().map(|l| l.norm()).fold(0.0, f64::max)
 }
 
-/// Chung and Hulbert's choice: the spectral radius at infinite frequency is the rho that was asked for, and no frequency grows. There the roots
-/// coincide, and a root of multiplicity three feels 1e-8 of the matrix as 2e-3.
+/// Chung and Hulbert's choice: the spectral radius at infinite frequency is the rho that was asked for, and no
+/// frequency grows. There the roots coincide, and a root of multiplicity three feels 1e-8 of the matrix as 2e-3.
 #[test]
 fn generalised_alpha_damps_the_highest_frequency_as_asked() {
     for rho in [0.0, 0.3, 0.6, 0.8, 0.9, 1.0] {
@@ -88,7 +89,8 @@ fn generalised_alpha_damps_the_highest_frequency_as_asked() {
     }
 }
 
-/// Constant average acceleration neither damps nor drives, and is late by a known angle: tan(phi / 2) = w h / 2 a step. So is generalised-alpha with rho = 1.
+/// Constant average acceleration neither damps nor drives, and is late by a known angle: tan(phi / 2) = w h / 2 a step.
+/// So is generalised-alpha with rho = 1.
 #[test]
 fn newmark_keeps_amplitude_and_has_the_phase_of_the_trapezoidal_rule() {
     for scheme in [Scheme::Newmark, Scheme::GeneralisedAlpha { rho: 1.0 }] {
@@ -103,10 +105,13 @@ fn newmark_keeps_amplitude_and_has_the_phase_of_the_trapezoidal_rule() {
     }
 }
 
-/// The estimate of a step's error is the leading term of theory, so steps are as long as it says: h = 0.9 (tolerance / (C |q^(p)|))^(1/p).
+/// The estimate of a step's error is the leading term of theory, so steps are as long as it says: h = 0.9 (tolerance /
+/// (C |q^(p)|))^(1/p).
 ///
-/// C: the midpoint rule and Newmark 1/12, generalised-alpha |beta - 1/6|; Runge-Kutta's shared weight 1/120; Dormand and Prince's pair 1/120 - 1097/120000 (Hairer, Norsett, Wanner, Solving
-/// Ordinary Differential Equations I, 1993, II.5). Two coordinates in quadrature: the larger one of |cos|, |sin| counts. Ten per cent are what is left of higher terms.
+/// C: the midpoint rule and Newmark 1/12, generalised-alpha |beta - 1/6|; Runge-Kutta's shared weight 1/120; Dormand
+/// and Prince's pair 1/120 - 1097/120000 (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 1993,
+/// II.5). Two coordinates in quadrature: the larger one of |cos|, |sin| counts. Ten per cent are what is left of higher
+/// terms.
 #[test]
 fn steps_are_as_long_as_theory_says_of_their_error() {
     let rho = 0.6f64;
@@ -135,7 +140,8 @@ fn steps_are_as_long_as_theory_says_of_their_error() {
     }
 }
 
-/// Order two also with steps that change: the averaged acceleration belongs to a place within the step before, and is moved.
+/// Order two also with steps that change: the averaged acceleration belongs to a place within the step before, and is
+/// moved.
 #[test]
 fn order_is_kept_where_steps_change() {
     for scheme in [Scheme::GeneralisedAlpha { rho: 0.0 }, Scheme::GeneralisedAlpha { rho: 0.6 }, Scheme::Newmark] {
@@ -158,7 +164,8 @@ fn order_is_kept_where_steps_change() {
     }
 }
 
-/// Zeros of a cosine: located to the fourth order of the step by the cubic through both ends and their slopes, h^4/384 of the motion.
+/// Zeros of a cosine: located to the fourth order of the step by the cubic through both ends and their slopes, h^4/384
+/// of the motion.
 #[test]
 fn events_are_located_to_fourth_order() {
     let h = 0.05;
@@ -177,7 +184,8 @@ fn events_are_located_to_fourth_order() {
     }
 }
 
-/// The ledger of a stiffness that varies closes to the order of the method, and turnover is the sum of all work either way.
+/// The ledger of a stiffness that varies closes to the order of the method, and turnover is the sum of all work either
+/// way.
 #[test]
 fn parametric_work_is_booked_to_the_order_of_the_method() {
     for (scheme, order) in [
@@ -231,8 +239,9 @@ impl Mechanism for Quartic {
     }
 }
 
-/// The discrete gradient does exactly the work that the potential says, also where a step is a quarter of a swing and the force at its middle does a hundredth of it less: energy closes to round-off
-/// after every step. On a linear oscillator, where that force is right by itself, no test would see it.
+/// The discrete gradient does exactly the work that the potential says, also where a step is a quarter of a swing and
+/// the force at its middle does a hundredth of it less: energy closes to round-off after every step. On a linear
+/// oscillator, where that force is right by itself, no test would see it.
 #[test]
 fn the_energy_scheme_closes_its_ledger_where_forces_are_not_linear() {
     for h in [0.1, 0.5, 1.0] {

@@ -95,11 +95,12 @@ impl Fillet {
         self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
     }
 
-    /// Place and value of the largest hill of `sign` times a measure; of the largest value below the [`FALLBACK_TANGENT`] where
-    /// there is no hill but in the lowest row, of the largest at all where no row but the lowest is below it.
+    /// Place and value of the largest hill of `sign` times a measure; of the largest value below the
+    /// [`FALLBACK_TANGENT`] where there is no hill but in the lowest row, of the largest at all where no row but the
+    /// lowest is below it.
     ///
-    /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there is the stress of contact
-    /// beside it, which has no limit as the mesh is refined.
+    /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there
+    /// is the stress of contact beside it, which has no limit as the mesh is refined.
     pub fn peak(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<(usize, f64)> {
         let largest = |counts: &dyn Fn(usize) -> bool| {
             let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], value(self.places[i])));

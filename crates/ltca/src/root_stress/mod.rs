@@ -3,11 +3,12 @@
 //! ```text
 //! sigma(x_i) = S_i u_B        at the surface nodes x_i of the window's fillets
 //! ```
-//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is cyclic):
-//! no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their place.
+//! S are the stress modes of the reduced gear ([`reduction::StressModes`]), made once a window (once a gear if it is
+//! cyclic): no station goes back to the whole mesh. With all degrees of freedom kept, the stress operator takes their
+//! place.
 //!
-//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the Gauss points of the
-//! elements, whose distance from it says how far the mesh has settled.
+//! Two recoveries: from the displacement of the free surface alone, which is the stress that is told, and from the
+//! Gauss points of the elements, whose distance from it says how far the mesh has settled.
 
 mod fillet;
 mod turn;
@@ -26,7 +27,7 @@ use mesh::{Face, Mesh, RootFillets};
 use reduction::{ElasticGear, ReducedGear, ReductionError, StressModes};
 use serde::Serialize;
 
-use crate::{Parts, StaticError};
+use crate::{StaticError, WindowedPair};
 
 /// What is called root stress; said wherever one is handed on.
 pub const ROOT_STRESS_DEFINITION: &str = "largest hill of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
@@ -38,10 +39,12 @@ pub const ROOT_STRESS_RECOVERY: &str = "strains in the surface from the displace
 
 /// Share of the difference between the two recoveries that is the error of the better one.
 ///
-/// Both converge to the same stress, the one from Gauss points from farther off. Measured on random pairs (docs/validation.md).
+/// Both converge to the same stress, the one from Gauss points from farther off. Measured on random pairs
+/// (docs/validation.md).
 const ERROR_SHARE: f64 = 0.35;
-/// Error that both recoveries share, over stress and the square of the angle by which the surface turns within one face, 1/rad^2: where
-/// both are wrong alike, they agree. Measured there, too: six faces along a fillet turn by 15 to 18 deg, and are 1.3 % off at the most.
+/// Error that both recoveries share, over stress and the square of the angle by which the surface turns within one
+/// face, 1/rad^2: where both are wrong alike, they agree. Measured there, too: six faces along a fillet turn by 15 to
+/// 18 deg, and are 1.3 % off at the most.
 const ERROR_OF_TURN: f64 = 0.15;
 
 /// The largest of some stress measure in a fillet, and where.
@@ -49,11 +52,14 @@ const ERROR_OF_TURN: f64 = 0.15;
 pub struct StressPeak {
     /// MPa, tension positive.
     pub stress: f64,
-    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs print.
+    /// Largest of the same measure in the whole fillet from the Gauss points of the elements, MPa: what other programs
+    /// print.
     pub from_volume: f64,
-    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces over their radius.
+    /// Angle by which the surface of the gear's fillets turns within one face at the most, rad: the size of the faces
+    /// over their radius.
     pub turn: f64,
-    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every tooth has.
+    /// The mesh file's tag of the node (1, 2, ... for a generated mesh); of a periodic sector its own node, which every
+    /// tooth has.
     pub node: u64,
     /// Distance of the node from the gear's axis, mm.
     pub radius: f64,
@@ -63,8 +69,8 @@ pub struct StressPeak {
 
 /// Stress on the surface of one root fillet, from its 20 deg tangent to the middle of the tooth space.
 ///
-/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the tooth in
-/// compression.
+/// Recovered as [`ROOT_STRESS_RECOVERY`] says. The fillet below the loaded flank is in tension, the other one of the
+/// tooth in compression.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FilletStress {
     /// Tooth, 0 .. z-1.
@@ -82,8 +88,8 @@ pub struct FilletStress {
 impl StressPeak {
     /// Estimate of how far `stress` is from that of an infinitely fine mesh, as a share of it. 0 at rest.
     ///
-    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and what both can share:
-    /// 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
+    /// A fixed share of the difference between two recoveries that converge to the same value at different rates, and
+    /// what both can share: 0.35 |stress - from_volume| / |stress| + 0.15 turn^2.
     pub fn relative_error(&self) -> f64 {
         let off = ERROR_SHARE * (self.stress - self.from_volume).abs()
             + ERROR_OF_TURN * self.turn.powi(2) * self.stress.abs();
@@ -122,14 +128,19 @@ enum StressMap {
 }
 
 impl StressMap {
-    fn new(parts: &Parts, i: usize, nodes: &[u32], faces: Option<&[Vec<Face>]>) -> Result<Self, ReductionError> {
+    fn new(
+        windowed: &WindowedPair,
+        i: usize,
+        nodes: &[u32],
+        faces: Option<&[Vec<Face>]>,
+    ) -> Result<Self, ReductionError> {
         let operator = |mesh: &Mesh, material: &Material, elements: &ElementOptions, dofs: &DofMap| {
             Ok(Self::Operator(match faces {
                 None => StressOperator::new(mesh, material, elements, dofs, nodes)?,
                 Some(faces) => StressOperator::on_surface(mesh, material, dofs, faces, nodes)?,
             }))
         };
-        match (&parts.gears[i], parts.set.windows()) {
+        match (&windowed.gears[i], windowed.set.windows()) {
             (ElasticGear::Reduced(gear), Some(windows)) => {
                 let modes = match faces {
                     None => gear.stress_modes(&windows[i], nodes)?,
@@ -166,45 +177,45 @@ impl RootStress {
         Self { fillets, fallback, windows: Mutex::default() }
     }
 
-    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them the
-    /// fillets that share a space with the window's outermost teeth.
+    /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them
+    /// the fillets that share a space with the window's outermost teeth.
     ///
     /// `displacements` are those of an equilibrium; without any the gears are at rest.
     pub fn of(
         &self,
-        parts: &Parts,
+        windowed: &WindowedPair,
         displacements: Option<&[Vec<f64>; 2]>,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
         let mut both = [Vec::new(), Vec::new()];
         for (i, result) in both.iter_mut().enumerate() {
             let fail = |source| ContactError::Reduction { gear: NAMES[i], source };
-            let roots = self.window(parts, i).map_err(fail)?;
+            let roots = self.window(windowed, i).map_err(fail)?;
             let stress = match displacements {
                 Some(u) => roots.stress(&u[i]).map_err(fail)?,
                 None => [(); 2].map(|()| vec![[0.0; 6]; roots.nodes.len()]),
             };
-            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, parts, i)).collect();
+            *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, windowed, i)).collect();
         }
         Ok(both)
     }
 
-    fn window(&self, parts: &Parts, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
-        let key = (i, parts.set.first_teeth()[i], parts.window.count());
+    fn window(&self, windowed: &WindowedPair, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
+        let key = (i, windowed.set.first_teeth()[i], windowed.window.count());
         let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(roots) = windows.get(&key).filter(|roots| roots.serves(parts, i)) {
+        if let Some(roots) = windows.get(&key).filter(|roots| roots.serves(windowed, i)) {
             return Ok(roots.clone());
         }
-        let roots = Arc::new(WindowRoots::new(&self.fillets[i], self.fallback[i], parts, i)?);
+        let roots = Arc::new(WindowRoots::new(&self.fillets[i], self.fallback[i], windowed, i)?);
         windows.insert(key, roots.clone());
         Ok(roots)
     }
 }
 
 impl WindowRoots {
-    fn new(found: &RootFillets, fallback: f64, parts: &Parts, i: usize) -> Result<Self, ReductionError> {
-        let elastic = &parts.gears[i];
+    fn new(found: &RootFillets, fallback: f64, windowed: &WindowedPair, i: usize) -> Result<Self, ReductionError> {
+        let elastic = &windowed.gears[i];
         let z = elastic.gear().tooth_count();
-        let (first, count) = (parts.set.first_teeth()[i], parts.window.count() as u32);
+        let (first, count) = (windowed.set.first_teeth()[i], windowed.window.count() as u32);
         let (mut fillets, mut nodes) = (Vec::new(), Vec::new());
         let about = Surroundings::new(found, elastic.gear().mesh(), fallback);
         let mut add = |tooth: u32, side: Side, needed: bool| {
@@ -228,14 +239,14 @@ impl WindowRoots {
         if count < z {
             add(first + count, Side::Right, false)?;
         }
-        let map = |faces| StressMap::new(parts, i, &nodes, faces);
+        let map = |faces| StressMap::new(windowed, i, &nodes, faces);
         let maps = [map(Some(found.faces()))?, map(None)?];
         Ok(Self { fillets, nodes, maps })
     }
 
     /// Whether the map is that of the matrices now in use.
-    fn serves(&self, parts: &Parts, i: usize) -> bool {
-        match (&self.maps[0], parts.set.windows()) {
+    fn serves(&self, windowed: &WindowedPair, i: usize) -> bool {
+        match (&self.maps[0], windowed.set.windows()) {
             (StressMap::Modes(mine, _), Some(windows)) => Arc::ptr_eq(mine, &windows[i].reduced),
             (StressMap::Operator(_), None) => true,
             _ => false,
@@ -253,12 +264,12 @@ impl WindowRoots {
         &self,
         fillet: &Fillet,
         [surface, volume]: &[Vec<[f64; 6]>; 2],
-        parts: &Parts,
+        windowed: &WindowedPair,
         i: usize,
     ) -> Option<FilletStress> {
-        let elastic = &parts.gears[i];
+        let elastic = &windowed.gears[i];
         let mesh = elastic.gear().mesh();
-        let window = parts.set.windows().map(|w| &w[i]);
+        let window = windowed.set.windows().map(|w| &w[i]);
         let peak = |measure: fn(&[f64; 6]) -> f64, sign: f64| {
             let (at, stress) = fillet.peak(|at| measure(&surface[at]), sign)?;
             let node = self.nodes[at];

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use mesh::{Face, Mesh};
 use nalgebra::Vector3;
 
-/// Largest angle between the normals at a face's corners, over all faces of some surfaces, rad; faces of a fold count as flat.
+/// Largest angle between the normals at a face's corners, over all faces of some surfaces, rad; faces of a fold count
+/// as flat.
 ///
 /// The normal at a corner is the mean over the faces of its surface about it, so that faces of order 1 turn, too.
 pub(super) fn largest_turn(mesh: &Mesh, surfaces: &[Vec<Face>]) -> f64 {

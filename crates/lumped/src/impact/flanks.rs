@@ -1,6 +1,6 @@
 //! Which teeth may touch, and where, slice by slice.
 
-use contact::{FlankPatch, NearestPlace, Pose, RigidFlanks, SliceHint};
+use contact::{FlankPatch, NearestPoint, Pose, RigidFlanks, SliceHint};
 use geometry::{Gear, GearPair, Side};
 
 /// How far beyond the ends of the path of contact slices are looked at, in base pitches: overlapping tips meet early.
@@ -22,7 +22,7 @@ pub(super) struct FlankSide {
 pub(super) struct Slice {
     /// Running number of the pinion tooth.
     pub tooth: i64,
-    pub place: NearestPlace,
+    pub place: NearestPoint,
 }
 
 /// Where a pair stands: angles for the pair in the middle of its cycle, and how many teeth have gone by.

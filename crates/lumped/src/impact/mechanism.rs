@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use ale::Station;
 use contact::Pose;
-use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Moment, Nominal, Speed};
+use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Nominal, NominalState, Speed};
 use geometry::GearPair;
 use integrate::{Forces, Mechanism};
 use ltca::StaticOptions;
@@ -91,7 +91,7 @@ impl ImpactMechanism {
     }
 
     /// Nominal motion at a time, s.
-    pub fn moment(&self, t: f64) -> Moment {
+    pub fn moment(&self, t: f64) -> NominalState {
         self.nominal.at(&self.pair, &self.running, t)
     }
 
@@ -154,7 +154,7 @@ impl ImpactMechanism {
     }
 
     /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
-    fn external(&self, t: f64, moment: &Moment) -> Displacement {
+    fn external(&self, t: f64, moment: &NominalState) -> Displacement {
         let driven = self.running.driven();
         let turn = |g: usize| COORDINATES * (g + 1) - 1;
         let mut f = Displacement::zeros();
@@ -168,7 +168,7 @@ impl ImpactMechanism {
         f
     }
 
-    fn gyroscopic(&self, moment: &Moment) -> Square {
+    fn gyroscopic(&self, moment: &NominalState) -> Square {
         let mut g = Square::zeros();
         for (i, body) in self.options.bodies.iter().enumerate() {
             let at = COORDINATES * i + 3;

@@ -55,8 +55,7 @@ impl ImpactOptions {
         match &self.drive {
             Drive::Speed(speed) => check_speed(speed)?,
             Drive::Balanced(_) => {
-                let what = "rigid gears are driven by a speed or by a torque of its own";
-                return Err(LumpedError::Motion(integrate::MotionError::Options(what)));
+                return Err(LumpedError::BalancedDrive);
             }
             Drive::Torque { start, torque } => {
                 finite("speed at the start, rad/s", *start)?;

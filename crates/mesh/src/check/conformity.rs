@@ -58,7 +58,8 @@ fn of_other_nodes(mesh: &Mesh, table: &FaceTable) -> Vec<FaceOwner> {
         .collect()
 }
 
-/// Boundary triangles over four nodes that are there with both diagonals; one of each four, in the order of their nodes.
+/// Boundary triangles over four nodes that are there with both diagonals; one of each four, in the order of their
+/// nodes.
 fn crossed(triangles: &BTreeMap<[u32; 4], FaceOwner>) -> Vec<FaceOwner> {
     // Triangles by edge, with the corner opposite.
     let mut edges: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();

@@ -14,10 +14,12 @@
 //! faces in the order of `faces()`, then the centre of the element.
 
 mod face_shape;
+mod gauss;
 mod quadrature;
 mod shape;
 mod topology;
 
+pub use gauss::gauss_legendre;
 pub use quadrature::{FaceQuadraturePoint, QuadraturePoint, QuadratureRule};
 
 /// Kinds of volume elements; node order is Gmsh's.

@@ -18,6 +18,7 @@ use std::sync::LazyLock;
 use super::{
     ElementKind::{self, Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15},
     FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6},
+    gauss::line,
 };
 
 /// A point of integration in a volume element.
@@ -116,26 +117,6 @@ static TRI_7: LazyLock<Vec<FaceQuadraturePoint>> = LazyLock::new(|| {
 });
 static QUAD_2: LazyLock<Vec<FaceQuadraturePoint>> = LazyLock::new(|| square(&line(2)));
 static QUAD_3: LazyLock<Vec<FaceQuadraturePoint>> = LazyLock::new(|| square(&line(3)));
-
-/// Gauss-Legendre points and weights on [-1, 1] for 2, 3 or 4 points.
-fn line(count: usize) -> Vec<(f64, f64)> {
-    match count {
-        2 => {
-            let x = 1.0 / 3f64.sqrt();
-            vec![(-x, 1.0), (x, 1.0)]
-        }
-        3 => {
-            let x = 0.6f64.sqrt();
-            vec![(-x, 5.0 / 9.0), (0.0, 8.0 / 9.0), (x, 5.0 / 9.0)]
-        }
-        _ => {
-            let spread = 2.0 / 7.0 * 1.2f64.sqrt();
-            let (inner, outer) = ((3.0 / 7.0 - spread).sqrt(), (3.0 / 7.0 + spread).sqrt());
-            let (heavy, light) = ((18.0 + 30f64.sqrt()) / 36.0, (18.0 - 30f64.sqrt()) / 36.0);
-            vec![(-outer, light), (-inner, heavy), (inner, heavy), (outer, light)]
-        }
-    }
-}
 
 fn cube(line: &[(f64, f64)]) -> Vec<QuadraturePoint> {
     let mut points = Vec::with_capacity(line.len().pow(3));

@@ -3,10 +3,12 @@
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-use super::NO_PARTNER;
 use crate::check::tag;
 use crate::periodic::{Places, Turn};
 use crate::{Face, FaceTable, Mesh, MeshError, SurfaceGroup};
+
+/// `cut_1` has no such node: the cut's node is its own.
+pub(super) const NO_PARTNER: u32 = u32::MAX;
 
 /// For every node of the mesh the node of `second` that it falls on when turned by 2 pi / z;
 /// [`NO_PARTNER`] for nodes off `first`.

@@ -17,11 +17,8 @@ use geometry::Side;
 
 use crate::check::tag;
 use crate::{Face, GearMesh, Mesh, MeshError, SurfaceGroup};
-use cuts::partners;
+use cuts::{NO_PARTNER, partners};
 use numbers::Numbers;
-
-/// `cut_1` has no such node: the cut's node is its own.
-const NO_PARTNER: u32 = u32::MAX;
 
 /// Some copies of a periodic sector.
 #[derive(Debug, Clone)]
@@ -41,7 +38,8 @@ pub struct Copies {
 pub struct Origin {
     /// Copy, 0 .. z-1.
     pub copy: u32,
-    /// Node of the sector, never one that lies on its second cut alone: that one is a node of the next copy's first cut.
+    /// Node of the sector, never one that lies on its second cut alone: that one is a node of the next copy's first
+    /// cut.
     pub node: u32,
 }
 
@@ -65,19 +63,20 @@ impl GearMesh {
 
     /// z copies of a periodic sector, copy k turned by k 2 pi / z about z, nodes of adjoining cuts merged.
     ///
-    /// Nodes and elements: those of copy 0 (the sector less the nodes of its first cut) in their order, then those of copy
-    /// 1, ...; tags 1, 2, ... Tooth t of the sector is tooth t + k of copy k. Surface groups: the bore, the flanks
+    /// Nodes and elements: those of copy 0 (the sector less the nodes of its first cut) in their order, then those of
+    /// copy 1, ...; tags 1, 2, ... Tooth t of the sector is tooth t + k of copy k. Surface groups: the bore, the flanks
     /// under the names `flank_left_<k>` and `flank_right_<k>`, and all others of the sector but the cuts.
     ///
     /// # Errors
-    /// [`MeshError::NoCuts`]; [`MeshError::CutsApart`] when a node of one cut, turned, is farther than 1e-9 of the largest
-    /// radius from every node of the other; [`MeshError::CutFaces`] when nodes meet but faces do not;
+    /// [`MeshError::NoCuts`]; [`MeshError::CutsApart`] when a node of one cut, turned, is farther than 1e-9 of the
+    /// largest radius from every node of the other; [`MeshError::CutFaces`] when nodes meet but faces do not;
     /// [`MeshError::CutInPart`] when the cuts' groups lack faces; [`MeshError::TooLarge`] past 20 million nodes.
     pub fn replicate(&self) -> Result<Self, MeshError> {
         Ok(self.copies(0, self.teeth)?.gear)
     }
 
-    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`GearMesh::replicate`] makes all of them.
+    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`GearMesh::replicate`] makes all of
+    /// them.
     ///
     /// Fewer than z copies have the first cut of their first copy and the second of their last one; nodes of the first
     /// one follow after those of all copies, and tags are those of the sector, so that a node is named by its tooth and

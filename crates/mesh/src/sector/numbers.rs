@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::NO_PARTNER;
+use super::cuts::NO_PARTNER;
 use crate::periodic::Turn;
 use crate::{ElementBlock, Face, Mesh, MeshError};
 
@@ -38,7 +38,8 @@ enum Slot {
     Shared(u32),
 }
 
-/// Where a node of the copies is: turned by `turns` pitches from node `own`, and as the first cut's node `node` of `copy`.
+/// Where a node of the copies is: turned by `turns` pitches from node `own`, and as the first cut's node `node` of
+/// `copy`.
 pub(super) struct Placed {
     pub(super) turns: u32,
     pub(super) own: u32,

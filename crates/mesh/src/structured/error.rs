@@ -54,7 +54,8 @@ pub enum StructuredError {
          scaled Jacobian {scaled_jacobian:.3}, at least {least} needed"
     )]
     Distorted {
-        /// `tooth` (rows from the tip, columns from the right flank) or `rim` (rows from the fillet, columns from cut to cut).
+        /// `tooth` (rows from the tip, columns from the right flank) or `rim` (rows from the fillet, columns from cut
+        /// to cut).
         block: &'static str,
         /// Row, from 0.
         row: usize,

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use geometry::{Gear, TransverseProfile};
 
-use super::StructuredOptions;
+use super::options::StructuredOptions;
 
 /// A point in polar coordinates: radius (mm), angle from the tooth's centre line (rad).
 pub(super) type Polar = [f64; 2];
@@ -62,13 +62,14 @@ struct FilletCurve<'a> {
 
 /// Tangent at the neck against the circumference, rad (65 deg).
 ///
-/// Tension in the fillet is greatest where the tangent makes 40 to 60 deg with the circumference. Three blocks meet at the neck, so that elements are
-/// worst there: at 45 deg default meshes were 4 % (values from Gauss points: 17 %) short of the settled stress, at 65 deg 1 %.
+/// Tension in the fillet is greatest where the tangent makes 40 to 60 deg with the circumference. Three blocks meet at
+/// the neck, so that elements are worst there: at 45 deg default meshes were 4 % (values from Gauss points: 17 %) short
+/// of the settled stress, at 65 deg 1 %.
 const NECK: f64 = 65.0 * std::f64::consts::PI / 180.0;
 /// Fillets of large gears begin flatter than 75 deg; the neck keeps below their beginning.
 const NECK_SHARE: f64 = 0.85;
-/// With fewer elements than this along the fillet the neck stays at 45 deg (at half of the first slope of flat ones): farther up it would leave nearly
-/// the whole fillet to one element, and the tooth 0.2 % stiffer.
+/// With fewer elements than this along the fillet the neck stays at 45 deg (at half of the first slope of flat ones):
+/// farther up it would leave nearly the whole fillet to one element, and the tooth 0.2 % stiffer.
 const NECK_ELEMENTS: usize = 4;
 
 /// Fine enough that arc lengths are good to 1e-5; points themselves are exact.
@@ -89,8 +90,8 @@ impl<'a> FilletCurve<'a> {
         self.reached[SAMPLES] + self.land_length
     }
 
-    /// Arc length at which the tangent has turned to [`NECK`] from the circumference (to [`NECK_SHARE`] of its first slope, where
-    /// the fillet begins flatter), for a fillet of so many elements.
+    /// Arc length at which the tangent has turned to [`NECK`] from the circumference (to [`NECK_SHARE`] of its first
+    /// slope, where the fillet begins flatter), for a fillet of so many elements.
     fn neck(&self, elements: usize) -> f64 {
         let slope = |i| {
             let (dr, arc) = step(self.profile, i);

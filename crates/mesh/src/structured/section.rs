@@ -65,7 +65,8 @@ fn tooth_block(across: usize, outline: &Outline) -> Lattice {
     Lattice::new(across, rows, |i, j| {
         let s = 2.0 * i as f64 / across as f64 - 1.0; // -1 right, +1 left
         let t = down[j] / down[rows];
-        // the section is its own mirror image, so the sides' blend is (x, s y); what is left is the bulge of the tip arc
+        // the section is its own mirror image, so the sides' blend is (x, s y); what is left is the bulge of the tip
+        // arc
         let top = cartesian([tip_radius, s * tip_angle]);
         let bulge = [top[0] - left[0][0], top[1] - s * left[0][1]];
         [left[j][0] + (1.0 - t) * bulge[0], s * left[j][1] + (1.0 - t) * bulge[1]]
@@ -129,12 +130,12 @@ fn rim_block(
 
 /// Most that a row of the rim may be thicker than the one above it.
 ///
-/// The first row must be as thin as the fillet's elements are long, however deep the rim: with 1 : 2 the root stress of a gear of 90 teeth on a solid
-/// body was 6 % off with four rows.
+/// The first row must be as thin as the fillet's elements are long, however deep the rim: with 1 : 2 the root stress of
+/// a gear of 90 teeth on a solid body was 6 % off with four rows.
 const GROWTH: f64 = 2.5;
 
-/// Fractions 0..=1 of a depth in `elements` geometric steps, the first about `first`, neighbours at most 1 : [`GROWTH`];
-/// mid-side positions half-way.
+/// Fractions 0..=1 of a depth in `elements` geometric steps, the first about `first`, neighbours at most 1 :
+/// [`GROWTH`]; mid-side positions half-way.
 fn graded(elements: usize, order: usize, first: f64) -> Vec<f64> {
     let sum = |q: f64| (0..elements).map(|i| q.powi(i as i32)).sum::<f64>();
     let (mut low, mut high) = (1.0, GROWTH);

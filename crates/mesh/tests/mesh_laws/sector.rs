@@ -126,7 +126,8 @@ fn periodic_files_become_the_coarse_gears() {
     }
 }
 
-/// Some of the copies: every node is its origin's place turned, cuts are where they were, and their nodes belong to the next copy.
+/// Some of the copies: every node is its origin's place turned, cuts are where they were, and their nodes belong to the
+/// next copy.
 #[test]
 fn some_copies_are_part_of_the_whole_gear() {
     let sector = generated(2, Extent::Periodic);

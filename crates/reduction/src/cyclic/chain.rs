@@ -11,9 +11,9 @@ use fem::{FemError, dense};
 ///  l     m     r        K_mm = A_rr + B_ll,   K_me = [A_rl  B_lr]
 ///  |--A--|--B--|        u_m = -K_mm^-1 K_me u_e,   K_e = diag(A_ll, B_rr) - K_me' K_mm^-1 K_me,   u_e = [u_l; u_r]
 /// ```
-/// Every cut's unknowns are in the frame of the sector on its counter-clockwise side, so that equal rows have equal matrices wherever
-/// they are and no join turns anything. n sectors take about log2 n joins for the powers of two and as many as n has binary ones.
-/// Eliminating free cuts is exact, so the row answers as its sectors would.
+/// Every cut's unknowns are in the frame of the sector on its counter-clockwise side, so that equal rows have equal
+/// matrices wherever they are and no join turns anything. n sectors take about log2 n joins for the powers of two and
+/// as many as n has binary ones. Eliminating free cuts is exact, so the row answers as its sectors would.
 #[derive(Debug)]
 pub(super) struct Chain {
     /// Shorter rows first; the last one is the whole.

@@ -1,7 +1,8 @@
 //! One sector instead of a gear.
 //!
-//! All teeth of a sound gear are the same, in frames turned by 2 pi / z. One sector is condensed once ([`sector`]); the sectors outside
-//! the window are equal super-elements and are joined by doubling ([`chain`]); the window's sectors close the ring:
+//! All teeth of a sound gear are the same, in frames turned by 2 pi / z. One sector is condensed once ([`sector`]); the
+//! sectors outside the window are equal super-elements and are joined by doubling ([`chain`]); the window's sectors
+//! close the ring:
 //!
 //! ```text
 //!   c_0   c_1        c_w                         K_ring u_c = H_w f          (cuts of the ring)
@@ -9,8 +10,8 @@
 //!    |               |
 //!    +---- chain ----+    z - w sectors          u = X f + T u_c in every sector
 //! ```
-//! The result is the condensation of the whole gear to round-off, at the cost of one sector. Nothing is approximated: cuts are eliminated as
-//! any other freedom is.
+//! The result is the condensation of the whole gear to round-off, at the cost of one sector. Nothing is approximated:
+//! cuts are eliminated as any other freedom is.
 
 mod chain;
 mod placement;
@@ -52,7 +53,8 @@ pub(crate) struct CyclicGear {
 }
 
 impl CyclicGear {
-    /// Condenses the sector and closes the ring; `loads` are on nodes of the larger mesh, those on single nodes if `keep`.
+    /// Condenses the sector and closes the ring; `loads` are on nodes of the larger mesh, those on single nodes if
+    /// `keep`.
     ///
     /// `None` when a load lies on a cut or reaches over one: then the sector is not one for these loads.
     pub(crate) fn new(

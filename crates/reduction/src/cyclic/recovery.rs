@@ -37,8 +37,8 @@ impl CyclicGear {
         ends.collect()
     }
 
-    /// Displacement of all free freedoms of the sector in some copies, each in its own frame, for forces on the coordinates (N, n x k): column
-    /// k j + i is that of copy j under the i-th forces.
+    /// Displacement of all free freedoms of the sector in some copies, each in its own frame, for forces on the
+    /// coordinates (N, n x k): column k j + i is that of copy j under the i-th forces.
     fn fields(&self, copies: &[u32], forces: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
         let k = forces.ncols();
         let ends = self.ends_of(copies, self.ring_cuts(Some(forces)).as_ref());
@@ -49,8 +49,9 @@ impl CyclicGear {
         self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
     }
 
-    /// Displacement (mm) of nodes of the larger mesh (`None`: of every one) under forces on the coordinates (N, n x k) of the window that stands
-    /// `shift` pitches on, in the mesh's frame; one list a column. Only sectors with such nodes are gone through.
+    /// Displacement (mm) of nodes of the larger mesh (`None`: of every one) under forces on the coordinates (N, n x k)
+    /// of the window that stands `shift` pitches on, in the mesh's frame; one list a column. Only sectors with such
+    /// nodes are gone through.
     pub(crate) fn expand(
         &self,
         forces: MatRef<'_, f64>,
@@ -110,7 +111,8 @@ impl CyclicGear {
         Ok(carried)
     }
 
-    /// Stress at nodes of the larger mesh (6 rows a node, MPa) for unit forces on the coordinates, in the frame of copy 0.
+    /// Stress at nodes of the larger mesh (6 rows a node, MPa) for unit forces on the coordinates, in the frame of
+    /// copy 0.
     ///
     /// On a cut the mean is over the elements (faces) on both of its sides.
     pub(crate) fn stress(&self, nodes: &[u32], recovery: StressRecovery) -> Result<Mat<f64>, ReductionError> {

@@ -24,8 +24,8 @@ const COLUMNS: usize = 256;
 /// | H    | 2c x 3m | 1    | force on the held cuts for a unit load, taken as a load on them             |
 /// | A    | 3m x 3m | mm/N | displacement under the loads with the cuts held                             |
 ///
-/// Loads on single nodes (`kept`) stand beside the cuts at the end of the factor, so that everything is read off its last triangle.
-/// Source: static condensation, Guyan, AIAA J. 3(2), 1965; the flexibility form of it.
+/// Loads on single nodes (`kept`) stand beside the cuts at the end of the factor, so that everything is read off its
+/// last triangle. Source: static condensation, Guyan, AIAA J. 3(2), 1965; the flexibility form of it.
 #[derive(Debug)]
 pub(super) struct Sector {
     mesh: Mesh,
@@ -163,7 +163,8 @@ impl Sector {
         load.iter().flat_map(move |part| (0..3).filter_map(move |axis| row(part, axis)))
     }
 
-    /// What a field is made of, from loads (3m x k, N) and cuts (2c x k, mm): displacements of kept nodes or loads, then cuts.
+    /// What a field is made of, from loads (3m x k, N) and cuts (2c x k, mm): displacements of kept nodes or loads,
+    /// then cuts.
     pub(super) fn basis(&self, f: MatRef<'_, f64>, ends: MatRef<'_, f64>) -> Mat<f64> {
         if self.kept == 0 {
             return stacked(f, ends);
@@ -201,14 +202,16 @@ impl Sector {
         Ok(stacked(own.as_ref(), ends.as_ref()))
     }
 
-    /// Forces on the cuts (2c x k, N) that do the work of forces on all freedoms (n x k, N), the inside following freely; of a sector without loads.
+    /// Forces on the cuts (2c x k, N) that do the work of forces on all freedoms (n x k, N), the inside following
+    /// freely; of a sector without loads.
     pub(super) fn ends_under(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
         let mut ends = self.factor.condense(force)?;
         self.next_frame(ends.as_mut());
         Ok(ends)
     }
 
-    /// Displacement of all free freedoms (n x k, mm) under forces on them (N), the cuts moved by `ends` (2c x k, mm); of a sector without loads.
+    /// Displacement of all free freedoms (n x k, mm) under forces on them (N), the cuts moved by `ends` (2c x k, mm);
+    /// of a sector without loads.
     pub(super) fn field_under(&self, force: MatRef<'_, f64>, ends: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
         let mut ends = ends.clone();
         self.own_frame(ends.as_mut());
@@ -220,8 +223,8 @@ impl Sector {
         &self.mesh
     }
 
-    /// Stress at the nodes of `operator` (q of them) for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts (6q x 2c, MPa/mm);
-    /// components in the sector's frame.
+    /// Stress at the nodes of `operator` (q of them) for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts
+    /// (6q x 2c, MPa/mm); components in the sector's frame.
     pub(super) fn stress(&self, operator: &StressOperator) -> Result<[Mat<f64>; 2], ReductionError> {
         let nodes = operator.node_count();
         let (m, ends) = (self.loads(), 2 * self.cut);

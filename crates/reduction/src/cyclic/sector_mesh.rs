@@ -52,8 +52,8 @@ impl SectorMesh {
 
     /// Of a whole gear that is cyclic: the elements about tooth 0.
     ///
-    /// From every orbit of elements one is taken, the one nearest to the twisted centre line of tooth 0; which one changes the cuts, not the
-    /// gear. `None` when a node belongs to more than two neighbouring sectors.
+    /// From every orbit of elements one is taken, the one nearest to the twisted centre line of tooth 0; which one
+    /// changes the cuts, not the gear. `None` when a node belongs to more than two neighbouring sectors.
     pub(crate) fn of_whole(gear: &GearMesh, turn: &PitchTurn) -> Option<Self> {
         let teeth = gear.tooth_count();
         if teeth < FEWEST_TEETH {

@@ -5,7 +5,8 @@
 //! K_n = K_ll + K_rr + e^{i psi} K_lr + e^{-i psi} K_rl       of a cut, Hermitian
 //! K^-1 f:  K_n u_c = f_l + e^{-i psi} f_r,   u = X f + T [u_c; e^{i psi} u_c]
 //! ```
-//! One factor of one sector serves all harmonics; each has a dense factor of the size of a cut besides. Complex vectors are pairs of real ones, one above the other.
+//! One factor of one sector serves all harmonics; each has a dense factor of the size of a cut besides. Complex vectors
+//! are pairs of real ones, one above the other.
 
 use std::f64::consts::TAU;
 
@@ -104,7 +105,8 @@ impl CutFactor {
     }
 }
 
-/// Motion of one harmonic: the sector's freedoms, real parts above imaginary ones. Every mode is there twice where both are.
+/// Motion of one harmonic: the sector's freedoms, real parts above imaginary ones. Every mode is there twice where both
+/// are.
 #[derive(Debug)]
 pub(crate) struct Harmonic<'a> {
     of: &'a VibratingSector,

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 use fem::dense;
 
-use super::krylov::Pencil;
+use super::pencil::Pencil;
 use crate::ReductionError;
 
 /// V with V' M V = 1, block by block.
@@ -66,7 +66,8 @@ impl Basis {
             x.as_mut().col_mut(j).iter_mut().for_each(|v| *v *= by);
             inertia.as_mut().col_mut(j).iter_mut().for_each(|v| *v *= by);
         }
-        // Once is not enough where a block lies almost within the span; after the second time nothing but round-off can be left.
+        // Once is not enough where a block lies almost within the span; after the second time nothing but round-off can
+        // be left.
         for least in [DEPENDENT * DEPENDENT, 0.25] {
             for (block, of_block) in self.blocks.iter().zip(&self.inertia) {
                 let share = dense::product(of_block.transpose(), x.as_ref());

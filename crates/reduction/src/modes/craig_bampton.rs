@@ -7,7 +7,8 @@ use super::{
     choice::ModeChoice,
     gear_modes::{GearModes, HARMONIC_BLOCK, WHOLE_BLOCK, of_harmonics, of_whole},
     held::{Held, Rows, on_rows},
-    krylov::{Eigenpairs, Pencil, Until, lowest},
+    krylov::{Eigenpairs, Until, lowest},
+    pencil::Pencil,
     whole::Whole,
 };
 use crate::{GearReducer, ReductionError, load::Load, reducer::Method};
@@ -21,11 +22,12 @@ impl GearReducer {
     /// ```text
     /// u = Psi u_B + Phi_f eta,   K^ = diag(C_B^-1, Omega_f^2),   M^ = [Psi Phi_f]' M [Psi Phi_f]
     /// ```
-    /// B: the kept flanks of **every** tooth, so that the result is the gear's own and not a window's; Psi: constraint modes of a cyclic gear by harmonics, of any
-    /// other one all at once. Phi_f: the `fixed` lowest modes with these flanks held, of every harmonic (of a gear that is not cyclic: in all). The eigenvectors of (K^, M^) are
-    /// what is returned: their frequencies come down to the gear's with the number of fixed modes, and all of them together have the flanks' whole compliance and their
-    /// consistent mass.
-    /// Source: Craig and Bampton, AIAA J. 6(7), 1968, p. 1313.
+    /// B: the kept flanks of **every** tooth, so that the result is the gear's own and not a window's; Psi: constraint
+    /// modes of a cyclic gear by harmonics, of any other one all at once. Phi_f: the `fixed` lowest modes with these
+    /// flanks held, of every harmonic (of a gear that is not cyclic: in all). The eigenvectors of (K^, M^) are what is
+    /// returned: their frequencies come down to the gear's with the number of fixed modes, and all of them together
+    /// have the flanks' whole compliance and their consistent mass. Source: Craig and Bampton, AIAA J. 6(7), 1968,
+    /// p. 1313.
     ///
     /// # Errors
     /// [`ReductionError::LargeBoundary`]; as [`GearReducer::modes`] and [`GearReducer::lowest_frequencies`].
@@ -73,7 +75,8 @@ fn reduced_modes(
     let held = Held::new(body, loads)?;
     let constraint = held.constraint_modes()?;
     let inside = lowest(&held, Until::Count(fixed), block)?;
-    // All of unit strain energy, and neither kind does work on the other: K^ = 1, and M^ has the eigenvalues 1 / omega^2.
+    // All of unit strain energy, and neither kind does work on the other: K^ = 1, and M^ has the eigenvalues 1 /
+    // omega^2.
     let (b, n) = (constraint.ncols(), constraint.ncols() + inside.squares.len());
     let mut space = Mat::zeros(body.order(), n);
     space.as_mut().subcols_mut(0, b).copy_from(&constraint);

@@ -18,10 +18,12 @@ use crate::{GearReducer, ReductionError, Window, cyclic::VibratingSector, reduce
 /// Normal modes of a gear that is held at its bore, its flanks free.
 ///
 /// ```text
-/// u(x, t) = sum_j phi_j(x) q_j(t),   phi_i' M phi_j = delta_ij,   phi_i' K phi_j = omega_i^2 delta_ij        q in mm t^(1/2)
+/// u(x, t) = sum_j phi_j(x) q_j(t),   phi_i' M phi_j = delta_ij,   phi_i' K phi_j = omega_i^2 delta_ij
+/// q in mm t^(1/2)
 /// ```
-/// Shapes are in the gear's own frame, in which tooth 0 is always the same: coordinates do not change as a window moves. Their motion is that of a gear
-/// which turns slowly against them: terms of the order of the angular velocity over omega are left out.
+/// Shapes are in the gear's own frame, in which tooth 0 is always the same: coordinates do not change as a window
+/// moves. Their motion is that of a gear which turns slowly against them: terms of the order of the angular velocity
+/// over omega are left out.
 #[derive(Debug, Clone)]
 pub struct GearModes {
     squares: Vec<f64>,
@@ -138,7 +140,8 @@ pub(super) fn of_harmonics(
     Ok(GearModes { squares: order.iter().map(|o| o.0).collect(), waves: Some(waves), coupling, shapes })
 }
 
-/// M R on the free freedoms: inertia forces (t, t mm) of unit accelerations of a rigid body along and about the axes of its frame.
+/// M R on the free freedoms: inertia forces (t, t mm) of unit accelerations of a rigid body along and about the axes of
+/// its frame.
 fn rigid_inertia(mesh: &Mesh, material: &Material, dofs: &DofMap) -> Result<Mat<f64>, ReductionError> {
     let all = DofMap::new(mesh.nodes.len(), &[]);
     let motion = Mat::from_fn(all.free_count(), 6, |row, j| {
@@ -198,10 +201,11 @@ impl GearModes {
         self.waves.as_deref()
     }
 
-    /// Phi' M R: inertia that each mode shares with motion of the gear as a rigid body about its centre, along x, y, z (t^(1/2)) and about
-    /// x, y, z (t^(1/2) mm) of the gear's own frame.
+    /// Phi' M R: inertia that each mode shares with motion of the gear as a rigid body about its centre, along x, y, z
+    /// (t^(1/2)) and about x, y, z (t^(1/2) mm) of the gear's own frame.
     ///
-    /// Of a cyclic gear modes without waves go with z and the turn, those of one wave with x, y and the tilts, all others with nothing.
+    /// Of a cyclic gear modes without waves go with z and the turn, those of one wave with x, y and the tilts, all
+    /// others with nothing.
     pub fn coupling(&self) -> &[[f64; 6]] {
         &self.coupling
     }

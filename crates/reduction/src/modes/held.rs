@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 use fem::dense;
 
-use super::krylov::Pencil;
+use super::pencil::Pencil;
 use crate::{ReductionError, load::Load};
 
 /// Rows of a body's vectors that a unit load acts on, and their shares.
@@ -47,7 +47,8 @@ impl<'a> Held<'a> {
         Ok(Self { body, factor: dense::cholesky(compliance.as_ref())?, loads })
     }
 
-    /// K^-1 P L^-T: motion of the body under forces on the coordinates alone, each of unit strain energy and none doing work on another's.
+    /// K^-1 P L^-T: motion of the body under forces on the coordinates alone, each of unit strain energy and none doing
+    /// work on another's.
     pub fn constraint_modes(&self) -> Result<Mat<f64>, ReductionError> {
         let n = self.loads.len();
         let mut modes = Mat::zeros(n, self.order());

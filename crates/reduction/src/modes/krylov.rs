@@ -4,27 +4,15 @@
 //! A = K^-1 M,   A V = V T + V_+ R E',   V' M V = 1        theta = 1 / omega^2 of T, the largest first
 //! |A phi - theta phi|_M = |R s_last|                       for phi = V s, T s = theta s
 //! ```
-//! A is self-adjoint in the inner product of M; all vectors are kept and made orthogonal twice, so that nothing comes up twice. Blocks of several
-//! columns find frequencies that are several times there, as those of a round body are.
+//! A is self-adjoint in the inner product of M; all vectors are kept and made orthogonal twice, so that nothing comes
+//! up twice. Blocks of several columns find frequencies that are several times there, as those of a round body are.
 //! Source: R. G. Grimes, J. G. Lewis, H. D. Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use fem::dense;
 
-use super::basis::Basis;
+use super::{basis::Basis, pencil::Pencil};
 use crate::ReductionError;
-
-/// A body that vibrates: symmetric positive definite K and M, known by what they do.
-pub(crate) trait Pencil: Sync {
-    /// Rows of a vector.
-    fn order(&self) -> usize;
-
-    /// M x (t mm), column by column.
-    fn inertia(&self, x: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError>;
-
-    /// K^-1 f (mm) for forces f (N), column by column.
-    fn follow(&self, f: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError>;
-}
 
 /// Which of the modes are wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -123,7 +111,8 @@ impl Ritz {
         self.theta.iter().zip(&self.residuals).take_while(|&p| good(p)).count()
     }
 
-    /// How many are the answer; `None` as long as there is none. `complete`: the basis spans all that the start can reach.
+    /// How many are the answer; `None` as long as there is none. `complete`: the basis spans all that the start can
+    /// reach.
     fn settled(&self, until: Until, complete: bool) -> Option<usize> {
         let real = |t: &&f64| **t > NOTHING * self.theta[0];
         let good = if complete { self.theta.iter().take_while(real).count() } else { self.converged() };

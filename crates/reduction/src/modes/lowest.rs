@@ -7,7 +7,8 @@ use faer::Mat;
 use super::{
     choice::ModeChoice,
     held::{Held, Rows, on_rows},
-    krylov::{Pencil, Until, lowest},
+    krylov::{Until, lowest},
+    pencil::Pencil,
     whole::Whole,
 };
 use crate::{GearReducer, ReductionError, Window, cyclic::CyclicGear, load::Load, reducer::Method};
@@ -17,8 +18,9 @@ use crate::{GearReducer, ReductionError, Window, cyclic::CyclicGear, load::Load,
 pub struct LowestFrequencies {
     /// With all flanks free, Hz: from here on the gear's compliance is not its static one any more.
     pub flanks_free_hz: f64,
-    /// With the coordinates of the window held, Hz: the lowest fixed-boundary mode (Craig and Bampton, AIAA J. 6(7), 1968, p. 1313), which bounds an approximation that
-    /// keeps the inertia M^ of the window's coordinates. Never below the other one.
+    /// With the coordinates of the window held, Hz: the lowest fixed-boundary mode (Craig and Bampton, AIAA J. 6(7),
+    /// 1968, p. 1313), which bounds an approximation that keeps the inertia M^ of the window's coordinates. Never below
+    /// the other one.
     pub flanks_held_hz: f64,
 }
 
@@ -29,7 +31,8 @@ impl GearReducer {
     /// Lowest frequencies of the gear, its bore held, flanks free and those of the first window held.
     ///
     /// # Errors
-    /// As [`GearReducer::modes`]; [`ReductionError::NotPositiveDefinite`] for a grid with more nodes than the mesh can tell apart.
+    /// As [`GearReducer::modes`]; [`ReductionError::NotPositiveDefinite`] for a grid with more nodes than the mesh can
+    /// tell apart.
     pub fn lowest_frequencies(&self) -> Result<LowestFrequencies, ReductionError> {
         let free = self.modes(ModeChoice::Count(1))?;
         let flanks_free_hz = free.frequencies_hz().first().copied().unwrap_or(f64::INFINITY);

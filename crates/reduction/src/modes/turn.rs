@@ -8,15 +8,18 @@ use super::{GearModes, gear_modes::Shapes};
 const LEFT: f64 = 1e-5;
 
 impl GearModes {
-    /// R of `Phi_k = Phi_(k-1) R`, m x m: the shapes on tooth k by those on the tooth before, each in the frame of its own tooth.
+    /// R of `Phi_k = Phi_(k-1) R`, m x m: the shapes on tooth k by those on the tooth before, each in the frame of its
+    /// own tooth.
     ///
     /// ```text
     /// Phi_k q = Phi_(k-1) (R q)
     /// ```
-    /// A gear that deforms as it did one pitch ago, seen from space, has amplitudes R q where it had q if it turns counter-clockwise, and R' q else: R is orthogonal, and turns
-    /// both modes of n waves into each other by 2 pi n / z.
+    /// A gear that deforms as it did one pitch ago, seen from space, has amplitudes R q where it had q if it turns
+    /// counter-clockwise, and R' q else: R is orthogonal, and turns both modes of n waves into each other by 2 pi n /
+    /// z.
     ///
-    /// `None` for a gear that is not known by sectors, whose teeth need not be alike, and where modes of one frequency are not all there.
+    /// `None` for a gear that is not known by sectors, whose teeth need not be alike, and where modes of one frequency
+    /// are not all there.
     pub fn turned_by_a_tooth(&self) -> Option<DMatrix<f64>> {
         let (Shapes::Sector { phases, parts, .. }, Some(waves)) = (self.shapes(), self.waves()) else { return None };
         let rows = parts[0].nrows();

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 use fem::SymmetricMatrix;
 
-use super::krylov::Pencil;
+use super::pencil::Pencil;
 use crate::{ReductionError, general::GeneralGear};
 
 /// Bore held, flanks free; vectors are the free freedoms of the mesh.

@@ -21,9 +21,9 @@ impl fmt::Display for RecordKey {
     }
 }
 
-/// BLAKE3 of everything that a reduced gear depends on: version of the format and of the program, nodes, elements, bore and flanks of the mesh,
-/// material, nominal geometry (it places the half teeth), what is kept. `way` names the way of reduction: results of two
-/// ways are equal to round-off only.
+/// BLAKE3 of everything that a reduced gear depends on: version of the format and of the program, nodes, elements, bore
+/// and flanks of the mesh, material, nominal geometry (it places the half teeth), what is kept. `way` names the way of
+/// reduction: results of two ways are equal to round-off only.
 ///
 /// Micro-geometry and torque are not in it: they change nothing of the reduced gear.
 pub fn record_key(

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use geometry::Side;
 
-use crate::{HalfTooth, ReducedGear, reducer::Summary};
+use crate::{LocalCompliance, ReducedGear, reducer::Summary};
 
 pub use error::RecordError;
 pub use key::{RecordKey, record_key};
@@ -22,8 +22,9 @@ const MAGIC: [u8; 16] = *b"ale-gear reduced";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the factor, which [`crate::GearReducer::from_record`] makes again when
-/// displacement fields or stress modes are asked for.
+/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the
+/// factor, which [`crate::GearReducer::from_record`] makes again when displacement fields or stress modes are asked
+/// for.
 ///
 /// File, little-endian, `docs/cache.md`:
 ///
@@ -44,5 +45,5 @@ pub struct ReductionRecord {
     /// Windows; of a cyclic gear one alone.
     pub(crate) windows: Vec<Arc<ReducedGear>>,
     /// Half teeth by tooth and side.
-    pub(crate) halves: Vec<((u32, Side), Arc<HalfTooth>)>,
+    pub(crate) halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
 }

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord, write::checksum};
-use crate::{HalfTooth, LayerProfile, ReducedGear, ReductionWay, reducer::Summary};
+use crate::{LayerProfile, LocalCompliance, ReducedGear, ReductionWay, reducer::Summary};
 
 impl ReductionRecord {
     /// The record in the bytes of a file, if it is that of `key`.
@@ -138,7 +138,7 @@ impl<'a> Cursor<'a> {
         if nodes.is_sorted_by(|a, b| a < b) { Ok(nodes) } else { Err(self.wrong("nodes out of order")) }
     }
 
-    fn half(&mut self) -> Result<HalfTooth, RecordError> {
+    fn half(&mut self) -> Result<LocalCompliance, RecordError> {
         let nodes = self.nodes()?;
         let compliance = self.matrix(3 * nodes.len())?;
         let overshoot = self.values(1)?[0];
@@ -150,6 +150,6 @@ impl<'a> Cursor<'a> {
         let values = self.values(4)?;
         let layer = LayerProfile::from_parts(lists, [values[0], values[1], values[2], values[3]]);
         let layer = layer.ok_or_else(|| self.wrong("a layer without stations"))?;
-        Ok(HalfTooth { nodes, compliance, overshoot, layer })
+        Ok(LocalCompliance { nodes, compliance, overshoot, layer })
     }
 }

@@ -8,10 +8,10 @@ use std::{
 use geometry::Side;
 
 use super::Summary;
-use crate::{HalfTooth, ReducedGear, ReductionRecord};
+use crate::{LocalCompliance, ReducedGear, ReductionRecord};
 
 type Windows = BTreeMap<u32, Arc<ReducedGear>>;
-type Halves = BTreeMap<(u32, Side), Arc<HalfTooth>>;
+type Halves = BTreeMap<(u32, Side), Arc<LocalCompliance>>;
 
 /// Results that were found when first asked for, or came from a record.
 #[derive(Debug, Default)]
@@ -28,7 +28,7 @@ impl Asked {
     /// All that a record has; the windows but the first one by their first teeth.
     pub(super) fn recorded(
         others: Windows,
-        halves: Vec<((u32, Side), Arc<HalfTooth>)>,
+        halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
         lowest_hz: Option<f64>,
     ) -> Self {
         let asked = Self {

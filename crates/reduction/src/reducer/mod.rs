@@ -2,6 +2,7 @@
 
 mod asked;
 mod condense;
+mod options;
 mod recorded;
 mod windows;
 
@@ -15,52 +16,23 @@ use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load
 use asked::Asked;
 use condense::{Condensed, condense};
 
+pub use options::{ReductionOptions, ReductionWay};
+
 pub(crate) use condense::{Method, Summary};
-
-/// What to keep.
-#[derive(Debug, Clone)]
-pub struct ReductionOptions {
-    /// Sides of the teeth whose flanks are kept.
-    pub sides: Vec<Side>,
-    /// Number of teeth W of a window.
-    pub window: usize,
-    /// First tooth of the window that is reduced at once.
-    pub first: u32,
-    /// Element variants.
-    pub elements: ElementOptions,
-}
-
-/// Which way a gear was condensed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReductionWay {
-    /// One sector, joined with itself.
-    CyclicSector,
-    /// The whole gear in one factor.
-    General,
-}
-
-impl ReductionWay {
-    /// In words, for tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::CyclicSector => "cyclic sector",
-            Self::General => "general",
-        }
-    }
-}
 
 /// A gear that can be reduced to any window of its teeth.
 ///
-/// Coordinates are the flank nodes of the window's teeth, or means of their displacements with the weights of loads on coarse grids
-/// ([`FlankGrid`]). They are known from one sector where the gear is cyclic to round-off, else from one factor of the whole gear
-/// ([`ReductionWay`]); the matrices are the same to 1e-9. A cyclic gear has the same matrices for all windows, in frames turned by whole pitches;
-/// for any other gear further windows come from solves with the same factor, for the columns of the teeth they hold.
+/// Coordinates are the flank nodes of the window's teeth, or means of their displacements with the weights of loads on
+/// coarse grids ([`FlankGrid`]). They are known from one sector where the gear is cyclic to round-off, else from one
+/// factor of the whole gear ([`ReductionWay`]); the matrices are the same to 1e-9. A cyclic gear has the same matrices
+/// for all windows, in frames turned by whole pitches; for any other gear further windows come from solves with the
+/// same factor, for the columns of the teeth they hold.
 ///
-/// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the first
-/// window and one more on either side, in the frame of the matrices.
+/// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the
+/// first window and one more on either side, in the frame of the matrices.
 ///
-/// A gear from a [`ReductionRecord`](crate::ReductionRecord) is condensed only when something asks for more than the record has: another window of a gear that is not
-/// cyclic, a displacement field, stress modes, mass.
+/// A gear from a [`ReductionRecord`](crate::ReductionRecord) is condensed only when something asks for more than the
+/// record has: another window of a gear that is not cyclic, a displacement field, stress modes, mass.
 #[derive(Debug)]
 pub struct GearReducer {
     gear: GearMesh,
@@ -95,8 +67,8 @@ impl GearReducer {
         Self::build(gear, material, options, true, |_| Ok(Coordinates::FlankNodes))
     }
 
-    /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the mesh that
-    /// [`GearReducer::gear`] will show. `general`: by one factor of the whole gear, whatever the gear is.
+    /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the
+    /// mesh that [`GearReducer::gear`] will show. `general`: by one factor of the whole gear, whatever the gear is.
     ///
     /// # Errors
     /// [`ReductionError`] as for [`GearReducer::new`]; those of `grids`.
@@ -134,7 +106,8 @@ impl GearReducer {
         Self { gear, given, material, options, dofs, coordinates, summary, method, base, asked }
     }
 
-    /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for one that has no freedom. Found once; a record keeps it.
+    /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for one that has no freedom.
+    /// Found once; a record keeps it.
     ///
     /// # Errors
     /// As [`GearReducer::modes`].

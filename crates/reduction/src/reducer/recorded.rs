@@ -13,8 +13,8 @@ use super::{
 use crate::{ReductionError, ReductionRecord, load::Coordinates};
 
 impl GearReducer {
-    /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of ([`crate::record_key`]
-    /// sees to that); with `record` of another first window the gear is reduced anew.
+    /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of
+    /// ([`crate::record_key`] sees to that); with `record` of another first window the gear is reduced anew.
     ///
     /// # Errors
     /// As [`GearReducer::new`].
@@ -46,8 +46,8 @@ impl GearReducer {
         Ok(Self { given, asked, ..Self::assembled(material, options, condensed, OnceLock::new()) })
     }
 
-    /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far. `None` when a record has
-    /// it all already, and for a gear reduced to grids.
+    /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far.
+    /// `None` when a record has it all already, and for a gear reduced to grids.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);
         self.coordinates.are_nodes().then(record).flatten()

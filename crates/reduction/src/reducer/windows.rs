@@ -6,7 +6,7 @@ use geometry::{Gear, Side};
 
 use super::{GearReducer, Method, ReductionOptions, condense::Opened};
 use crate::{
-    HalfTooth, ReductionError, Window,
+    LocalCompliance, ReductionError, Window,
     general::Seen,
     load::{Coordinates, Load, missing},
 };
@@ -37,21 +37,29 @@ impl GearReducer {
         Ok(Window { reduced, shift: 0 })
     }
 
-    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was meshed.
+    /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was
+    /// meshed.
     ///
     /// # Errors
     /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
-    pub fn half_tooth(&self, geometry: &Gear, tooth: u32, side: Side) -> Result<Arc<HalfTooth>, ReductionError> {
+    pub fn local_compliance(
+        &self,
+        geometry: &Gear,
+        tooth: u32,
+        side: Side,
+    ) -> Result<Arc<LocalCompliance>, ReductionError> {
         let mut halves = self.asked.halves();
         if let Some(half) = halves.get(&(tooth, side)) {
             return Ok(half.clone());
         }
         let (elements, flank) = (&self.options.elements, (tooth, side));
         let half = match &self.coordinates {
-            Coordinates::FlankNodes => HalfTooth::new(&self.gear, geometry, &self.material, elements, tooth, side)?,
+            Coordinates::FlankNodes => {
+                LocalCompliance::new(&self.gear, geometry, &self.material, elements, tooth, side)?
+            }
             Coordinates::Grids(grids) => {
                 let grid = grids.get(&flank).ok_or_else(|| missing(&self.gear, flank))?;
-                HalfTooth::on_grid(&self.gear, geometry, &self.material, elements, flank, grid)?
+                LocalCompliance::on_grid(&self.gear, geometry, &self.material, elements, flank, grid)?
             }
         };
         let half = Arc::new(half);

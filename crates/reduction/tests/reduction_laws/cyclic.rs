@@ -104,8 +104,8 @@ fn compare(name: &str, mesh: GearMesh, exact: &Gear, options: &ReductionOptions)
     }
 }
 
-/// Whole gears by the built-in mesher: from 11 to 30 teeth, spur and helical, both orders, one flank and both, windows of one tooth, wider than half
-/// of the gear, and of all teeth; first teeth that reach across z - 1 to 0.
+/// Whole gears by the built-in mesher: from 11 to 30 teeth, spur and helical, both orders, one flank and both, windows
+/// of one tooth, wider than half of the gear, and of all teeth; first teeth that reach across z - 1 to 0.
 #[test]
 fn a_sector_gives_what_the_whole_gear_gives() {
     use Side::{Left, Right};
@@ -146,7 +146,8 @@ fn a_periodic_sector_is_not_unrolled() {
         let exact = gear(teeth, beta);
         let mut sector = meshed(&exact, order, Extent::Periodic);
         if cut_through_teeth {
-            // The right flank of the next tooth in place of the sector's own: half of a window's flanks are in other copies.
+            // The right flank of the next tooth in place of the sector's own: half of a window's flanks are in other
+            // copies.
             let mut mesh = sector.mesh().clone();
             mesh.surfaces.iter_mut().for_each(|g| g.name = g.name.replace("right_0", "right_1"));
             sector = GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap();

@@ -88,7 +88,8 @@ fn frequencies_are_those_of_dense_matrices() {
     }
 }
 
-/// One sector instead of a gear: frequencies, inertia shared with rigid motion, and shapes on the flanks of every window.
+/// One sector instead of a gear: frequencies, inertia shared with rigid motion, and shapes on the flanks of every
+/// window.
 #[test]
 fn a_sector_has_the_modes_of_the_gear() {
     for (teeth, beta, extent) in [(11, 20.0, Extent::Whole), (14, 0.0, Extent::Whole), (17, -15.0, Extent::Periodic)] {
@@ -252,7 +253,8 @@ fn bessel(n: i32, x: f64) -> [f64; 2] {
     [j, y]
 }
 
-/// Torsion of a ring held at its bore: J_2(kb) Y_1(ka) = Y_2(kb) J_1(ka), omega = k sqrt(G / rho), whatever Poisson's ratio.
+/// Torsion of a ring held at its bore: J_2(kb) Y_1(ka) = Y_2(kb) J_1(ka), omega = k sqrt(G / rho), whatever Poisson's
+/// ratio.
 #[test]
 fn a_ring_twists_at_its_own_frequency() {
     let (a, b) = (20.0, 50.0);
@@ -292,7 +294,8 @@ fn a_ring_twists_at_its_own_frequency() {
     }
 }
 
-/// What the modes leave of a window's compliance is a compliance, smaller with every mode, and nothing with all of them.
+/// What the modes leave of a window's compliance is a compliance, smaller with every mode, and nothing with all of
+/// them.
 #[test]
 fn modes_and_residual_make_the_compliance() {
     let mesh = meshed(&gear(11, 20.0), 1, Extent::Whole);
@@ -320,7 +323,8 @@ fn modes_and_residual_make_the_compliance() {
     assert!(last.abs() < 1e-6, "all modes leave {last}");
 }
 
-/// Craig and Bampton's reduction stiffens: its frequencies come down to the gear's with every fixed-boundary mode, and its modes make up the whole compliance.
+/// Craig and Bampton's reduction stiffens: its frequencies come down to the gear's with every fixed-boundary mode, and
+/// its modes make up the whole compliance.
 #[test]
 fn craig_bampton_comes_from_above() {
     let mesh = meshed(&gear(11, 20.0), 2, Extent::Whole);
@@ -372,8 +376,8 @@ fn threads_change_nothing() {
     assert!(run(1) == run(2), "modes depend on the number of threads");
 }
 
-/// Turning by a tooth takes the modes of a cyclic gear into each other: on the next window they are those of this one times an orthogonal matrix, which after z teeth is 1.
-/// A gear that is not known by sectors has no such turn.
+/// Turning by a tooth takes the modes of a cyclic gear into each other: on the next window they are those of this one
+/// times an orthogonal matrix, which after z teeth is 1. A gear that is not known by sectors has no such turn.
 #[test]
 fn a_tooth_further_modes_are_their_own_mixture() {
     let mesh = meshed(&gear(11, 20.0), 1, Extent::Whole);

@@ -38,7 +38,7 @@ impl Sample {
 
     fn with_halves(&self, reducer: GearReducer) -> GearReducer {
         for tooth in [11, 0, 1] {
-            reducer.half_tooth(&self.geometry, tooth, Side::Left).unwrap();
+            reducer.local_compliance(&self.geometry, tooth, Side::Left).unwrap();
         }
         reducer
     }
@@ -63,13 +63,13 @@ fn a_record_comes_back_to_the_bit() {
         assert!(x.iter().zip(y.iter()).all(|(x, y)| x.to_bits() == y.to_bits()));
     }
     for tooth in [11, 0, 1] {
-        let half = |gear: &GearReducer| gear.half_tooth(&sample.geometry, tooth, Side::Left).unwrap();
+        let half = |gear: &GearReducer| gear.local_compliance(&sample.geometry, tooth, Side::Left).unwrap();
         let (a, b) = (half(&stored), half(&reducer));
         assert_eq!((&a.nodes, &a.compliance, a.overshoot), (&b.nodes, &b.compliance, b.overshoot), "tooth {tooth}");
         assert_eq!(a.layer, b.layer, "tooth {tooth}");
     }
     // A half tooth that the record does not have is condensed, and is something new to write.
-    stored.half_tooth(&sample.geometry, 11, Side::Right).unwrap();
+    stored.local_compliance(&sample.geometry, 11, Side::Right).unwrap();
     assert!(stored.record().is_some());
 }
 
@@ -148,8 +148,8 @@ fn a_key_stands_for_one_gear() {
     }
 }
 
-/// What is not in the record comes of condensing again, when first asked for: the same field, the same stress modes. On a whole gear, on
-/// a periodic sector, and on a whole gear taken the general way.
+/// What is not in the record comes of condensing again, when first asked for: the same field, the same stress modes. On
+/// a whole gear, on a periodic sector, and on a whole gear taken the general way.
 #[test]
 fn a_gear_from_a_record_answers_as_the_reduced_one() {
     let sector = Sample::meshed(Extent::Periodic);

@@ -1,4 +1,5 @@
-//! Stress modes against the long way: displacement of the whole mesh, then its stress, from elements and from the free surface.
+//! Stress modes against the long way: displacement of the whole mesh, then its stress, from elements and from the free
+//! surface.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::path::Path;
@@ -86,8 +87,8 @@ fn off(gear: &GearReducer, window: &Window, nodes: &[u32], by_modes: &[[f64; 6]]
     worst / largest
 }
 
-/// S u_B = nodal stress of the expanded field, within 1e-9: hexahedra of both orders in a cyclic gear, in the window that
-/// was factored and in others, across tooth z-1 to 0.
+/// S u_B = nodal stress of the expanded field, within 1e-9: hexahedra of both orders in a cyclic gear, in the window
+/// that was factored and in others, across tooth z-1 to 0.
 #[test]
 fn modes_give_the_stress_of_the_whole_field_in_a_cyclic_gear() {
     for order in [1, 2] {
@@ -165,8 +166,8 @@ fn stress_is_linear_in_the_coordinates() {
     assert!(gear.stress_modes(&window, &[u32::MAX]).is_err(), "a node that does not exist");
 }
 
-/// Fillets are found where the section has them: every node on the exact curve or on the root land (mid-side nodes on chords), both sides of a tooth mirror
-/// images at mid-face, the middle of a space on both fillets.
+/// Fillets are found where the section has them: every node on the exact curve or on the root land (mid-side nodes on
+/// chords), both sides of a tooth mirror images at mid-face, the middle of a space on both fillets.
 #[test]
 fn fillet_nodes_lie_on_the_fillet() {
     let gear = pinion();

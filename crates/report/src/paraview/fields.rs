@@ -54,7 +54,7 @@ impl<'a> FieldWriter<'a> {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn finish(self) -> Result<(), ReportError> {
+    pub fn finish(&mut self) -> Result<(), ReportError> {
         if self.entries.is_empty() {
             return Ok(());
         }

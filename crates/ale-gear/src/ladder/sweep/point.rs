@@ -122,7 +122,7 @@ pub(super) fn run(
     refuse_unstable(recipe, words, &mut model, made.resonance_hz).map_err(located)?;
     let course = course::run(&mut model, scene, words, frequencies, from, || ()).map_err(complain)?;
     within_bounds(&course.history).map_err(located)?;
-    certificate(recipe, &course).verdict(scene).map_err(located)?;
+    certificate(recipe, &course).verdict(scene).map_err(CommandError::from).map_err(located)?;
     let every = request.every(scene) as usize;
     let points: Vec<f64> = course.section.get(&request.of).iter().copied().step_by(every).collect();
     let extent = course.history.extent(&request.of);

@@ -1,5 +1,5 @@
-//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are taken away.
-//! Theory (36).
+//! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
+//! taken away. Theory (36).
 
 mod rows;
 
@@ -19,7 +19,7 @@ pub struct BulkCompliance<'a> {
     /// W, mm/N, 3n x 3n, node by node x, y, z.
     pub whole: MatRef<'a, f64>,
     /// W_c of each patch with the numbers its nodes have in W, ascending.
-    pub halves: Vec<(&'a [u32], MatRef<'a, f64>)>,
+    pub local: Vec<(&'a [u32], MatRef<'a, f64>)>,
     /// The body's patches.
     pub patches: &'a [FlankPatch],
 }
@@ -29,23 +29,24 @@ pub struct BulkCompliance<'a> {
 /// ```text
 /// D = W - sum over flanks of W_c,    S_ij = a_i' D a_j  ~  w_i' T w_j,    T_pq = a_p' D a_q
 /// ```
-/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its generator; w interpolates between
-/// them, cubic along the profile and quadratic along the face, in cells that are the faces of the mesh where these form a grid: what
-/// shape functions make of D is then met almost exactly. Normal forces need the first direction alone. [`BulkTable::error`] says how
-/// far from A D A' that is.
+/// T is D as unit forces at grid points p of the flanks see it, along the flank's normal, its profile and its
+/// generator; w interpolates between them, cubic along the profile and quadratic along the face, in cells that are the
+/// faces of the mesh where these form a grid: what shape functions make of D is then met almost exactly. Normal forces
+/// need the first direction alone. [`BulkTable::error`] says how far from A D A' that is.
 #[derive(Debug, Clone)]
 pub struct BulkTable {
     lines: Vec<FlankGridLines>,
     /// First point of each patch; the last entry is the number of points.
     first: Vec<usize>,
-    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
+    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the
+    /// generator.
     table: Vec<f64>,
     error: f64,
 }
 
 /// Points and weights of one row in a table.
 #[derive(Debug, Clone, Copy)]
-pub struct TablePlace {
+pub struct TablePoint {
     points: [u32; DIRECTIONS * CELL],
     weights: [f64; DIRECTIONS * CELL],
     count: usize,
@@ -71,9 +72,9 @@ impl BulkCompliance<'_> {
         out.resize(self.whole.nrows(), 0.0);
         load_columns(support, |dof, f| {
             out.iter_mut().zip(self.whole.col(dof).iter()).for_each(|(o, w)| *o += f * w);
-            for (numbers, half) in &self.halves {
+            for (numbers, local) in &self.local {
                 let Ok(own) = numbers.binary_search(&((dof / 3) as u32)) else { continue };
-                let column = half.col(3 * own + dof % 3);
+                let column = local.col(3 * own + dof % 3);
                 for (k, &number) in numbers.iter().enumerate() {
                     (0..3).for_each(|b| out[3 * number as usize + b] -= f * column[3 * k + b]);
                 }
@@ -98,7 +99,8 @@ fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option
     lines.iter().zip(patches).flat_map(of_patch).collect()
 }
 
-/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of reliefs are none of the mesh's.
+/// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of
+/// reliefs are none of the mesh's.
 fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
     let normal = patch.surface().nominal_normal(at);
     let profile = patch.surface().profile_tangent(at);
@@ -108,8 +110,8 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
 }
 
 impl BulkTable {
-    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the mesh, else on uniform
-    /// grids that grow finer; `None` where none within reason is good enough.
+    /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
+    /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
     pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
         let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
         let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
@@ -146,8 +148,8 @@ impl BulkTable {
         made
     }
 
-    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each place with itself and with
-    /// the places checked before it.
+    /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each
+    /// place with itself and with the places checked before it.
     fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
         let mut places = Vec::new();
         for (patch, flank) in bulk.patches.iter().enumerate() {
@@ -157,7 +159,7 @@ impl BulkTable {
                 let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
-                if let (Some(exact), Some(place)) = (supports(flank, at), self.place(flank, patch, at, None)) {
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(flank, patch, at, None)) {
                     places.push((exact[0], place));
                 }
             }
@@ -174,12 +176,14 @@ impl BulkTable {
         worst / largest
     }
 
-    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what [`TablePlace::read`] reads openings from.
+    /// Displacements u of the boundary (3n each, mm) as unit forces at all points see them, one list each: what
+    /// [`TablePoint::read`] reads openings from.
     ///
     /// ```text
     /// A u  ~  w_i' s,   s_p = a_p' u
     /// ```
-    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would have of the rest.
+    /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would
+    /// have of the rest.
     pub fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
         let supports = grid_supports(&self.lines, patches);
         let along = |k: usize| supports.iter().map(move |s| s.as_ref().map(|s| &s[k]));
@@ -205,17 +209,12 @@ impl BulkTable {
         self.table.len() * size_of::<f64>()
     }
 
-    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal if `None`).
-    pub fn place(
-        &self,
-        flank: &FlankPatch,
-        patch: usize,
-        at: [f64; 2],
-        direction: Option<&Vec3>,
-    ) -> Option<TablePlace> {
+    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's
+    /// normal if `None`).
+    pub fn at(&self, flank: &FlankPatch, patch: usize, at: [f64; 2], direction: Option<&Vec3>) -> Option<TablePoint> {
         let (points, weights) = self.lines.get(patch)?.weights(at);
         let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
-        let mut place = TablePlace { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
+        let mut place = TablePoint { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
         let all = self.points() / DIRECTIONS;
         for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
             for (p, w) in points.iter().zip(weights) {
@@ -228,13 +227,13 @@ impl BulkTable {
     }
 
     /// S between two places, mm/N.
-    pub fn entry(&self, first: &TablePlace, second: &TablePlace) -> f64 {
+    pub fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
         let column = |q: u32| &self.table[q as usize * self.points()..];
         second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
     }
 }
 
-impl TablePlace {
+impl TablePoint {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub fn points(&self) -> usize {
         self.count

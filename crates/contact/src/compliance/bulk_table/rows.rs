@@ -1,14 +1,14 @@
 //! Compliance between rows, read from the part of a table that they touch.
 
-use super::{BulkTable, CELL, DIRECTIONS, TablePlace};
+use super::{BulkTable, CELL, DIRECTIONS, TablePoint};
 
 impl BulkTable {
-    /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`: loads are the
-    /// openings, and the lower triangle is enough.
+    /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
+    /// loads are the openings, and the lower triangle is enough.
     pub fn add(
         &self,
-        openings: &[TablePlace],
-        loads: &[TablePlace],
+        openings: &[TablePoint],
+        loads: &[TablePoint],
         symmetric: bool,
         work: &mut TableWork,
         out: &mut [f64],
@@ -24,8 +24,8 @@ impl BulkTable {
 struct Interpolation<'a> {
     part: &'a [f64],
     column: &'a mut Vec<f64>,
-    openings: &'a [TablePlace],
-    loads: &'a [TablePlace],
+    openings: &'a [TablePoint],
+    loads: &'a [TablePoint],
     symmetric: bool,
     out: &'a mut [f64],
 }
@@ -71,7 +71,7 @@ pub struct TableWork {
     part: Vec<f64>,
     column: Vec<f64>,
     /// Openings and loads, their points counted among those used.
-    places: [Vec<TablePlace>; 2],
+    places: [Vec<TablePoint>; 2],
     arch: pulp::Arch,
 }
 
@@ -102,7 +102,7 @@ impl TableWork {
         self.used.len()
     }
 
-    fn renumber(&mut self, openings: &[TablePlace], loads: &[TablePlace]) {
+    fn renumber(&mut self, openings: &[TablePoint], loads: &[TablePoint]) {
         for (to, from) in self.places.iter_mut().zip([openings, loads]) {
             to.clear();
             to.extend(from.iter().map(|place| {
@@ -113,8 +113,9 @@ impl TableWork {
         }
     }
 
-    /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the last call.
-    fn collect<'a>(&mut self, table: &BulkTable, places: impl Iterator<Item = &'a TablePlace>) {
+    /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the
+    /// last call.
+    fn collect<'a>(&mut self, table: &BulkTable, places: impl Iterator<Item = &'a TablePoint>) {
         std::mem::swap(&mut self.used, &mut self.before);
         self.before.iter().for_each(|&p| self.rank[p as usize] = u32::MAX);
         self.used.clear();

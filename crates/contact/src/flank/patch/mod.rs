@@ -1,11 +1,15 @@
 //! One flank as contact sees it: smooth surface for gaps, finite-element faces for forces.
 
+mod areas;
+mod bins;
+mod face;
 mod locate;
 
 use mesh::{Face, FaceKind};
 
 use crate::{ContactError, Surface, Vec3};
-use locate::Bins;
+use bins::Bins;
+use face::{PatchFace, PatchNode, range};
 
 /// Faces of one flank, and where their nodes sit on its smooth surface.
 #[derive(Debug)]
@@ -17,21 +21,6 @@ pub struct FlankPatch {
     nodes: Vec<PatchNode>,
     bins: Bins,
     range: [[f64; 2]; 2],
-}
-
-#[derive(Debug, Clone, Copy)]
-struct PatchFace {
-    kind: FaceKind,
-    /// Into `nodes`.
-    nodes: [u32; 9],
-}
-
-#[derive(Debug, Clone, Copy)]
-struct PatchNode {
-    position: Vec3,
-    at: [f64; 2],
-    /// Number of the node among its gear's boundary nodes.
-    boundary: u32,
 }
 
 /// A point on a finite-element face.
@@ -52,17 +41,19 @@ pub(crate) struct Interpolation {
 }
 
 impl FlankPatch {
-    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` (mm) is how far
-    /// a node may lie from the nominal smooth surface: micro-geometry ([`Surface::depth`]) is in the gaps and not in the mesh.
+    /// A patch from faces of a mesh. `boundary(node)` numbers the gear's boundary nodes; `tolerance` (mm) is how far a
+    /// node may lie from the nominal smooth surface: micro-geometry ([`Surface::depth`]) is in the gaps and not in the
+    /// mesh.
     ///
     /// # Errors
-    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank.
+    /// [`ContactError::OffSurface`] when mesh and surface do not describe the same flank;
+    /// [`ContactError::NotOnBoundary`] for a node that `boundary` does not know.
     pub fn new(
         tooth: i64,
         surface: Box<dyn Surface>,
         mesh_nodes: &[[f64; 3]],
         faces: &[Face],
-        boundary: impl Fn(u32) -> u32,
+        boundary: impl Fn(u32) -> Option<u32>,
         tolerance: f64,
     ) -> Result<Self, ContactError> {
         let mut numbers: Vec<u32> = faces.iter().flat_map(|f| f.nodes().iter().copied()).collect();
@@ -82,7 +73,9 @@ impl FlankPatch {
             if nominal.abs() > tolerance || nominal.is_nan() {
                 return Err(off(node, nominal));
             }
-            nodes.push(PatchNode { position, at: foot.at, boundary: boundary(node) });
+            let boundary = boundary(node)
+                .ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })?;
+            nodes.push(PatchNode { position, at: foot.at, boundary });
         }
         let faces: Vec<PatchFace> = faces
             .iter()
@@ -221,19 +214,6 @@ impl FlankPatch {
         self.range
     }
 
-    /// Boundary nodes and the area each stands for, mm^2: the integral of |N_i|, every entry positive.
-    pub fn nodal_areas(&self) -> Vec<(u32, f64)> {
-        let mut areas: Vec<(u32, f64)> = self.nodes.iter().map(|n| (n.boundary, 0.0)).collect();
-        for point in crate::contact_points(self, 3, crate::GapSource::Smooth) {
-            let face = &self.faces[point.at.face];
-            let weights = self.interpolation(point.at).weights;
-            for (&node, w) in face.nodes[..face.kind.node_count()].iter().zip(weights) {
-                areas[node as usize].1 += w.abs() * point.area;
-            }
-        }
-        areas
-    }
-
     /// Surface coordinates of a boundary node of the patch.
     pub fn node_coordinates(&self, boundary: u32) -> Option<[f64; 2]> {
         // Boundary nodes are numbered in the order of the mesh's nodes, which is the order here.
@@ -249,15 +229,4 @@ impl FlankPatch {
         }
         sum.map(|s| s / self.faces.len().max(1) as f64)
     }
-}
-
-fn range(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
-    let mut r = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    for p in points {
-        for k in 0..2 {
-            r[0][k] = r[0][k].min(p[k]);
-            r[1][k] = r[1][k].max(p[k]);
-        }
-    }
-    r
 }

@@ -1,0 +1,115 @@
+//! From meshes to elastic gears: reduced, from the cache, or whole.
+
+use fem::{ElementOptions, Material};
+use geometry::GearPair;
+use ltca::{StaticModel, StaticOptions};
+use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
+
+use scene::{Model, Reduction, Scene};
+
+use crate::{AnalysisError, GearCache, meshes::SceneMesh, statics::solver_error};
+
+/// Both gears as the analysis takes them.
+#[derive(Debug)]
+pub struct ElasticGears {
+    /// Pinion and wheel.
+    pub gears: [ElasticGear; 2],
+    /// What the cache knows them by.
+    pub keys: RecordKeys,
+    /// What was wrong with files of the cache.
+    pub warnings: Vec<String>,
+}
+
+/// What the cache knows the gears by; none where nothing is cached.
+#[derive(Debug)]
+pub struct RecordKeys([Option<RecordKey>; 2]);
+
+impl RecordKeys {
+    /// Keys of pinion and wheel; `None` where nothing is kept.
+    pub fn keys(&self) -> &[Option<RecordKey>; 2] {
+        &self.0
+    }
+
+    /// Writes what was reduced in this run; the warnings are about what could not be written.
+    pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<String> {
+        let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
+            ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
+            ElasticGear::Full(_) => None,
+        });
+        records.filter_map(|(key, record)| cache.save(key, &record)).collect()
+    }
+}
+
+/// Both gears, side by side.
+///
+/// # Errors
+/// [`AnalysisError`] when a mesh is not what the analysis needs.
+pub fn elastic_gears(
+    scene: &Scene,
+    pair: &GearPair,
+    options: &StaticOptions,
+    meshes: &[SceneMesh; 2],
+    cache: &dyn GearCache,
+) -> Result<ElasticGears, AnalysisError> {
+    let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
+    let window = options.window_teeth(pair);
+    let build = |i: usize| {
+        let elements = ElementOptions::default();
+        let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
+        one(scene, pair, options, meshes, cache, i)
+    };
+    let (pinion, wheel) = rayon::join(|| build(0), || build(1));
+    let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
+    let warnings = said.into_iter().chain(also).collect();
+    Ok(ElasticGears { gears: [pinion, wheel], keys: RecordKeys([first_key, second_key]), warnings })
+}
+
+/// A gear, its key, and what is wrong with its file.
+type Built = (ElasticGear, Option<RecordKey>, Option<String>);
+
+fn one(
+    scene: &Scene,
+    pair: &GearPair,
+    options: ReductionOptions,
+    meshes: &[SceneMesh; 2],
+    cache: &dyn GearCache,
+    i: usize,
+) -> Result<Built, AnalysisError> {
+    let (mesh, material) = (&meshes[i], material(scene, i)?);
+    if scene.analysis.model == Model::Full {
+        let gear = FullGear::new(mesh.gear.clone(), material, &options.elements);
+        return Ok((gear.map(ElasticGear::Full).map_err(|e| blame(scene, mesh, i, e))?, None, None));
+    }
+    let geometry = [&pair.pinion, &pair.wheel][i];
+    let general = scene.analysis.reduction == Some(Reduction::General);
+    let asked = if general { "general" } else { "auto" };
+    let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, asked));
+    let (found, warning) = key.as_ref().map_or((None, None), |key| cache.load(key));
+    let gear = match (found, general) {
+        (Some(record), _) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
+        (None, true) => GearReducer::general(mesh.gear.clone(), material, options),
+        (None, false) => GearReducer::new(mesh.gear.clone(), material, options),
+    };
+    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning))
+}
+
+fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {
+    let place = match scene.gears()[i].mesh {
+        Some(_) => mesh.facts.source.clone(),
+        None => format!("{}: built-in mesher", scene.file.display()),
+    };
+    AnalysisError::Reduction { place, gear: ["pinion", "wheel"][i], source: Box::new(source) }
+}
+
+/// Material of pinion (0) or wheel (1).
+///
+/// # Errors
+/// [`AnalysisError`] when it is none.
+pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
+    let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
+    Material::new(m.young_mpa, m.poisson, m.density()).map_err(|source| AnalysisError::Material {
+        file: scene.file.display().to_string(),
+        gear: whose,
+        source: Box::new(source),
+    })
+}

@@ -1,0 +1,161 @@
+//! Why a scene has no answer.
+
+use ltca::StaticError;
+use mesh::MeshError;
+use scene::SceneError;
+
+/// Why a scene has no answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The scene itself.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A mesh file cannot be read, or what was read is no gear.
+    #[error("{}", with_place(place, source))]
+    Mesh {
+        /// The file.
+        place: String,
+        /// What happened.
+        source: Box<MeshError>,
+    },
+    /// The built-in mesher cannot make a gear with these numbers of elements.
+    #[error("{file}: [{gear}.mesher]: {source}")]
+    Mesher {
+        /// The scene.
+        file: String,
+        /// `pinion` or `wheel`.
+        gear: String,
+        /// What happened.
+        source: Box<mesh::StructuredError>,
+    },
+    /// What the built-in mesher made is no gear.
+    #[error("built-in mesher, {gear}: {source}")]
+    MadeMesh {
+        /// `pinion` or `wheel`.
+        gear: String,
+        /// What happened.
+        source: Box<MeshError>,
+    },
+    /// A mesh and its gear disagree.
+    #[error("{0}")]
+    Mismatch(Box<MeshMismatch>),
+    /// A gear cannot be reduced.
+    #[error("{place}: {gear}: {source}")]
+    Reduction {
+        /// File of the mesh, or the scene.
+        place: String,
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: Box<reduction::ReductionError>,
+    },
+    /// A material is none.
+    #[error("{file}: {gear}'s material: {source}")]
+    Material {
+        /// The scene.
+        file: String,
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: Box<fem::FemError>,
+    },
+    /// ISO 6336-1 does not hold for the pair.
+    #[error("{file}: model \"iso\": {source}")]
+    Iso {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<lumped::LumpedError>,
+    },
+    /// The solver found no answer, or refused the question.
+    #[error("{0}")]
+    Solver(Box<SolverFailure>),
+    /// A certificate does not hold.
+    #[error("{file}: the result does not hold: {missed}")]
+    Certificate {
+        /// The scene.
+        file: String,
+        /// The first check that is missed, and how many more.
+        missed: String,
+        /// What to do.
+        way_out: &'static str,
+    },
+    /// The caller's sink has ended the analysis.
+    #[error("{0}")]
+    Sink(Box<dyn std::error::Error + Send + Sync>),
+}
+
+/// What the solver says of a scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{at}: {source}")]
+pub struct SolverFailure {
+    /// Scene, with the line that is meant where one is.
+    pub at: String,
+    /// That line, with a mark below it.
+    pub excerpt: Option<String>,
+    /// What happened.
+    pub source: StaticError,
+}
+
+/// A mesh that disagrees with its gear.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshMismatch {
+    /// What is wrong, with the file.
+    pub said: String,
+    /// What to do.
+    pub hint: String,
+    /// The line of the scene that is meant, with a mark below it.
+    pub excerpt: Option<String>,
+}
+
+impl std::fmt::Display for MeshMismatch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.said)
+    }
+}
+
+/// Errors of reading name the file themselves, errors about what was read do not.
+fn with_place(place: &str, source: &MeshError) -> String {
+    let said = source.to_string();
+    if said.starts_with(place) { said } else { format!("{place}: {said}") }
+}
+
+impl AnalysisError {
+    /// Whether the input is fine and yet no result came out.
+    pub fn is_without_result(&self) -> bool {
+        match self {
+            Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) => true,
+            Self::Solver(failure) => {
+                matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
+            }
+            _ => false,
+        }
+    }
+
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Scene(e) => e.hint(),
+            Self::Mesh { source, .. } | Self::MadeMesh { source, .. } => source.hint(),
+            Self::Mesher { source, .. } => source.hint(),
+            Self::Mismatch(mismatch) => Some(mismatch.hint.clone()),
+            Self::Reduction { source, .. } => source.hint(),
+            Self::Material { source, .. } => source.hint(),
+            Self::Iso { source, .. } => source.hint(),
+            Self::Solver(failure) => failure.source.hint(),
+            Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
+            Self::Sink(_) => None,
+        }
+    }
+
+    /// The line of the scene that is meant, with a mark below it.
+    pub fn excerpt(&self) -> Option<&str> {
+        match self {
+            Self::Scene(e) => e.excerpt(),
+            Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
+            Self::Solver(failure) => failure.excerpt.as_deref(),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! What a user hears of the exact pair of a scene: warnings and derived geometry.
+
+use geometry::GearPair;
+
+use crate::facts::GeometryFacts;
+
+/// What a user should know of a pair that runs.
+pub fn warnings(pair: &GearPair) -> Vec<String> {
+    let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
+    let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
+    let told = undercut.map(|(whose, gear)| {
+        format!(
+            "the {whose} is undercut: its involute begins at diameter {:.3} mm and its roots are weak; a `profile_shift` of {:.3} or more (it is {}) \
+             or more teeth avoid that",
+            2.0 * gear.form_radius(),
+            (1e3 * gear.undercut_limit()).ceil() / 1e3,
+            gear.data().profile_shift
+        )
+    });
+    told.collect()
+}
+
+/// What the summary says of a pair.
+pub fn geometry_facts(pair: &GearPair) -> GeometryFacts {
+    GeometryFacts {
+        centre_distance_mm: pair.centre_distance(),
+        transverse_pressure_angle_deg: pair.pinion.transverse_pressure_angle().to_degrees(),
+        working_pressure_angle_deg: pair.working_pressure_angle().to_degrees(),
+        base_helix_angle_deg: pair.base_helix_angle().to_degrees(),
+        base_radius_mm: [pair.pinion.base_radius(), pair.wheel.base_radius()],
+        base_pitch_mm: pair.transverse_base_pitch(),
+        eps_alpha: pair.transverse_contact_ratio(),
+        eps_beta: pair.overlap_ratio(),
+        eps_gamma: pair.total_contact_ratio(),
+        mean_line_length_mm: pair.mean_contact_line_length(),
+        backlash_mm: pair.backlash(),
+    }
+}

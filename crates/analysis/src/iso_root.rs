@@ -1,0 +1,76 @@
+//! The nominal tooth root stress of ISO 6336-3 of a scene's pair, to stand beside what finite elements say.
+
+use geometry::{Gear, GearPair};
+use lumped::{
+    LumpedError,
+    iso::{IsoRoot, IsoRootPair},
+};
+use serde::Serialize;
+
+use scene::Scene;
+
+use crate::{facts::Facts, iso_model::base_force};
+
+/// Where the numbers come from; said wherever they are handed on.
+const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
+
+/// Nominal root stresses of pinion and wheel; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IsoRootStress {
+    /// Standard and what is left out.
+    pub method: &'static str,
+    /// Gear 1.
+    pub pinion: IsoGearRoot,
+    /// Gear 2.
+    pub wheel: IsoGearRoot,
+}
+
+/// Nominal root stress of one gear and what it is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct IsoGearRoot {
+    pub nominal_root_stress_mpa: f64,
+    pub form_factor: f64,
+    pub stress_correction_factor: f64,
+    pub helix_factor: f64,
+    pub rim_thickness_factor: f64,
+    pub deep_tooth_factor: f64,
+    pub root_chord_mm: f64,
+    pub bending_lever_mm: f64,
+    pub fillet_radius_mm: f64,
+    pub rim_over_tooth_height: f64,
+}
+
+/// Puts the nominal root stress among the facts of a run; what is returned says why there is none.
+pub fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<String> {
+    match root_stress(scene, pair) {
+        Ok(found) => {
+            facts.iso_root_stress = Some(found);
+            None
+        }
+        Err(e) => Some(format!("no nominal root stress after ISO 6336-3: {e}")),
+    }
+}
+
+/// As the standard has it, with the torque of the scene.
+fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedError> {
+    let ratios =
+        IsoRootPair { eps_alpha: pair.transverse_contact_ratio(), eps_beta: pair.overlap_ratio(), fine: false };
+    let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
+    let one = |gear: &Gear| -> Result<IsoGearRoot, LumpedError> {
+        let root = IsoRoot::new(gear, ratios)?;
+        Ok(IsoGearRoot {
+            nominal_root_stress_mpa: root.nominal_stress(tangential, pair.face_width(), gear.data().normal_module),
+            form_factor: root.y_form,
+            stress_correction_factor: root.y_stress,
+            helix_factor: root.y_helix,
+            rim_thickness_factor: root.y_rim,
+            deep_tooth_factor: root.y_deep_tooth,
+            root_chord_mm: root.root_chord,
+            bending_lever_mm: root.lever,
+            fillet_radius_mm: root.fillet_radius,
+            rim_over_tooth_height: root.rim_ratio,
+        })
+    };
+    Ok(IsoRootStress { method: METHOD, pinion: one(&pair.pinion)?, wheel: one(&pair.wheel)? })
+}

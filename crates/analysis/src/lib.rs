@@ -1,0 +1,52 @@
+//! What are the answers to a scene?
+//!
+//! A checked [`scene::Scene`], and meshes in memory if the caller has them, go in; typed results come out, row by row through a
+//! sink. Who waits hears of the phases through an [`Observer`]; reduced gears are kept in a [`GearCache`]. Nothing here reads a
+//! command line, writes a file or prints.
+//!
+//! ```
+//! use analysis::StaticAnalysis;
+//! use scene::Scene;
+//!
+//! let scene = Scene::builder()
+//!     .pinion(24, 15.0)
+//!     .wheel(31)
+//!     .normal_module_mm(3.0)
+//!     .face_width_mm(20.0)
+//!     .torque_nm(100.0)
+//!     .set("analysis.model", "iso")
+//!     .build()?;
+//! let result = StaticAnalysis::new(&scene).solve()?;
+//! assert_eq!(result.history.positions.len(), 32);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cache;
+pub mod certificate;
+mod coarse;
+pub mod elastic_gears;
+mod error;
+pub mod facts;
+mod foreseen;
+pub mod gears;
+pub mod iso_model;
+pub mod iso_root;
+pub mod meshes;
+mod observer;
+mod options;
+pub mod resolution;
+mod static_certificate;
+mod statics;
+mod warnings;
+
+pub use cache::{GearCache, NoCache};
+pub use error::{AnalysisError, MeshMismatch, SolverFailure};
+pub use foreseen::foreseen_s;
+pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};
+pub use options::options;
+pub use static_certificate::{static_certificate, worse};
+pub use statics::{
+    NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, solver_error,
+    time_again, wider_window,
+};
+pub use warnings::body_warnings;

@@ -1,0 +1,287 @@
+//! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
+
+use geometry::{Gear, GearPair, Side, Vec3};
+use mesh::{
+    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions,
+    SurfaceGroup, generate,
+};
+
+use scene::{GearScene, MesherScene, Reduction, Scene};
+
+use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts};
+
+/// The mesh of one gear of a scene.
+#[derive(Debug, Clone)]
+pub struct SceneMesh {
+    /// The mesh with bore and flanks.
+    pub gear: GearMesh,
+    /// What the summary says of it.
+    pub facts: MeshFacts,
+    /// What the user should know of it.
+    pub warnings: Vec<String>,
+}
+
+/// The meshes of pinion and wheel.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
+    let pinion = gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
+    let wheel = gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
+    Ok([pinion, wheel])
+}
+
+/// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
+///
+/// # Errors
+/// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh of
+/// another gear; when the built-in mesher cannot make the one asked for.
+pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
+    match &gear.mesh {
+        Some(path) => {
+            let file = scene.resolve(path);
+            let complain =
+                |source: MeshError| AnalysisError::Mesh { place: file.display().to_string(), source: Box::new(source) };
+            let content =
+                scene.content(path).map_err(|source| complain(MeshError::Read { path: file.clone(), source }))?;
+            let mesh = Mesh::parse(&content, &file).map_err(complain)?;
+            drop(content);
+            let names = [file.display().to_string(), path.display().to_string()];
+            checked_mesh(scene, whose, (gear, exact), mesh, names)
+        }
+        None => {
+            let mut options = options_of(gear);
+            if options.extent == Extent::Whole && sector_is_enough(scene) {
+                options.extent = Extent::Periodic;
+            }
+            let mesh = generated_with(scene, whose, exact, &options)?;
+            let failed =
+                |source: MeshError| AnalysisError::MadeMesh { gear: whose.to_owned(), source: Box::new(source) };
+            let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
+            let (gear, facts) = to_compute(scene, found, "built-in mesher".to_owned()).map_err(failed)?;
+            Ok(SceneMesh { gear, facts, warnings: Vec::new() })
+        }
+    }
+}
+
+/// A mesh that the caller brings, checked against its gear; `names` are those of its file in messages and in the summary.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub fn checked_mesh(
+    scene: &Scene,
+    whose: &str,
+    (gear, exact): (&GearScene, &Gear),
+    mesh: Mesh,
+    [file, source]: [String; 2],
+) -> Result<SceneMesh, AnalysisError> {
+    let complain = |source: MeshError| AnalysisError::Mesh { place: file.clone(), source: Box::new(source) };
+    of_this_size(&file, whose, &mesh, exact)?;
+    let mut warnings = sound(&file, &mesh, gear)?;
+    let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
+    if let Some(fit) = fit {
+        let turned = if fit.phase == 0.0 {
+            String::new()
+        } else {
+            format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
+        };
+        warnings.push(format!(
+            "{file}: no flank is named; {} flanks found by fit, nodes within {:.2} um{turned}",
+            fit.flanks.len(),
+            1e3 * fit.largest_deviation(),
+        ));
+    }
+    same_bore(scene, &file, whose, &found, exact)?;
+    on_the_flanks(&file, whose, &found, exact)?;
+    whole_flanks(&file, whose, &found, exact)?;
+    let (gear, facts) = to_compute(scene, found, source).map_err(complain)?;
+    Ok(SceneMesh { gear, facts, warnings })
+}
+
+/// The mesh that the built-in mesher makes of one gear.
+///
+/// # Errors
+/// [`AnalysisError`] when the gear cannot be meshed with these numbers of elements.
+pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<Mesh, AnalysisError> {
+    generated_with(scene, whose, exact, &options_of(gear))
+}
+
+fn options_of(gear: &GearScene) -> StructuredOptions {
+    gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m))
+}
+
+/// Whether one sector tells all: nobody asks for the mesh of the whole gear.
+fn sector_is_enough(scene: &Scene) -> bool {
+    scene.analysis.model.is_reduced() && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
+}
+
+fn generated_with(
+    scene: &Scene,
+    whose: &str,
+    exact: &Gear,
+    options: &StructuredOptions,
+) -> Result<Mesh, AnalysisError> {
+    generate(exact, options).map_err(|source| AnalysisError::Mesher {
+        file: scene.file.display().to_string(),
+        gear: whose.to_owned(),
+        source: Box::new(source),
+    })
+}
+
+fn options(m: &MesherScene) -> StructuredOptions {
+    StructuredOptions {
+        order: m.order,
+        elements_profile: m.elements_profile,
+        elements_fillet: m.elements_fillet,
+        elements_thickness: m.elements_thickness,
+        elements_face: m.elements_face,
+        elements_rim: m.elements_rim,
+        extent: match m.sector_teeth {
+            0 => Extent::Whole,
+            1 => Extent::Periodic,
+            k => Extent::Sector(k),
+        },
+    }
+}
+
+/// Refuses a mesh that is far larger or smaller than the gear: another unit, or another gear.
+fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), AnalysisError> {
+    let reach = mesh.nodes.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    let tip = exact.tip_radius();
+    if (0.5..2.0).contains(&(reach / tip)) {
+        return Ok(());
+    }
+    Err(mismatch(
+        format!(
+            "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
+        ),
+        match unit_of(reach / tip) {
+            Some((unit, factor)) => format!(
+                "the mesh is in {unit}: write it again in mm, {factor} times as large (Gmsh: `Mesh.ScalingFactor = {factor};`)"
+            ),
+            None => "coordinates must be in mm (not m or inch), the gear's axis on z".into(),
+        },
+    ))
+}
+
+fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
+    AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
+}
+
+/// The unit that a mesh is in by its size over the gear's, within a tenth; and mm in that unit.
+fn unit_of(size: f64) -> Option<(&'static str, f64)> {
+    const UNITS: [(&str, f64); 4] =
+        [("metres", 1000.0), ("inches", 25.4), ("centimetres", 10.0), ("micrometres", 1e-3)];
+    UNITS.into_iter().find(|(_, factor)| (0.9..1.1).contains(&(size * factor)))
+}
+
+/// Refuses a mesh with errors; hands on its warnings.
+fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, AnalysisError> {
+    let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
+    if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
+        let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
+        return Err(mismatch(format!("{file}: {}", error.text), hint));
+    }
+    let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
+    Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
+}
+
+/// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.
+const BORE_AGREES: f64 = 1e-3;
+
+/// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia where no mesh is needed.
+fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
+    let stated = exact.data().bore_diameter;
+    let [low, high] = found.mesh().radii(found.bore_nodes()).map(|r| 2.0 * r);
+    if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
+        return Ok(());
+    }
+    let place = scene.place_of(&[&format!("{whose}.bore_diameter_mm")]);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    let own = if high - low < BORE_AGREES * high { format!("{high:.3}") } else { format!("{low:.3} to {high:.3}") };
+    let message = format!("{at}: the {whose}'s `bore_diameter_mm` is {stated}, but the bore of {file} has {own} mm");
+    let hint = "leave `bore_diameter_mm` out: the mesh's own is taken";
+    let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
+    Err(AnalysisError::Mismatch(Box::new(MeshMismatch { said: message, hint: hint.into(), excerpt })))
+}
+
+/// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
+/// and the gaps of the one would be put on the compliance of the other.
+fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
+    let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
+    for tooth in found.teeth() {
+        for side in [Side::Left, Side::Right] {
+            let flank = exact.flank_of(side, i64::from(tooth));
+            let nodes = found.flank(tooth, side).unwrap_or_default().iter().flat_map(|face| face.nodes());
+            for &node in nodes {
+                let index = node as usize;
+                let point = Vec3::from(found.mesh().nodes[index]);
+                let off = flank.locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs());
+                if off > allowed {
+                    let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
+                    return Err(mismatch(
+                        format!(
+                            "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, \
+                             allowed is {allowed:.3} mm",
+                            found.mesh().node_tags[index],
+                            side.name()
+                        ),
+                        "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), \
+                         axis on z, tooth 0 on +x?",
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Share of a flank that its faces must cover: groups may begin at the active root circle or leave out chamfers.
+const COVERED: f64 = 0.75;
+
+/// Named flanks must be there as a whole: contact sees none where the mesh has no face to carry it.
+///
+/// ```text
+/// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
+/// ```
+/// Area of a flank from the root form circle to the tip, mm^2.
+fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
+    let profile = exact.profile();
+    let arc = 0.5 * exact.base_radius() * (profile.roll_tip().powi(2) - profile.roll_form().powi(2));
+    let whole = exact.face_width() * arc / exact.base_helix_angle().cos();
+    for (tooth, side) in found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]) {
+        let area: f64 = found.flank(tooth, side).unwrap_or_default().iter().map(|face| found.mesh().area(face)).sum();
+        if area < COVERED * whole {
+            let said = format!(
+                "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of {whole:.2} mm^2",
+                side.name(),
+                100.0 * area / whole
+            );
+            let hint =
+                "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
+            return Err(mismatch(said, hint));
+        }
+    }
+    Ok(())
+}
+
+/// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough, else it is
+/// repeated to the whole gear.
+fn to_compute(scene: &Scene, found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
+    let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };
+    if found.is_periodic_sector() {
+        source += &format!(", one sector, repeated {copies} times");
+    }
+    // What all copies make, joined at the cuts; an axis is in all of them.
+    let on_cuts = found.cuts().filter(|_| copies > 1).map(|cuts| cuts.map(SurfaceGroup::nodes)).unwrap_or_default();
+    let on_axis = on_cuts[0].iter().filter(|n| on_cuts[1].binary_search(n).is_ok()).count();
+    let mesh = found.mesh();
+    let facts = MeshFacts {
+        source,
+        nodes: copies * (mesh.nodes.len() - on_cuts[0].len()) + on_axis,
+        elements: copies * mesh.element_count(),
+        kinds: mesh.blocks.iter().map(|b| format!("{} {}", b.kind.name(), copies * b.len())).collect(),
+    };
+    let gear = if sector_is_enough(scene) { found } else { found.whole()? };
+    Ok((gear, facts))
+}

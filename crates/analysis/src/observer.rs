@@ -1,0 +1,63 @@
+//! Who hears what an analysis is doing.
+
+use std::sync::Arc;
+
+/// How much work a phase has, as far as that is known beforehand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PhaseWork {
+    /// Not known.
+    Unknown,
+    /// About so many seconds.
+    Seconds(f64),
+    /// So many steps, each told by [`Progress::tick`].
+    Steps(u64),
+}
+
+/// The progress of a running phase; threads share it.
+pub trait Progress: Send + Sync {
+    /// One more step is done.
+    fn tick(&self);
+
+    /// A word beside the bar.
+    fn say(&self, message: String);
+}
+
+/// Hears of the phases of an analysis, one after the other.
+pub trait Observer {
+    /// A phase begins.
+    fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress>;
+
+    /// The phase that began last is over.
+    fn end(&mut self);
+}
+
+/// Hears nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoObserver;
+
+impl Observer for NoObserver {
+    fn begin(&mut self, _: &str, _: PhaseWork) -> Arc<dyn Progress> {
+        Arc::new(Self)
+    }
+
+    fn end(&mut self) {}
+}
+
+impl Progress for NoObserver {
+    fn tick(&self) {}
+
+    fn say(&self, _: String) {}
+}
+
+/// Does the work of a phase between its beginning and its end.
+pub fn run_phase<T>(
+    observer: &mut dyn Observer,
+    phase: &str,
+    work: PhaseWork,
+    task: impl FnOnce(&dyn Progress) -> T,
+) -> T {
+    let progress = observer.begin(phase, work);
+    let done = task(&*progress);
+    observer.end();
+    done
+}

@@ -1,0 +1,49 @@
+//! Words of a scene in the units and terms of the solvers.
+
+use contact::{GapSource, Law, Misalignment, Offset};
+use geometry::GearPair;
+use ltca::StaticOptions;
+
+use scene::{Driver, Flanks, Gap, Method, Rotation, Scene};
+
+/// What a scene asks of the analysis.
+pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
+    let defaults = StaticOptions::new(scene.operation.torque(), pair);
+    let m = scene.pair.misalignment;
+    let misalignment = Misalignment {
+        deviation: 1e-3 * m.deviation_um,
+        inclination: 1e-3 * m.inclination_um,
+        in_plane_of_action: 1e-3 * m.in_plane_of_action_um,
+        across_plane_of_action: 1e-3 * m.across_plane_of_action_um,
+    };
+    StaticOptions {
+        window: scene.analysis.window_teeth.map(|w| w as usize),
+        root_stress: scene.output.root_stress,
+        ..defaults
+    }
+    .with_contact(|c| {
+        c.offsets = [Offset::default(), misalignment.wheel_offset(pair, scene.side())];
+        c.driver = match scene.operation.driver {
+            Driver::Pinion => geometry::Driver::Pinion,
+            Driver::Wheel => geometry::Driver::Wheel,
+        };
+        c.sense = match scene.operation.rotation {
+            Rotation::Ccw => geometry::Sense::Ccw,
+            Rotation::Cw => geometry::Sense::Cw,
+        };
+        c.method = match scene.contact.method {
+            Method::Slice => contact::Method::Slice,
+            Method::Nodal => contact::Method::Nodal,
+        };
+        c.slices = scene.contact.slices.map_or(c.slices, |n| n as usize);
+        c.corner_contact = scene.contact.corner_contact.unwrap_or(c.corner_contact);
+        c.friction = scene.contact.friction;
+        c.law = scene.contact.penalty_mpa_per_mm.map_or(Law::Exact, Law::Penalty);
+        c.gap = match scene.contact.gap {
+            Some(Gap::Facet) => GapSource::Facet,
+            Some(Gap::Smooth) | None => GapSource::Smooth,
+        };
+        c.points_per_face_edge = scene.contact.points_per_face_edge.map_or(c.points_per_face_edge, |n| n as usize);
+        c.both_flanks = scene.contact.flanks == Flanks::Both;
+    })
+}

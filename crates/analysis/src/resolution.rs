@@ -1,0 +1,106 @@
+//! How many slices and face elements a scene has: chosen where it says nothing, judged where it does.
+
+use contact::Method;
+use geometry::GearPair;
+use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
+use serde::Serialize;
+
+use scene::{Model, Scene, StiffnessFrom};
+
+use crate::options;
+
+/// Key of the number of slices.
+const SLICES: &str = "contact.slices";
+/// A stated count is remarked on from this many times on what a chosen one may be off by.
+const COARSE: f64 = 2.0;
+/// So is a stated number of face elements that is this many times smaller than the chosen one.
+const FEW: u32 = 3;
+
+/// How fine a pair's contact is made along the face, as the summary says it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Resolution {
+    /// Slices over the face width; `None` for pressed points.
+    pub slices: Option<usize>,
+    /// Whether the program chose them.
+    pub slices_chosen: bool,
+    /// Slices that the program would choose.
+    pub slices_that_would_do: Option<usize>,
+    /// What a row of springs over the same gaps loses with these slices, per cent: of its mean approach, of the peak to peak, of the largest line load.
+    pub slice_error_percent: Option<[f64; 3]>,
+    /// Elements along the face of pinion and wheel; `None` for a mesh that was read, and for rigid gears.
+    pub face_elements: [Option<u32>; 2],
+    /// Elements that the program would choose; `None` for rigid gears.
+    pub face_elements_that_would_do: [Option<u32>; 2],
+}
+
+/// Whether a model cuts contact into slices, or is fed by one that does.
+fn is_sliced(scene: &Scene) -> bool {
+    let model = scene.analysis.model;
+    let feeds = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
+    (model.is_reduced() || matches!(model, Model::Full | Model::Impact) || feeds) && scene.contact.slices.is_some()
+}
+
+/// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many.
+pub fn with_slices(mut scene: Scene) -> Scene {
+    if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
+        // A pair that cannot be made is complained about where it is made.
+        if let Ok(pair) = scene.gear_pair() {
+            scene.contact.slices = Some(slices_needed(&pair, &options(&scene, &pair)).count as u32);
+        }
+    }
+    scene
+}
+
+/// How fine the contact is of a pair that is computed with `options`, and what a user should hear of it.
+pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<String>) {
+    let sliced = options.contact.method == Method::Slice;
+    let slices_chosen = sliced && scene.place_of(&[SLICES]).is_none();
+    let needed = sliced.then(|| slices_needed(pair, options));
+    let errors = needed.map(|needed| {
+        if needed.count == options.contact.slices {
+            needed.errors
+        } else {
+            slice_errors(pair, options, options.contact.slices)
+        }
+    });
+    let elastic = scene.analysis.model != Model::Impact;
+    let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
+    let would_do = scene.gears().map(|gear| {
+        let order = gear.mesher.map_or(2, |m| m.order);
+        elastic.then(|| scene.face_elements(order))
+    });
+    let mut said = Vec::new();
+    if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen)
+        && options.contact.slices < needed.count
+        && errors.exceed(COARSE)
+    {
+        said.push(too_few_slices(options.contact.slices, needed.count, &errors));
+    }
+    for (i, whose) in ["pinion", "wheel"].into_iter().enumerate() {
+        if let (Some(few), Some(enough)) = (face_elements[i], would_do[i])
+            && FEW * few < enough
+        {
+            said.push(format!(
+                "{few} elements along the face of the {whose} are few for its width: {enough} would do (`elements_face` in [{whose}.mesher]; \
+                 left out, the program chooses)"
+            ));
+        }
+    }
+    let resolution = Resolution {
+        slices: sliced.then_some(options.contact.slices),
+        slices_chosen,
+        slices_that_would_do: needed.map(|n| n.count),
+        slice_error_percent: errors.map(|e| [e.mean, e.swing, e.peak].map(|x| 100.0 * x)),
+        face_elements,
+        face_elements_that_would_do: would_do,
+    };
+    (resolution, said)
+}
+
+fn too_few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> String {
+    let [mean, swing, peak] = [errors.mean, errors.swing, errors.peak].map(|x| 100.0 * x);
+    format!(
+        "{stated} slices are few for this pair: a row of springs over its gaps is off by {mean:.1} % in the mean, {swing:.0} % in the peak to \
+         peak and {peak:.0} % in the largest line load; {enough} would do (`slices` in [contact]; left out, the program chooses)"
+    )
+}

@@ -1,0 +1,30 @@
+//! What must hold of positions at rest.
+
+use ltca::StaticPosition;
+
+use crate::certificate::{Certificate, Check};
+
+/// Moment of the contact forces on the driven gear against the torque on it.
+const TORQUE: f64 = 1e-8;
+/// Gaps below zero, pulling forces, forces across gaps: over the largest approach and force.
+const COMPLEMENTARITY: f64 = 1e-6;
+/// Sum of the forces on both gears over the largest.
+const ACTION_REACTION: f64 = 1e-8;
+
+const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
+
+/// The worst of all positions: torque balance, complementarity, action and reaction.
+pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
+    let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
+    let check = |name, value, bound| Check { name, value, bound, way_out: WAY_OUT };
+    Certificate::new([
+        check("torque_residual", worst(|p| p.certificate.torque_residual), TORQUE),
+        check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),
+        check("action_reaction_residual", worst(|p| p.certificate.action_reaction_residual), ACTION_REACTION),
+    ])
+}
+
+/// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.
+pub fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a >= b { a } else { b }
+}

@@ -1,0 +1,332 @@
+//! The loaded pair of a scene at rest, through its mesh cycles.
+
+use std::ops::ControlFlow;
+
+use ale::solve_widening;
+use geometry::GearPair;
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
+use mesh::Mesh;
+use reduction::{ElasticGear, GearReducer};
+use scene::{Analysis, Model, Scene};
+
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork,
+    elastic_gears::{ElasticGears, elastic_gears},
+    error::SolverFailure,
+    facts::Facts,
+    foreseen_s, gears, iso_model, iso_root,
+    meshes::{self, SceneMesh},
+    options::options,
+    resolution::resolution,
+    run_phase,
+    warnings::{body_warnings, deflection_warnings},
+};
+
+/// Gets the positions of a static analysis as they are solved.
+pub trait StaticSink {
+    /// The analysis begins, again where a wider window is needed: what came before does not count.
+    fn begin(&mut self);
+
+    /// A position, in order; the model is where it was found.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
+    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult;
+
+    /// All positions have come.
+    ///
+    /// # Errors
+    /// As [`StaticSink::position`].
+    fn finish(&mut self) -> SinkResult;
+}
+
+/// What a sink says.
+pub type SinkResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
+
+/// Takes nothing: the result holds all positions.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoSink;
+
+impl StaticSink for NoSink {
+    fn begin(&mut self) {}
+
+    fn position(&mut self, _: usize, _: &StaticPosition, _: &StaticModel) -> SinkResult {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> SinkResult {
+        Ok(())
+    }
+}
+
+/// The answer to a scene at rest.
+#[derive(Debug)]
+pub struct StaticResult {
+    /// The exact pair.
+    pub pair: GearPair,
+    /// Position by position, with warnings.
+    pub history: StaticHistory,
+    /// What it was made of.
+    pub facts: Facts,
+    /// The model with its reduced gears, for more of the same; `None` for a model without meshes.
+    pub model: Option<StaticModel>,
+}
+
+/// A scene to be solved at rest.
+#[derive(Clone, Copy)]
+pub struct StaticAnalysis<'a> {
+    scene: &'a Scene,
+    meshes: Option<[&'a Mesh; 2]>,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for StaticAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("StaticAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+impl<'a> StaticAnalysis<'a> {
+    /// Of a scene, its meshes read or made as it says.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, meshes: None, cache: &NoCache }
+    }
+
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files are.
+    #[must_use]
+    pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
+        Self { meshes: Some(meshes), ..self }
+    }
+
+    /// With reduced gears from a cache.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Solves it, telling nobody.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve(&self) -> Result<StaticResult, AnalysisError> {
+        self.solve_into(&mut NoObserver, &mut NoSink)
+    }
+
+    /// Solves it; positions go into `sink` as they come.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve_into(
+        &self,
+        observer: &mut dyn Observer,
+        sink: &mut dyn StaticSink,
+    ) -> Result<StaticResult, AnalysisError> {
+        let Self { scene, cache, .. } = *self;
+        let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
+        if scene.analysis.model == Model::Iso {
+            let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
+            let (mut history, facts) = solved?;
+            history.warnings.extend(gears::warnings(&pair));
+            return Ok(StaticResult { pair, history, facts, model: None });
+        }
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| self.meshes_of(&pair))?;
+        let mut warnings = gears::warnings(&pair);
+        warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
+        let options = options(scene, &pair);
+        let (resolution, said) = resolution(scene, &pair, &options);
+        warnings.extend(said);
+        let inputs = Inputs { scene, cache, pair: &pair, meshes: &meshes };
+        let with = |window| StaticOptions { window, ..options.clone() };
+        let solved = solve_widening(
+            options.window,
+            |window| attempt(inputs, observer, sink, &with(window)),
+            |window, failure| {
+                let Failure::Static(e) = failure else { return None };
+                let teeth = wider_window(scene, &pair, &meshes, &with(window), e)?;
+                warnings.push(format!("{e}; the window was widened to {teeth} teeth"));
+                Some(teeth)
+            },
+        );
+        let (model, mut history) = solved.map_err(|failure| match failure {
+            Failure::Static(e) => solver_error(scene, e),
+            Failure::Analysis(e) => *e,
+        })?;
+        let mut facts = facts_of(&model, &meshes);
+        facts.resolution = Some(resolution);
+        if scene.output.root_stress {
+            warnings.extend(iso_root::add(&mut facts, scene, &pair));
+        }
+        warnings.extend(body_warnings(&model));
+        warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm));
+        history.warnings.extend(warnings);
+        Ok(StaticResult { pair, history, facts, model: Some(model) })
+    }
+
+    fn meshes_of(&self, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
+        let scene = self.scene;
+        let Some([pinion, wheel]) = self.meshes else { return meshes::pair_meshes(scene, pair) };
+        let one = |whose: &str, gear, exact, mesh: &Mesh| {
+            let name = format!("the {whose}'s mesh in memory");
+            meshes::checked_mesh(scene, whose, (gear, exact), mesh.clone(), [name.clone(), name])
+        };
+        Ok([one("pinion", &scene.pinion, &pair.pinion, pinion)?, one("wheel", &scene.wheel, &pair.wheel, wheel)?])
+    }
+}
+
+/// What the summary says of a solved model.
+fn facts_of(model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
+    let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
+    let mut facts = Facts {
+        geometry: gears::geometry_facts(model.pair()),
+        meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
+        dof_before,
+        dof_after: dof_after(model, dof_before),
+        window_teeth: Some(model.window().count() as u32),
+        contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
+        ..Facts::default()
+    };
+    let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
+    facts.model.insert("cyclic_gears".into(), cyclic.into());
+    let stored = model.gears().iter().filter(|g| reduced(g).is_some_and(GearReducer::is_from_record)).count();
+    facts.model.insert("gears_from_cache".into(), stored.into());
+    facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
+    facts
+}
+
+/// Wall time (s) of the scene's positions once more on gears that are reduced already.
+///
+/// # Errors
+/// [`AnalysisError::Solver`].
+pub fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisError> {
+    let start = std::time::Instant::now();
+    let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
+    let run = model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ());
+    run.map_err(|e| solver_error(scene, e))?;
+    Ok(start.elapsed().as_secs_f64())
+}
+
+/// Why an attempt with one width of the window failed.
+enum Failure {
+    /// The solver's own error, which another width may cure.
+    Static(StaticError),
+    /// Anything else.
+    Analysis(Box<AnalysisError>),
+}
+
+impl From<AnalysisError> for Failure {
+    fn from(e: AnalysisError) -> Self {
+        Self::Analysis(Box::new(e))
+    }
+}
+
+impl From<StaticError> for Failure {
+    fn from(e: StaticError) -> Self {
+        Self::Static(e)
+    }
+}
+
+/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the teeth.
+pub fn wider_window(
+    scene: &Scene,
+    pair: &GearPair,
+    meshes: &[SceneMesh; 2],
+    options: &StaticOptions,
+    error: &StaticError,
+) -> Option<usize> {
+    let teeth = options.window_teeth(pair) + 1;
+    let available = |m: &SceneMesh| {
+        if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
+    };
+    let room = meshes.iter().all(|m| teeth < available(m));
+    (error.is_starved() && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
+}
+
+/// What all attempts share.
+#[derive(Clone, Copy)]
+struct Inputs<'a> {
+    scene: &'a Scene,
+    cache: &'a dyn GearCache,
+    pair: &'a GearPair,
+    meshes: &'a [SceneMesh; 2],
+}
+
+/// Reduction and run with one width of the window.
+fn attempt(
+    inputs: Inputs<'_>,
+    observer: &mut dyn Observer,
+    sink: &mut dyn StaticSink,
+    options: &StaticOptions,
+) -> Result<(StaticModel, StaticHistory), Failure> {
+    let Inputs { scene, cache, pair, meshes } = inputs;
+    let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
+    let work = PhaseWork::Seconds(foreseen_s(scene, meshes));
+    let ElasticGears { gears, keys, mut warnings } =
+        run_phase(observer, name, work, |_| elastic_gears(scene, pair, options, meshes, cache))?;
+    let set_up = || StaticModel::new(pair.clone(), gears, options.clone());
+    let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
+    let per_cycle = scene.analysis.positions_per_cycle as usize;
+    let cycles = scene.analysis.cycles as usize;
+    sink.begin();
+    let mut history = run_phase(observer, "solve", PhaseWork::Steps((per_cycle * cycles) as u64), |progress| {
+        let mut refused = None;
+        let history = model.run_while(per_cycle, cycles, |index, position, model| {
+            progress.tick();
+            progress.say(format!("STE {:.3} um", 1e3 * position.transmission_error));
+            match sink.position(index, position, model) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(error) => {
+                    refused = Some(error);
+                    ControlFlow::Break(())
+                }
+            }
+        });
+        match refused {
+            Some(error) => Err(AnalysisError::Sink(error).into()),
+            None => history.map_err(Failure::Static),
+        }
+    })?;
+    sink.finish().map_err(AnalysisError::Sink)?;
+    if cache.is_on() {
+        // After the run, when every window and half tooth that it took is known.
+        warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
+    }
+    history.warnings.extend(warnings);
+    Ok((model, history))
+}
+
+/// The reducer of a gear; `None` for one with all its degrees of freedom.
+pub fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
+    match gear {
+        ElasticGear::Reduced(r) => Some(r),
+        ElasticGear::Full(_) => None,
+    }
+}
+
+/// Free degrees of freedom of a gear's mesh.
+pub fn free_dofs(gear: &ElasticGear) -> usize {
+    match gear {
+        ElasticGear::Reduced(r) => r.free_count(),
+        ElasticGear::Full(f) => f.dofs.free_count(),
+    }
+}
+
+/// Degrees of freedom that the analysis carries; `before` where nothing is reduced.
+pub fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
+    match model.contact_set().windows() {
+        Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
+        None => before,
+    }
+}
+
+/// The solver's error with the place in the scene that it is about.
+pub fn solver_error(scene: &Scene, source: StaticError) -> AnalysisError {
+    let keys: &[&str] = match &source {
+        StaticError::Overloaded { .. } => &["operation.torque_nm"],
+        error if error.is_starved() => &["analysis.window_teeth"],
+        _ => &[],
+    };
+    let place = scene.place_of(keys);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
+    AnalysisError::Solver(Box::new(SolverFailure { at, excerpt, source }))
+}

@@ -1,0 +1,88 @@
+//! What a user should hear of a solution.
+
+use ltca::{StaticModel, StaticPosition};
+use mesh::Extent;
+use reduction::GearReducer;
+
+use crate::{coarse::Coarse, reduced};
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+/// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth stiffen.
+pub fn body_warnings(model: &StaticModel) -> Vec<String> {
+    let gears = model.gears();
+    let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
+    let warn = |i: usize| sector_warning(model, &coarse, i).into_iter().chain(rim_warning(model, &coarse, i));
+    (0..2).flat_map(warn).collect()
+}
+
+/// A free-cut sector is softer than the gear it was cut from: by how much, two coarse models say.
+fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
+    let gear = model.gears()[i].gear();
+    let (meshed, teeth) = (gear.teeth().len(), gear.tooth_count());
+    let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
+    if cyclic || meshed >= teeth as usize {
+        return None;
+    }
+    let whole = coarse.solid();
+    let mut cut = whole;
+    cut[i].extent = Extent::Sector(meshed as u32);
+    let by = match coarse.ratio(whole, cut) {
+        Some(ratio) => format!(
+            " (coarse solid gears: the mean transmission error is {:.0} % larger with such a sector than with all teeth)",
+            100.0 * (ratio - 1.0)
+        ),
+        None => String::new(),
+    };
+    Some(format!(
+        "the {}'s mesh has {meshed} of {teeth} teeth and free cuts: it is softer than the whole gear{by}; use it for comparison only",
+        NAMES[i]
+    ))
+}
+
+/// Bore over reference diameter of the solid gear that a thin rim is held against: the default of scenes.
+const SOLID: f64 = 0.55;
+/// Bore over reference diameter below which the mean transmission error is within a tenth of the solid gear's, an eighth where it is narrow and helical (`docs/validation.md`, Thin rims): no model is made there.
+const THIN: f64 = 0.64;
+/// Change of the mean transmission error that is worth a word.
+const HELD: f64 = 0.1;
+
+/// A bore close to the teeth holds them: what the answer would be were the gear solid further in, two coarse models say.
+fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
+    let gear = [&model.pair().pinion, &model.pair().wheel][i];
+    let (bore, reference) = (gear.data().bore_diameter, 2.0 * gear.reference_radius());
+    if bore < THIN * reference {
+        return None;
+    }
+    let as_is = coarse.solid();
+    let mut solid = as_is;
+    solid[i].bore_diameter = SOLID * reference;
+    let softer = coarse.ratio(as_is, solid)? - 1.0;
+    (softer > HELD).then(|| {
+        format!(
+            "the {}'s bore of {bore:.2} mm is held rigidly and stiffens the teeth, with a rim of {:.2} tooth heights between: solid down to {:.2} mm, the mean \
+             transmission error would be {:.0} % larger (coarse solid gears), and a rim on a web is softer than that; mesh the body down to where it is held",
+            NAMES[i],
+            lumped::iso::rim_ratio(gear),
+            solid[i].bore_diameter,
+            100.0 * softer
+        )
+    })
+}
+
+/// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
+const LARGE_ERROR_MODULES: f64 = 0.05;
+
+/// What a solution says that a user should hear.
+pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64) -> Vec<String> {
+    let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
+    let mut said = Vec::new();
+    let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
+    if error > LARGE_ERROR_MODULES * module {
+        said.push(format!(
+            "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \
+             small deflections; is the torque in N m?"
+        ));
+    }
+    said
+}

@@ -1,0 +1,11 @@
+//! What gaps are measured between.
+
+/// What a gap is measured between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GapSource {
+    /// The smooth flanks.
+    #[default]
+    Smooth,
+    /// The finite-element faces as they are: shows the facet error h^2 / (8 rho); for study only.
+    Facet,
+}

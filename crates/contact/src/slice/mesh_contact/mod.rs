@@ -1,0 +1,366 @@
+//! Slice contact of two gears at given poses: forces and their tangent. Theory (38).
+
+mod compliance;
+mod near;
+mod pose_bin;
+mod pose_cache;
+mod pose_contact;
+mod search;
+mod work;
+
+use ale::ToothWindow;
+use faer::MatRef;
+use geometry::GearPair;
+use pose_bin::LINEAR_RANGE;
+use pose_cache::PoseCache;
+use pose_contact::{PoseContact, opening};
+use reduction::{ElasticGear, GearModes};
+use std::sync::Arc;
+
+use crate::{
+    Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
+    LocalState, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, Wrench, wrenches,
+};
+
+pub use near::EvaluationLevel;
+pub use work::ContactWork;
+
+/// Forces of the mesh on both gears at given poses, and their derivatives by the motion of the gears.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshForce {
+    /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
+    pub wrench: [Wrench; 2],
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
+    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    ///
+    /// ```text
+    /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
+    /// ```
+    /// Exact while the contact points stay where they are on the flanks; their motion along the flanks changes it by
+    /// about a thousandth of its largest entries. Symmetric and negative semi-definite without friction.
+    pub tangent: [[f64; 12]; 12],
+    /// Normal force of each pair of the window, N, in order of running numbers.
+    pub pair_forces: Vec<f64>,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
+    pub residual: f64,
+}
+
+/// The slice contact of a window: search, compliance and solution. Memory is allocated once and used again.
+///
+/// Poses are those of the frames of the window's matrices (`ltca::Equilibrium::poses`). The search starts from the last
+/// contact points and the solution from the last forces; neither changes the result by more than round-off.
+#[derive(Debug)]
+pub struct MeshContact {
+    set: ContactSet,
+    friction: Option<Friction>,
+    /// Tip radius of the larger gear, mm.
+    radius: f64,
+    pairs: Vec<(usize, usize)>,
+    hints: Vec<SliceHint>,
+    /// Pose of body 1 at the last search.
+    last_pose: Option<Pose>,
+    /// Force of each station of each pair at the last solution, N.
+    last_forces: Vec<f64>,
+    nearest: Vec<(usize, SlicePoint)>,
+    /// Contact at the current poses, and in the pose bins visited before.
+    contact: PoseContact,
+    cache: PoseCache,
+    gaps: Vec<f64>,
+    levers: Vec<f64>,
+    torque_levers: Vec<f64>,
+    /// Positions of the rows in the compliance table of a gear: for gap openings, and for loads where friction turns
+    /// these away from the normal.
+    openings: Vec<TablePoint>,
+    loads: Vec<TablePoint>,
+    work: [TableWork; 2],
+    solver: DenseSolver,
+    force: MeshForce,
+    /// Normal modes that are coordinates of their own, and their shapes on the flanks of the window.
+    modes: Option<[Arc<GearModes>; 2]>,
+    modal: Option<ModalFlanks>,
+}
+
+impl MeshContact {
+    /// The contact of a window of slices on reduced gears.
+    ///
+    /// # Errors
+    /// [`ContactError::NotSliced`] for points ([`crate::Method::Nodal`]) or gears with all their degrees of freedom.
+    pub fn new(pair: &GearPair, set: ContactSet, options: &ContactOptions) -> Result<Self, ContactError> {
+        let (Some(slices), Some(_)) = (set.slices(), set.windows()) else {
+            return Err(ContactError::NotSliced);
+        };
+        let pairs = set.pairs();
+        let most = pairs.len() * slices.stations().len();
+        let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
+        let friction = Friction::new(pair, options);
+        let force = MeshForce {
+            wrench: Default::default(),
+            tangent: [[0.0; 12]; 12],
+            pair_forces: vec![0.0; pairs.len()],
+            iterations: 0,
+            residual: 0.0,
+        };
+        let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
+        Ok(Self {
+            friction,
+            radius,
+            hints: vec![SliceHint::default(); most],
+            last_pose: None,
+            last_forces: vec![0.0; most],
+            nearest: Vec::with_capacity(most),
+            contact: PoseContact::with_capacity(most),
+            cache: PoseCache::default(),
+            gaps: Vec::with_capacity(most),
+            levers: Vec::with_capacity(most),
+            torque_levers: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            loads: Vec::with_capacity(if friction.is_some() { most } else { 0 }),
+            work,
+            solver: DenseSolver::new(most),
+            force,
+            modes: None,
+            modal: None,
+            pairs,
+            set,
+        })
+    }
+
+    /// Flanks and matrices of the window.
+    pub fn contact_set(&self) -> &ContactSet {
+        &self.set
+    }
+
+    /// Enters another window. Where `set`, that of any window of these gears, serves it, flanks and matrices are
+    /// renumbered; otherwise they are set up anew. Forces of the last solution are forgotten, because they belong to
+    /// other pairs. Kept modes are evaluated on the new flanks.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the window cannot be set up.
+    pub fn enter_window(
+        &mut self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        mut set: ContactSet,
+        options: &ContactOptions,
+    ) -> Result<(), ContactError> {
+        if set.move_to(gears, window)? {
+            self.enter(set);
+        } else {
+            let modes = self.modes.take();
+            *self = Self::new(pair, ContactSet::new(pair, gears, window, options)?, options)?;
+            self.modes = modes;
+        }
+        self.enter_modes(gears)
+    }
+
+    /// Forgets forces and contact points of the last solution.
+    pub fn forget_places(&mut self) {
+        self.enter(self.set.clone());
+    }
+
+    /// Enters another window with the same flanks.
+    fn enter(&mut self, set: ContactSet) {
+        self.last_forces.fill(0.0);
+        self.hints.fill(SliceHint::default());
+        self.last_pose = None;
+        if self.set.shares_flanks(&set) {
+            self.start_anew();
+        } else {
+            self.clear_cache();
+        }
+        if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
+            self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
+        }
+        self.set = set;
+    }
+
+    /// Takes the normal modes of both gears out of the compliance. They then deform the gears by the amplitudes that
+    /// are set.
+    ///
+    /// # Errors
+    /// [`ContactError`] for modes of other gears.
+    pub fn keep_modes(&mut self, gears: &[ElasticGear; 2], modes: [Arc<GearModes>; 2]) -> Result<(), ContactError> {
+        self.modes = Some(modes);
+        self.enter_modes(gears)
+    }
+
+    /// The kept modes.
+    pub fn modes(&self) -> Option<&[Arc<GearModes>; 2]> {
+        self.modes.as_ref()
+    }
+
+    /// Evaluates the modes on the flanks of the current window: each tooth has its own part of a mode.
+    fn enter_modes(&mut self, gears: &[ElasticGear; 2]) -> Result<(), ContactError> {
+        let Some([a, b]) = &self.modes else { return Ok(()) };
+        let modal = ModalFlanks::new(gears, [a, b], &self.set)?;
+        self.clear_cache();
+        self.modal = Some(modal);
+        Ok(())
+    }
+
+    /// Sets the amplitudes of the modes, of pinion and wheel in turn.
+    pub fn deform(&mut self, amplitudes: &[f64]) {
+        if let Some(modal) = &mut self.modal {
+            modal.deform(amplitudes);
+        }
+    }
+
+    /// The kept modes on the flanks, and the forces on them at the last evaluation.
+    pub fn modal(&self) -> Option<&ModalFlanks> {
+        self.modal.as_ref()
+    }
+
+    /// Forgets the forces of the last solution.
+    pub fn forget(&mut self) {
+        self.last_forces.fill(0.0);
+    }
+
+    /// Forces with the gears' frames at `poses`.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate(&mut self, poses: &[Pose; 2]) -> Result<&MeshForce, ContactError> {
+        self.prepare(poses, None);
+        self.solve(Balance::Held, 0)?;
+        self.sum_forces();
+        if let Some(modal) = &mut self.modal {
+            modal.sum_forces(&self.contact.modal, &self.solver);
+        }
+        self.find_tangent();
+        Ok(&self.force)
+    }
+
+    /// Resultants of the current solution.
+    fn sum_forces(&mut self) {
+        let Self { force, contact: PoseContact { rows, at, .. }, solver, set, .. } = self;
+        force.wrench = wrenches(&at.unwrap_or([Pose::identity(); 2]), rows, solver.forces());
+        force.pair_forces.fill(0.0);
+        for (row, f) in rows.iter().zip(solver.forces()) {
+            force.pair_forces[set.pair_of(row.patches.0)] += f;
+        }
+        (force.iterations, force.residual) = (solver.iterations(), solver.residual());
+    }
+
+    /// Tangent from the current factor, and with it the forces on the modes.
+    fn find_tangent(&mut self) {
+        let Self { force, contact: PoseContact { rows, at, modal: modal_rows, .. }, solver, modal, .. } = self;
+        let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
+        let rigid = |i: usize| {
+            let row = &rows[i];
+            [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
+        };
+        match modal {
+            None => force.tangent = solver.tangent(rigid),
+            Some(modal) => {
+                modal.find_tangent(modal_rows, solver, rigid);
+                let (all, n) = (&modal.forces().tangent, 12 + modal.count());
+                force.tangent = std::array::from_fn(|i| std::array::from_fn(|j| all[i * n + j]));
+            }
+        }
+    }
+
+    /// Elastic energy of both gears and the contact at the last evaluation, N mm.
+    ///
+    /// ```text
+    /// V = -g F - U*(F),   U* = F' S F / 2 + sum of int_0^F delta dF
+    /// ```
+    /// This dual functional is stationary at the solution: its error is of second order in that of the forces.
+    pub fn strain_energy(&self) -> f64 {
+        let Self { contact: PoseContact { slices, laws, .. }, gaps, solver, .. } = self;
+        let of_row = |&i: &usize| {
+            let (force, length) = (solver.forces()[i], slices[i].length);
+            length * laws[i].curved_energy(force / length) - force * (gaps[i] + 0.5 * solver.openings()[i])
+        };
+        solver.active().iter().map(of_row).sum()
+    }
+
+    /// Forces of the last evaluation.
+    pub fn force(&self) -> &MeshForce {
+        &self.force
+    }
+
+    /// Adds what the modes open to the gaps of the rows.
+    fn add_modal_openings(&mut self) {
+        let Self { contact: PoseContact { rows, modal: modal_rows, .. }, modal, gaps, .. } = self;
+        if let Some(modal) = modal {
+            rows.iter_mut().enumerate().for_each(|(i, row)| row.gap += modal.shift(modal_rows, i));
+        }
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
+    }
+
+    /// Gap opening of a row by the kept modes, mm; it is part of the row's gap.
+    pub fn modal_opening(&self, row: usize) -> f64 {
+        self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.contact.modal, row))
+    }
+
+    /// Solves the contact of the rows. With a moment to balance, gear `body` turns.
+    pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
+        let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
+        levers.clear();
+        torque_levers.clear();
+        levers.extend(contact.rows.iter().map(|r| r.levers[body]));
+        torque_levers.extend(contact.rows.iter().map(|r| r.torque_levers[body]));
+        let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
+        let keys = &contact.keys;
+        solver.solve(&problem, local(contact), |i| last_forces[keys[i]])?;
+        last_forces.fill(0.0);
+        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| last_forces[key] = f);
+        Ok(())
+    }
+
+    /// Rows of the last solution, in order of pair and height.
+    pub fn rows(&self) -> &[ContactRow] {
+        &self.contact.rows
+    }
+
+    /// The rows with their nodes and weights, at the poses of the last evaluation.
+    pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
+        let Self { set, pairs, hints, contact: PoseContact { keys, rows, slices, .. }, .. } = self;
+        let mut rows = rows.clone();
+        let Some(slice_set) = set.slices() else { return rows };
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        for ((row, slice), &key) in
+            rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
+        {
+            let numbers = pairs[key / slice_set.stations().len()];
+            FlankPair::new(slice_set.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
+        }
+        rows
+    }
+
+    /// Slices of the rows.
+    pub fn slices(&self) -> &[Slice] {
+        &self.contact.slices
+    }
+
+    /// Forces, openings and active rows of the last solution.
+    pub fn solver(&self) -> &DenseSolver {
+        &self.solver
+    }
+}
+
+/// The contact problem of the rows, with these gaps.
+fn problem<'a>(
+    contact: &'a PoseContact,
+    gaps: &'a [f64],
+    [levers, torque_levers]: [&'a [f64]; 2],
+    symmetric: bool,
+    balance: Balance,
+) -> DenseProblem<'a> {
+    let n = contact.rows.len();
+    let compliance = MatRef::from_column_major_slice(&contact.compliance[..], n, n);
+    DenseProblem { compliance, symmetric, gaps, levers, torque_levers, balance }
+}
+
+/// Approach (mm) and its slope (mm/N) of each row under its force.
+fn local(contact: &PoseContact) -> impl Fn(usize, f64) -> (f64, f64) + '_ {
+    move |i, force| {
+        let length = contact.slices[i].length;
+        let LocalState { approach, slope, .. } = contact.laws[i].under(force / length);
+        (approach, slope / length)
+    }
+}

@@ -1,0 +1,110 @@
+//! Contact rows at given poses, and their linearisation there.
+
+use super::pose_bin::{LINEAR_RANGE, PoseBin};
+use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows};
+
+/// Rows and their compliance at some poses.
+#[derive(Debug, Default)]
+pub(super) struct PoseContact {
+    /// The poses, once there are rows of them.
+    pub at: Option<[Pose; 2]>,
+    /// The bin whose centre the poses are; none for poses that were given.
+    pub bin: Option<PoseBin>,
+    /// Station of each row, counted over all pairs.
+    pub keys: Vec<usize>,
+    pub rows: Vec<ContactRow>,
+    pub slices: Vec<Slice>,
+    pub laws: Vec<LocalLaw>,
+    /// Gaps at these poses, mm. The gaps in `rows` follow small motions from there.
+    pub gaps: Vec<f64>,
+    /// Gap opening of each row per displacement and small turn of both gears.
+    pub openings: Vec<[f64; 12]>,
+    pub compliance: Vec<f64>,
+    /// How modes open the rows.
+    pub modal: ModalRows,
+    /// Solution at the centre of the bin.
+    pub saved: SavedSolution,
+    /// Least gap of the neighbouring pairs outside the window, mm, once it was computed.
+    pub neighbour_gap: Option<f64>,
+    /// Tangent, once it was computed.
+    pub tangent: Option<Box<Tangent>>,
+}
+
+/// df/dq of the rigid coordinates; and of rigid coordinates and modes together, row by row, empty without modes.
+#[derive(Debug)]
+pub(super) struct Tangent {
+    pub rigid: [[f64; 12]; 12],
+    pub all: Vec<f64>,
+}
+
+impl PoseContact {
+    pub fn with_capacity(most: usize) -> Self {
+        Self {
+            keys: Vec::with_capacity(most),
+            rows: Vec::with_capacity(most),
+            slices: Vec::with_capacity(most),
+            laws: Vec::with_capacity(most),
+            gaps: Vec::with_capacity(most),
+            openings: Vec::with_capacity(most),
+            compliance: Vec::with_capacity(most * most),
+            ..Self::default()
+        }
+    }
+
+    /// Displacements (mm) and small turns (rad) of both gears from here to `poses`. `None` where the motion is beyond
+    /// the linear range, or where modes open gaps by more than was allowed for.
+    pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
+        let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
+        let mut motion = [0.0; 12];
+        for g in 0..2 {
+            let moved = poses[g].translation.vector - at[g].translation.vector;
+            // Twice the vector part of the quaternion: its error is of third order in the turn.
+            let turned = 2.0 * (poses[g].rotation * at[g].rotation.inverse()).into_inner();
+            let turned = turned.w.signum() * turned.imag();
+            motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
+            motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
+            let way = moved.norm() + radius * turned.norm();
+            if way > LINEAR_RANGE || way.is_nan() {
+                return None;
+            }
+        }
+        Some(motion)
+    }
+
+    /// Takes gaps and their derivatives by the motion of both gears from the rows. Called once the rows are complete.
+    pub fn update_openings(&mut self) {
+        let Self { at, rows, gaps, openings, tangent, neighbour_gap, .. } = self;
+        let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
+        openings.clear();
+        openings.extend(rows.iter().map(|row| opening(row, &row.normal, &centres)));
+        (*tangent, *neighbour_gap) = (None, None);
+    }
+
+    /// Size, bytes.
+    pub fn bytes(&self) -> usize {
+        let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<LocalLaw>() + size_of::<[f64; 12]>();
+        self.rows.len() * of_row + self.compliance.len() * size_of::<f64>() + self.saved.bytes()
+    }
+
+    /// Gaps after a small motion from here.
+    pub fn follow(&mut self, motion: &[f64; 12]) {
+        for ((row, gap), opening) in self.rows.iter_mut().zip(&self.gaps).zip(&self.openings) {
+            row.gap = gap + opening.iter().zip(motion).map(|(j, d)| j * d).sum::<f64>();
+        }
+    }
+}
+
+/// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about
+/// their `centres`. Along the normal it is the derivative of the gap.
+pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+    let mut j = [0.0; 12];
+    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+        let force = sign * direction;
+        let moment = (row.position - centres[body]).cross(&force);
+        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+    }
+    j
+}

@@ -1,0 +1,12 @@
+//! Displacements of a pair with elastic gears.
+
+use nalgebra::DVector;
+
+use crate::Displacement;
+
+/// Displacement or velocity of a pair: rigid coordinates d of both gears, and amplitudes q of their normal modes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ElasticDisplacement {
+    pub d: Displacement,
+    pub q: DVector<f64>,
+}

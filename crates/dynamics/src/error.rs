@@ -1,0 +1,95 @@
+//! Why the motion of a pair could not go on, or could not begin.
+
+use integrate::MotionError;
+use ltca::StaticError;
+
+/// The motion of a pair could not go on, or what was asked of it has no meaning.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PairMotionError {
+    /// The integrator stopped: for a reason of its own, or because contact could not be solved.
+    #[error(transparent)]
+    Integration(#[from] MotionError<StaticError>),
+    /// There is no equilibrium to begin with.
+    #[error(
+        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
+    )]
+    NoStart {
+        /// Time, s.
+        time: f64,
+        /// Last change, relative.
+        change: f64,
+    },
+    /// A checkpoint of a pair with another number of coordinates.
+    #[error(
+        "the checkpoint belongs to a motion with other free coordinates: it has {checkpoint}, this motion has {motion}"
+    )]
+    OtherCoordinates {
+        /// Coordinates of the checkpoint.
+        checkpoint: usize,
+        /// Coordinates of the motion.
+        motion: usize,
+    },
+    /// The driver's speed falls to zero within a mesh cycle.
+    #[error("the gears stand still before mesh cycle {cycle} is over")]
+    StandsStill {
+        /// Mesh cycle, counted from the start of the motion.
+        cycle: u64,
+    },
+    /// Shooting with a driver whose speed is free.
+    #[error("a driver that a torque turns has no period of its own: shooting needs a given speed")]
+    FreeDriver,
+    /// Shooting from the middle of a motion, or over no period at all.
+    #[error(
+        "shooting begins at the start of a motion and takes a period of one mesh cycle or more: the motion stands at cycle {cycle}, the period is {period}"
+    )]
+    ShootingStart {
+        /// Mesh cycles that the motion has done.
+        cycle: u64,
+        /// Period asked for, mesh cycles.
+        period: u64,
+    },
+    /// Shooting with normal modes that do not go over into each other from tooth to tooth.
+    #[error(
+        "shooting with normal modes needs gears that are known by sectors, whose teeth are all alike, and whole pairs of modes of one frequency"
+    )]
+    ModesWithoutPeriod,
+    /// A sweep of a pair that a torque of its own drives.
+    #[error(
+        "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load"
+    )]
+    SweepByTorque,
+}
+
+impl PairMotionError {
+    /// Contact at time `time` (s) that could not be solved.
+    pub fn contact(time: f64, source: StaticError) -> Self {
+        Self::Integration(MotionError::Mechanism { time, source })
+    }
+
+    /// The error of the contact, where it is what stopped the motion.
+    pub fn contact_error(&self) -> Option<&StaticError> {
+        match self {
+            Self::Integration(MotionError::Mechanism { source, .. }) => Some(source),
+            _ => None,
+        }
+    }
+
+    /// What the user can do next.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Integration(source) => {
+                self.contact_error().and_then(StaticError::hint).unwrap_or_else(|| source.hint().into())
+            }
+            Self::NoStart { .. } => {
+                "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks".into()
+            }
+            Self::OtherCoordinates { .. } => "go on with the scene that the checkpoint was written for".into(),
+            Self::StandsStill { .. } => "ask for fewer mesh cycles, or let the speed end above zero".into(),
+            Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
+                "wait for the motion to settle instead of shooting for its periodic state".into()
+            }
+            Self::SweepByTorque => "give the driver a speed, or let its torque balance the load".into(),
+        }
+    }
+}
