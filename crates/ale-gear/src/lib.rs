@@ -9,7 +9,7 @@
 //! | `ladder` | cheaper models of the same pair, in time |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
-//! | [`output`] | `summary.json`, `history.csv`, `report.html`, ParaView files, the closing table |
+//! | [`output`] | `summary.json`, pages and the closing table, of this crate's types of results; the rest is in the crate `report` |
 //! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | what must hold of a result before its numbers count |
 //! | [`reduce`] | reduction of a scene's gears by itself |
