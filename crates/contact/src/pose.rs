@@ -1,5 +1,5 @@
-//! Where the gears stand: rigid offsets of their axes, and the wheel angle that transmission error counts from. Theory
-//! (30), (31).
+//! Where the gears stand: rigid offsets of their axes, and the wheel angle that transmission error counts from.
+//! Theory (30), (31).
 
 use ale::{Station, ToothWindow};
 use geometry::GearPair;

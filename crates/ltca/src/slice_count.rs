@@ -1,4 +1,5 @@
 //! Number of slices that a pair needs under its load, and the errors of the spring model with that number.
+//! Theory (21c).
 //!
 //! The count is chosen on a cheap model: a row of equal springs along every contact line, over the exact gaps of the
 //! flanks at some phases of a mesh cycle. When it is cut into slices, the model shows the same errors as the contact:

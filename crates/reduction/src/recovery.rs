@@ -94,6 +94,7 @@ impl GearReducer {
     }
 
     /// Coordinates of the window `to`, in its own frame, of the field that `u` describe in the window `from`.
+    /// Theory (15).
     ///
     /// ```text
     /// kept teeth:    u_B(to) = u_B(from)

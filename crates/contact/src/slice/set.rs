@@ -1,5 +1,5 @@
-//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance. Theory
-//! (19a), (19b).
+//! The slices of a window: stations, the half teeth behind them, and what these take away of the compliance.
+//! Theory (19a), (19b).
 
 use std::sync::Arc;
 
