@@ -115,7 +115,7 @@ fn meshes(pair: &GearPair, order: u32, counts: [u32; 5], extent: mesh::Extent) -
     })
 }
 
-/// The default pair at another helix angle [deg] on meshes of the built-in mesher, hex8;
+/// The default pair at another helix angle in degrees on meshes of the built-in mesher, hex8;
 /// `counts`: elements along the profile, the fillet, across the tooth, along the face, in the rim.
 pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
     let data = GearData { helix_angle: beta_deg.to_radians(), ..GearData::default() };

@@ -234,7 +234,7 @@ impl ModalFlanks {
         self.forces.tangent = tangent;
     }
 
-    /// Takes tangents that [`ModalFlanks::find_tangent`] once found.
+    /// Takes tangents that `ModalFlanks::find_tangent` once found.
     pub fn take_tangent(&mut self, tangent: &[f64]) {
         self.forces.tangent.clear();
         self.forces.tangent.extend_from_slice(tangent);

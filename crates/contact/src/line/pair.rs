@@ -22,7 +22,7 @@ const BIN_ELEMENTS: f64 = 1.5;
 /// Largest Hertzian pressure along the line of a pair, MPa, from the line load in axial bins.
 ///
 /// The forces of single points are not unique where points outnumber nodes, their sums on the nodes are: each node's
-/// force is spread over one element of face width about it, and bins of [`BIN_ELEMENTS`] elements take their share.
+/// force is spread over one element of face width about it, and bins of `BIN_ELEMENTS` elements take their share.
 pub fn line_pressure(
     pair: &GearPair,
     patch: &FlankPatch,

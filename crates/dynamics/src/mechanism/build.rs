@@ -57,7 +57,7 @@ impl PairMechanism {
     /// velocities change with the window.
     ///
     /// # Errors
-    /// [`StaticError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no
+    /// [`contact::ContactError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no
     /// number >= 0, and where the bodies' inertia is less than what the modes share of it: given for other gears than
     /// were meshed.
     pub fn with_modes(mut self, gears: [GearVibration; 2]) -> Result<Self, StaticError> {

@@ -30,7 +30,7 @@ impl MeshContact {
     /// a um away keep their contact points and their compliance; gaps follow the motion to first order.
     ///
     /// Forces are the exact derivative of the strain energy, the tangent is that of the forces at the centre of the
-    /// bin. The result depends only on the poses since the last [`MeshContact::start_anew`].
+    /// bin. The result depends only on the poses since the last `MeshContact::start_anew`.
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
