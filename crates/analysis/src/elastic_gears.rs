@@ -94,9 +94,9 @@ fn one(
 }
 
 fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {
-    let place = match scene.gears()[i].mesh {
-        Some(_) => mesh.facts.source.clone(),
-        None => format!("{}: built-in mesher", scene.file.display()),
+    let place = match scene.gears()[i].mesher {
+        None => mesh.facts.source.clone(),
+        Some(_) => format!("{}: built-in mesher", scene.file.display()),
     };
     AnalysisError::Reduction { place, gear: ["pinion", "wheel"][i], source: Box::new(source) }
 }

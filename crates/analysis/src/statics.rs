@@ -17,7 +17,7 @@ use crate::{
     foreseen_s, gears, iso_model, iso_root,
     meshes::{self, SceneMesh},
     options::options,
-    resolution::resolution,
+    resolution::{resolution, with_slices},
     run_phase,
     warnings::{body_warnings, deflection_warnings},
 };
@@ -121,7 +121,7 @@ impl<'a> StaticAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
-        let Self { scene, cache, .. } = *self;
+        let (scene, cache) = (&self.settled_scene(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
@@ -129,7 +129,7 @@ impl<'a> StaticAnalysis<'a> {
             history.warnings.extend(gears::warnings(&pair));
             return Ok(StaticResult { pair, history, facts, model: None });
         }
-        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| self.meshes_of(&pair))?;
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| self.meshes_of(scene, &pair))?;
         let mut warnings = gears::warnings(&pair);
         warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
         let options = options(scene, &pair);
@@ -162,8 +162,17 @@ impl<'a> StaticAnalysis<'a> {
         Ok(StaticResult { pair, history, facts, model: Some(model) })
     }
 
-    fn meshes_of(&self, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
-        let scene = self.scene;
+    /// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes in
+    /// memory.
+    fn settled_scene(&self) -> Scene {
+        let mut scene = with_slices(self.scene.clone());
+        if self.meshes.is_some() {
+            (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
+        }
+        scene
+    }
+
+    fn meshes_of(&self, scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
         let Some([pinion, wheel]) = self.meshes else { return meshes::pair_meshes(scene, pair) };
         let one = |whose: &str, gear, exact, mesh: &Mesh| {
             let name = format!("the {whose}'s mesh in memory");
@@ -329,4 +338,22 @@ pub fn solver_error(scene: &Scene, source: StaticError) -> AnalysisError {
     let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
     let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
     AnalysisError::Solver(Box::new(SolverFailure { at, excerpt, source }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene built in code gets the slices that its width asks for, as one from a file does; a stated number stays.
+    #[test]
+    fn slices_follow_the_width_of_a_scene_built_in_code() {
+        let wide = || {
+            let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0);
+            base.face_width_mm(120.0).torque_nm(300.0).set("pinion.modification.drive.lead_crowning_um", 30.0)
+        };
+        let slices = |scene: Scene| StaticAnalysis::new(&scene).settled_scene().contact.slices;
+        let chosen = slices(wide().build().unwrap());
+        assert!(chosen.is_some_and(|n| n > 32), "b/m_n = 40 with 30 um of crowning: {chosen:?} slices");
+        assert_eq!(slices(wide().set("contact.slices", 32).build().unwrap()), Some(32), "stated");
+    }
 }
