@@ -3,6 +3,7 @@
 use std::{fmt::Display, path::Path};
 
 use analysis::AnalysisError;
+use study::StudyError;
 
 use crate::scene::SceneError;
 
@@ -66,6 +67,13 @@ impl From<AnalysisError> for CommandError {
         let hint = error.hint();
         let told = if error.is_without_result() { Self::failed(&error, hint) } else { Self::input(&error, hint) };
         told.about(error.excerpt())
+    }
+}
+
+impl From<StudyError> for CommandError {
+    fn from(error: StudyError) -> Self {
+        let hint = error.hint();
+        Self::failed(&error, hint)
     }
 }
 

@@ -4,6 +4,8 @@ use ltca::StaticError;
 use mesh::MeshError;
 use scene::SceneError;
 
+use crate::motion::UnstableSteps;
+
 /// Why a scene has no answer.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -60,6 +62,17 @@ pub enum AnalysisError {
         /// What happened.
         source: Box<fem::FemError>,
     },
+    /// A gear as a rigid body has no mass or inertia.
+    #[error("{place}: {source}")]
+    Body {
+        /// The mesh.
+        place: String,
+        /// What happened.
+        source: Box<fem::FemError>,
+    },
+    /// Steps of given length are too long for an explicit method.
+    #[error("{0}")]
+    UnstableSteps(Box<UnstableSteps>),
     /// ISO 6336-1 does not hold for the pair.
     #[error("{file}: model \"iso\": {source}")]
     Iso {
@@ -125,7 +138,7 @@ impl AnalysisError {
     /// Whether the input is fine and yet no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) => true,
+            Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) | Self::UnstableSteps(_) => true,
             Self::Solver(failure) => {
                 matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
             }
@@ -141,7 +154,8 @@ impl AnalysisError {
             Self::Mesher { source, .. } => source.hint(),
             Self::Mismatch(mismatch) => Some(mismatch.hint.clone()),
             Self::Reduction { source, .. } => source.hint(),
-            Self::Material { source, .. } => source.hint(),
+            Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
+            Self::UnstableSteps(steps) => Some(steps.hint()),
             Self::Iso { source, .. } => source.hint(),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
@@ -155,6 +169,7 @@ impl AnalysisError {
             Self::Scene(e) => e.excerpt(),
             Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
             Self::Solver(failure) => failure.excerpt.as_deref(),
+            Self::UnstableSteps(steps) => steps.excerpt.as_deref(),
             _ => None,
         }
     }

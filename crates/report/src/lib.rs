@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`columns`] | files of rows: what each column is called, means and holds |
-//! | [`Columns`] | a file of rows read back |
+//! | [`read_columns`] | a file of rows read back |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
 //! | [`charts`] | curves, maps and diagrams as SVG with the points for a page's script |
 //! | [`page`] | pages that need nothing beside themselves |
@@ -11,7 +11,6 @@
 //! | [`contact_files`] | contact lines and contact pattern |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
-//! | [`results`] | numbers that are taken from a history before it is written |
 //! | [`ResultFiles`] | where files go |
 
 pub mod charts;
@@ -24,14 +23,13 @@ mod error;
 mod files;
 pub mod page;
 pub mod paraview;
-pub mod results;
 mod rows;
 pub mod view;
 
 pub use columnar::write_parquet;
 pub use error::ReportError;
 pub use files::ResultFiles;
-pub use rows::Columns;
+pub use rows::{columns_to_csv, parse_columns, read_columns};
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
 pub const SUMMARY_SCHEMA: u32 = 1;

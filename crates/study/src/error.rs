@@ -12,6 +12,12 @@ pub enum StudyError {
         /// Cycles they are said to span.
         cycles: usize,
     },
+    /// A column is asked for that the rows do not have.
+    #[error("the rows have no column `{name}`")]
+    NoColumn {
+        /// The name.
+        name: String,
+    },
     /// A sample is NaN or infinite.
     #[error("sample {index} is {value}, not a finite number")]
     NotFinite {
@@ -93,6 +99,7 @@ impl StudyError {
             Self::NotWholeCycles { .. } => {
                 Some("sample every cycle at the same number of evenly spaced positions".into())
             }
+            Self::NoColumn { .. } => Some("docs/outputs.md lists the columns of every kind of analysis".into()),
             Self::NotFinite { .. } => Some("look at that position of the history: it was not solved".into()),
             Self::NoGrid { .. } => Some("give a rising, finite range, at least one step and one station".into()),
             Self::NoPowerLaw { .. } => Some("measure at least two sizes".into()),

@@ -8,6 +8,7 @@
 mod bifurcation;
 pub mod calculix;
 mod campbell;
+mod columns;
 mod correlation;
 mod cycle;
 mod error;
@@ -23,6 +24,7 @@ mod work_precision;
 
 pub use bifurcation::{Bifurcation, Branch, sweep_both_ways};
 pub use campbell::{Campbell, Resonance, campbell};
+pub use columns::{Columns, extent, mean, peak_to_peak};
 pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;

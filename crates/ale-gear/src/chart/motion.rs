@@ -97,7 +97,7 @@ fn whole(scene: &Scene) -> Result<MotionPoint, CommandError> {
         let own = phases.rows().iter().filter(|p| matches!(p.name.as_str(), "settle" | "solve") == solve);
         own.filter(|p| !solve || p.name == "solve").map(|p| p.wall_s).sum()
     };
-    Ok(point(&rows, 1, wall(false), wall(true) / f64::from(CYCLES)))
+    point(&rows, 1, wall(false), wall(true) / f64::from(CYCLES))
 }
 
 fn words(scene: &Scene) -> Result<&crate::scene::MotionScene, CommandError> {
@@ -115,19 +115,19 @@ fn cheap(scene: &Scene, results: &ResultDirectory) -> Result<MotionPoint, Comman
     let offline_s = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let (rows, cycles) = ladder::steady_rows(&recipe, made, words)?;
-    Ok(point(&rows, coordinates, offline_s, start.elapsed().as_secs_f64() / cycles as f64))
+    point(&rows, coordinates, offline_s, start.elapsed().as_secs_f64() / cycles as f64)
 }
 
-fn point(rows: &Columns, coordinates: usize, offline_s: f64, cycle_s: f64) -> MotionPoint {
-    let dte = rows.get(DTE.name);
-    let mean_um = rows.mean(DTE.name);
+fn point(rows: &Columns, coordinates: usize, offline_s: f64, cycle_s: f64) -> Result<MotionPoint, CommandError> {
+    let dte = rows.series(DTE.name)?;
+    let mean_um = study::mean(dte);
     let squares: f64 = dte.iter().map(|x| (x - mean_um).powi(2)).sum();
-    MotionPoint {
+    Ok(MotionPoint {
         coordinates,
         offline_s,
         cycle_s,
         mean_um,
         rms_um: (squares / dte.len().max(1) as f64).sqrt(),
-        peak_to_peak_um: rows.peak_to_peak(DTE.name),
-    }
+        peak_to_peak_um: study::peak_to_peak(dte),
+    })
 }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use study::{Campbell, campbell as diagram};
 
 use super::{Model, Recipe, complaint};
-use report::Columns;
+use study::Columns;
 
 use crate::{error::CommandError, scene::Driver};
 
@@ -133,6 +133,6 @@ impl CampbellDiagram {
             let lines = self.diagram.orders.iter().map(|o| o * speed);
             rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
         }
-        rows.to_csv()
+        report::columns_to_csv(&rows)
     }
 }

@@ -1,7 +1,7 @@
 //! The few numbers that a run of a model of the ladder is made for.
 
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, mesh_harmonics};
+use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics};
 
 use report::columns::motion_history::{COAST_FORCE, DTE, LINE_LENGTH, NORMAL_FORCE, PINION_SPEED, WHEEL_SPEED};
 
@@ -88,12 +88,12 @@ pub(super) fn headline(
     rows: &Columns,
     known: &Known<'_>,
 ) -> Result<LadderHeadline, StudyError> {
-    let dte = rows.get(DTE.name);
+    let dte = rows.series(DTE.name)?;
     let of_dte = cycle_statistics(dte, course.judged as usize)?;
     let ste: Option<Vec<f64>> = known.static_errors.map(|all| all.iter().map(|e| 1e3 * e).collect());
     let of_ste = ste.map(|all| cycle_statistics(&all, 1)).transpose()?;
-    let there = |name: &str| (!rows.get(name).is_empty()).then(|| rows.mean(name));
-    let [min_force, max_force] = rows.extent(NORMAL_FORCE.name);
+    let there = |name: &str| rows.find(name).filter(|all| !all.is_empty());
+    let [min_force, max_force] = rows.extent(NORMAL_FORCE.name)?;
     let loaded = known.static_normal_force > 0.0;
     Ok(LadderHeadline {
         run: words.run,
@@ -112,20 +112,24 @@ pub(super) fn headline(
         dte_harmonics_um: mesh_harmonics(dte, course.judged as usize, ORDERS)?.iter().map(|h| h.amplitude).collect(),
         mean_ste_um: of_ste.as_ref().map(|s| s.mean),
         peak_to_peak_ste_um: of_ste.as_ref().map(|s| s.peak_to_peak),
-        mean_mesh_stiffness_n_per_um: there("mesh_stiffness_n_per_um"),
-        mean_contact_line_length_mm: there(LINE_LENGTH.name),
+        mean_mesh_stiffness_n_per_um: there("mesh_stiffness_n_per_um").map(mean),
+        mean_contact_line_length_mm: there(LINE_LENGTH.name).map(mean),
         static_normal_force_n: known.static_normal_force,
-        mean_normal_force_n: rows.mean(NORMAL_FORCE.name),
+        mean_normal_force_n: rows.mean(NORMAL_FORCE.name)?,
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         dynamic_factor: loaded.then(|| max_force / known.static_normal_force),
-        mean_wheel_force_n: ["wheel_force_x_n", "wheel_force_y_n", "wheel_force_z_n"].map(|n| rows.mean(n)),
-        mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm"),
-        mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm"),
-        max_coast_normal_force_n: there(COAST_FORCE.name).map(|_| rows.extent(COAST_FORCE.name)[1]),
-        least_slice_force_n: there("least_slice_force_n").map(|_| rows.extent("least_slice_force_n")[0]),
-        mean_wheel_speed_rpm: there(WHEEL_SPEED.name),
-        mean_pinion_speed_rpm: there(PINION_SPEED.name),
+        mean_wheel_force_n: [
+            rows.mean("wheel_force_x_n")?,
+            rows.mean("wheel_force_y_n")?,
+            rows.mean("wheel_force_z_n")?,
+        ],
+        mean_pinion_tilting_moment_nmm: rows.mean("pinion_moment_y_nmm")?,
+        mean_wheel_tilting_moment_nmm: rows.mean("wheel_moment_y_nmm")?,
+        max_coast_normal_force_n: there(COAST_FORCE.name).map(|all| extent(all)[1]),
+        least_slice_force_n: there("least_slice_force_n").map(|all| extent(all)[0]),
+        mean_wheel_speed_rpm: there(WHEEL_SPEED.name).map(mean),
+        mean_pinion_speed_rpm: there(PINION_SPEED.name).map(mean),
         ramp: None,
         certificate: LadderCertificate {
             ledger_residual_mj: course.ledger.residual(),
@@ -133,7 +137,7 @@ pub(super) fn headline(
             period_cycles: course.periodicity.map(|p| p.period),
             periodicity: course.periodicity.map(|p| p.residual),
             warm_up_cycles: course.warm_up,
-            rows_without_contact: rows.get(LINE_LENGTH.name).iter().filter(|l| **l == 0.0).count(),
+            rows_without_contact: rows.find(LINE_LENGTH.name).unwrap_or_default().iter().filter(|l| **l == 0.0).count(),
             steps: course.steps[0],
             refused_steps: course.steps[1],
         },

@@ -28,9 +28,12 @@ mod sweep;
 use std::f64::consts::TAU;
 
 use ::lumped::LumpedError;
-use study::Window;
+use study::{Columns, Window};
 
-use report::columns::motion_history::{COAST_FORCE, NORMAL_FORCE};
+use report::{
+    columns::motion_history::{COAST_FORCE, NORMAL_FORCE},
+    columns_to_csv,
+};
 
 use crate::{
     cache::Cache,
@@ -38,7 +41,7 @@ use crate::{
     error::CommandError,
     facts::{Cost, Facts, Resolution},
     gears,
-    motion::{self, Columns, ENERGY_FILE, HISTORY, Passage},
+    motion::{self, ENERGY_FILE, HISTORY, Passage},
     output::{
         LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
         write_summary,
@@ -173,9 +176,9 @@ impl Case<'_> {
         let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
             .map_err(no_statistics)?;
         for (name, text) in [
-            (HISTORY, course.history.to_csv()),
-            (ENERGY_FILE, course.energy.to_csv()),
-            (SECTION, course.section.to_csv()),
+            (HISTORY, columns_to_csv(&course.history)),
+            (ENERGY_FILE, columns_to_csv(&course.energy)),
+            (SECTION, columns_to_csv(&course.section)),
             ("spectrum.csv", motion::write_spectrum(&spectrum)),
         ] {
             results.write(name, text.as_bytes())?;
@@ -216,7 +219,7 @@ fn refuse_unstable(
     let limit = course::stable_step(model, words, frequencies[0]).map_err(|e| complaint(scene, &e))?;
     let Some(limit) = limit else { return Ok(()) };
     let steps = motion::Steps { step: course::step(words, frequencies), mesh_hz: frequencies[0], resonance_hz };
-    motion::refuse_unstable(scene, &limit, &steps)
+    Ok(motion::refuse_unstable(scene, &limit, &steps)?)
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls.
@@ -227,10 +230,10 @@ fn certificate(recipe: &Recipe, course: &Course) -> Certificate {
     let turned = TAU * (course.warm_up + course.cycles) as f64 / f64::from(driven);
     let through = recipe.scene.operation.torque().abs() * turned;
     let mut all = vec![motion::energy_check(ledger.residual(), through, ledger.relative_residual())];
-    if !rows.get("least_slice_force_n").is_empty() {
-        let [least, _] = rows.extent("least_slice_force_n");
-        let largest = rows.extent(NORMAL_FORCE.name)[1].max(rows.extent(COAST_FORCE.name)[1]);
-        all.push(motion::pulling_check(least, largest));
+    if let Some(least) = rows.find("least_slice_force_n").filter(|all| !all.is_empty()) {
+        let forces = [NORMAL_FORCE.name, COAST_FORCE.name].into_iter().filter_map(|name| rows.find(name));
+        let largest = forces.map(|all| study::extent(all)[1]).fold(f64::NEG_INFINITY, f64::max);
+        all.push(motion::pulling_check(study::extent(least)[0], largest));
     }
     Certificate::new(all)
 }

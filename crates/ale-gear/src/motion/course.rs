@@ -12,7 +12,7 @@ use super::{
     rows::Rows,
     store::{Checkpoints, Stored},
 };
-use report::results::GearPattern;
+use analysis::results::GearPattern;
 
 use crate::{
     error::CommandError,

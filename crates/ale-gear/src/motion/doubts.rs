@@ -3,12 +3,12 @@
 use dynamics::{Drive, PairMechanism, stable_step};
 
 use super::{
-    MotionHeadline, SweepHeadline,
+    MotionHeadline, Steps, SweepHeadline,
     course::failure,
     elasticity::mesh_range_hz,
     prepare::{self, Prepared},
     price::{Asked, Pace},
-    stable::{Steps, refuse_unstable},
+    refuse_unstable,
 };
 use crate::{
     run::Failure,

@@ -8,7 +8,6 @@ use serde::Serialize;
 use study::mesh_harmonics;
 
 use super::{
-    Columns,
     prepare::QuasiStatic,
     price::{Asked, Pace},
 };
@@ -16,7 +15,7 @@ use crate::{
     error::CommandError,
     phases::Phases,
     run,
-    scene::{Boundary, DriveBy, Driver, ModesScene, MotionScene, Scene},
+    scene::{Boundary, DriveBy, ModesScene, MotionScene, Scene},
 };
 
 /// How far mesh harmonics are from the gears' elastic frequencies; units are in the names, pinion first.
@@ -211,19 +210,17 @@ fn complaint(scene: &Scene, i: usize, error: &ReductionError) -> CommandError {
     }
 }
 
-/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of the rows as well.
-pub(super) fn mesh_range_hz(scene: &Scene, words: &MotionScene, rows: Option<&Columns>) -> [f64; 2] {
-    let (driver, column) = match scene.operation.driver {
-        Driver::Pinion => (scene.pinion.teeth, "pinion_speed_rpm"),
-        Driver::Wheel => (scene.wheel.teeth, "wheel_speed_rpm"),
-    };
+/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those that
+/// came of it as well, 1/min.
+pub(super) fn mesh_range_hz(scene: &Scene, words: &MotionScene, driver_rpm: Option<&[f64]>) -> [f64; 2] {
+    let teeth = scene.driver_teeth();
     let by_torque = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && !d.torque.is_none());
     let given = scene.operation.speed_rpm;
-    let rpm = match (words.ramp, &words.sweep, rows.filter(|_| by_torque)) {
+    let rpm = match (words.ramp, &words.sweep, driver_rpm.filter(|_| by_torque)) {
         (Some(ramp), ..) => [ramp.from_rpm.min(ramp.to_rpm), ramp.from_rpm.max(ramp.to_rpm)],
         (_, Some(sweep), _) => [sweep.from_rpm, sweep.to_rpm],
-        (.., Some(rows)) => rows.get(column).iter().fold([given; 2], |[l, h], n| [l.min(n.abs()), h.max(n.abs())]),
+        (.., Some(speeds)) => speeds.iter().fold([given; 2], |[l, h], n| [l.min(n.abs()), h.max(n.abs())]),
         _ => [given; 2],
     };
-    rpm.map(|n| n * f64::from(driver) / 60.0)
+    rpm.map(|n| n * f64::from(teeth) / 60.0)
 }

@@ -1,9 +1,9 @@
 //! Campbell diagram of a reduced pair: mesh orders through its frequencies.
 
 use serde::Serialize;
-use study::{Campbell, StudyError, campbell};
+use study::{Campbell, Columns, StudyError, campbell};
 
-use report::Columns;
+use report::columns_to_csv;
 
 use super::prepare::Prepared;
 
@@ -83,6 +83,6 @@ impl Frequencies {
             let lines = self.diagram.orders.iter().map(|o| o * speed);
             rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
         }
-        rows.to_csv()
+        columns_to_csv(&rows)
     }
 }

@@ -2,12 +2,9 @@
 
 use dynamics::Drive;
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, mesh_harmonics};
+use study::{Columns, StudyError, cycle_statistics, extent, mean, mesh_harmonics};
 
-use report::{
-    Columns,
-    columns::{At, Column, MotionRows},
-};
+use report::columns::{At, Column, MotionRows};
 
 use report::columns::motion_history::{
     BEARING_FORCE_X, BEARING_FORCE_Y, BEARING_FORCE_Z, COAST_FORCE, DTE, FORCE_X, FORCE_Y, FORCE_Z, LINE_LENGTH,
@@ -119,31 +116,35 @@ pub(super) fn headline(
     passage: Option<&Passage>,
 ) -> Result<MotionHeadline, StudyError> {
     let cycles = done.course.recorded;
-    let dte = rows.get(DTE.name);
+    let dte = rows.series(DTE.name)?;
     let of_dte = cycle_statistics(dte, cycles as usize)?;
     let ste: Vec<f64> = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e).collect();
     let of_ste = cycle_statistics(&ste, 1)?;
     let system = &prepared.system;
     let options = system.options();
     let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][1 - options.statics.driven()]);
+    let driver_rpm = rows.series([PINION_SPEED, WHEEL_SPEED][1 - options.statics.driven()].name)?;
     let speed_rpm = match &options.drive {
         Drive::Speed(_) | Drive::Balanced(_) if words.ramp.is_none() => scene.operation.speed_rpm,
-        _ => rows.mean([PINION_SPEED, WHEEL_SPEED][1 - options.statics.driven()].name).abs(),
+        _ => mean(driver_rpm).abs(),
     };
     let largest = |names: &[String]| {
-        let columns: Vec<&[f64]> = names.iter().map(|n| rows.get(n)).collect();
+        // Gears without free coordinates have no columns of bearings.
+        let columns: Vec<&[f64]> = names.iter().filter_map(|n| rows.find(n)).collect();
         (0..rows.len())
             .map(|i| columns.iter().map(|c| c.get(i).map_or(0.0, |x| x * x)).sum::<f64>().sqrt())
             .fold(0.0, f64::max)
     };
-    let [pinion, wheel] = [0, 1].map(|gear| move |column: Column<MotionRows>| column.name_at(At { gear, pair: 0 }));
+    let of = |gear: usize, column: Column<MotionRows>| rows.series(&column.name_at(At { gear, pair: 0 }));
+    let wheel_force = [of(1, FORCE_X)?, of(1, FORCE_Y)?, of(1, FORCE_Z)?];
+    let tilting = [of(0, MOMENT_Y)?, of(1, MOMENT_Y)?];
     let bearing = [0, 1].map(|gear| {
         largest(&[BEARING_FORCE_X, BEARING_FORCE_Y, BEARING_FORCE_Z].map(|c| c.name_at(At { gear, pair: 0 })))
     });
-    let [min_force, max_force] = rows.extent(NORMAL_FORCE.name);
-    let max_coast_force = rows.extent(COAST_FORCE.name)[1];
+    let [min_force, max_force] = rows.extent(NORMAL_FORCE.name)?;
+    let [_, max_coast_force] = rows.extent(COAST_FORCE.name)?;
     let static_force = prepared.quasi_static.normal_force;
-    let tension = root_tension(scene, rows);
+    let tension = root_tension(scene, rows)?;
     let ramp = passage.and_then(Passage::headline);
     let (peak_to_peak, harmonics): (f64, Vec<f64>) = match &ramp {
         Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
@@ -153,7 +154,7 @@ pub(super) fn headline(
         }
     };
     let vibration = Vibration {
-        mesh_hz: mesh_range_hz(scene, words, Some(rows)),
+        mesh_hz: mesh_range_hz(scene, words, Some(driver_rpm)),
         resonance: system.mesh_resonance(),
         peak_to_peak_um: peak_to_peak,
     };
@@ -175,23 +176,23 @@ pub(super) fn headline(
         mean_ste_um: of_ste.mean,
         peak_to_peak_ste_um: of_ste.peak_to_peak,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
-        mean_contact_line_length_mm: rows.mean(LINE_LENGTH.name),
-        mean_normal_force_n: rows.mean(NORMAL_FORCE.name),
+        mean_contact_line_length_mm: rows.mean(LINE_LENGTH.name)?,
+        mean_normal_force_n: rows.mean(NORMAL_FORCE.name)?,
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         mean_static_normal_force_n: static_force,
         dynamic_factor: max_force.max(max_coast_force) / static_force,
         max_coast_normal_force_n: max_coast_force,
-        mean_wheel_force_n: [FORCE_X, FORCE_Y, FORCE_Z].map(|c| rows.mean(&wheel(c))),
-        peak_to_peak_wheel_axial_force_n: rows.peak_to_peak(&wheel(FORCE_Z)),
-        mean_pinion_tilting_moment_nmm: rows.mean(&pinion(MOMENT_Y)),
-        peak_to_peak_pinion_tilting_moment_nmm: rows.peak_to_peak(&pinion(MOMENT_Y)),
-        mean_wheel_tilting_moment_nmm: rows.mean(&wheel(MOMENT_Y)),
+        mean_wheel_force_n: wheel_force.map(mean),
+        peak_to_peak_wheel_axial_force_n: study::peak_to_peak(wheel_force[2]),
+        mean_pinion_tilting_moment_nmm: mean(tilting[0]),
+        peak_to_peak_pinion_tilting_moment_nmm: study::peak_to_peak(tilting[0]),
+        mean_wheel_tilting_moment_nmm: mean(tilting[1]),
         max_bearing_force_n: bearing[0].max(bearing[1]),
-        max_pressure_mpa: rows.extent(MAX_PRESSURE.name)[1],
+        max_pressure_mpa: extent(rows.series(MAX_PRESSURE.name)?)[1],
         max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
         max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
-        max_pressure_at: hardest(rows),
+        max_pressure_at: hardest(rows)?,
         tooth_changes: done.motion.system().changes().count,
         ramp,
         critical_speeds: Vec::new(),
@@ -200,24 +201,29 @@ pub(super) fn headline(
 }
 
 /// Largest root tension of pinion and wheel over the rows (MPa), and its estimated error (%), when they were asked for.
-fn root_tension(scene: &Scene, rows: &Columns) -> Option<[(f64, f64); 2]> {
+fn root_tension(scene: &Scene, rows: &Columns) -> Result<Option<[(f64, f64); 2]>, StudyError> {
+    if !scene.output.root_stress {
+        return Ok(None);
+    }
     let largest = |gear: usize| {
         let at = At { gear, pair: 0 };
-        let stress = rows.get(&ROOT_TENSION.name_at(at)).iter();
-        let all = stress.zip(rows.get(&ROOT_ERROR.name_at(at)));
+        let stress = rows.series(&ROOT_TENSION.name_at(at))?.iter();
+        let all = stress.zip(rows.series(&ROOT_ERROR.name_at(at))?);
         // NaN where coast flanks press.
         let known = all.filter(|(stress, _)| !stress.is_nan()).map(|(stress, error)| (*stress, *error));
-        known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
+        Ok(known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN)))
     };
-    scene.output.root_stress.then(|| [0, 1].map(largest))
+    Ok(Some([largest(0)?, largest(1)?]))
 }
 
 /// Where the pressure is largest in any row.
-fn hardest(rows: &Columns) -> Option<PressurePlace> {
-    let pressure = rows.get(MAX_PRESSURE.name);
-    let row = (0..pressure.len()).reduce(|best, i| if pressure[i] > pressure[best] { i } else { best })?;
-    let at = |column: Column<MotionRows>| rows.get(column.name).get(row).copied().unwrap_or(f64::NAN);
-    PressurePlace::of_row([PRESSURE_PLACE, PRESSURE_Z, PRESSURE_DIAMETER].map(at), at(PINION_ANGLE), at(MESH_PHASE))
+fn hardest(rows: &Columns) -> Result<Option<PressurePlace>, StudyError> {
+    let pressure = rows.series(MAX_PRESSURE.name)?;
+    let hardest = (0..pressure.len()).reduce(|best, i| if pressure[i] > pressure[best] { i } else { best });
+    let Some(row) = hardest else { return Ok(None) };
+    let at = |column: Column<MotionRows>| rows.series(column.name).map(|all| all[row]);
+    let place = [at(PRESSURE_PLACE)?, at(PRESSURE_Z)?, at(PRESSURE_DIAMETER)?];
+    Ok(PressurePlace::of_row(place, at(PINION_ANGLE)?, at(MESH_PHASE)?))
 }
 
 fn certificate(done: &Finished) -> MotionCertificate {

@@ -3,7 +3,6 @@
 //! | module | what it does |
 //! |---|---|
 //! | `elasticity` | elastic frequencies beside mesh harmonics |
-//! | `options` | words of the scene in the solvers' units |
 //! | `prepare` | gears, quasi-static cycle, mechanism |
 //! | `pattern` | what the flanks are pressed by |
 //! | `course` | settle, write rows, checkpoints |
@@ -11,7 +10,6 @@
 //! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
-//! | `stable` | steps too long for an explicit method |
 //! | `headline`, `spectra`, `inertia` | what is read off the rows; which inertia counts |
 //! | `certificate` | what must hold of a motion |
 //! | `passage` | a ramp over speed: what is largest, and where |
@@ -28,7 +26,6 @@ mod frequencies;
 mod headline;
 mod inertia;
 mod inputs;
-mod options;
 mod passage;
 mod pattern;
 mod precision;
@@ -36,7 +33,6 @@ mod prepare;
 mod price;
 mod rows;
 mod spectra;
-mod stable;
 mod store;
 mod sweep;
 mod write;
@@ -50,20 +46,21 @@ use prepare::{Inputs, Prepared, prepare};
 use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
-pub(crate) use certificate::{energy_check, pulling_check};
+pub(crate) use analysis::motion::{
+    MOTION_WAY_OUT, RPM, Steps, bearing, drive, energy_check, motion_options, pulling_check, refuse_unstable, scheme,
+    speed, stated_body, steady_by, torque,
+};
 pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use frequencies::Frequencies;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use inertia::InertiaHeadline;
-pub(crate) use options::{RPM, bearing, drive, scheme, speed, stated_body, torque};
 pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
-pub(crate) use report::Columns;
-pub(crate) use report::columns::GEARS;
+pub(crate) use report::{columns::GEARS, read_columns};
 pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
 pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
-pub(crate) use stable::{Steps, refuse_unstable};
+pub(crate) use study::Columns;
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 
 use crate::{
@@ -227,7 +224,7 @@ pub(crate) fn rows_of(
         let prepared = prepare(&inputs, phases, window)?;
         doubts::unstable(scene, &prepared)?;
         let done = course::run(scene, words, &prepared, phases, places)?;
-        let rows = Columns::read(&folder.join(rows::HISTORY)).map_err(CommandError::from)?;
+        let rows = read_columns(&folder.join(rows::HISTORY)).map_err(CommandError::from)?;
         let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
         Ok::<_, Failure>(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
     };
@@ -236,7 +233,7 @@ pub(crate) fn rows_of(
         Failure::Command(_) => None,
     };
     solve_widening(None, solve, wider).map_err(|e| e.complaint(scene))?;
-    Ok(Columns::read(&folder.join(rows::HISTORY))?)
+    Ok(read_columns(&folder.join(rows::HISTORY))?)
 }
 
 /// One width of the window.

@@ -2,11 +2,11 @@
 
 use dynamics::Speed;
 use serde::Serialize;
-use study::{StudyError, cycle_statistics};
+use study::{Columns, StudyError, cycle_statistics};
 
-use report::Columns;
+use report::columns_to_csv;
 
-use super::{options::RPM, spectra::WaterfallLine};
+use super::{RPM, spectra::WaterfallLine};
 
 /// One row a mesh cycle.
 pub(crate) const CYCLES: &str = "cycles.csv";
@@ -87,10 +87,12 @@ impl Passage {
         static_force: f64,
         waterfall: &[WaterfallLine],
     ) -> Result<Self, StudyError> {
-        let (time, dte) = (rows.get("time_s"), rows.get("dte_um"));
-        let force = |name: &str| rows.get(name);
-        let pairs: Vec<&[f64]> = rows.names_from("normal_force_pair_").into_iter().map(&force).collect();
-        let (driving, coast) = (force("normal_force_n"), force("coast_normal_force_n"));
+        let (time, dte) = (rows.series("time_s")?, rows.series("dte_um")?);
+        let pairs: Vec<&[f64]> =
+            rows.names_from("normal_force_pair_").into_iter().filter_map(|n| rows.find(n)).collect();
+        let driving = rows.series("normal_force_n")?;
+        // Models without coast flanks have no such column.
+        let coast = rows.find("coast_normal_force_n").unwrap_or_default();
         let teeth = f64::from(teeth);
         let one = |k: usize| {
             let part = k * per_cycle..(k + 1) * per_cycle;
@@ -177,7 +179,7 @@ impl Passage {
             ];
             rows.push(a.into_iter().chain(b).chain(c.max_pair_normal_force_n.filter(|_| pairs)));
         }
-        rows.to_csv()
+        columns_to_csv(&rows)
     }
 
     /// `order_cuts.csv`.
@@ -189,7 +191,7 @@ impl Passage {
             let place = [cut.time_s, cut.driver_speed_rpm, cut.mesh_frequency_hz];
             rows.push(place.into_iter().chain(cut.amplitudes_um[..orders].iter().copied()));
         }
-        rows.to_csv()
+        columns_to_csv(&rows)
     }
 }
 
@@ -252,9 +254,9 @@ mod tests {
         let lines = waterfall(&rows, 16, 8, 30).unwrap();
         let passage = Passage::of(&rows, 16, (law, 30), 1000.0, &lines).unwrap();
         for text in [passage.cycles_csv(), passage.cuts_csv()] {
-            let table = Columns::parse(&text).unwrap();
+            let table = report::parse_columns(&text).unwrap();
             assert!(table.is_finite() && table.len() > 50, "{} rows", table.len());
-            let both = table.get("driver_speed_rpm").iter().zip(table.get("mesh_frequency_hz"));
+            let both = table.series("driver_speed_rpm").unwrap().iter().zip(table.series("mesh_frequency_hz").unwrap());
             both.for_each(|(n, f)| assert!((n * 0.5 - f).abs() < 1e-9 * f, "{n}/min, {f} Hz"));
         }
         assert_eq!(passage.cycles.len() * 16, rows.len());

@@ -4,7 +4,7 @@ use dynamics::Instant;
 use geometry::GearPair;
 use study::{FlankPattern, StudyError, Touch};
 
-use report::results::{GearPattern, on_flank, touch, untouched};
+use analysis::results::{GearPattern, on_flank, touch, untouched};
 
 use crate::scene::{MotionScene, Scene};
 

@@ -7,10 +7,7 @@ use dynamics::{MotionSettings, PairMechanism};
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 
-use super::{
-    elasticity::Elasticity,
-    options::{motion_options, scheme},
-};
+use super::{elasticity::Elasticity, motion_options, scheme};
 use report::view::{View, ViewRecorder};
 
 use crate::{

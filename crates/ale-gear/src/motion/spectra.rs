@@ -1,11 +1,10 @@
 //! `spectrum.csv` of a motion at constant speed, `waterfall.csv` of one whose speed changes.
 
-use study::{StudyError, Window, spectrum as record_spectrum};
+use study::{Columns, StudyError, Window, spectrum as record_spectrum};
 
 use report::columns::motion_history::{DTE, PINION_SPEED, TIME};
 
 use crate::output::push_row;
-use report::Columns;
 
 /// Quantities that have a spectrum.
 pub(crate) const SPECTRA: [&str; 5] =
@@ -33,7 +32,7 @@ pub(crate) fn spectrum(
     window: Window,
 ) -> Result<Spectrum, StudyError> {
     let amplitudes: Vec<Vec<f64>> =
-        SPECTRA.iter().map(|n| amplitudes(rows.get(n), window)).collect::<Result<_, _>>()?;
+        SPECTRA.iter().map(|n| amplitudes(rows.series(n)?, window)).collect::<Result<_, _>>()?;
     let orders: Vec<f64> = (0..amplitudes[0].len()).map(|k| k as f64 / cycles as f64).collect();
     let frequencies = orders.iter().map(|o| o * mesh_frequency_hz).collect();
     Ok(Spectrum { orders, frequencies, amplitudes })
@@ -83,7 +82,7 @@ pub(crate) fn waterfall(
     stretch: usize,
     pinion_teeth: u32,
 ) -> Result<Vec<WaterfallLine>, StudyError> {
-    let (dte, time, speed) = (rows.get(DTE.name), rows.get(TIME.name), rows.get(PINION_SPEED.name));
+    let (dte, time, speed) = (rows.series(DTE.name)?, rows.series(TIME.name)?, rows.series(PINION_SPEED.name)?);
     let length = per_cycle * stretch.max(1).min((dte.len() / per_cycle).max(1));
     let mut lines = Vec::new();
     let mut from = 0;

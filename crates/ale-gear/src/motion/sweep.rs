@@ -8,13 +8,14 @@ use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
-    certificate::{MOTION_WAY_OUT, checks_of_speed},
+    MOTION_WAY_OUT, RPM,
+    certificate::checks_of_speed,
     course::failure,
     elasticity::{ElasticHeadline, Vibration},
     frequencies::CriticalSpeed,
     inertia::InertiaHeadline,
-    options::{RPM, steady_by},
     prepare::{Prepared, QuasiStatic},
+    steady_by,
 };
 use crate::{
     error::CommandError,

@@ -1,20 +1,20 @@
 //! Files of a result.
 
 use dynamics::SweepOutcome;
+use report::columns::motion_history::{PINION_SPEED, WHEEL_SPEED};
 use study::{StudyError, Window};
 
 use super::{
-    Columns, MotionHeadline,
+    MotionHeadline,
     course::Finished,
     doubts,
     elasticity::{Vibration, mesh_range_hz},
     frequencies::{self, Frequencies},
     headline,
-    options::speed,
     passage::{self, Passage},
     prepare::Prepared,
     price::{Asked, Pace},
-    rows, spectra, sweep,
+    read_columns, rows, spectra, speed, sweep,
 };
 use crate::{
     certificate::Written,
@@ -25,7 +25,7 @@ use crate::{
         write_columnar, write_motion_report, write_patterns, write_summary, write_sweep_report,
     },
     phases::Phases,
-    scene::{MotionScene, Scene, SweepScene},
+    scene::{Driver, MotionScene, Scene, SweepScene},
 };
 
 pub(super) fn no_statistics(e: StudyError) -> CommandError {
@@ -41,7 +41,7 @@ pub(super) fn write_motion(
     prepared: &Prepared,
     done: &Finished,
 ) -> Result<Written, CommandError> {
-    let rows = Columns::read(&results.path(rows::HISTORY))?;
+    let rows = read_columns(&results.path(rows::HISTORY))?;
     let per_cycle = words.steps_per_mesh_cycle as usize;
     let teeth = scene.driver_teeth();
     let mut waterfall = Vec::new();
@@ -58,7 +58,9 @@ pub(super) fn write_motion(
         Facts { certificate: prepared.facts.certificate.clone().and(headline.checks()), ..prepared.facts.clone() };
     let mut warnings = prepared.warnings.clone();
     warnings.extend(doubts::of_motion(words, prepared, &headline));
-    let mesh_hz = mesh_range_hz(scene, words, Some(&rows));
+    let driver = usize::from(scene.operation.driver == Driver::Wheel);
+    let driver_rpm = rows.series([PINION_SPEED, WHEEL_SPEED][driver].name).map_err(no_statistics)?;
+    let mesh_hz = mesh_range_hz(scene, words, Some(driver_rpm));
     let vibration = Vibration {
         mesh_hz,
         resonance: prepared.system.mesh_resonance(),
@@ -88,7 +90,7 @@ pub(super) fn write_motion(
             spectrum = Some(of);
         }
     }
-    let energy = Columns::read(&results.path(rows::ENERGY_FILE))?;
+    let energy = read_columns(&results.path(rows::ENERGY_FILE))?;
     let cost = Cost::of(phases);
     let pictures = MotionPictures {
         rows: &rows,

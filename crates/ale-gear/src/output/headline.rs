@@ -8,7 +8,7 @@ use crate::{
     run::worse,
     scene::{Driver, Scene},
 };
-use report::results::{PressurePlace, RootStressHeadline, root_stress_headline};
+use analysis::results::{PressurePlace, RootStressHeadline, root_stress_headline};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;

@@ -1,7 +1,8 @@
 //! `report.html` of a cheaper model in motion.
 
+use study::Columns;
+
 use report::{
-    Columns,
     charts::{Curve, campbell_chart, dot_chart, line_chart},
     page::Rendered,
 };
@@ -48,7 +49,7 @@ pub(crate) fn write_ladder_report(
     pictures: &LadderPictures<'_>,
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
-    let mut charts = motion_charts(&pictures.motion);
+    let mut charts = motion_charts(&pictures.motion).map_err(CommandError::from)?;
     for (name, whose) in PORTRAITS {
         charts.extend(displacement(&pictures.motion, name, whose));
         charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
@@ -59,13 +60,14 @@ pub(crate) fn write_ladder_report(
 
 /// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.
 fn plane(rows: &Columns, name: &str) -> Vec<(f64, f64)> {
-    let (x, v) = (rows.get(&format!("{name}_um")), rows.get(&format!("{name}_rate_um_per_s")));
+    let of = |unit: &str| rows.find(&format!("{name}_{unit}")).unwrap_or_default();
+    let (x, v) = (of("um"), of("rate_um_per_s"));
     x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect()
 }
 
 /// Displacement over time, the last mesh cycles.
 fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<String> {
-    let (time, x) = (of.rows.get("time_s"), of.rows.get(&format!("{name}_um")));
+    let (time, x) = (of.rows.find("time_s")?, of.rows.find(&format!("{name}_um"))?);
     let first = x.len().saturating_sub(SHOWN_CYCLES * of.per_cycle);
     let begin = time.get(first).copied().unwrap_or(0.0);
     let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();

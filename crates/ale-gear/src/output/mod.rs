@@ -23,6 +23,7 @@ mod summary;
 mod table;
 mod work_precision_chart;
 
+pub use analysis::results::{GearRootStress, Place, PressurePlace, RootStressHeadline};
 pub use chart_csv::write_chart_csv;
 pub use chart_tables::chart_tables;
 pub(crate) use columnar::write_columnar;
@@ -48,11 +49,10 @@ pub use ::report::{
     columns::write_history,
     contact_files::{write_contact, write_contact_lines, write_contact_pattern},
     page::{Rendered, report_again},
-    results::{GearRootStress, Place, PressurePlace, RootStressHeadline},
 };
 pub(crate) use ::report::{
     columns::history_columns,
     contact_files::write_patterns,
     csv::{push_row, quoted},
-    results::{root_stress_headline, root_stress_warnings},
 };
+pub(crate) use analysis::results::{root_stress_headline, root_stress_warnings};

@@ -2,8 +2,9 @@
 
 use dynamics::Speed;
 
+use study::{Columns, StudyError, extent};
+
 use report::{
-    Columns,
     charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
     view::View,
 };
@@ -50,10 +51,13 @@ pub(crate) struct MotionPictures<'a> {
 }
 
 /// All charts of a motion.
-pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
+///
+/// # Errors
+/// [`StudyError`] for rows without a column that every motion has.
+pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError> {
     let steady = of.ramp.is_none();
     let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
-    let time = &of.rows.get(TIME.name)[first..];
+    let time = &of.rows.series(TIME.name)?[first..];
     let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
     let unit = 1e3;
     // Of a ramp everything is drawn over the speed that it is made for.
@@ -67,26 +71,30 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
         let column = column.get(first..).unwrap_or_default();
         time.iter().zip(column).map(|(t, x)| (place(*t), *x)).collect()
     };
-    let curve = |label: &str, name: &str| Curve { label: label.to_owned(), points: points(of.rows.get(name)) };
+    // A model without such a quantity has no curve.
+    let curve = |label: &str, name: &str| Curve {
+        label: label.to_owned(),
+        points: points(of.rows.find(name).unwrap_or_default()),
+    };
     let mut errors = vec![curve("DTE", "dte_um")];
     if let (true, Some(ste)) = (steady, of.quasi_static) {
-        errors.push(Curve { label: "STE".into(), points: repeated(of, ste, time, begin, unit) });
+        errors.push(Curve { label: "STE".into(), points: repeated(of, ste, time, begin, unit)? });
     }
     let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
     let sharing: Vec<Curve> = of
         .rows
         .names_from("normal_force_pair_")
         .into_iter()
-        .filter(|n| of.rows.extent(n)[1] > 0.0)
+        .filter(|n| of.rows.find(n).is_some_and(|all| extent(all)[1] > 0.0))
         .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
         .collect();
     let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
-    let energy_time = of.energy.get(TIME.name);
+    let energy_time = of.energy.series(TIME.name)?;
     let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
         if steady { ("time [s]", &|t| t) } else { (axis, &place) };
     let residual = Curve {
         label: "residual".into(),
-        points: energy_time.iter().zip(of.energy.get("residual_mj")).map(|(t, x)| (energy_place(*t), *x)).collect(),
+        points: energy_time.iter().zip(of.energy.series("residual_mj")?).map(|(t, x)| (energy_place(*t), *x)).collect(),
     };
     let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, passage)| passage_charts(passage, &speed_axis(teeth)));
     all.extend([
@@ -117,7 +125,7 @@ pub(super) fn motion_charts(of: &MotionPictures<'_>) -> Vec<String> {
     all.push(waterfall_chart(of.waterfall, of.per_cycle));
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
     all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
-    all.into_iter().flatten().collect()
+    Ok(all.into_iter().flatten().collect())
 }
 
 /// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
@@ -155,8 +163,14 @@ fn passage_charts(of: &Passage, axis: &str) -> Vec<Option<String>> {
 }
 
 /// The quasi-static error of one cycle under every cycle drawn.
-fn repeated(of: &MotionPictures<'_>, ste: &[f64], time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
-    let phases = of.rows.get(MESH_PHASE.name);
+fn repeated(
+    of: &MotionPictures<'_>,
+    ste: &[f64],
+    time: &[f64],
+    begin: f64,
+    unit: f64,
+) -> Result<Vec<(f64, f64)>, StudyError> {
+    let phases = of.rows.series(MESH_PHASE.name)?;
     let phases = &phases[phases.len() - time.len()..];
     let n = ste.len();
     let at = |phase: f64| {
@@ -164,7 +178,7 @@ fn repeated(of: &MotionPictures<'_>, ste: &[f64], time: &[f64], begin: f64, unit
         let (i, share) = (place.floor() as usize % n, place.fract());
         1e3 * ((1.0 - share) * ste[i] + share * ste[(i + 1) % n])
     };
-    time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect()
+    Ok(time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect())
 }
 
 /// Lines of one quantity as sticks.

@@ -26,7 +26,7 @@ pub(crate) fn write_motion_report(
     pattern: Option<String>,
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
-    let charts = motion_charts(pictures);
+    let charts = motion_charts(pictures).map_err(CommandError::from)?;
     let page =
         Page { scene, facts, cost, headline, charts, pattern: pattern.as_deref(), view: pictures.view, warnings };
     page.render("motion.html")

@@ -1,9 +1,8 @@
 //! Figures of a study.
 
-use report::{
-    Columns,
-    charts::{Curve, line_chart},
-};
+use study::StudyError;
+
+use report::charts::{Curve, line_chart};
 
 use report::columns::motion_history::{MESH_PHASE, TIME};
 
@@ -16,66 +15,70 @@ pub(super) struct Figure {
 }
 
 /// All figures, in the order of the study file.
-pub(super) fn figures(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Vec<Figure> {
+///
+/// # Errors
+/// [`StudyError`] for rows without a column that is drawn.
+pub(super) fn figures(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Result<Vec<Figure>, StudyError> {
     let follow = study.follow.iter().map(|f| following(study, runs, findings, f));
     let over_time = study.over_time.iter().map(|o| over_time(study, runs, findings, o));
-    let over_value = (!study.quantities.is_empty()).then(|| over_value(study, runs, findings));
+    let over_value = (!study.quantities.is_empty()).then(|| Ok(over_value(study, runs, findings)));
     follow.chain(over_time).chain(over_value).collect()
 }
 
 /// Columns of one case over mesh cycles, one under the other, and each pair of them against each other.
-fn following(study: &Study, runs: &[CaseOutcome], findings: &Findings, follow: &Follow) -> Figure {
+fn following(study: &Study, runs: &[CaseOutcome], findings: &Findings, follow: &Follow) -> Result<Figure, StudyError> {
     let case = &study.cases[follow.case];
     let (Ok(run), Ok(_)) = (&runs[follow.case], &findings.cases[follow.case]) else {
         let text = format!("{} has no result: {} is not drawn.", case.label, follow.column);
-        return Figure { text, charts: Vec::new() };
+        return Ok(Figure { text, charts: Vec::new() });
     };
     let rows = last_cycles(&case.scene, &run.rows, follow.cycles);
-    let cycles = mesh_cycles(&rows);
-    let chart = |name: &str| {
-        let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.get(name)) };
-        line_chart(&format!("{name}, {}", case.label), "mesh cycles", name, &[curve], false)
+    let cycles = mesh_cycles(rows.series(MESH_PHASE.name)?);
+    let chart = |name: &String| {
+        let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.series(name)?) };
+        Ok(line_chart(&format!("{name}, {}", case.label), "mesh cycles", name, &[curve], false))
     };
     let against = |beside: &String| {
-        let curve = Curve { label: beside.clone(), points: points(rows.get(beside), rows.get(&follow.column)) };
-        line_chart(
+        let curve = Curve { label: beside.clone(), points: points(rows.series(beside)?, rows.series(&follow.column)?) };
+        Ok(line_chart(
             &format!("{} against {beside}, {}", follow.column, case.label),
             beside,
             &follow.column,
             &[curve],
             false,
-        )
+        ))
     };
+    let charts: Vec<Option<String>> = std::iter::once(&follow.column)
+        .chain(&follow.beside)
+        .map(chart)
+        .chain(follow.beside.iter().map(against))
+        .collect::<Result<_, StudyError>>()?;
     let said: Vec<String> = findings
         .followers
         .iter()
         .filter(|f| f.column == follow.column && follow.beside.contains(&f.beside))
         .map(|f| format!("{:+.3} with {}", f.correlation[follow.case].unwrap_or(f64::NAN), f.beside))
         .collect();
-    Figure {
+    Ok(Figure {
         text: format!("Correlation of {} over all rows of {}: {}.", follow.column, case.label, said.join(", ")),
-        charts: std::iter::once(&follow.column)
-            .chain(&follow.beside)
-            .filter_map(|name| chart(name))
-            .chain(follow.beside.iter().filter_map(against))
-            .collect(),
-    }
+        charts: charts.into_iter().flatten().collect(),
+    })
 }
 
 /// One column of all cases over time, each from the beginning of its cycles shown.
-fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &OverTime) -> Figure {
-    let curves: Vec<Curve> = findings
+fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &OverTime) -> Result<Figure, StudyError> {
+    let curves = findings
         .with_result(study, runs)
         .map(|(case, run, _)| {
             let rows = last_cycles(&case.scene, &run.rows, over.cycles);
-            let time = rows.get(TIME.name);
+            let time = rows.series(TIME.name)?;
             let begin = time.first().copied().unwrap_or(0.0);
             let since: Vec<f64> = time.iter().map(|t| 1e3 * (t - begin)).collect();
-            Curve { label: case.label.clone(), points: points(&since, rows.get(&over.column)) }
+            Ok(Curve { label: case.label.clone(), points: points(&since, rows.series(&over.column)?) })
         })
-        .collect();
+        .collect::<Result<Vec<Curve>, StudyError>>()?;
     let chart = line_chart(&format!("{} against time", over.column), "time [ms]", &over.column, &curves, false);
-    Figure { text: left_out(study, findings), charts: chart.into_iter().collect() }
+    Ok(Figure { text: left_out(study, findings), charts: chart.into_iter().collect() })
 }
 
 /// The quantities over the parameter, one chart each.
@@ -104,7 +107,7 @@ fn points(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Mesh cycles since the beginning of the first one, from the phases: rows need not be evenly spaced.
-fn mesh_cycles(rows: &Columns) -> Vec<f64> {
+fn mesh_cycles(phases: &[f64]) -> Vec<f64> {
     let mut whole = 0.0;
     let mut last = 0.0;
     let count = |phase: &f64| {
@@ -114,5 +117,5 @@ fn mesh_cycles(rows: &Columns) -> Vec<f64> {
         last = *phase;
         whole + phase
     };
-    rows.get(MESH_PHASE.name).iter().map(count).collect()
+    phases.iter().map(count).collect()
 }

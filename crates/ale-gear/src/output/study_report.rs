@@ -38,7 +38,7 @@ pub(crate) struct StudyResult<'a> {
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
 pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, CommandError> {
     let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
-    let figures: Vec<Value> = figures(study, runs, findings)
+    let figures: Vec<Value> = figures(study, runs, findings)?
         .into_iter()
         .map(|figure| json!({ "text": figure.text, "charts": figure.charts }))
         .collect();

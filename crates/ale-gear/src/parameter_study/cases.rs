@@ -16,7 +16,7 @@ use crate::{
     error::CommandError,
     facts::{Cost, GeometryFacts},
     gears,
-    motion::{Columns, HISTORY},
+    motion::{Columns, HISTORY, read_columns},
     output::{CASES, ResultDirectory},
     scene::Scene,
 };
@@ -122,7 +122,7 @@ fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> 
     let solved = solve(&case.scene, &own)?;
     own.finish()?;
     let cost = solved.map_err(|error| CaseMiss { error, has_folder: true })?;
-    let rows = Columns::read(&folder.join(HISTORY)).map_err(CommandError::from)?;
+    let rows = read_columns(&folder.join(HISTORY)).map_err(CommandError::from)?;
     let summary = summary(&folder)?;
     let warnings = summary["warnings"].as_array().map_or(&[][..], |list| list);
     Ok(CaseRun {

@@ -1,7 +1,7 @@
 //! What is read off the rows of the cases.
 
 use super::{Case, CaseOutcome, CaseRun, Quantity, Study, Take, columns};
-use report::Columns;
+use study::Columns;
 
 use crate::{error::CommandError, scene::Scene};
 
@@ -94,7 +94,8 @@ pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, 
             let mut correlation = Vec::with_capacity(runs.len());
             for (i, run) in runs.iter().enumerate() {
                 let run = run.as_ref().ok().filter(|_| all.cases[i].is_ok());
-                let found = run.map(|run| study::correlation(run.rows.get(&follow.column), run.rows.get(beside)));
+                let found =
+                    run.map(|run| ::study::correlation(run.rows.series(&follow.column)?, run.rows.series(beside)?));
                 if let Some(Err(e)) = &found {
                     let label = &study.cases[i].label;
                     all.warnings.push(format!("{label}: no correlation of {} with {beside}: {e}", follow.column));
@@ -121,8 +122,7 @@ fn of_case(study: &Study, i: usize, run: &CaseRun) -> Result<CaseFindings, Comma
 
 /// A column of a case; some models tell only by their rows which they have.
 fn column<'a>(study: &Study, i: usize, run: &'a CaseRun, name: &str) -> Result<&'a [f64], CommandError> {
-    let found = run.rows.get(name);
-    if !found.is_empty() {
+    if let Some(found) = run.rows.find(name).filter(|all| !all.is_empty()) {
         return Ok(found);
     }
     let advice = columns::advice(name, &run.rows.names_from(""));

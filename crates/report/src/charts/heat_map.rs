@@ -9,7 +9,7 @@ use super::{
     field_map::{FieldMap, Side, share},
     plot_data::embedded,
 };
-use crate::results::GearPattern;
+use analysis::results::GearPattern;
 
 /// Columns of a flank at most; more stations share columns, which then show the larger value.
 const COLUMNS: usize = 96;

@@ -6,7 +6,7 @@ use dynamics::{COORDINATES, Instant, PairMechanism};
 use scene::{Axis, Scene};
 
 use super::{At, Group, Over, Rows, Sheet, Table, columns};
-use crate::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES, base_radius_mm, error_percent, place_values};
+use analysis::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, VON_MISES, base_radius_mm, error_percent, place_values};
 
 /// Rows of a motion of reduced gears.
 #[derive(Debug)]

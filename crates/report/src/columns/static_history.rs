@@ -1,15 +1,15 @@
 //! `history.csv` of a run at rest: one row a position.
 
+use analysis::results::{
+    MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, VON_MISES, base_radius_mm, error_percent, pairs, place_values,
+};
 use std::f64::consts::PI;
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::Scene;
 
 use super::{At, Column, Group, Over, Rows, Table, columns};
-use crate::{
-    charts::Curve,
-    results::{MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, VON_MISES, base_radius_mm, error_percent, pairs, place_values},
-};
+use crate::charts::Curve;
 
 /// Rows of a run at rest.
 #[derive(Debug)]

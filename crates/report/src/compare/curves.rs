@@ -1,7 +1,7 @@
 //! Columns that runs share, laid over each other.
 
 use super::ResultFolder;
-use crate::Columns;
+use study::Columns;
 
 /// What curves are drawn over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ const ERROR: &str = "te_um";
 /// Every quantity that two runs at least have, in the order of the first run that has it.
 pub fn overlays(runs: &[ResultFolder], axis: Axis) -> Vec<Overlay> {
     let curves: Vec<Curves<'_>> = runs.iter().enumerate().flat_map(|(i, run)| Curves::of(i, run, axis)).collect();
-    let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| !c.rows.get(name).is_empty()));
+    let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| c.rows.find(name).is_some_and(|all| !all.is_empty())));
     let mut quantities: Vec<(String, &'static str)> = Vec::new();
     for c in &curves {
         for name in c.rows.names_from("").into_iter().filter(|n| !PLACES.contains(n)) {
@@ -76,11 +76,12 @@ impl<'a> Curves<'a> {
     fn of(number: usize, run: &'a ResultFolder, axis: Axis) -> Vec<Self> {
         let one = |(way, rows): &'a (String, Columns)| {
             let label = if way.is_empty() { run.label() } else { format!("{} ({way})", run.label()) };
-            let speeds = rows.get("speed_rpm");
+            let of = |name: &str| rows.find(name).unwrap_or_default();
+            let speeds = of("speed_rpm");
             let (over, places) = match axis {
                 _ if !speeds.is_empty() => ("speed_rpm", plain(speeds)),
-                Axis::Time => ("time_s", plain(rows.get("time_s"))),
-                Axis::Phase => ("mesh_phase", last_cycle(rows.get("mesh_phase"))),
+                Axis::Time => ("time_s", plain(of("time_s"))),
+                Axis::Phase => ("mesh_phase", last_cycle(of("mesh_phase"))),
             };
             Self { run: number, label, over, rows, places }
         };
@@ -88,7 +89,7 @@ impl<'a> Curves<'a> {
     }
 
     fn trace(&self, names: &[&str]) -> Option<Trace> {
-        let values = names.iter().map(|n| self.rows.get(n)).find(|v| !v.is_empty())?;
+        let values = names.iter().filter_map(|n| self.rows.find(n)).find(|v| !v.is_empty())?;
         let points = self.places.iter().filter_map(|&(x, i)| Some((x, *values.get(i)?))).collect();
         Some(Trace { label: self.label.clone(), points })
     }

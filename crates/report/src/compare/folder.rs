@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{Columns, ReportError, SUMMARY_SCHEMA};
+use study::Columns;
+
+use crate::{ReportError, SUMMARY_SCHEMA, parse_columns};
 
 /// Files of rows that can be laid over each other, in the order in which they are looked for.
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
@@ -112,7 +114,7 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
 fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
     let (header, rows) = text.split_once('\n')?;
     let Some(header) = header.strip_prefix("way,") else {
-        return Some(vec![(String::new(), Columns::parse(text)?)]);
+        return Some(vec![(String::new(), parse_columns(text)?)]);
     };
     // Behind the numbers stand words: where a speed began, whether it has an answer, and why not. A speed without one has no numbers.
     let names: Vec<&str> = header.split(',').take_while(|name| *name != WORDS).collect();
@@ -132,7 +134,7 @@ fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
         parts[at].1.push_str(&numbers);
         parts[at].1.push('\n');
     }
-    parts.into_iter().map(|(way, text)| Some((way, Columns::parse(&text)?))).collect()
+    parts.into_iter().map(|(way, text)| Some((way, parse_columns(&text)?))).collect()
 }
 
 #[cfg(test)]
@@ -143,11 +145,11 @@ mod tests {
     fn rows_of_a_sweep_are_parted_by_their_way() {
         let parts = by_way("way,speed_rpm,a\nup,1,10\nup,2,20\ndown,2,21\n").unwrap();
         assert_eq!(parts.iter().map(|p| p.0.as_str()).collect::<Vec<_>>(), ["up", "down"]);
-        assert_eq!((parts[0].1.get("a"), parts[1].1.get("speed_rpm")), (&[10.0, 20.0][..], &[2.0][..]));
+        assert_eq!((parts[0].1.find("a"), parts[1].1.find("speed_rpm")), (Some(&[10.0, 20.0][..]), Some(&[2.0][..])));
         let sweep = "way,speed_rpm,a,start,status,reason\nup,1,10,neighbour,periodic,\nup,2,NaN,quasi-static,failed,\"at 1 s, no\"\n";
         let parts = by_way(sweep).unwrap();
-        assert_eq!((parts.len(), parts[0].1.get("a"), parts[0].1.get("status")), (1, &[10.0][..], &[][..]));
-        assert_eq!(by_way("x,y\n1,NaN\n").unwrap()[0].1.get("x"), [1.0]);
+        assert_eq!((parts.len(), parts[0].1.find("a"), parts[0].1.find("status")), (1, Some(&[10.0][..]), None));
+        assert_eq!(by_way("x,y\n1,NaN\n").unwrap()[0].1.find("x"), Some(&[1.0][..]));
         assert!(by_way("x,y\n1,word\n").is_none());
     }
 }

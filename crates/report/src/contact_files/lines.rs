@@ -1,5 +1,6 @@
 //! `contact_lines.csv`: one row a loaded slice of a position.
 
+use analysis::results::{diameter, pairs};
 use std::f64::consts::PI;
 
 use geometry::GearPair;
@@ -7,10 +8,7 @@ use ltca::StaticHistory;
 
 use scene::Scene;
 
-use crate::{
-    csv::push_row,
-    results::{diameter, pairs},
-};
+use crate::csv::push_row;
 
 const COLUMNS: &str = "pinion_angle_deg,mesh_phase,pair,pinion_tooth,wheel_tooth,coast_flank,z_mm,\
                        pinion_roll_angle_deg,pinion_diameter_mm,wheel_roll_angle_deg,wheel_diameter_mm,\

@@ -1,6 +1,8 @@
 //! `contact_pattern_pinion.csv`, `contact_pattern_wheel.csv`: one row a place on the flank.
 
-use crate::{csv::push_row, results::GearPattern};
+use analysis::results::GearPattern;
+
+use crate::csv::push_row;
 
 /// A gear's pattern as CSV, station by station in z, from root to tip.
 pub fn write_contact_pattern(pattern: &GearPattern) -> String {

@@ -1,5 +1,6 @@
 //! The files on contact lines and pattern, which only a run with slices has.
 
+use analysis::results::{GearPattern, patterns};
 use ltca::StaticHistory;
 
 use scene::Scene;
@@ -9,7 +10,6 @@ use crate::{
     ReportError, ResultFiles,
     charts::{contact_pattern_figure, contact_pattern_svg},
     paraview::write_pattern_vtu,
-    results::{GearPattern, patterns},
 };
 
 /// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.

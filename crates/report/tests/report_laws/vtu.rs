@@ -2,10 +2,10 @@
 
 use std::io::Read;
 
+use analysis::results::GearPattern;
 use geometry::{Flank, Side};
 use mesh::{ElementBlock, ElementKind};
 use report::paraview::{Encoding, Field, PvdEntry, write_pattern_vtu, write_pvd, write_surface, write_vtu};
-use report::results::GearPattern;
 
 const KINDS: [ElementKind; 7] = [
     ElementKind::Hex8,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use ::lumped::LumpedError;
 use integrate::State;
 use serde::Serialize;
-use study::{Lyapunov, LyapunovPlan, largest_lyapunov, section_period};
+use study::{Columns, Lyapunov, LyapunovPlan, extent, largest_lyapunov, mean, section_period};
 
 use report::columns::motion_history::NORMAL_FORCE;
 
@@ -124,8 +124,13 @@ pub(super) fn run(
     within_bounds(&course.history).map_err(located)?;
     certificate(recipe, &course).verdict(scene).map_err(CommandError::from).map_err(located)?;
     let every = request.every(scene) as usize;
-    let points: Vec<f64> = course.section.get(&request.of).iter().copied().step_by(every).collect();
-    let extent = course.history.extent(&request.of);
+    let column = |of: &Columns, name: &str| {
+        of.series(name).map(<[f64]>::to_vec).map_err(|e| located(CommandError::failed(&e, e.hint())))
+    };
+    let section = column(&course.section, &request.of)?;
+    let points: Vec<f64> = section.iter().copied().step_by(every).collect();
+    let (of_rows, force) = (column(&course.history, &request.of)?, column(&course.history, NORMAL_FORCE.name)?);
+    let extent = extent(&of_rows);
     let lyapunov = match request.stretches {
         0 => None,
         n => Some(exponent(&mut model, words, &course.end, frequencies, n).map_err(complain)?),
@@ -136,13 +141,13 @@ pub(super) fn run(
         value,
         period: section_period(&as_rows, SAME, &[extent[1] - extent[0]]),
         points,
-        mean: course.history.mean(&request.of),
+        mean: mean(&of_rows),
         extent,
         periodicity: course.periodicity.map(|p| p.residual),
         warm_up_cycles: course.warm_up,
         lyapunov,
-        normal_force_n: course.history.extent(NORMAL_FORCE.name),
-        rows_apart: course.history.get(NORMAL_FORCE.name).iter().filter(|f| **f <= 0.0).count(),
+        normal_force_n: study::extent(&force),
+        rows_apart: force.iter().filter(|f| **f <= 0.0).count(),
         failed: None,
     };
     Ok(Found { point, end: course.end })

@@ -4,32 +4,29 @@ use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBod
 use geometry::GearPair;
 use integrate::Scheme;
 use nalgebra::Matrix6;
-
-use crate::{
-    elastic_gears::material,
-    error::CommandError,
-    meshes::SceneMesh,
-    scene::{
-        Axis, BearingScene, BodyScene, DriveBy, Driver, Integration, MotionScene, Scene, SteadyBy as SteadyWord,
-        TorqueScene,
-    },
+use scene::{
+    Axis, BearingScene, BodyScene, DriveBy, Driver, Integration, MotionScene, Scene, SteadyBy as SteadyWord,
+    TorqueScene,
 };
+
+use crate::{AnalysisError, elastic_gears::material, meshes::SceneMesh};
 
 /// kg in t, kg m^2 in t mm^2.
 const KILOGRAM: f64 = 1e-3;
 const KILOGRAM_METRE2: f64 = 1e3;
-pub(crate) const RPM: f64 = std::f64::consts::PI / 30.0;
+/// 1/min in rad/s.
+pub const RPM: f64 = std::f64::consts::PI / 30.0;
 
 /// Bodies, bearings, drive and load of the scene; contact as given.
 ///
 /// # Errors
-/// Exit status 2 when a body has no mass.
-pub(super) fn motion_options(
+/// [`AnalysisError::Body`] when a body has no mass.
+pub fn motion_options(
     scene: &Scene,
     pair: &GearPair,
     meshes: &[SceneMesh; 2],
     contact: ltca::StaticOptions,
-) -> Result<MotionOptions, CommandError> {
+) -> Result<MotionOptions, AnalysisError> {
     let words = [0, 1].map(|i| scene.gears()[i].body.clone().unwrap_or_default());
     let bodies = [body(scene, meshes, &words[0], 0)?, body(scene, meshes, &words[1], 1)?];
     let free = [0, 1].map(|i| {
@@ -55,7 +52,7 @@ fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
 }
 
 /// What drives the driver: its speed, or a torque that balances the load in the mean unless the scene states another.
-pub(crate) fn drive(scene: &Scene, pair: &GearPair) -> Drive {
+pub fn drive(scene: &Scene, pair: &GearPair) -> Drive {
     let start = scene.operation.speed_rpm * RPM;
     if let Some(drive) = scene.drive.as_ref().filter(|d| d.by == DriveBy::Torque) {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
@@ -69,7 +66,7 @@ pub(crate) fn drive(scene: &Scene, pair: &GearPair) -> Drive {
 }
 
 /// Speed of the driver that the scene asks for, rad/s.
-pub(crate) fn speed(scene: &Scene) -> Speed {
+pub fn speed(scene: &Scene) -> Speed {
     match scene.motion.as_ref().and_then(|m| m.ramp) {
         None => Speed::Constant(scene.operation.speed_rpm * RPM),
         Some(ramp) => Speed::Ramp {
@@ -82,7 +79,7 @@ pub(crate) fn speed(scene: &Scene) -> Speed {
 }
 
 /// N m in N mm; `mean` where the scene states none.
-pub(crate) fn torque(words: &TorqueScene, mean: f64) -> Torque {
+pub fn torque(words: &TorqueScene, mean: f64) -> Torque {
     let mean = words.torque_nm.map_or(mean, |t| 1e3 * t);
     match (&words.table_s_nm, words.amplitude_nm, words.frequency_hz) {
         (Some(table), ..) => Torque::Table {
@@ -98,10 +95,10 @@ pub(crate) fn torque(words: &TorqueScene, mean: f64) -> Torque {
 }
 
 /// Mass and inertia of the mesh (of the whole gear, where it has a part of the teeth), unless the scene states others.
-fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> Result<RigidBody, CommandError> {
+fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> Result<RigidBody, AnalysisError> {
     let gear = &meshes[i].gear;
     let own = fem::mass_properties(gear.mesh(), &material(scene, i)?)
-        .map_err(|e| CommandError::input(format_args!("{}: {e}", meshes[i].facts.source), e.hint()))?;
+        .map_err(|e| AnalysisError::Body { place: meshes[i].facts.source.clone(), source: Box::new(e) })?;
     let meshed = if gear.is_periodic_sector() { 1 } else { gear.teeth().len().max(1) };
     let copies = f64::from(gear.tooth_count()) / meshed as f64;
     let of_mesh = RigidBody::of_tensor(own.mass_t, own.inertia_about_tmm2([0.0; 3]));
@@ -114,7 +111,7 @@ fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> 
 }
 
 /// What the scene states of a body, and `own` where it says nothing.
-pub(crate) fn stated_body(words: &BodyScene, own: RigidBody) -> RigidBody {
+pub fn stated_body(words: &BodyScene, own: RigidBody) -> RigidBody {
     let or = |stated: Option<f64>, unit: f64, own: f64| stated.map_or(own, |value| unit * value);
     RigidBody {
         mass: or(words.mass_kg, KILOGRAM, own.mass),
@@ -125,7 +122,7 @@ pub(crate) fn stated_body(words: &BodyScene, own: RigidBody) -> RigidBody {
 }
 
 /// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).
-pub(crate) fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
+pub fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
     let whole = |m: &[[f64; 5]; 5]| Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[i][j] } else { 0.0 });
     let diagonal = |values: [f64; 5]| Matrix6::from_fn(|i, j| if i == j && i < 5 { values[i] } else { 0.0 });
     let stiffness = match &words.stiffness_matrix_n_mm_rad {
@@ -150,7 +147,7 @@ pub(crate) fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> 
 }
 
 /// Method of integration.
-pub(crate) fn scheme(words: &MotionScene) -> Scheme {
+pub fn scheme(words: &MotionScene) -> Scheme {
     match words.method {
         Integration::Energy => Scheme::Energy,
         Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: words.spectral_radius.unwrap_or(0.9) },
@@ -161,7 +158,7 @@ pub(crate) fn scheme(words: &MotionScene) -> Scheme {
 }
 
 /// How steady states are found.
-pub(super) fn steady_by(word: SteadyWord) -> SteadyBy {
+pub fn steady_by(word: SteadyWord) -> SteadyBy {
     match word {
         SteadyWord::Running => SteadyBy::Running,
         SteadyWord::Shooting => SteadyBy::Shooting,

@@ -1,0 +1,130 @@
+//! Series of numbers by name, as long as each other: what a history is judged by.
+
+use std::collections::BTreeMap;
+
+use crate::StudyError;
+
+/// Columns by name, in their order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Columns {
+    places: BTreeMap<String, usize>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    /// Columns without rows.
+    pub fn named<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
+        let places: BTreeMap<String, usize> = names.into_iter().enumerate().map(|(i, n)| (n.into(), i)).collect();
+        let values = vec![Vec::new(); places.len()];
+        Self { places, values }
+    }
+
+    /// One more row, in the order of the names.
+    pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
+        self.values.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+    }
+
+    /// Whether every value is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.values.iter().flatten().all(|x| x.is_finite())
+    }
+
+    /// The column of that name, if there is one.
+    pub fn find(&self, name: &str) -> Option<&[f64]> {
+        self.places.get(name).map(|&i| &*self.values[i])
+    }
+
+    /// The column of that name.
+    ///
+    /// # Errors
+    /// [`StudyError::NoColumn`].
+    pub fn series(&self, name: &str) -> Result<&[f64], StudyError> {
+        self.find(name).ok_or_else(|| StudyError::NoColumn { name: name.to_owned() })
+    }
+
+    /// Row by row, in the order of the names.
+    pub fn rows(&self) -> impl Iterator<Item = impl Iterator<Item = f64> + '_> + '_ {
+        (0..self.len()).map(|row| self.values.iter().map(move |column| column[row]))
+    }
+
+    /// The last rows of all columns.
+    #[must_use]
+    pub fn last(&self, rows: usize) -> Self {
+        let tail = |all: &Vec<f64>| all[all.len().saturating_sub(rows)..].to_vec();
+        Self { places: self.places.clone(), values: self.values.iter().map(tail).collect() }
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Rows.
+    pub fn len(&self) -> usize {
+        self.values.first().map_or(0, Vec::len)
+    }
+
+    /// All names, in order.
+    pub fn names(&self) -> Vec<&str> {
+        self.names_from("")
+    }
+
+    /// Names that begin so, in order.
+    pub fn names_from(&self, beginning: &str) -> Vec<&str> {
+        let mut found: Vec<(usize, &str)> =
+            self.places.iter().filter(|(n, _)| n.starts_with(beginning)).map(|(n, &i)| (i, n.as_str())).collect();
+        found.sort_unstable();
+        found.into_iter().map(|(_, n)| n).collect()
+    }
+
+    /// Arithmetic mean of a column; NaN without rows.
+    ///
+    /// # Errors
+    /// [`StudyError::NoColumn`].
+    pub fn mean(&self, name: &str) -> Result<f64, StudyError> {
+        self.series(name).map(mean)
+    }
+
+    /// Smallest and largest of a column; infinite, the wrong way round, without rows.
+    ///
+    /// # Errors
+    /// [`StudyError::NoColumn`].
+    pub fn extent(&self, name: &str) -> Result<[f64; 2], StudyError> {
+        self.series(name).map(extent)
+    }
+}
+
+/// Arithmetic mean; NaN of nothing.
+pub fn mean(series: &[f64]) -> f64 {
+    series.iter().sum::<f64>() / series.len() as f64
+}
+
+/// Smallest and largest; infinite, the wrong way round, of nothing.
+pub fn extent(series: &[f64]) -> [f64; 2] {
+    series.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
+}
+
+/// Largest minus smallest; minus infinity of nothing.
+pub fn peak_to_peak(series: &[f64]) -> f64 {
+    let [low, high] = extent(series);
+    high - low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A name that is none is an error with that name, never an empty series; what is there keeps its order.
+    #[test]
+    fn a_misspelt_column_is_an_error() {
+        let mut columns = Columns::named(["time_s", "dte_um", "b"]);
+        (0..4).for_each(|i| columns.push([f64::from(i), 2.0 * f64::from(i), 1.0]));
+        assert_eq!(columns.mean("dte_um"), Ok(3.0));
+        assert_eq!(columns.extent("dte_um").map(|[low, high]| high - low), Ok(peak_to_peak(&[0.0, 6.0])));
+        assert_eq!(columns.mean("dte"), Err(StudyError::NoColumn { name: "dte".into() }));
+        assert_eq!(columns.find("dte_um_"), None);
+        assert_eq!(columns.names(), ["time_s", "dte_um", "b"]);
+        let rows: Vec<Vec<f64>> = columns.last(2).rows().map(Iterator::collect).collect();
+        assert_eq!(rows, [[2.0, 4.0, 1.0], [3.0, 6.0, 1.0]]);
+    }
+}
