@@ -1,5 +1,6 @@
 //! The few numbers that a run of a model of the ladder is made for.
 
+use analysis::motion::PassageHeadline;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics};
 
@@ -7,7 +8,7 @@ use report::columns::motion_history::{COAST_FORCE, DTE, LINE_LENGTH, NORMAL_FORC
 
 use super::course::Course;
 use crate::{
-    motion::{Columns, PassageHeadline},
+    motion::Columns,
     scene::{MotionScene, Run, Scene},
 };
 

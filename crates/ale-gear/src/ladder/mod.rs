@@ -28,11 +28,13 @@ mod sweep;
 use std::f64::consts::TAU;
 
 use ::lumped::LumpedError;
+use analysis::motion::{MotionSpectrum, Passage};
 use study::{Columns, Window};
 
 use report::{
     columns::motion_history::{COAST_FORCE, NORMAL_FORCE},
     columns_to_csv,
+    motion_files::{CYCLES_FILE, SPECTRUM_FILE, cycles_csv, motion_series, spectrum_csv},
 };
 
 use crate::{
@@ -41,7 +43,7 @@ use crate::{
     error::CommandError,
     facts::{Cost, Facts, Resolution},
     gears,
-    motion::{self, ENERGY_FILE, HISTORY, Passage},
+    motion::{self, ENERGY_FILE, HISTORY},
     output::{
         LadderPictures, MotionPictures, ResultDirectory, ladder_table, write_columnar, write_ladder_report,
         write_summary,
@@ -163,23 +165,24 @@ impl Case<'_> {
         let passage = words.ramp.map(|_| {
             let driver = (motion::speed(scene), recipe.driver_teeth());
             let per_cycle = words.steps_per_mesh_cycle as usize;
-            Passage::of(&course.history, per_cycle, driver, known.static_normal_force, &[])
+            Passage::of(&motion_series(&course.history)?, per_cycle, driver, known.static_normal_force, &[])
         });
         let passage = passage.transpose().map_err(no_statistics)?;
         let mut headline = headline::headline(scene, words, &course, &judged, &known).map_err(no_statistics)?;
         headline.ramp = passage.as_ref().and_then(Passage::headline);
         if let Some(passage) = &passage {
-            results.write(motion::CYCLES, passage.cycles_csv().as_bytes())?;
+            results.write(CYCLES_FILE, cycles_csv(passage).as_bytes())?;
         }
         warnings.extend(doubts(words, &headline));
         facts.certificate = certificate(recipe, &course);
-        let spectrum = motion::spectrum(&judged, course.judged, mesh_frequency_hz, window(words, &course))
+        let spectrum = motion_series(&judged)
+            .and_then(|series| MotionSpectrum::of(&series, course.judged, mesh_frequency_hz, window(words, &course)))
             .map_err(no_statistics)?;
         for (name, text) in [
             (HISTORY, columns_to_csv(&course.history)),
             (ENERGY_FILE, columns_to_csv(&course.energy)),
             (SECTION, columns_to_csv(&course.section)),
-            ("spectrum.csv", motion::write_spectrum(&spectrum)),
+            (SPECTRUM_FILE, spectrum_csv(&spectrum)),
         ] {
             results.write(name, text.as_bytes())?;
         }

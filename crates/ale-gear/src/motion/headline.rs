@@ -1,5 +1,6 @@
 //! The few numbers that a motion is run for.
 
+use analysis::motion::{CriticalSpeed, Passage, PassageHeadline};
 use dynamics::Drive;
 use serde::Serialize;
 use study::{Columns, StudyError, cycle_statistics, extent, mean, mesh_harmonics};
@@ -15,9 +16,7 @@ use report::columns::motion_history::{
 use super::{
     course::Finished,
     elasticity::{ElasticHeadline, Vibration, mesh_range_hz},
-    frequencies::CriticalSpeed,
     inertia::InertiaHeadline,
-    passage::{Passage, PassageHeadline},
     prepare::Prepared,
 };
 use crate::{

@@ -10,10 +10,8 @@
 //! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
 //! | `sweep` | steady states over speed |
 //! | `precision` | step sizes against errors of every method |
-//! | `headline`, `spectra`, `inertia` | what is read off the rows; which inertia counts |
+//! | `headline`, `inertia` | what is read off the rows; which inertia counts |
 //! | `certificate` | what must hold of a motion |
-//! | `passage` | a ramp over speed: what is largest, and where |
-//! | `frequencies` | Campbell diagram |
 //! | `price` | what a longer analysis would cost |
 //! | `doubts` | what a user should hear of them |
 //! | `write` | files of the result |
@@ -22,17 +20,14 @@ mod certificate;
 mod course;
 mod doubts;
 mod elasticity;
-mod frequencies;
 mod headline;
 mod inertia;
 mod inputs;
-mod passage;
 mod pattern;
 mod precision;
 mod prepare;
 mod price;
 mod rows;
-mod spectra;
 mod store;
 mod sweep;
 mod write;
@@ -52,14 +47,11 @@ pub(crate) use analysis::motion::{
 };
 pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
-pub(crate) use frequencies::Frequencies;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use inertia::InertiaHeadline;
-pub(crate) use passage::{CYCLES, Cycle as PassageCycle, Passage, PassageHeadline};
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use report::{columns::GEARS, read_columns};
 pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
-pub(crate) use spectra::{SPECTRA, Spectrum, WaterfallLine, spectrum, write_spectrum};
 pub(crate) use study::Columns;
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 

@@ -7,12 +7,13 @@ use ltca::StaticError;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
 
+use analysis::motion::CriticalSpeed;
+
 use super::{
     MOTION_WAY_OUT, RPM,
     certificate::checks_of_speed,
     course::failure,
     elasticity::{ElasticHeadline, Vibration},
-    frequencies::CriticalSpeed,
     inertia::InertiaHeadline,
     prepare::{Prepared, QuasiStatic},
     steady_by,

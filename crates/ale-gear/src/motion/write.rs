@@ -1,7 +1,14 @@
 //! Files of a result.
 
+use analysis::motion::{CampbellDiagram, MotionSpectrum, Passage, waterfall};
 use dynamics::SweepOutcome;
-use report::columns::motion_history::{PINION_SPEED, WHEEL_SPEED};
+use report::{
+    columns::motion_history::{PINION_SPEED, WHEEL_SPEED},
+    motion_files::{
+        CAMPBELL_FILE, CYCLES_FILE, ORDER_CUTS_FILE, SPECTRUM_FILE, WATERFALL_FILE, campbell_csv, cycles_csv,
+        motion_series, order_cuts_csv, spectrum_csv, waterfall_csv,
+    },
+};
 use study::{StudyError, Window};
 
 use super::{
@@ -9,12 +16,10 @@ use super::{
     course::Finished,
     doubts,
     elasticity::{Vibration, mesh_range_hz},
-    frequencies::{self, Frequencies},
     headline,
-    passage::{self, Passage},
     prepare::Prepared,
     price::{Asked, Pace},
-    read_columns, rows, spectra, speed, sweep,
+    read_columns, rows, speed, sweep,
 };
 use crate::{
     certificate::Written,
@@ -44,13 +49,14 @@ pub(super) fn write_motion(
     let rows = read_columns(&results.path(rows::HISTORY))?;
     let per_cycle = words.steps_per_mesh_cycle as usize;
     let teeth = scene.driver_teeth();
-    let mut waterfall = Vec::new();
+    let series = motion_series(&rows).map_err(no_statistics)?;
+    let mut lines = Vec::new();
     let mut over_speed = None;
     if let Some(ramp) = words.ramp {
-        waterfall = spectra::waterfall(&rows, per_cycle, ramp.waterfall_cycles as usize, scene.pinion.teeth)
-            .map_err(no_statistics)?;
+        lines =
+            waterfall(&series, per_cycle, ramp.waterfall_cycles as usize, scene.pinion.teeth).map_err(no_statistics)?;
         let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
-        over_speed = Some(Passage::of(&rows, per_cycle, (law, teeth), force, &waterfall).map_err(no_statistics)?);
+        over_speed = Some(Passage::of(&series, per_cycle, (law, teeth), force, &lines).map_err(no_statistics)?);
     }
     let mut headline =
         headline::headline(scene, words, prepared, done, &rows, over_speed.as_ref()).map_err(no_statistics)?;
@@ -74,19 +80,19 @@ pub(super) fn write_motion(
     let (mut spectrum, mut campbell) = (None, None);
     match &over_speed {
         Some(passage) => {
-            results.write("waterfall.csv", spectra::write_waterfall(&waterfall, per_cycle).as_bytes())?;
-            results.write(passage::CYCLES, passage.cycles_csv().as_bytes())?;
-            results.write(passage::ORDER_CUTS, passage.cuts_csv().as_bytes())?;
-            let of = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
-            results.write(frequencies::FILE, of.to_csv().as_bytes())?;
+            results.write(WATERFALL_FILE, waterfall_csv(&lines, per_cycle).as_bytes())?;
+            results.write(CYCLES_FILE, cycles_csv(passage).as_bytes())?;
+            results.write(ORDER_CUTS_FILE, order_cuts_csv(passage).as_bytes())?;
+            let of = campbell_diagram(prepared, teeth, mesh_hz[1])?;
+            results.write(CAMPBELL_FILE, campbell_csv(&of).as_bytes())?;
             headline.critical_speeds = of.critical_speeds();
             campbell = Some(of);
         }
         None => {
             let window = window(words, &headline);
-            let of =
-                spectra::spectrum(&rows, headline.cycles, headline.mesh_frequency_hz, window).map_err(no_statistics)?;
-            results.write("spectrum.csv", spectra::write_spectrum(&of).as_bytes())?;
+            let of = MotionSpectrum::of(&series, headline.cycles, headline.mesh_frequency_hz, window)
+                .map_err(no_statistics)?;
+            results.write(SPECTRUM_FILE, spectrum_csv(&of).as_bytes())?;
             spectrum = Some(of);
         }
     }
@@ -96,7 +102,7 @@ pub(super) fn write_motion(
         rows: &rows,
         energy: &energy,
         spectrum: spectrum.as_ref(),
-        waterfall: &waterfall,
+        waterfall: &lines,
         ramp: over_speed.as_ref().map(|passage| (speed(scene), teeth, passage)),
         campbell: campbell.as_ref(),
         per_cycle,
@@ -112,6 +118,13 @@ pub(super) fn write_motion(
     results.write("summary.json", summary.as_bytes())?;
     let table = motion_table(scene, &facts, &cost, &headline, &warnings);
     Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
+}
+
+/// Mesh orders through the mesh resonance and the gears' elastic frequencies, those with the bores held, at rest.
+fn campbell_diagram(prepared: &Prepared, teeth: u32, highest_mesh_hz: f64) -> Result<CampbellDiagram, CommandError> {
+    let resonance = (prepared.system.mesh_resonance_hz(), "mesh resonance".to_owned());
+    let all = std::iter::once(resonance).chain(prepared.elasticity.frequencies_hz());
+    CampbellDiagram::of(all, teeth, highest_mesh_hz).map_err(no_statistics)
 }
 
 /// Wall time of a step in these phases, as far as they took so many.
@@ -140,7 +153,7 @@ pub(super) fn write_sweep(
     let rows = sweep::rows(scene, words.0, &prepared.quasi_static, outcomes);
     let teeth = scene.driver_teeth();
     let mesh_hz = mesh_range_hz(scene, words.0, None);
-    let campbell = Frequencies::of(prepared, teeth, mesh_hz[1]).map_err(no_statistics)?;
+    let campbell = campbell_diagram(prepared, teeth, mesh_hz[1])?;
     let resonance = prepared.system.mesh_resonance();
     let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: sweep::largest(&rows) };
     let headline = sweep::headline(words, prepared, (&rows, &vibration), campbell.critical_speeds(), teeth);
@@ -154,7 +167,7 @@ pub(super) fn write_sweep(
     warnings.extend(prepared.elasticity.warning(&vibration, &Asked::new(scene, words.0, cycles, mesh_hz), pace));
     warnings.extend(doubts::of_sweep(&headline, rows.len()));
     results.write("resonance.csv", sweep::write(&rows).as_bytes())?;
-    results.write(frequencies::FILE, campbell.to_csv().as_bytes())?;
+    results.write(CAMPBELL_FILE, campbell_csv(&campbell).as_bytes())?;
     let cost = Cost::of(phases);
     let pictures = SweepPictures { rows: &rows, campbell: &campbell, teeth, view: prepared.view.as_ref() };
     let report = write_sweep_report(scene, &prepared.facts, &cost, &headline, pictures, &warnings)?;

@@ -1,20 +1,19 @@
 //! Charts of a motion and of a sweep.
 
+use analysis::motion::{CampbellDiagram, MotionSpectrum, Passage, PassageCycle, RPM, WaterfallLine};
 use dynamics::Speed;
 
 use study::{Columns, StudyError, extent};
 
 use report::{
     charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
+    motion_files::{SPECTRA, spectra},
     view::View,
 };
 
 use report::columns::motion_history::{MESH_PHASE, TIME};
 
-use crate::{
-    motion::{Frequencies, Passage, PassageCycle, RPM, SPECTRA, Spectrum, SweepRow, WaterfallLine},
-    scene::SweepWay,
-};
+use crate::{motion::SweepRow, scene::SweepWay};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub(super) const SHOWN_CYCLES: usize = 4;
@@ -35,13 +34,13 @@ pub(crate) struct MotionPictures<'a> {
     /// Rows of the ledger.
     pub energy: &'a Columns,
     /// Spectra, at constant speed.
-    pub spectrum: Option<&'a Spectrum>,
+    pub spectrum: Option<&'a MotionSpectrum>,
     /// Waterfall of a run-up; else empty.
     pub waterfall: &'a [WaterfallLine],
     /// A run-up or run-down: speed of the driver over time, its teeth, and what was found over speed.
     pub ramp: Option<(Speed, u32, &'a Passage)>,
     /// Mesh orders beside the frequencies that they may meet.
-    pub campbell: Option<&'a Frequencies>,
+    pub campbell: Option<&'a CampbellDiagram>,
     /// Rows in a mesh cycle.
     pub per_cycle: usize,
     /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
@@ -182,8 +181,8 @@ fn repeated(
 }
 
 /// Lines of one quantity as sticks.
-fn spectrum_chart(spectrum: &Spectrum, quantity: usize) -> Option<String> {
-    let lines = spectrum.orders.iter().copied().zip(spectrum.amplitudes[quantity].iter().copied()).skip(1);
+fn spectrum_chart(spectrum: &MotionSpectrum, quantity: usize) -> Option<String> {
+    let lines = spectrum.orders.iter().copied().zip(spectra(spectrum)[quantity].iter().copied()).skip(1);
     let points = lines.take_while(|(order, _)| *order <= SHOWN_ORDERS).collect();
     let (title, unit) = match SPECTRA[quantity] {
         "dte_um" => ("Spectrum of the dynamic transmission error", "amplitude [um]"),
@@ -198,7 +197,7 @@ pub(crate) struct SweepPictures<'a> {
     /// A row a way and speed.
     pub rows: &'a [SweepRow],
     /// Mesh orders beside the frequencies that they may meet.
-    pub campbell: &'a Frequencies,
+    pub campbell: &'a CampbellDiagram,
     /// Teeth of the driver.
     pub teeth: u32,
     /// The gears in space; `None` where a model has none.

@@ -1,14 +1,8 @@
 //! Campbell diagram of a reduced pair: mesh orders through its frequencies.
 
 use serde::Serialize;
-use study::{Campbell, Columns, StudyError, campbell};
+use study::{Campbell, StudyError, campbell};
 
-use report::columns_to_csv;
-
-use super::prepare::Prepared;
-
-/// Name of the file.
-pub(super) const FILE: &str = "campbell.csv";
 /// Mesh orders that may meet a frequency.
 const ORDERS: usize = 6;
 /// Speeds of the diagram, standstill among them.
@@ -18,7 +12,7 @@ const BEYOND: f64 = 1.05;
 
 /// Frequencies that a mesh order may meet over the speeds of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Frequencies {
+pub struct CampbellDiagram {
     /// Lines and where they meet; its speeds are the driver's turns a second.
     pub diagram: Campbell,
     /// Names of the orders.
@@ -30,21 +24,26 @@ pub(crate) struct Frequencies {
 /// A mesh order that meets a frequency within the speeds of the run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub(crate) struct CriticalSpeed {
+pub struct CriticalSpeed {
     pub excitation: String,
     pub meets: String,
     pub driver_speed_rpm: f64,
     pub frequency_hz: f64,
 }
 
-impl Frequencies {
-    /// Of a pair whose driver has so many teeth, up to its highest mesh frequency, Hz. Elastic frequencies are those with the bores held, at rest.
+impl CampbellDiagram {
+    /// Of frequencies (Hz) with their names, of a pair whose driver has so many teeth, up to its highest mesh frequency, Hz.
+    ///
+    /// Frequencies that are not finite are left out.
     ///
     /// # Errors
     /// [`StudyError`] for a frequency that is no number.
-    pub(super) fn of(prepared: &Prepared, teeth: u32, highest_mesh_hz: f64) -> Result<Self, StudyError> {
-        let mut lines = vec![(prepared.system.mesh_resonance_hz(), "mesh resonance".to_owned())];
-        lines.extend(prepared.elasticity.frequencies_hz().into_iter().filter(|(hz, _)| hz.is_finite()));
+    pub fn of(
+        frequencies: impl IntoIterator<Item = (f64, String)>,
+        teeth: u32,
+        highest_mesh_hz: f64,
+    ) -> Result<Self, StudyError> {
+        let mut lines: Vec<_> = frequencies.into_iter().filter(|(hz, _)| hz.is_finite()).collect();
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));
         let teeth = f64::from(teeth);
         let last = BEYOND * highest_mesh_hz / teeth;
@@ -71,18 +70,5 @@ impl Frequencies {
             frequency_hz: r.frequency,
         };
         all.into_iter().map(one).collect()
-    }
-
-    /// `campbell.csv`: one row a speed.
-    pub fn to_csv(&self) -> String {
-        let column = |name: &String| name.replace(' ', "_") + "_hz";
-        let names = std::iter::once("speed_rpm".to_owned()).chain(self.names.iter().chain(&self.orders).map(column));
-        let mut rows = Columns::named(names);
-        for (s, &speed) in self.diagram.speeds.iter().enumerate() {
-            let modes = self.diagram.frequencies.iter().map(|m| m[s]);
-            let lines = self.diagram.orders.iter().map(|o| o * speed);
-            rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
-        }
-        columns_to_csv(&rows)
     }
 }

@@ -2,22 +2,17 @@
 
 use dynamics::Speed;
 use serde::Serialize;
-use study::{Columns, StudyError, cycle_statistics};
+use study::{StudyError, cycle_statistics};
 
-use report::columns_to_csv;
+use super::{MotionSeries, RPM, WaterfallLine};
 
-use super::{RPM, spectra::WaterfallLine};
-
-/// One row a mesh cycle.
-pub(crate) const CYCLES: &str = "cycles.csv";
-/// Amplitudes of mesh orders over speed.
-pub(super) const ORDER_CUTS: &str = "order_cuts.csv";
 /// Mesh orders that are followed.
 const ORDERS: usize = 8;
 
 /// One mesh cycle of a ramp; units are in the names.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Cycle {
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct PassageCycle {
     pub time_s: f64,
     pub driver_speed_rpm: f64,
     pub mesh_frequency_hz: f64,
@@ -31,32 +26,37 @@ pub(crate) struct Cycle {
 
 /// Amplitudes of the mesh orders over a stretch of a ramp.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct OrderCut {
+pub struct OrderCut {
+    /// Middle of the stretch, s.
     pub time_s: f64,
+    /// Mean speed of the driver, 1/min.
     pub driver_speed_rpm: f64,
+    /// Mean mesh frequency, Hz.
     pub mesh_frequency_hz: f64,
-    /// Orders 1, 2, ..., um.
+    /// Amplitudes of orders 1, 2, ..., um.
     pub amplitudes_um: Vec<f64>,
 }
 
 /// A ramp over speed.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Passage {
-    pub cycles: Vec<Cycle>,
+pub struct Passage {
+    /// Mesh cycle by mesh cycle.
+    pub cycles: Vec<PassageCycle>,
+    /// Stretch by stretch of the waterfall.
     pub cuts: Vec<OrderCut>,
 }
 
 /// The largest of a ramp, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub(crate) struct Largest {
+#[allow(missing_docs)] // as above
+pub struct PeakOverSpeed {
     pub value: f64,
     pub driver_speed_rpm: f64,
     pub mesh_frequency_hz: f64,
     pub time_s: f64,
 }
 
-impl Largest {
+impl PeakOverSpeed {
     /// Speed and mesh frequency in words.
     pub fn place(&self) -> String {
         format!("at {:.1}/min, {:.1} Hz", self.driver_speed_rpm, self.mesh_frequency_hz)
@@ -66,33 +66,29 @@ impl Largest {
 /// What a ramp is made for; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // as above
-pub(crate) struct PassageHeadline {
-    pub peak_to_peak_dte_um: Largest,
-    pub dte_harmonics_um: Vec<Largest>,
-    pub normal_force_n: Largest,
-    pub pair_normal_force_n: Option<Largest>,
-    pub dynamic_factor: Option<Largest>,
+pub struct PassageHeadline {
+    pub peak_to_peak_dte_um: PeakOverSpeed,
+    pub dte_harmonics_um: Vec<PeakOverSpeed>,
+    pub normal_force_n: PeakOverSpeed,
+    pub pair_normal_force_n: Option<PeakOverSpeed>,
+    pub dynamic_factor: Option<PeakOverSpeed>,
     pub mean_peak_to_peak_dte_um: f64,
 }
 
 impl Passage {
-    /// Of the rows of a ramp, `per_cycle` to each mesh cycle; `law`: speed of the driver over time, `teeth`: its own, `static_force`: what the dynamic factor refers to, N.
+    /// Of the series of a ramp, `per_cycle` values to each mesh cycle; `law`: speed of the driver over time, `teeth`: its own, `static_force`: what the dynamic factor refers to, N.
     ///
     /// # Errors
-    /// [`StudyError`] for rows that hold what is no number.
+    /// [`StudyError`] for series that hold what is no number, and for series of different lengths.
     pub fn of(
-        rows: &Columns,
+        series: &MotionSeries,
         per_cycle: usize,
         (law, teeth): (Speed, u32),
         static_force: f64,
         waterfall: &[WaterfallLine],
     ) -> Result<Self, StudyError> {
-        let (time, dte) = (rows.series("time_s")?, rows.series("dte_um")?);
-        let pairs: Vec<&[f64]> =
-            rows.names_from("normal_force_pair_").into_iter().filter_map(|n| rows.find(n)).collect();
-        let driving = rows.series("normal_force_n")?;
-        // Models without coast flanks have no such column.
-        let coast = rows.find("coast_normal_force_n").unwrap_or_default();
+        let MotionSeries { time_s: time, dte_um: dte, normal_force_n: driving, .. } = series;
+        series.check(&[time, driving], per_cycle)?;
         let teeth = f64::from(teeth);
         let one = |k: usize| {
             let part = k * per_cycle..(k + 1) * per_cycle;
@@ -101,7 +97,7 @@ impl Passage {
             let driver_speed_rpm = law.at(time_s) / RPM;
             let of_dte = cycle_statistics(&dte[part.clone()], 1)?;
             let largest = highest(driving);
-            Ok(Cycle {
+            Ok(PassageCycle {
                 time_s,
                 driver_speed_rpm,
                 mesh_frequency_hz: driver_speed_rpm * teeth / 60.0,
@@ -109,14 +105,14 @@ impl Passage {
                 peak_to_peak_dte_um: of_dte.peak_to_peak,
                 min_normal_force_n: driving[part.clone()].iter().copied().fold(f64::INFINITY, f64::min),
                 max_normal_force_n: largest,
-                max_pair_normal_force_n: pairs.iter().map(|of| highest(of)).reduce(f64::max),
-                dynamic_factor: largest.max(highest(coast)) / static_force,
+                max_pair_normal_force_n: series.pair_normal_force_n.as_deref().map(highest),
+                dynamic_factor: largest.max(highest(&series.coast_normal_force_n)) / static_force,
             })
         };
-        let cycles = (0..dte.len() / per_cycle.max(1)).map(one).collect::<Result<_, StudyError>>()?;
+        let cycles = (0..dte.len() / per_cycle).map(one).collect::<Result<_, StudyError>>()?;
         let cuts = waterfall.iter().map(|line| {
             // So many bins to half of the rows in a cycle.
-            let bins = 2 * (line.amplitudes.len() - 1) / per_cycle.max(1);
+            let bins = 2 * line.amplitudes.len().saturating_sub(1) / per_cycle;
             OrderCut {
                 time_s: line.time,
                 driver_speed_rpm: 60.0 * line.mesh_frequency_hz / teeth,
@@ -129,8 +125,8 @@ impl Passage {
 
     /// The largest of everything; `None` without a whole cycle.
     pub fn headline(&self) -> Option<PassageHeadline> {
-        let largest = |value: &dyn Fn(&Cycle) -> f64| {
-            self.cycles.iter().max_by(|a, b| value(a).total_cmp(&value(b))).map(|c| Largest {
+        let largest = |value: &dyn Fn(&PassageCycle) -> f64| {
+            self.cycles.iter().max_by(|a, b| value(a).total_cmp(&value(b))).map(|c| PeakOverSpeed {
                 value: value(c),
                 driver_speed_rpm: c.driver_speed_rpm,
                 mesh_frequency_hz: c.mesh_frequency_hz,
@@ -139,7 +135,7 @@ impl Passage {
         };
         let orders = self.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
         let of_order = |n: usize| {
-            self.cuts.iter().max_by(|a, b| a.amplitudes_um[n].total_cmp(&b.amplitudes_um[n])).map(|c| Largest {
+            self.cuts.iter().max_by(|a, b| a.amplitudes_um[n].total_cmp(&b.amplitudes_um[n])).map(|c| PeakOverSpeed {
                 value: c.amplitudes_um[n],
                 driver_speed_rpm: c.driver_speed_rpm,
                 mesh_frequency_hz: c.mesh_frequency_hz,
@@ -157,60 +153,17 @@ impl Passage {
             mean_peak_to_peak_dte_um: sum / self.cycles.len() as f64,
         })
     }
-
-    /// `cycles.csv`.
-    pub fn cycles_csv(&self) -> String {
-        let pairs = self.cycles.iter().all(|c| c.max_pair_normal_force_n.is_some());
-        let names = [
-            "time_s",
-            "driver_speed_rpm",
-            "mesh_frequency_hz",
-            "mean_dte_um",
-            "peak_to_peak_dte_um",
-            "min_normal_force_n",
-            "max_normal_force_n",
-            "dynamic_factor",
-        ];
-        let mut rows = Columns::named(names.into_iter().chain(pairs.then_some("max_pair_normal_force_n")));
-        for c in &self.cycles {
-            let [a, b] = [
-                [c.time_s, c.driver_speed_rpm, c.mesh_frequency_hz, c.mean_dte_um],
-                [c.peak_to_peak_dte_um, c.min_normal_force_n, c.max_normal_force_n, c.dynamic_factor],
-            ];
-            rows.push(a.into_iter().chain(b).chain(c.max_pair_normal_force_n.filter(|_| pairs)));
-        }
-        columns_to_csv(&rows)
-    }
-
-    /// `order_cuts.csv`.
-    pub fn cuts_csv(&self) -> String {
-        let orders = self.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
-        let names = ["time_s", "driver_speed_rpm", "mesh_frequency_hz"].into_iter().map(str::to_owned);
-        let mut rows = Columns::named(names.chain((1..=orders).map(|n| format!("dte_order_{n}_um"))));
-        for cut in &self.cuts {
-            let place = [cut.time_s, cut.driver_speed_rpm, cut.mesh_frequency_hz];
-            rows.push(place.into_iter().chain(cut.amplitudes_um[..orders].iter().copied()));
-        }
-        columns_to_csv(&rows)
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::spectra::waterfall;
+    use crate::motion::waterfall;
 
-    /// Rows of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude, 3 um, at 2000/min, order 2 is 0.5 um everywhere.
-    fn rows() -> (Columns, Speed) {
+    /// Series of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude, 3 um, at 2000/min, order 2 is 0.5 um everywhere.
+    fn series() -> (MotionSeries, Speed) {
         let law = Speed::Ramp { from: 1000.0 * RPM, to: 3000.0 * RPM, start: 0.0, duration: 1.0 };
-        let mut rows = Columns::named([
-            "time_s",
-            "pinion_speed_rpm",
-            "dte_um",
-            "normal_force_n",
-            "coast_normal_force_n",
-            "normal_force_pair_0_n",
-        ]);
+        let mut series = MotionSeries { pair_normal_force_n: Some(Vec::new()), ..MotionSeries::default() };
         let pitch = std::f64::consts::TAU / 30.0;
         let cycles = (law.angle(1.0) / pitch).floor() as u32;
         for row in 1..=cycles * 16 {
@@ -220,19 +173,24 @@ mod tests {
             let size = 3.0 / (1.0 + ((speed - 2000.0) / 200.0).powi(2));
             let turn = std::f64::consts::TAU * phase;
             let dte = 5.0 + size * turn.cos() + 0.5 * (2.0 * turn).sin();
-            rows.push([time, speed, dte, 1000.0 * (1.0 + 0.2 * size), 0.0, 600.0 * (1.0 + 0.2 * size)]);
+            series.time_s.push(time);
+            series.pinion_speed_rpm.push(speed);
+            series.dte_um.push(dte);
+            series.normal_force_n.push(1000.0 * (1.0 + 0.2 * size));
+            series.coast_normal_force_n.push(0.0);
+            series.pair_normal_force_n.as_mut().unwrap().push(600.0 * (1.0 + 0.2 * size));
         }
-        (rows, law)
+        (series, law)
     }
 
     /// What is largest is found with its speed, however small the mean over the ramp is.
     #[test]
     fn the_largest_of_a_ramp_is_found_where_it_is() {
-        let (rows, law) = rows();
-        let lines = waterfall(&rows, 16, 8, 30).unwrap();
-        let passage = Passage::of(&rows, 16, (law, 30), 1000.0, &lines).unwrap();
+        let (series, law) = series();
+        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let passage = Passage::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
         let h = passage.headline().unwrap();
-        let near = |l: &Largest, value: f64| {
+        let near = |l: &PeakOverSpeed, value: f64| {
             assert!((l.driver_speed_rpm - 2000.0).abs() < 30.0, "{l:?}");
             assert!((l.mesh_frequency_hz / l.driver_speed_rpm - 0.5).abs() < 1e-12, "{l:?}");
             assert!((l.value / value - 1.0).abs() < 0.02, "{l:?}, not {value}");
@@ -247,18 +205,16 @@ mod tests {
         assert!(h.mean_peak_to_peak_dte_um < 0.5 * h.peak_to_peak_dte_um.value, "{h:?}");
     }
 
-    /// Both files have a row a place, and their speeds go with their frequencies.
+    /// Each mesh cycle has its place, and the speeds there go with the frequencies.
     #[test]
-    fn files_have_speed_and_frequency() {
-        let (rows, law) = rows();
-        let lines = waterfall(&rows, 16, 8, 30).unwrap();
-        let passage = Passage::of(&rows, 16, (law, 30), 1000.0, &lines).unwrap();
-        for text in [passage.cycles_csv(), passage.cuts_csv()] {
-            let table = report::parse_columns(&text).unwrap();
-            assert!(table.is_finite() && table.len() > 50, "{} rows", table.len());
-            let both = table.series("driver_speed_rpm").unwrap().iter().zip(table.series("mesh_frequency_hz").unwrap());
-            both.for_each(|(n, f)| assert!((n * 0.5 - f).abs() < 1e-9 * f, "{n}/min, {f} Hz"));
-        }
-        assert_eq!(passage.cycles.len() * 16, rows.len());
+    fn every_cycle_has_speed_and_frequency() {
+        let (series, law) = series();
+        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let passage = Passage::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
+        let cycles = passage.cycles.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz));
+        let both = cycles.chain(passage.cuts.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz)));
+        both.for_each(|(n, f)| assert!((n * 0.5 - f).abs() < 1e-9 * f, "{n}/min, {f} Hz"));
+        assert_eq!(passage.cycles.len() * 16, series.len());
+        assert!(passage.cuts.len() > 50, "{} cuts", passage.cuts.len());
     }
 }
