@@ -6,7 +6,7 @@
 //! | [`resolution`] | how many slices a scene's contact is cut into |
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
-//! | `ladder` | cheaper models of the same pair, in time |
+//! | `lumped` | runs of cheaper models, and their files |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`output`] | `summary.json`, pages and the closing table, of this crate's types of results; the rest is in the crate `report` |
@@ -35,12 +35,12 @@ pub use ::scene;
 pub mod starter;
 pub mod talk;
 
-mod ladder;
+mod lumped;
 mod partial;
 pub mod reduce;
 pub mod rexs;
 mod room;
 mod work_folder;
 
-pub(crate) use analysis::{elastic_gears, gears, iso_model};
+pub(crate) use analysis::{elastic_gears, gears};
 pub use analysis::{iso_root, meshes, resolution};

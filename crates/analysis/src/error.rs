@@ -1,8 +1,12 @@
 //! Why a scene has no answer.
 
+use std::sync::Arc;
+
 use ltca::StaticError;
+use lumped::LumpedError;
 use mesh::MeshError;
-use scene::SceneError;
+use scene::{Scene, SceneError};
+use study::StudyError;
 
 use crate::motion::UnstableSteps;
 
@@ -94,6 +98,54 @@ pub enum AnalysisError {
         /// What to do.
         way_out: &'static str,
     },
+    /// A cheaper model cannot be made of the scene, or finds no motion.
+    #[error("{file}: {source}")]
+    Lumped {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<LumpedError>,
+    },
+    /// A scene of another model was given to a cheaper one.
+    #[error("{file}: no model of the ladder")]
+    NoLumpedModel {
+        /// The scene.
+        file: String,
+    },
+    /// A scene at rest was given to an analysis in time.
+    #[error("{file}: no motion")]
+    NoMotion {
+        /// The scene.
+        file: String,
+    },
+    /// A sweep was given to an analysis of one motion.
+    #[error("{file}: is a sweep over speed")]
+    IsSweep {
+        /// The scene.
+        file: String,
+    },
+    /// A motion has left all bounds.
+    #[error("history.csv: holds what is no number")]
+    OutOfBounds,
+    /// A sweep without values.
+    #[error("a sweep over no values")]
+    NoValues,
+    /// What happened at a value of a key.
+    #[error("{key} = {value}: {source}")]
+    AtValue {
+        /// The key.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// What happened.
+        source: Box<AnalysisError>,
+    },
+    /// What keeps every value of a sweep from a result.
+    #[error("{0}")]
+    Shared(Arc<AnalysisError>),
+    /// Nothing can be read off a history.
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// The caller's sink has ended the analysis.
     #[error("{0}")]
     Sink(Box<dyn std::error::Error + Send + Sync>),
@@ -135,10 +187,23 @@ fn with_place(place: &str, source: &MeshError) -> String {
 }
 
 impl AnalysisError {
+    /// What a cheaper model says of a scene.
+    pub(crate) fn lumped(scene: &Scene, source: LumpedError) -> Self {
+        Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
+    }
+
     /// Whether the input is fine and yet no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) | Self::UnstableSteps(_) => true,
+            Self::MadeMesh { .. }
+            | Self::Certificate { .. }
+            | Self::Sink(_)
+            | Self::UnstableSteps(_)
+            | Self::OutOfBounds
+            | Self::Study(_) => true,
+            Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
+            Self::AtValue { source, .. } => source.is_without_result(),
+            Self::Shared(source) => source.is_without_result(),
             Self::Solver(failure) => {
                 matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
             }
@@ -156,7 +221,19 @@ impl AnalysisError {
             Self::Reduction { source, .. } => source.hint(),
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
-            Self::Iso { source, .. } => source.hint(),
+            Self::Iso { source, .. } | Self::Lumped { source, .. } => source.hint(),
+            Self::NoLumpedModel { .. } => {
+                Some("use the model \"lumped8\", \"lumped12\", \"shaft18\" or \"impact\"".to_owned())
+            }
+            Self::NoMotion { .. } => Some("say `kind = \"dynamic\"` in [analysis]".to_owned()),
+            Self::IsSweep { .. } => Some("run it as a sweep of its key `operation.speed_rpm`".to_owned()),
+            Self::OutOfBounds => {
+                Some("the motion has left all bounds: take smaller steps, or look at supports and damping".to_owned())
+            }
+            Self::NoValues => Some("give `--points 2` or more".to_owned()),
+            Self::AtValue { source, .. } => source.hint(),
+            Self::Shared(source) => source.hint(),
+            Self::Study(e) => e.hint(),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
             Self::Sink(_) => None,
@@ -170,6 +247,8 @@ impl AnalysisError {
             Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
             Self::Solver(failure) => failure.excerpt.as_deref(),
             Self::UnstableSteps(steps) => steps.excerpt.as_deref(),
+            Self::AtValue { source, .. } => source.excerpt(),
+            Self::Shared(source) => source.excerpt(),
             _ => None,
         }
     }

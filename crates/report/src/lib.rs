@@ -9,6 +9,7 @@
 //! | [`page`] | pages that need nothing beside themselves |
 //! | [`view`] | both gears in space, for the page |
 //! | [`contact_files`] | contact lines and contact pattern |
+//! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
@@ -22,6 +23,7 @@ pub mod contact_files;
 pub mod csv;
 mod error;
 mod files;
+pub mod lumped_files;
 pub mod motion_files;
 pub mod page;
 pub mod paraview;

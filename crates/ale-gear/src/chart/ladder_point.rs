@@ -2,19 +2,14 @@
 
 use std::time::Instant;
 
+use analysis::lumped::{ExcitationSource, LumpedInputs};
 use study::{Answer, Work};
 
 use super::{
     Point,
     measure::{Measured, REPEATS, degrees_of_freedom},
 };
-use crate::{
-    cache::Cache,
-    error::CommandError,
-    ladder::{Recipe, Sources},
-    output::ResultDirectory,
-    phases::Phases,
-};
+use crate::{cache::Cache, error::CommandError, phases::Phases};
 
 /// A cycle that takes longer than this (s) is timed once.
 const LONG: f64 = 0.05;
@@ -23,11 +18,11 @@ const LONG: f64 = 0.05;
 ///
 /// # Errors
 /// Exit status 2 for a scene that the model cannot be made of, 1 where it finds nothing to rest on.
-pub(super) fn measure(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandError> {
+pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
     let mut phases = Phases::quiet();
     let start = Instant::now();
-    let recipe = Recipe::gather(&point.scene, &mut Sources::new(&mut phases, results, &Cache::off()))?;
-    let made = recipe.model()?;
+    let cache = Cache::off();
+    let made = LumpedInputs::gather(&point.scene, &mut ExcitationSource::new(&mut phases, &cache))?.build()?;
     let offline_s = start.elapsed().as_secs_f64();
     let count = point.positions as usize;
     let cycle = || {

@@ -36,7 +36,7 @@ const LONG: f64 = 20.0;
 pub(super) fn measure(point: &Point, results: &ResultDirectory) -> Result<Measured, CommandError> {
     let measured = match point.way.engine {
         Engine::Own(_) => own(point, results),
-        Engine::Ladder(_) => ladder_point::measure(point, results),
+        Engine::Ladder(_) => ladder_point::measure(point),
         Engine::Calculix => calculix_point::measure(point),
     };
     measured.map(|mut m| {
@@ -108,7 +108,7 @@ pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], CommandError>
 /// As meshing complains.
 pub(super) fn degrees_of_freedom(scene: &Scene) -> Result<usize, CommandError> {
     let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
-    if scene.analysis.model == Model::Iso || (crate::ladder::has(scene) && !fed) {
+    if scene.analysis.model == Model::Iso || (analysis::lumped::is_lumped(scene) && !fed) {
         return Ok(0);
     }
     let pair = scene.gear_pair()?;

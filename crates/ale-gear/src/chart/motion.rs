@@ -2,18 +2,12 @@
 
 use std::time::Instant;
 
+use analysis::lumped::{ExcitationSource, LumpedInputs, steady_rows};
 use report::columns::motion_history::DTE;
 
 use super::{Density, ladder_scene, plan};
 use crate::{
-    cache::Cache,
-    error::CommandError,
-    ladder::{self, Recipe, Sources},
-    motion::{self, Columns},
-    output::ResultDirectory,
-    partial::Partial,
-    phases::Phases,
-    scene::Scene,
+    cache::Cache, error::CommandError, motion, output::ResultDirectory, partial::Partial, phases::Phases, scene::Scene,
 };
 
 /// Mesh cycles that are judged.
@@ -58,12 +52,7 @@ fn reduced(scene: &mut Scene) {
 }
 
 /// Every model in motion, `reduced` first.
-pub(super) fn rows(
-    scene: &Scene,
-    density: Density,
-    results: &ResultDirectory,
-    mut seen: impl FnMut(&str),
-) -> Vec<MotionRow> {
+pub(super) fn rows(scene: &Scene, density: Density, mut seen: impl FnMut(&str)) -> Vec<MotionRow> {
     let ways: [(&'static str, Edit); WAYS] = [
         (REDUCED, reduced),
         ("lumped8", ladder_scene::lumped8),
@@ -80,7 +69,7 @@ pub(super) fn rows(
         own.output.root_stress = false;
         own.output.contact_lines = false;
         own.output.vtu = false;
-        let outcome = if way == REDUCED { whole(&own) } else { cheap(&own, results) };
+        let outcome = if way == REDUCED { whole(&own) } else { cheap(&own) };
         MotionRow { way, outcome: outcome.map_err(|e| e.message.replace('\n', " ")) }
     };
     ways.into_iter().map(one).collect()
@@ -97,7 +86,7 @@ fn whole(scene: &Scene) -> Result<MotionPoint, CommandError> {
         let own = phases.rows().iter().filter(|p| matches!(p.name.as_str(), "settle" | "solve") == solve);
         own.filter(|p| !solve || p.name == "solve").map(|p| p.wall_s).sum()
     };
-    point(&rows, 1, wall(false), wall(true) / f64::from(CYCLES))
+    point(rows.series(DTE.name)?, 1, wall(false), wall(true) / f64::from(CYCLES))
 }
 
 fn words(scene: &Scene) -> Result<&crate::scene::MotionScene, CommandError> {
@@ -105,21 +94,21 @@ fn words(scene: &Scene) -> Result<&crate::scene::MotionScene, CommandError> {
     scene.motion.as_ref().ok_or_else(none)
 }
 
-fn cheap(scene: &Scene, results: &ResultDirectory) -> Result<MotionPoint, CommandError> {
+fn cheap(scene: &Scene) -> Result<MotionPoint, CommandError> {
     let mut phases = Phases::quiet();
-    let words = words(scene)?;
     let start = Instant::now();
-    let recipe = Recipe::gather(scene, &mut Sources::new(&mut phases, results, &Cache::off()))?;
-    let made = recipe.model()?;
-    let coordinates = made.coordinates();
+    let cache = Cache::off();
+    let inputs = LumpedInputs::gather(scene, &mut ExcitationSource::new(&mut phases, &cache))?;
+    let system = inputs.build()?;
+    let coordinates = system.coordinates();
     let offline_s = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let (rows, cycles) = ladder::steady_rows(&recipe, made, words)?;
-    point(&rows, coordinates, offline_s, start.elapsed().as_secs_f64() / cycles as f64)
+    let (rows, cycles) = steady_rows(&inputs, system)?;
+    let dte: Vec<f64> = rows.iter().map(|r| r.transmission_error_um).collect();
+    point(&dte, coordinates, offline_s, start.elapsed().as_secs_f64() / cycles as f64)
 }
 
-fn point(rows: &Columns, coordinates: usize, offline_s: f64, cycle_s: f64) -> Result<MotionPoint, CommandError> {
-    let dte = rows.series(DTE.name)?;
+fn point(dte: &[f64], coordinates: usize, offline_s: f64, cycle_s: f64) -> Result<MotionPoint, CommandError> {
     let mean_um = study::mean(dte);
     let squares: f64 = dte.iter().map(|x| (x - mean_um).powi(2)).sum();
     Ok(MotionPoint {

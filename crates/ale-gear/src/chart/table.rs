@@ -130,7 +130,7 @@ pub fn chart(
     // The finest mesh that is not the reference's own.
     let density = options.densities.iter().rev().nth(1).or(options.densities.first());
     let motion = match density.filter(|_| options.motion) {
-        Some(density) => motion::rows(scene, *density, results, seen),
+        Some(density) => motion::rows(scene, *density, seen),
         None => Vec::new(),
     };
     Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows, motion })

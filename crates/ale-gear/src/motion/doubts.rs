@@ -20,7 +20,7 @@ const SLOW: f64 = 20_000.0;
 /// More steps than this of a motion with modes take minutes: those who wait should know.
 const LONG: f64 = 100_000.0;
 /// Backlash below which there is none, um.
-pub(crate) const NO_BACKLASH_UM: f64 = 1e-3;
+const NO_BACKLASH_UM: f64 = 1e-3;
 /// Fewer steps than this in a period of the mesh resonance show it wrongly.
 const COARSE: f64 = 8.0;
 

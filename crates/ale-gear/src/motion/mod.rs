@@ -42,16 +42,14 @@ use store::{CheckpointFolder, Checkpoints, Stored};
 use write::{no_statistics, write_motion, write_sweep};
 
 pub(crate) use analysis::motion::{
-    MOTION_WAY_OUT, RPM, Steps, bearing, drive, energy_check, motion_options, pulling_check, refuse_unstable, scheme,
-    speed, stated_body, steady_by, torque,
+    MOTION_WAY_OUT, RPM, Steps, motion_options, refuse_unstable, scheme, speed, steady_by,
 };
-pub(crate) use doubts::NO_BACKLASH_UM;
 pub(crate) use elasticity::ElasticHeadline;
 pub(crate) use headline::MotionHeadline;
 pub(crate) use inertia::InertiaHeadline;
 pub(crate) use precision::{Precision, PrecisionPoint, precision};
-pub(crate) use report::{columns::GEARS, read_columns};
-pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
+pub(crate) use report::read_columns;
+pub(crate) use rows::{ENERGY_FILE, HISTORY, column_names};
 pub(crate) use study::Columns;
 pub(crate) use sweep::{SweepHeadline, SweepRow};
 

@@ -27,13 +27,6 @@ use crate::{
 
 use super::{no_statistics, pattern::PatternRecord};
 
-/// What a row of turning gears with flanks begins with.
-pub(crate) const TURNING: [&str; 6] =
-    [TIME.name, PINION_ANGLE.name, MESH_PHASE.name, PINION_SPEED.name, WHEEL_SPEED.name, DTE.name];
-/// Names of a wrench's components.
-pub(crate) const WRENCH: [&str; COORDINATES] =
-    ["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
-
 /// Names of the files.
 pub(crate) const HISTORY: &str = "history.csv";
 pub(crate) const ENERGY_FILE: &str = "energy.csv";

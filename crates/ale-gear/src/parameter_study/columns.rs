@@ -1,10 +1,11 @@
 //! Which columns the rows of a scene will have: a misspelt one is told before hours of work, not after.
 
+use analysis::lumped::is_lumped;
 use toml::Spanned;
 
 use super::Case;
 use crate::{
-    ladder, motion,
+    motion,
     output::history_columns,
     scene::{Scene, SceneError, Source, nearest},
 };
@@ -15,7 +16,7 @@ const BY_PAIR: &str = "_pair_";
 /// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
 fn of(scene: &Scene) -> Option<Vec<String>> {
     match &scene.motion {
-        Some(_) if ladder::has(scene) => None,
+        Some(_) if is_lumped(scene) => None,
         Some(_) => Some(motion::column_names(scene)),
         None => Some(history_columns(scene, &[])),
     }

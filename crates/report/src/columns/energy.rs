@@ -1,21 +1,13 @@
 //! `energy.csv`: the ledger of a motion, row for row with its history.
 
-use integrate::Ledger;
+pub use analysis::EnergyRecord;
+use study::Columns;
 
 use super::{Group, Over, Rows, Table, columns};
 
 /// Rows of a ledger.
 #[derive(Debug)]
 pub struct EnergyRows;
-
-/// The ledger at a time.
-#[derive(Debug, Clone, Copy)]
-pub struct EnergyRecord {
-    /// s.
-    pub time: f64,
-    /// Work and energy since the start, N mm = mJ.
-    pub ledger: Ledger,
-}
 
 impl Rows for EnergyRows {
     type Layout = ();
@@ -35,3 +27,11 @@ columns!(EnergyRows, ALL, |(), _| true, {
 
 /// All columns of a ledger.
 pub const ENERGY: Table<EnergyRows> = Table { groups: &[Group { over: Over::File, columns: ALL }] };
+
+/// The ledger of a motion as columns by name.
+pub fn energy_columns(records: &[EnergyRecord]) -> Columns {
+    let sheet = ENERGY.sheet(&(), &[]);
+    let mut columns = Columns::named(sheet.names());
+    records.iter().for_each(|record| columns.push(sheet.row(&(), record)));
+    columns
+}

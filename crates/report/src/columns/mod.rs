@@ -4,11 +4,13 @@
 //! A new column is one entry of a table, and its line in the document.
 
 pub mod energy;
+pub mod lumped_history;
 pub mod motion_history;
 pub mod static_history;
 mod table;
 
-pub use energy::{ENERGY, EnergyRecord, EnergyRows};
+pub use energy::{ENERGY, EnergyRecord, EnergyRows, energy_columns};
+pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_csv, lumped_quantity};
 pub use motion_history::{MOTION_HISTORY, MotionLayout, MotionRows};
 pub use static_history::{STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, write_history};
 pub(crate) use table::columns;

@@ -9,11 +9,11 @@ const SUBHARMONIC: f64 = 0.01;
 
 /// Transmission errors of the last mesh cycles, row by row.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Returns {
+pub(super) struct PeriodicityMonitor {
     cycles: VecDeque<Vec<f64>>,
 }
 
-impl Returns {
+impl PeriodicityMonitor {
     /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly after one: what dies out slowly may look alike after a few cycles by chance.
     ///
     /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a millionth of its largest value where that is more:
@@ -51,15 +51,15 @@ mod tests {
     /// A record of period three is found as such, not as one of six, and noise as none.
     #[test]
     fn the_shortest_period_is_found() {
-        let mut returns = Returns::default();
+        let mut monitor = PeriodicityMonitor::default();
         let mut last = None;
         for k in 0..8 {
             let own = f64::from(k % 3);
-            last = Some(returns.judge(vec![own, 2.0 + own, -1.0], 1e-9));
+            last = Some(monitor.judge(vec![own, 2.0 + own, -1.0], 1e-9));
         }
         assert_eq!(last, Some(Periodicity { period: 3, residual: 0.0 }));
-        let mut returns = Returns::default();
-        let noise = (0..8).map(|k| returns.judge(vec![f64::from(k * k), 0.0], 1e-9).residual);
+        let mut monitor = PeriodicityMonitor::default();
+        let noise = (0..8).map(|k| monitor.judge(vec![f64::from(k * k), 0.0], 1e-9).residual);
         assert!(noise.fold(f64::INFINITY, f64::min) > 1e-3);
     }
 }

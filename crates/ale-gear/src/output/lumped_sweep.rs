@@ -1,7 +1,9 @@
 //! What a sweep of a cheaper model shows: diagrams, page, closing table.
 
+use analysis::lumped::{SweepHeadline, SweepPoint};
 use report::{
     charts::{Curve, dot_chart, dot_picture, line_chart},
+    lumped_files::SweepPage,
     page::Rendered,
 };
 
@@ -9,7 +11,6 @@ use super::{motion_report::render, table::Lines};
 use crate::{
     error::CommandError,
     facts::{Cost, Facts},
-    ladder::{SweepPoint, SweepSummary},
     scene::{Scene, SweepWay},
 };
 
@@ -52,16 +53,16 @@ fn bifurcation_charts(key: &str, of: &str, points: &[SweepPoint]) -> Vec<String>
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
-pub(crate) fn write_ladder_sweep_report(
+pub(crate) fn write_lumped_sweep_report(
     scene: &Scene,
     facts: &Facts,
     cost: &Cost,
-    summary: &SweepSummary,
+    page: &SweepPage<'_>,
     points: &[SweepPoint],
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
-    let charts = bifurcation_charts(&summary.key, &summary.section_of, points);
-    render(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)
+    let charts = bifurcation_charts(&page.headline.key, &page.headline.section_of, points);
+    render(scene, facts, cost, page, "ladder_sweep.html", charts, warnings)
 }
 
 /// A few values as text, ascending and each once, the rest as dots.
@@ -77,11 +78,11 @@ fn listed(mut values: Vec<f64>) -> String {
 }
 
 /// The table at the end of a sweep.
-pub(crate) fn ladder_sweep_table(
+pub(crate) fn lumped_sweep_table(
     scene: &Scene,
     facts: &Facts,
     cost: &Cost,
-    s: &SweepSummary,
+    s: &SweepHeadline,
     warnings: &[String],
 ) -> String {
     let mut t = Lines::new(facts);

@@ -2,45 +2,32 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::RigidBody;
-use geometry::{GearPair, Sense};
-use integrate::State;
-use lumped::{
+use ::lumped::{
     HistoryRow, LineSharing, LumpedError, LumpedModel, LumpedPair, MeshClock, MeshFrame, Operation, PlaneOfAction,
     lumped8::{Lumped8, MeshLaw, Motion8},
     lumped12::{Lumped12, Motion12},
     starting_state,
 };
+use dynamics::RigidBody;
+use geometry::{GearPair, Sense};
+use integrate::State;
 use nalgebra::DVector;
+use scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing};
 
 use super::{
+    LumpedRow,
     bodies::{bodies, supports8, supports12, torques},
-    mesh_cycle::{Fed, half_a_cycle_on},
-    model::{LadderModel, StaticPoint},
+    excitation::{MeshExcitation, half_a_cycle_on},
+    mechanism::{LumpedMechanism, StaticPoint},
 };
-use crate::{
-    motion::{GEARS, RPM, WRENCH},
-    run,
-    scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing},
-};
+use crate::{motion::RPM, options};
 
-const LEADING: [&str; 9] = [
-    "time_s",
-    "pinion_angle_deg",
-    "mesh_phase",
-    "dte_um",
-    "mesh_deflection_um",
-    "mesh_stiffness_n_per_um",
-    "contact_line_length_mm",
-    "normal_force_n",
-    "friction_force_n",
-];
 /// Mesh cycles at t = 0: the pinion begins half a pitch before the middle of pair 0, as everywhere in this program.
 const START: f64 = -0.5;
 
 /// Sense in which the driver turns: scenes say how the pinion does.
 fn driver_sense(scene: &Scene, pair: &GearPair) -> Sense {
-    match (scene.operation.driver, run::options(scene, pair).contact.sense) {
+    match (scene.operation.driver, options(scene, pair).contact.sense) {
         (Driver::Pinion, sense) => sense,
         (Driver::Wheel, Sense::Ccw) => Sense::Cw,
         (Driver::Wheel, Sense::Cw) => Sense::Ccw,
@@ -49,7 +36,7 @@ fn driver_sense(scene: &Scene, pair: &GearPair) -> Sense {
 
 /// Contact lines of a scene's pair.
 pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
-    let driver = run::options(scene, pair).contact.driver;
+    let driver = options(scene, pair).contact.driver;
     PlaneOfAction::of_pair(pair, driver, &MeshFrame::of_pair(pair, driver, driver_sense(scene, pair)))
 }
 
@@ -59,26 +46,26 @@ pub(super) fn plane(scene: &Scene, pair: &GearPair) -> PlaneOfAction {
 /// [`LumpedError`] for what has no meaning.
 pub(super) fn lumped_pair(
     scene: &Scene,
-    words: &MeshScene,
+    mesh: &MeshScene,
     pair: &GearPair,
-    fed: &Fed,
+    excitation: &MeshExcitation,
 ) -> Result<(LumpedPair, [RigidBody; 2]), LumpedError> {
     let bodies = bodies(scene, pair);
     let operation = Operation {
-        driver: run::options(scene, pair).contact.driver,
+        driver: options(scene, pair).contact.driver,
         sense: driver_sense(scene, pair),
         speed: scene.operation.speed_rpm * RPM,
         torque: scene.operation.torque(),
         friction: scene.contact.friction,
     };
-    let mut made = LumpedPair::new(pair, &operation, bodies, half_a_cycle_on(&fed.cycle))?;
-    made.clock = MeshClock { start: START, ..made.clock };
-    made.torques = torques(scene, pair, made.torques[0].mean());
-    made.plane.sharing = match words.line_sharing {
+    let mut lumped = LumpedPair::new(pair, &operation, bodies, half_a_cycle_on(&excitation.cycle))?;
+    lumped.clock = MeshClock { start: START, ..lumped.clock };
+    lumped.torques = torques(scene, pair, lumped.torques[0].mean());
+    lumped.plane.sharing = match mesh.line_sharing {
         Some(Sharing::Line) => LineSharing::ByLine,
         Some(Sharing::Length) | None => LineSharing::ByLength,
     };
-    Ok((made, bodies))
+    Ok((lumped, bodies))
 }
 
 /// Driver's first.
@@ -89,17 +76,17 @@ fn by_role<T>(pair: &LumpedPair, [pinion, wheel]: [T; 2]) -> [T; 2] {
 /// The model with eight coordinates.
 pub(super) fn eight(
     scene: &Scene,
-    words: &Lumped8Scene,
+    own: &Lumped8Scene,
     mesh: &MeshScene,
     gears: &GearPair,
     mut pair: LumpedPair,
     bodies: &[RigidBody; 2],
 ) -> Result<Motion8, LumpedError> {
-    if let Some(hz) = words.speed_fluctuation_hz {
-        pair.clock.fluctuation = words.speed_fluctuation_rpm * RPM;
+    if let Some(hz) = own.speed_fluctuation_hz {
+        pair.clock.fluctuation = own.speed_fluctuation_rpm * RPM;
         pair.clock.fluctuation_frequency = TAU * hz;
     }
-    let law = match words.law {
+    let law = match own.law {
         Law::Normal => MeshLaw::Normal,
         Law::Projected => MeshLaw::Projected,
     };
@@ -110,71 +97,41 @@ pub(super) fn eight(
 }
 
 /// The model with twelve.
-pub(super) fn twelve(scene: &Scene, words: &Lumped12Scene, mut pair: LumpedPair) -> Result<Motion12, LumpedError> {
-    if let Some(degrees) = words.orientation_deg {
+pub(super) fn twelve(scene: &Scene, own: &Lumped12Scene, mut pair: LumpedPair) -> Result<Motion12, LumpedError> {
+    if let Some(degrees) = own.orientation_deg {
         pair.frame.orientation = degrees.to_radians();
     }
     let supports = by_role(&pair, supports12(scene));
-    let between = [words.damping_from_hz, words.damping_to_hz].map(|f| TAU * f);
-    Lumped12::new(pair, supports, words.damping_ratio, between)?.motion()
+    let between = [own.damping_from_hz, own.damping_to_hz].map(|f| TAU * f);
+    Lumped12::new(pair, supports, own.damping_ratio, between)?.motion()
 }
 
-/// A coordinate of a gear: how its columns end and what a unit of it is in theirs.
-type Coordinate = (&'static str, &'static str);
-
-/// Across and along the line of action in the model with eight, global axes in the other.
-const EIGHT: [Coordinate; 4] = [
-    ("across_um", "across_rate_um_per_s"),
-    ("along_um", "along_rate_um_per_s"),
-    ("z_um", "z_rate_um_per_s"),
-    ("turn_urad", "turn_rate_urad_per_s"),
-];
-const TWELVE: [Coordinate; 6] = [
-    ("x_um", "x_rate_um_per_s"),
-    ("y_um", "y_rate_um_per_s"),
-    ("z_um", "z_rate_um_per_s"),
-    ("tilt_x_urad", "tilt_x_rate_urad_per_s"),
-    ("tilt_y_urad", "tilt_y_rate_urad_per_s"),
-    ("turn_urad", "turn_rate_urad_per_s"),
-];
-
-fn columns(pair: &LumpedPair, coordinates: &[Coordinate]) -> Vec<String> {
-    let mut names: Vec<String> = LEADING.iter().map(|&n| n.to_owned()).collect();
-    for gear in GEARS {
-        names.extend(WRENCH.iter().map(|n| format!("{gear}_{n}")));
-    }
-    let gears = by_role(pair, GEARS);
-    for pick in [|c: &Coordinate| c.0, |c: &Coordinate| c.1] {
-        names.extend(gears.iter().flat_map(|g| coordinates.iter().map(move |c| format!("{g}_{}", pick(c)))));
-    }
-    names
-}
-
-fn values(row: &HistoryRow, coordinates: &[Coordinate]) -> Vec<f64> {
-    let mut all = vec![
-        row.time,
-        row.pinion_angle.to_degrees(),
+fn lumped_row(row: HistoryRow) -> LumpedRow {
+    LumpedRow {
+        time: row.time,
+        pinion_angle: Some(row.pinion_angle),
         // Lumped pairs count from the middle of pair 0, files from half a cycle before.
-        (row.mesh_phase - START).rem_euclid(1.0),
-        1e3 * row.transmission_error,
-        1e3 * row.mesh_deflection,
-        1e-3 * row.mesh_stiffness,
-        row.contact_line_length,
-        row.normal_force,
-        row.friction_force,
-    ];
-    all.extend(row.wrench.iter().flat_map(|w| w.force.iter().chain(&w.moment)));
-    let unit = |i: usize| if coordinates[i % coordinates.len()].0.ends_with("urad") { 1e6 } else { 1e3 };
-    for list in [&row.displacement, &row.velocity] {
-        all.extend(list.iter().enumerate().map(|(i, x)| unit(i) * x));
+        mesh_phase: (row.mesh_phase - START).rem_euclid(1.0),
+        transmission_error_um: 1e3 * row.transmission_error,
+        mesh_deflection: Some(row.mesh_deflection),
+        mesh_stiffness: Some(row.mesh_stiffness),
+        contact_line_length: Some(row.contact_line_length),
+        normal_force: row.normal_force,
+        friction_force: Some(row.friction_force),
+        wrench: row.wrench.map(|w| {
+            let ([x, y, z], [mx, my, mz]) = (w.force, w.moment);
+            [x, y, z, mx, my, mz]
+        }),
+        displacement: row.displacement,
+        velocity: row.velocity,
+        ..LumpedRow::default()
     }
-    all
 }
 
 /// The parts that both have by their common trait.
-macro_rules! ladder_model {
-    ($motion:ty, $coordinates:expr, $frequencies:expr) => {
-        impl LadderModel for $motion {
+macro_rules! lumped_mechanism {
+    ($motion:ty, $frequencies:expr) => {
+        impl LumpedMechanism for $motion {
             fn start(&mut self) -> Result<State, LumpedError> {
                 Ok(starting_state(self))
             }
@@ -183,12 +140,8 @@ macro_rules! ladder_model {
                 LumpedModel::scale(self)
             }
 
-            fn columns(&self) -> Vec<String> {
-                columns(self.pair(), &$coordinates)
-            }
-
-            fn row(&mut self, state: &State) -> Vec<f64> {
-                values(&LumpedModel::row(self, state.time, &state.q, &state.v), &$coordinates)
+            fn row(&mut self, state: &State) -> LumpedRow {
+                lumped_row(LumpedModel::row(self, state.time, &state.q, &state.v))
             }
 
             fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
@@ -209,8 +162,8 @@ macro_rules! ladder_model {
     };
 }
 
-ladder_model!(Motion8, EIGHT, |_: &Motion8| Vec::new());
-ladder_model!(Motion12, TWELVE, frequencies);
+lumped_mechanism!(Motion8, |_: &Motion8| Vec::new());
+lumped_mechanism!(Motion12, frequencies);
 
 /// Of the pair at the start of a mesh cycle, with friction as it then is.
 fn frequencies(model: &Motion12) -> Vec<f64> {

@@ -4,7 +4,7 @@ use ::lumped::{LumpedError, modes::linearised};
 use integrate::Mechanism;
 use nalgebra::{Cholesky, DMatrix, DVector, SVD};
 
-use crate::ladder::Model;
+use super::super::mechanism::BoxedMechanism;
 
 /// Stiffness over the largest below which a direction is free.
 const FREE: f64 = 1e-11;
@@ -24,7 +24,7 @@ impl FreeTurn {
     ///
     /// # Errors
     /// [`LumpedError`] where there is nothing to stand on.
-    pub fn of(model: &mut Model) -> Result<Option<Self>, LumpedError> {
+    pub fn of(model: &mut BoxedMechanism) -> Result<Option<Self>, LumpedError> {
         let start = model.start()?;
         let Ok((stiffness, _)) = linearised(model, start.time, &start.q);
         let (mass, n) = (model.mass().clone(), start.q.len());

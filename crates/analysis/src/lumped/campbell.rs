@@ -1,19 +1,19 @@
 //! Natural frequencies over speed, mesh and shaft orders through them, and a continuum beside the lumped ones.
 
-use ::lumped::shaft18::{Shaft, ShaftSystem, continuum_modes};
+use ::lumped::{
+    LumpedError,
+    shaft18::{Shaft, ShaftSystem, continuum_modes},
+};
 use fem::beam::BeamTheory;
+use scene::Driver;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 use study::{Campbell, campbell as diagram};
 
-use super::{Model, Recipe, complaint};
-use study::Columns;
+use super::inputs::{LumpedInputs, LumpedSystem};
+use crate::AnalysisError;
 
-use crate::{error::CommandError, scene::Driver};
-
-/// Name of the file.
-pub(super) const FILE: &str = "campbell.csv";
 /// Speeds of the diagram, standstill among them.
 const SPEEDS: u32 = 25;
 /// The diagram ends at so many times the scene's speed, or where the first mesh order has passed the mesh resonance.
@@ -25,13 +25,15 @@ const FREE: f64 = 1e-6;
 
 /// Frequencies over speed.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CampbellDiagram {
+pub struct LumpedCampbell {
     /// Lines and where they meet; its speeds are the driver's turns a second.
     pub diagram: Campbell,
     /// Name of each order.
     pub names: Vec<String>,
-    at_rest_hz: Vec<f64>,
-    continuum_hz: Option<Vec<f64>>,
+    /// Undamped natural frequencies at rest, Hz, the free turn among them.
+    pub at_rest_hz: Vec<f64>,
+    /// Those of the shafts in Timoshenko beams, Hz.
+    pub continuum_hz: Option<Vec<f64>>,
 }
 
 /// An excitation that meets a mode.
@@ -46,18 +48,15 @@ struct Meeting<'a> {
 /// Diagram of a linear model; `None` of one that is not.
 ///
 /// # Errors
-/// Exit status 2 for shafts that are none.
-pub(super) fn campbell(
-    recipe: &Recipe,
-    (model, resonance_hz): (&Model, f64),
-    shafts: Option<&ShaftSystem>,
-) -> Result<Option<CampbellDiagram>, CommandError> {
+/// [`AnalysisError::Lumped`] for shafts that are none.
+pub(super) fn campbell(inputs: &LumpedInputs, system: &LumpedSystem) -> Result<Option<LumpedCampbell>, AnalysisError> {
+    let LumpedSystem { model, resonance_hz, shafts, .. } = system;
     let at_rest_hz = model.natural_frequencies_hz(0.0);
     let Some(&highest) = at_rest_hz.last() else { return Ok(None) };
     let elastic = |all: Vec<f64>| -> Vec<f64> { all.into_iter().filter(|f| *f > FREE * highest).collect() };
-    let (names, orders): (Vec<String>, Vec<f64>) = orders(recipe).into_iter().unzip();
-    let own = recipe.scene.operation.speed_rpm / 60.0;
-    let last = (BEYOND * own).max(1.1 * resonance_hz / f64::from(recipe.driver_teeth()));
+    let (names, orders): (Vec<String>, Vec<f64>) = orders(inputs).into_iter().unzip();
+    let own = inputs.scene.operation.speed_rpm / 60.0;
+    let last = (BEYOND * own).max(1.1 * resonance_hz / f64::from(inputs.scene.driver_teeth()));
     let speeds: Vec<f64> = (0..SPEEDS).map(|i| last * f64::from(i) / f64::from(SPEEDS - 1)).collect();
     let count = elastic(at_rest_hz.clone()).len();
     let of_speed = |speed: f64| {
@@ -66,17 +65,18 @@ pub(super) fn campbell(
         let surplus = all.len().saturating_sub(count);
         all[surplus..].to_vec()
     };
-    let diagram = diagram(&speeds, &orders, of_speed).map_err(|e| CommandError::failed(&e, e.hint()))?;
-    let continuum_hz = shafts.map(|system| continuum(system).map_err(|e| complaint(&recipe.scene, &e))).transpose()?;
-    Ok(Some(CampbellDiagram { diagram, names, at_rest_hz, continuum_hz }))
+    let diagram = diagram(&speeds, &orders, of_speed)?;
+    let continuum_hz =
+        shafts.as_ref().map(continuum).transpose().map_err(|e| AnalysisError::lumped(&inputs.scene, e))?;
+    Ok(Some(LumpedCampbell { diagram, names, at_rest_hz, continuum_hz }))
 }
 
 /// Orders of excitation over the driver's turns: three of the mesh, and both shafts.
-fn orders(recipe: &Recipe) -> Vec<(String, f64)> {
-    let teeth = [recipe.scene.pinion.teeth, recipe.scene.wheel.teeth].map(f64::from);
-    let driver = f64::from(recipe.driver_teeth());
+fn orders(inputs: &LumpedInputs) -> Vec<(String, f64)> {
+    let teeth = [inputs.scene.pinion.teeth, inputs.scene.wheel.teeth].map(f64::from);
+    let driver = f64::from(inputs.scene.driver_teeth());
     let mesh = (1..=3u32).map(|k| (format!("mesh order {k}"), f64::from(k) * driver));
-    let name = |i: usize| match (i == 0) == (recipe.scene.operation.driver == Driver::Pinion) {
+    let name = |i: usize| match (i == 0) == (inputs.scene.operation.driver == Driver::Pinion) {
         true => "driver's turn".to_owned(),
         false => "driven gear's turn".to_owned(),
     };
@@ -88,13 +88,13 @@ fn orders(recipe: &Recipe) -> Vec<(String, f64)> {
 }
 
 /// Frequencies of the shafts in Timoshenko beams, Hz, as many as are worth a comparison.
-fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, ::lumped::LumpedError> {
+fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, LumpedError> {
     let shortest = system.shafts.iter().map(Shaft::length).fold(f64::INFINITY, f64::min);
     let modes = continuum_modes(system, shortest / ELEMENTS, BeamTheory::Timoshenko)?;
     Ok(modes.frequencies.iter().map(|w| w / TAU).collect())
 }
 
-impl CampbellDiagram {
+impl LumpedCampbell {
     /// What the summary says of it.
     pub fn facts(&self) -> Map<String, Value> {
         let mut facts = Map::new();
@@ -121,18 +121,5 @@ impl CampbellDiagram {
             .collect();
         facts.insert("critical_speeds".into(), json!(meetings));
         facts
-    }
-
-    /// `campbell.csv`: one row a speed.
-    pub fn to_csv(&self) -> String {
-        let modes = (1..=self.diagram.frequencies.len()).map(|m| format!("elastic_mode_{m}_hz"));
-        let lines = self.names.iter().map(|n| n.replace([' ', '\''], "_") + "_hz");
-        let mut rows = Columns::named(std::iter::once("speed_rpm".to_owned()).chain(modes).chain(lines));
-        for (s, &speed) in self.diagram.speeds.iter().enumerate() {
-            let modes = self.diagram.frequencies.iter().map(|m| m[s]);
-            let lines = self.diagram.orders.iter().map(|o| o * speed);
-            rows.push(std::iter::once(60.0 * speed).chain(modes).chain(lines));
-        }
-        report::columns_to_csv(&rows)
     }
 }

@@ -1,17 +1,19 @@
-//! What the command wants of a model of the ladder, whatever it is made of.
+//! What a model with few coordinates must answer to be run and read, whatever it is made of.
 
 use std::{
     convert::Infallible,
     ops::{Deref, DerefMut},
 };
 
+use ::lumped::LumpedError;
 use integrate::{Forces, Mechanism, State};
-use lumped::LumpedError;
 use nalgebra::{DMatrix, DVector};
+
+use super::LumpedRow;
 
 /// The loaded pair at one phase as speed goes to zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct StaticPoint {
+pub struct StaticPoint {
     /// Transmission error, mm.
     pub error: f64,
     /// Length of the contact lines, mm; `None` where the model has none.
@@ -19,18 +21,18 @@ pub(crate) struct StaticPoint {
 }
 
 /// A model that can be run and read.
-pub(crate) trait LadderModel: Mechanism<Error = Infallible> + Send {
+pub trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
     /// State in which a run begins: at rest under the load as for speed to zero, moving with the nominal rotation.
+    ///
+    /// # Errors
+    /// [`LumpedError`] where there is nothing to stand on.
     fn start(&mut self) -> Result<State, LumpedError>;
 
     /// What counts as a large motion of each coordinate, for the integrators' tolerances.
     fn scale(&self) -> DVector<f64>;
 
-    /// Names of the columns of a row; those that the reduced model has too bear its names.
-    fn columns(&self) -> Vec<String>;
-
     /// A row at a state.
-    fn row(&mut self, state: &State) -> Vec<f64>;
+    fn row(&mut self, state: &State) -> LumpedRow;
 
     /// The pair under the mean load at `phases` evenly spaced phases as speed goes to zero; `None` where it finds nothing to rest on.
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>>;
@@ -46,29 +48,35 @@ pub(super) fn at_rest(q: DVector<f64>) -> State {
 }
 
 /// Any of them.
-pub(crate) struct Model(Box<dyn LadderModel>);
+pub struct BoxedMechanism(Box<dyn LumpedMechanism>);
 
-impl Model {
-    pub(super) fn of(model: impl LadderModel + 'static) -> Self {
+impl std::fmt::Debug for BoxedMechanism {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("BoxedMechanism").field("coordinates", &self.mass().nrows()).finish()
+    }
+}
+
+impl BoxedMechanism {
+    pub(super) fn new(model: impl LumpedMechanism + 'static) -> Self {
         Self(Box::new(model))
     }
 }
 
-impl Deref for Model {
-    type Target = dyn LadderModel;
+impl Deref for BoxedMechanism {
+    type Target = dyn LumpedMechanism;
 
     fn deref(&self) -> &Self::Target {
         &*self.0
     }
 }
 
-impl DerefMut for Model {
+impl DerefMut for BoxedMechanism {
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut *self.0
     }
 }
 
-impl Mechanism for Model {
+impl Mechanism for BoxedMechanism {
     type Error = Infallible;
 
     fn mass(&self) -> &DMatrix<f64> {

@@ -1,16 +1,18 @@
 //! The table at the end of a run of a cheaper model.
 
+use analysis::lumped::LumpedHeadline;
+
 use super::table::Lines;
 use crate::facts::{Cost, Facts};
-use crate::ladder::LadderHeadline;
+
 use crate::scene::Scene;
 
 /// Headline numbers, certificate, time and peak memory of each phase.
-pub(crate) fn ladder_table(
+pub(crate) fn lumped_table(
     scene: &Scene,
     facts: &Facts,
     cost: &Cost,
-    headline: &LadderHeadline,
+    headline: &LumpedHeadline,
     warnings: &[String],
 ) -> String {
     let mut t = Lines::new(facts);

@@ -1,29 +1,27 @@
-//! Bodies, supports and torques of the scene in the words of lumped gears.
+//! Bodies, supports and torques of the scene in the terms of lumped gears.
 
+use ::lumped::{Fourier, FourierTorque, lumped8::Support8, lumped12::Support12};
 use dynamics::{Bearing, Drive, RigidBody, Torque};
 use geometry::GearPair;
-use lumped::{Fourier, FourierTorque, lumped8::Support8, lumped12::Support12};
-
-use crate::{
-    motion::{bearing, drive, stated_body, torque},
-    scene::{Axis, Scene, TorqueScene},
-};
+use scene::{Axis, Scene, TorqueScene};
 use std::f64::consts::{PI, TAU};
+
+use crate::motion::{bearing, drive, stated_body, torque};
 
 /// Pinion and wheel: what the scene states, else a ring from bore to reference diameter.
 pub(super) fn bodies(scene: &Scene, pair: &GearPair) -> [RigidBody; 2] {
     let gears = [&pair.pinion, &pair.wheel];
     [0, 1].map(|i| {
-        let (gear, words) = (gears[i], scene.gears()[i]);
-        let (outer, inner) = (gear.reference_radius(), 0.5 * words.bore_diameter_mm);
+        let (gear, stated) = (gears[i], scene.gears()[i]);
+        let (outer, inner) = (gear.reference_radius(), 0.5 * stated.bore_diameter_mm);
         let (b, squares) = (gear.face_width(), outer * outer + inner * inner);
-        let mass = words.material.density() * PI * (outer * outer - inner * inner) * b;
+        let mass = stated.material.density() * PI * (outer * outer - inner * inner) * b;
         let ring = RigidBody {
             mass,
             transverse_inertia: mass * (3.0 * squares + b * b) / 12.0,
             polar_inertia: 0.5 * mass * squares,
         };
-        stated_body(&words.body.clone().unwrap_or_default(), ring)
+        stated_body(&stated.body.clone().unwrap_or_default(), ring)
     })
 }
 
@@ -40,12 +38,12 @@ pub(super) fn bearings(scene: &Scene, bodies: &[RigidBody; 2]) -> [Bearing; 2] {
 pub(super) fn supports8(scene: &Scene, bodies: &[RigidBody; 2]) -> [Support8; 2] {
     let all = bearings(scene, bodies);
     [0, 1].map(|i| {
-        let (words, b) = (&scene.gears()[i].bearing, &all[i]);
+        let (stated, b) = (&scene.gears()[i].bearing, &all[i]);
         Support8 {
             stiffness: [0, 1, 2].map(|k| b.stiffness[(k, k)]),
             damping: [0, 1, 2].map(|k| b.damping[(k, k)]),
-            turning_stiffness: words.stiffness_rz_nmm_per_rad.unwrap_or(0.0),
-            turning_damping: words.damping_rz_nmms_per_rad.unwrap_or(0.0),
+            turning_stiffness: stated.stiffness_rz_nmm_per_rad.unwrap_or(0.0),
+            turning_damping: stated.damping_rz_nmms_per_rad.unwrap_or(0.0),
         }
     })
 }

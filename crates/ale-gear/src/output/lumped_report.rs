@@ -1,5 +1,6 @@
 //! `report.html` of a cheaper model in motion.
 
+use analysis::lumped::{LumpedCampbell, LumpedHeadline};
 use study::Columns;
 
 use report::{
@@ -13,7 +14,6 @@ use super::{
 };
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
-use crate::ladder::{CampbellDiagram, LadderHeadline};
 use crate::scene::Scene;
 
 /// Displacements that have a phase portrait where the model has them; their rates are named alike.
@@ -28,25 +28,25 @@ const PORTRAITS: [(&str, &str); 6] = [
 
 /// What the charts of a run are drawn from.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LadderPictures<'a> {
+pub(crate) struct LumpedPictures<'a> {
     /// Those of every motion.
     pub motion: MotionPictures<'a>,
     /// One row a mesh cycle.
     pub section: &'a Columns,
     /// Natural frequencies over speed, of a linear model.
-    pub campbell: Option<&'a CampbellDiagram>,
+    pub campbell: Option<&'a LumpedCampbell>,
 }
 
 /// The report of one run.
 ///
 /// # Errors
 /// Exit status 1 if the template cannot be filled; that would be a fault of this program.
-pub(crate) fn write_ladder_report(
+pub(crate) fn write_lumped_report(
     scene: &Scene,
     facts: &Facts,
     cost: &Cost,
-    headline: &LadderHeadline,
-    pictures: &LadderPictures<'_>,
+    headline: &LumpedHeadline,
+    pictures: &LumpedPictures<'_>,
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
     let mut charts = motion_charts(&pictures.motion).map_err(CommandError::from)?;
