@@ -15,13 +15,13 @@
 //! | [`reduce`] | reduction of a scene's gears by itself |
 //! | [`starter`] | the scene that a user begins with |
 //! | [`rexs`] | gear data from REXS files |
-//! | [`chart`] | accuracy against cost of every model |
 //! | [`parameter_study`] | the same figures of several scenes, side by side |
+//! | `chart` | what a chart takes from this process |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
 pub mod certificate;
-pub mod chart;
+mod chart;
 pub mod command;
 pub mod error;
 pub mod facts;

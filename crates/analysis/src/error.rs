@@ -6,7 +6,7 @@ use ltca::StaticError;
 use lumped::LumpedError;
 use mesh::MeshError;
 use scene::{Scene, SceneError};
-use study::StudyError;
+use study::{StudyError, calculix::CalculixError};
 
 use crate::motion::UnstableSteps;
 
@@ -146,6 +146,33 @@ pub enum AnalysisError {
     /// Nothing can be read off a history.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// The loaded pair of a cheaper model finds nothing to rest on.
+    #[error("{file}: nothing holds the loaded pair")]
+    NothingHolds {
+        /// The scene.
+        file: String,
+    },
+    /// A window has more teeth than a gear.
+    #[error(transparent)]
+    Window(#[from] ale::AleError),
+    /// CalculiX is not there, or has no result.
+    #[error(transparent)]
+    Calculix(#[from] CalculixError),
+    /// Something of a scene that decks for CalculiX do not carry.
+    #[error("the deck for CalculiX has no {what}")]
+    BeyondCalculix {
+        /// What.
+        what: &'static str,
+    },
+    /// CalculiX has nowhere to write to.
+    #[error("no folder for the files of CalculiX")]
+    NoScratch,
+    /// A chart has nothing to compare with.
+    #[error("no reference: {why}")]
+    NoReference {
+        /// Why, on the coarsest mesh.
+        why: String,
+    },
     /// The caller's sink has ended the analysis.
     #[error("{0}")]
     Sink(Box<dyn std::error::Error + Send + Sync>),
@@ -200,7 +227,12 @@ impl AnalysisError {
             | Self::Sink(_)
             | Self::UnstableSteps(_)
             | Self::OutOfBounds
-            | Self::Study(_) => true,
+            | Self::Study(_)
+            | Self::NothingHolds { .. }
+            | Self::Calculix(_)
+            | Self::BeyondCalculix { .. }
+            | Self::NoScratch
+            | Self::NoReference { .. } => true,
             Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
             Self::AtValue { source, .. } => source.is_without_result(),
             Self::Shared(source) => source.is_without_result(),
@@ -236,7 +268,13 @@ impl AnalysisError {
             Self::Study(e) => e.hint(),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
-            Self::Sink(_) => None,
+            Self::Calculix(e) => e.hint(),
+            Self::NothingHolds { .. }
+            | Self::Window(_)
+            | Self::BeyondCalculix { .. }
+            | Self::NoScratch
+            | Self::NoReference { .. }
+            | Self::Sink(_) => None,
         }
     }
 

@@ -21,6 +21,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod accuracy_chart;
 mod cache;
 pub mod certificate;
 mod coarse;

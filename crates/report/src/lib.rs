@@ -9,12 +9,14 @@
 //! | [`page`] | pages that need nothing beside themselves |
 //! | [`view`] | both gears in space, for the page |
 //! | [`contact_files`] | contact lines and contact pattern |
+//! | [`accuracy_chart`] | table and picture of accuracy against cost |
 //! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`ResultFiles`] | where files go |
 
+pub mod accuracy_chart;
 pub mod charts;
 mod columnar;
 pub mod columns;

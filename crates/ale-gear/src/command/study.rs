@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use analysis::accuracy_chart::{SpeedUp, speed_up};
+
 use super::{cache_args::CacheArgs, run::write_result};
 use crate::{
-    chart::{SpeedUp, speed_up},
+    chart::ProcessMemory,
     error::CommandError,
     facts::Cost,
     output::{ResultDirectory, StudyResult, study_csv, study_table, write_study_report, write_study_summary},
@@ -59,7 +61,7 @@ impl StudyArgs {
         });
         let findings = findings(&study, &runs)?;
         let mut warnings = warnings(&study, &runs, &findings);
-        let speed_up = against_full(&study, &findings, &mut phases, &results).unwrap_or_else(|said| {
+        let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
             warnings.push(said);
             None
         });
@@ -84,20 +86,15 @@ impl StudyArgs {
 }
 
 /// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says why there is none.
-fn against_full(
-    study: &Study,
-    findings: &Findings,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-) -> Result<Option<SpeedUp>, String> {
+fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Result<Option<SpeedUp>, String> {
     let Some(full) = study.full else { return Ok(None) };
     let label = &study.cases[full.case].label;
     let none = |why: &str| format!("nothing to compare every degree of freedom with: {label}: {why}");
     if let Some(reason) = findings.reason(full.case) {
         return Err(none(reason));
     }
-    let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, results));
-    solved.map(Some).map_err(|e| none(&e.message))
+    let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, &ProcessMemory));
+    solved.map(Some).map_err(|e| none(&e.to_string()))
 }
 
 /// Cases without a result first; then what the others warn of, each once, with their names.

@@ -8,13 +8,10 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use dynamics::{COORDINATES, Instant, PairMechanism};
+use dynamics::{Instant, PairMechanism};
 use integrate::Ledger;
 use report::{
-    columns::{
-        ENERGY, EnergyRecord, EnergyRows, MOTION_HISTORY, MotionLayout, MotionRows, Sheet,
-        motion_history::{DTE, MESH_PHASE, PINION_ANGLE, PINION_SPEED, TIME, WHEEL_SPEED},
-    },
+    columns::{ENERGY, EnergyRecord, EnergyRows, MOTION_HISTORY, MotionLayout, MotionRows, Sheet},
     csv::push_row,
 };
 

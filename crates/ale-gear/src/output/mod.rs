@@ -1,8 +1,6 @@
 //! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`], and is named here
 //! for the modules that write it.
 
-mod chart_csv;
-mod chart_tables;
 mod columnar;
 mod directory;
 mod error;
@@ -21,11 +19,8 @@ mod study_report;
 mod study_tables;
 mod summary;
 mod table;
-mod work_precision_chart;
 
 pub use analysis::results::{GearRootStress, Place, PressurePlace, RootStressHeadline};
-pub use chart_csv::write_chart_csv;
-pub use chart_tables::chart_tables;
 pub(crate) use columnar::write_columnar;
 pub(crate) use directory::CASES;
 pub use directory::ResultDirectory;
@@ -42,7 +37,6 @@ pub(crate) use study_report::{StudyResult, write_study_report, write_study_summa
 pub(crate) use study_tables::{study_csv, study_table};
 pub use summary::write_summary;
 pub use table::closing_table;
-pub use work_precision_chart::work_precision_svg;
 
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},

@@ -3,6 +3,7 @@
 use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
+use analysis::accuracy_chart::SpeedUp;
 use report::page::Rendered;
 
 use super::{
@@ -10,7 +11,6 @@ use super::{
     study_charts::figures,
     study_tables::{speed_up_text, step_s},
 };
-use crate::chart::SpeedUp;
 use crate::error::CommandError;
 use crate::facts::Cost;
 use crate::parameter_study::{CaseOutcome, Findings, Study};

@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use analysis::accuracy_chart::SpeedUp;
 use report::csv::push_row;
 
 use super::{StudyResult, table::fixed};
-use crate::chart::SpeedUp;
 use crate::parameter_study::{CaseOutcome, Findings, Study};
 
 /// A number of every case.

@@ -229,7 +229,7 @@ pub(super) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
 ///
 /// # Errors
 /// [`AnalysisError`], also where the certificate does not hold.
-pub fn steady_rows(inputs: &LumpedInputs, system: LumpedSystem) -> Result<(Vec<LumpedRow>, u64), AnalysisError> {
+pub(crate) fn steady_rows(inputs: &LumpedInputs, system: LumpedSystem) -> Result<(Vec<LumpedRow>, u64), AnalysisError> {
     let mut model = system.model;
     let run = checked_run(inputs, &mut model, system.resonance_hz, None)?;
     Ok((run.rows, run.warm_up + run.cycles))

@@ -15,13 +15,13 @@ use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_mode
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
 #[derive(Debug, Clone)]
-pub(super) struct MeshExcitation {
+pub(crate) struct MeshExcitation {
     pub cycle: MeshCycle,
     pub warnings: Vec<String>,
 }
 
 /// Makes the excitation of scene after scene.
-pub struct ExcitationSource<'a> {
+pub(crate) struct ExcitationSource<'a> {
     observer: &'a mut dyn Observer,
     cache: &'a dyn GearCache,
     /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share it.

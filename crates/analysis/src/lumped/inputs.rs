@@ -20,14 +20,14 @@ use super::{
 use crate::AnalysisError;
 
 /// A scene with its pair and, where its model has a mesh stiffness, that stiffness over the cycle.
-pub struct LumpedInputs {
+pub(crate) struct LumpedInputs {
     pub scene: Scene,
     pub pair: GearPair,
     excitation: Option<MeshExcitation>,
 }
 
 /// A model, ready to run.
-pub struct LumpedSystem {
+pub(crate) struct LumpedSystem {
     pub model: BoxedMechanism,
     /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
     pub resonance_hz: f64,

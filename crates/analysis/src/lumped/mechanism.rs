@@ -21,7 +21,7 @@ pub struct StaticPoint {
 }
 
 /// A model that can be run and read.
-pub trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
+pub(crate) trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
     /// State in which a run begins: at rest under the load as for speed to zero, moving with the nominal rotation.
     ///
     /// # Errors
@@ -48,7 +48,7 @@ pub(super) fn at_rest(q: DVector<f64>) -> State {
 }
 
 /// Any of them.
-pub struct BoxedMechanism(Box<dyn LumpedMechanism>);
+pub(crate) struct BoxedMechanism(Box<dyn LumpedMechanism>);
 
 impl std::fmt::Debug for BoxedMechanism {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

@@ -37,6 +37,6 @@ pub use mechanism::StaticPoint;
 pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};
 pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SectionEvery, SweepHeadline, SweepOptions, SweepPoint};
 
-pub use analysis::steady_rows;
-pub use excitation::ExcitationSource;
-pub use inputs::{LumpedInputs, LumpedSystem};
+pub(crate) use analysis::steady_rows;
+pub(crate) use excitation::ExcitationSource;
+pub(crate) use inputs::LumpedInputs;

@@ -12,7 +12,7 @@ const PHASES: u32 = 32;
 
 /// Frequencies by which steps are chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshFrequencies {
+pub(crate) struct MeshFrequencies {
     /// Of the mesh, Hz.
     pub mesh_hz: f64,
     /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: none.
@@ -36,7 +36,7 @@ impl MeshFrequencies {
 
 /// Rows of a run and what it took.
 #[derive(Debug)]
-pub struct LumpedRun {
+pub(crate) struct LumpedRun {
     /// Row by row.
     pub rows: Vec<LumpedRow>,
     /// Energy since the start of the run, row by row and at its end.

@@ -2,14 +2,17 @@
 
 use std::time::Instant;
 
-use analysis::lumped::{ExcitationSource, LumpedInputs};
 use study::{Answer, Work};
 
 use super::{
     Point,
-    measure::{Measured, REPEATS, degrees_of_freedom},
+    measure::{ChartTools, Measured, REPEATS, degrees_of_freedom},
+    phase_times::PhaseTimes,
 };
-use crate::{cache::Cache, error::CommandError, phases::Phases};
+use crate::{
+    AnalysisError, NoCache,
+    lumped::{ExcitationSource, LumpedInputs},
+};
 
 /// A cycle that takes longer than this (s) is timed once.
 const LONG: f64 = 0.05;
@@ -17,19 +20,15 @@ const LONG: f64 = 0.05;
 /// Runs a point; time before the first position is that of making the model, the reduced one that feeds it included.
 ///
 /// # Errors
-/// Exit status 2 for a scene that the model cannot be made of, 1 where it finds nothing to rest on.
-pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
-    let mut phases = Phases::quiet();
+/// [`AnalysisError`] for a scene that the model cannot be made of, and where it finds nothing to rest on.
+pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> {
+    let mut phases = PhaseTimes::new(tools.memory);
     let start = Instant::now();
-    let cache = Cache::off();
-    let made = LumpedInputs::gather(&point.scene, &mut ExcitationSource::new(&mut phases, &cache))?.build()?;
+    let system = LumpedInputs::gather(&point.scene, &mut ExcitationSource::new(&mut phases, &NoCache))?.build()?;
     let offline_s = start.elapsed().as_secs_f64();
     let count = point.positions as usize;
-    let cycle = || {
-        made.static_cycle(count).ok_or_else(|| {
-            CommandError::failed(format_args!("{}: nothing holds the loaded pair", point.scene.file.display()), None)
-        })
-    };
+    let nothing = || AnalysisError::NothingHolds { file: point.scene.file.display().to_string() };
+    let cycle = || system.static_cycle(count).ok_or_else(nothing);
     let start = Instant::now();
     let found = cycle()?;
     let cycle_s = start.elapsed().as_secs_f64();
@@ -40,7 +39,7 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
     }
     let further_s = start.elapsed().as_secs_f64() / f64::from(repeats);
     let lengths: Option<Vec<f64>> = found.iter().map(|p| p.line_length).collect();
-    let coordinates = made.coordinates();
+    let coordinates = system.coordinates();
     // What feeds it was meshed.
     let meshed = degrees_of_freedom(&point.scene)?;
     Ok(Measured {
@@ -50,7 +49,7 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
             further_cycle_s: Some(further_s),
             positions_run: count,
             positions_asked: point.positions_asked as usize,
-            peak_memory_mb: phases.peak_memory_mb(),
+            peak_memory_mb: phases.peak_mb(),
             dof_before: if meshed > 0 { meshed } else { coordinates },
             dof_after: coordinates,
         },
@@ -58,10 +57,6 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
             ste_um: found.iter().map(|p| 1e3 * p.error).collect(),
             line_length_mm: lengths.unwrap_or_default(),
         },
-        note: note(&made.warnings),
+        note: system.warnings.join("; "),
     })
-}
-
-fn note(warnings: &[String]) -> String {
-    warnings.join("; ")
 }

@@ -1,7 +1,8 @@
 //! The points of the chart: ways to compute a cycle times mesh densities. Each point is a scene of its own.
 
-use super::ladder_scene;
-use crate::scene::{Gap, MesherScene, Method, Model, Reduction, Scene};
+use scene::{Gap, MesherScene, Method, Model, Reduction, Scene};
+
+use super::lumped_scene;
 
 /// A density of the built-in mesher, quadratic elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +40,7 @@ pub enum Engine {
     /// This program, the scene edited.
     Own(fn(&mut Scene)),
     /// A cheaper model, the scene edited: the pair at rest under the load, phase by phase.
-    Ladder(fn(&mut Scene)),
+    Lumped(fn(&mut Scene)),
     /// CalculiX on the same mesh.
     Calculix,
 }
@@ -85,31 +86,38 @@ pub(super) const PENALTY: f64 = 1e7;
 /// The ways, cheapest first. One more is one more line.
 pub fn ways() -> Vec<Way> {
     let own = |name, range, edit| Way { name, engine: Engine::Own(edit), range, share: Share::Whole };
-    let ladder = |name, range, edit| Way { name, engine: Engine::Ladder(edit), range, share: Share::Whole };
+    let lumped = |name, range, edit| Way { name, engine: Engine::Lumped(edit), range, share: Share::Whole };
     vec![
         own("iso", Range::None, iso),
-        ladder("lumped8", Range::None, ladder_scene::lumped8),
-        ladder("lumped12", Range::None, ladder_scene::lumped12),
-        ladder("shaft18", Range::None, ladder_scene::shaft18),
-        ladder("impact", Range::None, ladder_scene::impact),
-        ladder(FED, Range::BelowReference, ladder_scene::lumped12_fed),
-        own(SLICE, Range::BelowReference, slice),
+        lumped("lumped8", Range::None, lumped_scene::lumped8),
+        lumped("lumped12", Range::None, lumped_scene::lumped12),
+        lumped("shaft18", Range::None, lumped_scene::shaft18),
+        lumped("impact", Range::None, lumped_scene::impact),
+        lumped(FED, Range::BelowReference, lumped_scene::lumped12_fed),
+        SLICE_WAY,
         own("slice, general reduction", Range::BelowReference, slice_general),
         own("nodal", Range::All, nodal),
         own("nodal with penalty", Range::BelowReference, penalty),
-        Way { name: FULL, engine: Engine::Own(full), range: Range::First(2), share: Share::Part },
+        FULL_WAY,
         Way { name: CALCULIX, engine: Engine::Calculix, range: Range::First(2), share: Share::Part },
     ]
 }
 
 /// Name of the way that is reduced by sectors where it can be, with slices.
-pub(super) const SLICE: &str = "slice";
+const SLICE: &str = "slice";
 /// Name of a cheaper model that the reduced one feeds.
-pub(crate) const FED: &str = "lumped12, fed by slice";
+pub const FED: &str = "lumped12, fed by slice";
 /// Name of the way that keeps every degree of freedom: others are compared with it.
-pub(crate) const FULL: &str = "full";
+pub const FULL: &str = "full";
 /// Name of CalculiX's points.
-pub(crate) const CALCULIX: &str = "CalculiX";
+pub const CALCULIX: &str = "CalculiX";
+
+/// Reduced by sectors where it can be, with slices.
+pub(super) const SLICE_WAY: Way =
+    Way { name: SLICE, engine: Engine::Own(slice), range: Range::BelowReference, share: Share::Whole };
+/// Every degree of freedom.
+pub(super) const FULL_WAY: Way =
+    Way { name: FULL, engine: Engine::Own(full), range: Range::First(2), share: Share::Part };
 
 fn iso(scene: &mut Scene) {
     scene.analysis.model = Model::Iso;
@@ -188,7 +196,7 @@ impl Point {
     pub fn new(scene: &Scene, way: Way, density: Option<Density>, part: u32) -> Self {
         let mut own = meshed(scene, density);
         match way.engine {
-            Engine::Own(edit) | Engine::Ladder(edit) => edit(&mut own),
+            Engine::Own(edit) | Engine::Lumped(edit) => edit(&mut own),
             // It takes the whole meshes, as `full` does.
             Engine::Calculix => full(&mut own),
         }

@@ -3,8 +3,8 @@
 use plotters::prelude::*;
 use study::{AnswerError, Work};
 
-use crate::chart::{Outcome, WorkPrecision};
-use report::charts::{Captions, Failure, Labelled, legend, log_panel};
+use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use analysis::accuracy_chart::{Outcome, WorkPrecision};
 
 const WIDTH: u32 = 1040;
 /// Height of a row of panels.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use study::{AnswerError, Work, power_law};
 
-use crate::chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, REDUCED, WorkPrecision};
+use analysis::accuracy_chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, REDUCED, WorkPrecision};
 
 /// All tables of a chart.
 pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> String {

@@ -2,8 +2,6 @@
 
 use study::Work;
 
-use crate::memory;
-
 /// Growth of a sparse 3-D factorisation with the degrees of freedom: work n^2, fill n^(4/3), by nested dissection.
 const WORK_EXPONENT: f64 = 2.0;
 const MEMORY_EXPONENT: f64 = 4.0 / 3.0;
@@ -11,9 +9,9 @@ const MEMORY_EXPONENT: f64 = 4.0 / 3.0;
 const SHARE: f64 = 0.8;
 
 /// Why a mesh of `dof` degrees of freedom should not be tried in this way, after what a smaller one took; `None` when it may be.
-pub(super) fn refusal(smaller: &Work, dof: usize, limit_s: f64) -> Option<String> {
+pub(super) fn refusal(smaller: &Work, dof: usize, limit_s: f64, free_mb: Option<f64>) -> Option<String> {
     let ratio = dof as f64 / smaller.dof_before.max(1) as f64;
-    if let (Some(used), Some(free)) = (smaller.peak_memory_mb, memory::available_mb()) {
+    if let (Some(used), Some(free)) = (smaller.peak_memory_mb, free_mb) {
         let needed = used * ratio.powf(MEMORY_EXPONENT);
         if needed > SHARE * free {
             return Some(format!("too big for memory: {dof} DOF would take about {needed:.0} of {free:.0} MB free"));

@@ -1,23 +1,20 @@
 //! The same mesh through CalculiX.
 
-use geometry::Side;
+use ale::ToothWindow;
+use geometry::{GearPair, Side};
+use ltca::StaticOptions;
+use scene::{MisalignmentScene, ModificationScene, Rotation, Scene};
 use study::{
     Answer, Work,
-    calculix::{Body, Calculix, CalculixError, Deck},
+    calculix::{Body, Calculix, Deck},
 };
 
 use super::{
     Point,
-    measure::{Measured, point_meshes},
+    measure::{ChartTools, Measured, point_meshes},
     plan::PENALTY,
 };
-use crate::{
-    elastic_gears::material,
-    error::CommandError,
-    partial::Partial,
-    run,
-    scene::{MisalignmentScene, ModificationScene, Rotation, Scene},
-};
+use crate::{AnalysisError, elastic_gears::material, options};
 
 /// The driven gear is turned into contact by about this much on the line of action, mm: a few um are what steel gears yield under load.
 const CLOSING: f64 = 5e-3;
@@ -26,18 +23,15 @@ const CLOSING: f64 = 5e-3;
 ///
 /// # Errors
 /// When CalculiX is not installed, cannot model the scene, or gives no result.
-pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
+pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> {
     let scene = &point.scene;
-    let failed = |e: CalculixError| CommandError::failed(&e, e.hint());
-    let calculix = Calculix::find(rayon::current_num_threads()).map_err(failed)?;
+    let calculix = Calculix::find(rayon::current_num_threads())?;
     beyond_calculix(scene)?;
     let pair = scene.gear_pair()?;
     let meshes = point_meshes(scene)?;
-    let options = run::options(scene, &pair);
+    let options = options(scene, &pair);
     let materials = [material(scene, 0)?, material(scene, 1)?];
-    let name = format!("ale-gear-calculix-{}", std::process::id());
-    let scratch = Partial::new(std::env::temp_dir().join(name));
-    std::fs::create_dir_all(scratch.path()).map_err(|e| CommandError::write(scratch.path(), &e))?;
+    let scratch = tools.scratch.ok_or(AnalysisError::NoScratch)?;
     let side = scene.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
@@ -74,7 +68,7 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
             closing: CLOSING / base_radius,
             penalty: PENALTY,
         };
-        let run = calculix.run(&deck, scratch.path()).map_err(failed)?;
+        let run = calculix.run(&deck, scratch)?;
         work.cycle_s += run.wall_s * f64::from(point.positions_asked) / f64::from(point.positions);
         work.peak_memory_mb = work.peak_memory_mb.into_iter().chain(run.peak_memory_mb).reduce(f64::max);
         answer.ste_um.push(1e3 * base_radius * run.result.rotation);
@@ -83,26 +77,26 @@ pub(super) fn measure(point: &Point) -> Result<Measured, CommandError> {
 }
 
 /// Angle of the pinion at a phase of the first cycle, rad.
-fn pinion_angle(scene: &Scene, pair: &geometry::GearPair, side: Side, phase: f64) -> f64 {
+fn pinion_angle(scene: &Scene, pair: &GearPair, side: Side, phase: f64) -> f64 {
     pair.middle_angle(side) + scene.operation.rotation.sign() * (phase - 0.5) * pair.pinion.pitch_angle()
 }
 
 /// Teeth of the pairs of the window that stands at a phase of the first cycle.
 fn pairs_near(
-    pair: &geometry::GearPair,
-    options: &ltca::StaticOptions,
+    pair: &GearPair,
+    options: &StaticOptions,
     rotation: Rotation,
     phase: f64,
     teeth: [u32; 2],
-) -> Result<Vec<[u32; 2]>, CommandError> {
+) -> Result<Vec<[u32; 2]>, AnalysisError> {
     let count = options.window_teeth(pair);
-    let first = ale::ToothWindow::nominal_first(-rotation.sign() * (phase - 0.5), count);
-    let window = ale::ToothWindow::new(first, count, teeth).map_err(|e| CommandError::input(&e, None))?;
+    let first = ToothWindow::nominal_first(-rotation.sign() * (phase - 0.5), count);
+    let window = ToothWindow::new(first, count, teeth)?;
     Ok(window.pairs().map(|running| window.teeth_of(running)).collect())
 }
 
 /// Says what of a scene the deck does not carry.
-fn beyond_calculix(scene: &Scene) -> Result<(), CommandError> {
+fn beyond_calculix(scene: &Scene) -> Result<(), AnalysisError> {
     let modified = scene.gears().iter().any(|g| {
         !ModificationScene::is_none(&g.modification) || !g.pitch_errors_um.is_empty() || g.pitch_errors_file.is_some()
     });
@@ -113,5 +107,5 @@ fn beyond_calculix(scene: &Scene) -> Result<(), CommandError> {
         (scene.operation.torque_nm == 0.0, "gears without torque"),
     ];
     let named = what.into_iter().find_map(|(there, name)| there.then_some(name));
-    named.map_or(Ok(()), |name| Err(CommandError::failed(format_args!("the deck for CalculiX has no {name}"), None)))
+    named.map_or(Ok(()), |what| Err(AnalysisError::BeyondCalculix { what }))
 }

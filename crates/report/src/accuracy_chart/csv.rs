@@ -1,13 +1,13 @@
 //! `chart.csv`: every point of a work-precision chart, measured or not.
 
-use crate::chart::{Outcome, PointRow, WorkPrecision};
+use analysis::accuracy_chart::{Outcome, PointRow, WorkPrecision};
 
 const HEADER: &str = "way,elements_profile,dof_before,dof_after,offline_s,cycle_s,first_cycle_s,further_cycle_s,position_s,\
                       positions_run,positions_asked,peak_memory_mb,mean_ste_um,peak_to_peak_ste_um,mean_line_length_mm,\
                       error_mean_ste,error_peak_to_peak_ste,error_mean_line_length,note\n";
 
 /// The chart as CSV; a field without a value is empty, a point that was not run has its reason in `note`.
-pub fn write_chart_csv(chart: &WorkPrecision) -> String {
+pub fn chart_csv(chart: &WorkPrecision) -> String {
     let mut text = HEADER.to_owned();
     chart.rows.iter().for_each(|row| text.push_str(&line(row)));
     let reference = PointRow {

@@ -1,6 +1,6 @@
 //! The scene of the chart as one of a cheaper model: the same pair, torque and speed, with what that model wants beside.
 
-use crate::scene::{
+use scene::{
     Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Integration, Kind, Law, Lumped8Scene,
     Lumped12Scene, MeshScene, Model, MotionScene, Run, Scene, Shaft18Scene, ShaftScene, Sharing, StiffnessFrom,
     SupportScene, TorqueScene,

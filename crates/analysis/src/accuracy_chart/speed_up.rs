@@ -1,22 +1,19 @@
 //! One scene at rest with every degree of freedom and reduced, on the same meshes: what the reduction saves.
 
+use scene::{Flanks, Kind, Scene};
 use serde::Serialize;
 
 use super::{
-    Point, Way,
-    measure::{Measured, measure},
-    plan::{FULL, SLICE, ways},
+    MemoryGauge, Point,
+    measure::{ChartTools, Measured, measure},
+    plan::{FULL_WAY, SLICE_WAY},
 };
-use crate::{
-    error::CommandError,
-    output::ResultDirectory,
-    scene::{Flanks, Kind, Scene},
-};
+use crate::AnalysisError;
 
 /// Times of both models; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are measured
-pub(crate) struct SpeedUp {
+pub struct SpeedUp {
     pub dof: usize,
     pub dof_kept: usize,
     pub positions_of_cycle: usize,
@@ -34,16 +31,14 @@ pub(crate) struct SpeedUp {
 /// quasi-static cycle reduced; both from cold, without the cache, one after the other.
 ///
 /// # Errors
-/// Those of the runs, and status 1 where the two cannot be compared.
-pub(crate) fn speed_up(scene: &Scene, positions: u32, results: &ResultDirectory) -> Result<SpeedUp, CommandError> {
+/// Those of the runs, and where the two cannot be compared.
+pub fn speed_up(scene: &Scene, positions: u32, memory: &dyn MemoryGauge) -> Result<SpeedUp, AnalysisError> {
     let still = at_rest(scene);
-    let run = |name: &str| -> Result<Measured, CommandError> {
-        let way: Option<Way> = ways().into_iter().find(|w| w.name == name);
-        let way = way.ok_or_else(|| CommandError::failed(format_args!("no way `{name}`"), None))?;
-        measure(&Point::new(&still, way, None, positions), results)
+    let run = |way| -> Result<Measured, AnalysisError> {
+        measure(&Point::new(&still, way, None, positions), ChartTools { memory, scratch: None })
     };
-    let (reduced, full) = (run(SLICE)?, run(FULL)?);
-    let error = full.answer.error_against(&reduced.answer).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    let (reduced, full) = (run(SLICE_WAY)?, run(FULL_WAY)?);
+    let error = full.answer.error_against(&reduced.answer)?;
     let (f, r) = (&full.work, &reduced.work);
     Ok(SpeedUp {
         dof: f.dof_before,
