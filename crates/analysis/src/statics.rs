@@ -191,7 +191,7 @@ fn facts_of(model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
         dof_before,
         dof_after: dof_after(model, dof_before),
         window_teeth: Some(model.window().count() as u32),
-        contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
+        contact_points: Some(model.contact_set().candidate_count()),
         ..Facts::default()
     };
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));

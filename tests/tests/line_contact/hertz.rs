@@ -6,8 +6,8 @@
 //! nodal one.
 
 use contact::{
-    Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene, closest_points,
-    complementarity, contact_points, hertz, nodal_pressures,
+    Balance, Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene,
+    closest_points, complementarity, contact_points, hertz, nodal_pressures,
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
@@ -147,7 +147,7 @@ fn solve(per_half_width: f64, law: Law) -> Result<(f64, f64), ContactError> {
     }
     let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
     let load = -LINE_LOAD * THICKNESS;
-    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()])?;
+    let solution = complementarity::solve(&mut elastic, &rows, 0, Balance::Moment(load), law, &vec![0.0; rows.len()])?;
     let pressures = nodal_pressures(&patches[..1], 0, &rows, &solution.forces);
     let pressure = pressures.values().copied().fold(0.0, f64::max);
     // The half-ellipse has the second moment a^2 / 4: a measure that does not jump from element to element.

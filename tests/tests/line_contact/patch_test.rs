@@ -6,8 +6,8 @@
 //! miss of them is the error, and it has to vanish with the number of points along a face's edge.
 
 use contact::{
-    Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface, Vec3,
-    closest_points, complementarity, contact_points,
+    Balance, Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface,
+    Vec3, closest_points, complementarity, contact_points,
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
@@ -161,7 +161,8 @@ fn deviation(kind: ElementKind, per_edge: usize, law: Law) -> [f64; 2] {
     }
     let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
     let load = -PRESSURE * SIZE[0] * SIZE[1];
-    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()]).unwrap();
+    let solution =
+        complementarity::solve(&mut elastic, &rows, 0, Balance::Moment(load), law, &vec![0.0; rows.len()]).unwrap();
     let displacements = elastic.displacements(&solution.forces);
     let even = PRESSURE * SIZE[2] / YOUNG;
     [0, 1].map(|b| {

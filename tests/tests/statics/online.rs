@@ -91,7 +91,7 @@ fn forces_are_those_of_the_static_pose() {
 }
 
 /// A pose with gear `body` moved along one of its six coordinates.
-fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
+pub(super) fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
     let mut poses = *poses;
     let (pose, axis) = (&mut poses[coordinate / 6], coordinate % 3);
     let mut step = Vector3::zeros();
@@ -104,7 +104,7 @@ fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
     poses
 }
 
-fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
+pub(super) fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
     let mut f = [0.0; 12];
     for (k, v) in wrench.iter().flat_map(|w| w.force.into_iter().chain(w.moment)).enumerate() {
         f[k] = v;
