@@ -1,5 +1,5 @@
-//! Contact alone: two reduced gears stand where they are told, and the wheel is turned into the pinion step by step; once
-//! with slices, once with points.
+//! Contact alone: two reduced gears stand where they are told, and the wheel is turned into the pinion step by step;
+//! once with slices, once with points.
 //!
 //! `cargo run --release -p contact --example given_poses`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -18,8 +18,8 @@ pub type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
 /// Flanks, matrices and options of a window.
 ///
-/// [`crate::MeshContact`] solves slices on reduced gears much faster; this serves all others, and takes no memory of its
-/// own.
+/// [`crate::MeshContact`] solves slices on reduced gears much faster; this serves all others, and takes no memory of
+/// its own.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticContact<'a> {
     /// The pair.
@@ -62,8 +62,8 @@ impl ElasticContact<'_> {
         CandidateRows { rows, slices }
     }
 
-    /// Forces on the rows, and the displacements of both gears' boundary coordinates, mm. With a moment to balance, gear
-    /// `body` turns.
+    /// Forces on the rows, and the displacements of both gears' boundary coordinates, mm. With a moment to balance,
+    /// gear `body` turns.
     ///
     /// # Errors
     /// [`ContactError::NotConverged`], [`ContactError::NoLever`], and those of the elastic model.
@@ -87,10 +87,11 @@ impl ElasticContact<'_> {
         Ok((solution, displacements))
     }
 
-    /// Forces with the gears' frames held at `poses`, and their tangent, as [`crate::MeshContact::evaluate`] gives them.
+    /// Forces with the gears' frames held at `poses`, and their tangent, as [`crate::MeshContact::evaluate`] gives
+    /// them.
     ///
-    /// Points that penetrate each other undeformed are within reach, and all that are less far apart than the deepest of
-    /// them overlaps: deflections under load on other points close no larger gap.
+    /// Points that penetrate each other undeformed are within reach, and all that are less far apart than the deepest
+    /// of them overlaps: deflections under load on other points close no larger gap.
     ///
     /// # Errors
     /// Those of [`ElasticContact::solve`].

@@ -26,8 +26,8 @@ impl WindowContact {
         Ok(Self { set, slices })
     }
 
-    /// Forces of the mesh with the gears' frames at `poses`, and their tangent, whatever touches: points or slices, gears
-    /// reduced or whole.
+    /// Forces of the mesh with the gears' frames at `poses`, and their tangent, whatever touches: points or slices,
+    /// gears reduced or whole.
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.

@@ -142,8 +142,8 @@ impl StaticModel {
         solver.advance(&inputs, station, seen)
     }
 
-    /// The tooth changes that are due at a station: one that closes a mesh cycle belongs to it, as the one that opens it
-    /// belongs to the cycle before.
+    /// The tooth changes that are due at a station: one that closes a mesh cycle belongs to it, as the one that opens
+    /// it belongs to the cycle before.
     ///
     /// # Errors
     /// [`StaticError`].

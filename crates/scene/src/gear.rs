@@ -70,7 +70,8 @@ pub struct MesherScene {
     pub elements_face: u32,
     /// Elements from the root circle to the bore.
     pub elements_rim: u32,
-    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth, cut faces free.
+    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth,
+    /// cut faces free.
     pub sector_teeth: u32,
 }
 

@@ -2,8 +2,8 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
 //! Source: Hertz 1882; p0 = sqrt(q E* / (pi R)), a = 2 q / (pi p0), 1/R = 1/R1 + 1/R2, 1/E* = sum (1 - nu^2)/E.
-//! Tolerance: 3 % in p0 and half-width at eight hex8 elements a half-width, 6 x 6 points a face as in a run; pressure is the
-//! nodal one.
+//! Tolerance: 3 % in p0 and half-width at eight hex8 elements a half-width, 6 x 6 points a face as in a run; pressure
+//! is the nodal one.
 
 use contact::{
     Balance, Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene,
@@ -43,8 +43,8 @@ struct Body {
     bottom: Vec<u32>,
 }
 
-/// A block of hex8, one element thick, its upper face on the cylinder whose top is at the origin; material below (`up` = 1)
-/// or, for the mirrored body, above it (`up` = -1).
+/// A block of hex8, one element thick, its upper face on the cylinder whose top is at the origin; material below (`up`
+/// = 1) or, for the mirrored body, above it (`up` = -1).
 fn block(radius: f64, up: f64, h: f64, fine: f64, shift: f64) -> Body {
     let half = graded(h, fine, EXTENT);
     let mut xs: Vec<f64> = half.iter().rev().map(|x| -x).collect();

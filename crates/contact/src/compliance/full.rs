@@ -14,7 +14,8 @@ use reduction::FullGear;
 /// [-A   -D   -l ] [ F      ] = [ g0 ]
 /// [ 0   -l'   0 ] [ dtheta ]   [ -M ]
 /// ```
-/// Bodies that stand still have neither the last row nor the last column. K stiffness of both gears, A openings of the active rows, D their own compliance and correction, l their levers.
+/// Bodies that stand still have neither the last row nor the last column. K stiffness of both gears, A openings of the
+/// active rows, D their own compliance and correction, l their levers.
 #[derive(Debug)]
 pub struct FullContact<'a> {
     rows: &'a [ContactRow],

@@ -112,7 +112,8 @@ mod tests {
 
     use super::*;
 
-    /// Flanks that overlap by a fiftieth of the module, a heavy load, touch early at their tips; no slice in contact lies beyond where the search looks, at any phase.
+    /// Flanks that overlap by a fiftieth of the module, a heavy load, touch early at their tips; no slice in contact
+    /// lies beyond where the search looks, at any phase.
     #[test]
     fn no_contact_is_missed_beyond_the_path() {
         let data = GearData { thickness_allowance: 0.0, ..GearData::default() };

@@ -25,8 +25,9 @@ use crate::LumpedError;
 /// R = -mu(|v_t|) F J_t' v_t / |v_t|,   v_t sliding velocity of the flanks in their tangent plane
 /// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
 /// ```
-/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where its place is one of least gap or on the pinion's tip edge, since
-/// slices stand on the pinion; at the wheel's edge, which then slides along, to a thousandth of the largest force.
+/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where
+/// its place is one of least gap or on the pinion's tip edge, since slices stand on the pinion; at the wheel's edge,
+/// which then slides along, to a thousandth of the largest force.
 #[derive(Debug)]
 pub struct ImpactMechanism {
     pair: GearPair,
@@ -120,7 +121,8 @@ impl ImpactMechanism {
         })
     }
 
-    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal motion.
+    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal
+    /// motion.
     pub fn flank_forces(&mut self, t: f64, d: &Displacement, rate: &Displacement) -> [FlankForce; 2] {
         let at = self.standing(t);
         let poses = self.poses(&at, d);
@@ -142,7 +144,8 @@ impl ImpactMechanism {
         })
     }
 
-    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero when the load drives.
+    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero
+    /// when the load drives.
     pub(super) fn guessed_lag(&self) -> f64 {
         let driven = self.running.driven();
         let radius = [&self.pair.pinion, &self.pair.wheel][driven].base_radius();

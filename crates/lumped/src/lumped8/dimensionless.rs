@@ -12,16 +12,18 @@ use crate::{
     terms::{add_load, add_support, slope_in_time},
 };
 
-/// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put right:
+/// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put
+/// right:
 ///
 /// * eta_py p_1, eta_pz p_1 stand for p_2 and p_3;
 /// * xi_gmy p_11 in the rows of p_5 and p_8 stands for its derivative;
 /// * g = 2 T / (b_n M omega_n^2) lacks a radius below the line: it is a length, not a number;
-/// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied by kappa;
+/// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied
+///   by kappa;
 /// * m_e, and the signs of the driven gear's turn, as in the [module](super).
 ///
-/// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither dropped a term. It is written for
-/// [`MeshLaw::Projected`], the printed law.
+/// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither
+/// dropped a term. It is written for [`MeshLaw::Projected`], the printed law.
 #[derive(Debug, Clone)]
 pub struct Dimensionless {
     equations: Equations18,
@@ -59,7 +61,8 @@ impl Lumped8 {
     /// Dimensionless form.
     ///
     /// # Errors
-    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter has no meaning.
+    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter
+    /// has no meaning.
     pub fn dimensionless(&self) -> Result<Dimensionless, LumpedError> {
         self.check()?;
         positive("half backlash in mm, the unit of length,", self.half_backlash)?;

@@ -41,7 +41,8 @@ pub struct Station {
     pub polar_inertia: f64,
     /// Its inertia about an axis across, t mm^2.
     pub transverse_inertia: f64,
-    /// Which of displacements x, y, z and turns about x, y, z remain coordinates of the model; the others follow statically.
+    /// Which of displacements x, y, z and turns about x, y, z remain coordinates of the model; the others follow
+    /// statically.
     pub kept: [bool; 6],
 }
 
@@ -207,7 +208,8 @@ impl Mesh {
     /// ```text
     /// k_n = k / cos^2 b_b,   excess = -e cos b_b
     /// ```
-    /// The cycle is stated on the transverse line of action, where e > 0 lets the driven gear lag; here along the normal, where an excess presses.
+    /// The cycle is stated on the transverse line of action, where e > 0 lets the driven gear lag; here along the
+    /// normal, where an excess presses.
     ///
     /// # Errors
     /// Those of [`MeshGeometry::line`].
@@ -260,7 +262,8 @@ impl ShaftSystem {
     /// Speed of each shaft about +z, rad/s: by the teeth of the meshes, from shaft 0 on.
     ///
     /// # Errors
-    /// [`LumpedError::NotConnected`] when a shaft is in no chain of meshes with shaft 0, [`LumpedError::Ratios`] when two chains disagree.
+    /// [`LumpedError::NotConnected`] when a shaft is in no chain of meshes with shaft 0, [`LumpedError::Ratios`] when
+    /// two chains disagree.
     pub fn speeds(&self) -> Result<Vec<f64>, LumpedError> {
         let mut ratios: Vec<Option<f64>> = vec![None; self.shafts.len()];
         if let Some(first) = ratios.first_mut() {
