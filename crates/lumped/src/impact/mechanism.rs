@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     ImpactOptions,
-    flanks::{FlankSide, Standing},
+    flanks::{FlankSide, NominalPose},
     forces::{FlankForce, Square},
 };
 use crate::LumpedError;
@@ -101,16 +101,20 @@ impl ImpactMechanism {
         self.nominal.cycles(&self.pair, &self.running, t)
     }
 
-    fn standing(&self, t: f64) -> Standing {
+    fn standing(&self, t: f64) -> NominalPose {
         let station = Station::at_cycles(self.cycles(t));
         let sign = self.running.contact.sense.sign();
         let side = self.running.side();
         let pinion_angle =
             self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
-        Standing { pinion_angle, shift: -sign * station.cycle, wheel_angle: self.pair.wheel_angle(side, pinion_angle) }
+        NominalPose {
+            pinion_angle,
+            shift: -sign * station.cycle,
+            wheel_angle: self.pair.wheel_angle(side, pinion_angle),
+        }
     }
 
-    fn poses(&self, at: &Standing, d: &Displacement) -> [Pose; 2] {
+    fn poses(&self, at: &NominalPose, d: &Displacement) -> [Pose; 2] {
         let angles = at.frame_angles(&self.pair);
         [0, 1].map(|g| {
             let i = COORDINATES * g;

@@ -34,7 +34,7 @@ pub struct Dimensionless {
 }
 
 /// What varies in (18).
-struct Moment {
+struct Coefficients {
     /// K(t) / K_m.
     stiffness: f64,
     /// (e_y, e_z) / b_n and rates.
@@ -115,7 +115,7 @@ impl Dimensionless {
         DVector::from_fn(8, |i, _| if i % 4 == 3 { length / radii[i / 4] } else { length })
     }
 
-    fn at(&self, tau: f64) -> Moment {
+    fn at(&self, tau: f64) -> Coefficients {
         let (pair, length) = (&self.model.pair, self.model.half_backlash);
         let t = tau / self.omega;
         let [k, e, rate] = pair.excitation(t);
@@ -137,7 +137,7 @@ impl Dimensionless {
                 self.equations.torque[i] * pair.torques[i].at(t) / mean
             }
         });
-        Moment {
+        Coefficients {
             stiffness: k / pair.cycle.stiffness.mean,
             error: [1.0, -tan].map(|share| [share * e / length, share * rate / (length * self.omega)]),
             lines: [s, s_xi / r, (s_xi - pair.plane.tangent_length * s) / big_r],
@@ -152,7 +152,7 @@ impl Dimensionless {
     }
 
     /// p_11 and p_12 with all that (18) makes of them.
-    fn relatives(&self, now: &Moment, p: &[f64], v: &[f64]) -> [Relative; 2] {
+    fn relatives(&self, now: &Coefficients, p: &[f64], v: &[f64]) -> [Relative; 2] {
         let tan = self.model.pair.frame.local_helix().tan();
         let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
         let axial = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0];
@@ -198,7 +198,7 @@ impl Dimensionless {
     }
 
     /// L_1, L_2, L_3 times the size of the bracket of p_11, in the rows of x and turn.
-    fn add_friction(&self, gear: usize, now: &Moment, at: &Relative, v: &[f64], out: &mut Forces) {
+    fn add_friction(&self, gear: usize, now: &Coefficients, at: &Relative, v: &[f64], out: &mut Forces) {
         let mass = self.equations.mass_ratio[gear];
         let [eta, xi] = self.mesh(gear, 0, at);
         let bracket = mass * (eta * at.beyond.value + 2.0 * xi * at.slip);

@@ -35,4 +35,4 @@ pub use flexibility::{Influence, bending_influence, equivalent_torsional_stiffne
 pub use history::ShaftRow;
 pub use lumping::LumpedShaft;
 pub use mechanism::ShaftMechanism;
-pub use parameters::{Mesh, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};
+pub use parameters::{Mesh, RunOut, Segment, Shaft, ShaftStation, ShaftSystem, ShaftTorque, Station, Support};

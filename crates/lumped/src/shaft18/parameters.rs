@@ -70,7 +70,7 @@ pub struct Shaft {
 
 /// A station of a shaft, by numbers from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct ShaftStation {
     /// Shaft.
     pub shaft: usize,
     /// Station on it.
@@ -90,7 +90,7 @@ pub struct RunOut {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// Stations that bear gear 1 and gear 2.
-    pub gears: [Place; 2],
+    pub gears: [ShaftStation; 2],
     /// Teeth and where the gears stand to each other.
     pub geometry: MeshGeometry,
     /// Stiffness along the normal of the flanks, N/mm, over the phase of the mesh, 2 pi a tooth.
@@ -109,7 +109,7 @@ pub struct Mesh {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ShaftTorque {
     /// Where.
-    pub place: Place,
+    pub place: ShaftStation,
     /// About +z, N mm.
     pub torque: f64,
 }
@@ -233,7 +233,7 @@ impl Mesh {
 
 impl ShaftSystem {
     /// The station at a place, if there is one.
-    pub fn station(&self, place: Place) -> Result<&Station, LumpedError> {
+    pub fn station(&self, place: ShaftStation) -> Result<&Station, LumpedError> {
         let shaft = self.shafts.get(place.shaft);
         shaft
             .and_then(|s| s.stations.get(place.station))

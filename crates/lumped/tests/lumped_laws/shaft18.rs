@@ -7,7 +7,7 @@ use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
 use integrate::{Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::shaft18::{
-    Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
+    Influence, LumpedShaft, MeshGeometry, Shaft, ShaftMechanism, ShaftStation, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
 use lumped::{Fourier, LumpedError, MeshCycle, Recording};
@@ -323,7 +323,7 @@ fn three_shafts_make_a_train() {
     third.stations[1].kept = [false; 6];
     system.shafts.push(third);
     let mut second = system.meshes[0].clone();
-    second.gears = [Place { shaft: 1, station: 0 }, Place { shaft: 2, station: 0 }];
+    second.gears = [ShaftStation { shaft: 1, station: 0 }, ShaftStation { shaft: 2, station: 0 }];
     second.geometry.teeth = [46, 46];
     second.geometry.helix_angle *= -1.0;
     second.geometry.centre_distance *= 92.0 / 76.0;
@@ -331,7 +331,7 @@ fn three_shafts_make_a_train() {
     second.geometry.side = Side::Right;
     system.meshes.push(second);
     let load = &mut system.torques[1];
-    load.place = Place { shaft: 2, station: 0 };
+    load.place = ShaftStation { shaft: 2, station: 0 };
     load.torque *= -1.0;
     let mut model = ShaftMechanism::new(&system).unwrap();
     assert_eq!(model.count(), 18);

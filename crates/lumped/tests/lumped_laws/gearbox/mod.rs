@@ -2,7 +2,9 @@
 
 use geometry::Side;
 use lumped::Fourier;
-use lumped::shaft18::{Mesh, MeshGeometry, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};
+use lumped::shaft18::{
+    Mesh, MeshGeometry, RunOut, Segment, Shaft, ShaftStation, ShaftSystem, ShaftTorque, Station, Support,
+};
 
 pub const ALL: [bool; 6] = [true; 6];
 /// What a coupled end keeps: x, y and turn.
@@ -38,7 +40,7 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
     let teeth = [30, 46];
     let (m_n, beta) = (2.75, 30f64.to_radians());
     let centre_distance = 0.5 * m_n * f64::from(teeth[0] + teeth[1]) / beta.cos();
-    let [p, g] = [Place { shaft: 0, station: 1 }, Place { shaft: 1, station: 0 }];
+    let [p, g] = [ShaftStation { shaft: 0, station: 1 }, ShaftStation { shaft: 1, station: 0 }];
     let torque = 1e5;
     ShaftSystem {
         shafts: vec![
@@ -85,9 +87,9 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
             run_out: [RunOut::default(); 2],
         }],
         torques: vec![
-            ShaftTorque { place: Place { shaft: 0, station: 0 }, torque },
+            ShaftTorque { place: ShaftStation { shaft: 0, station: 0 }, torque },
             // The driven gear turns the other way; its load resists.
-            ShaftTorque { place: Place { shaft: 1, station: 1 }, torque: torque * 46.0 / 30.0 },
+            ShaftTorque { place: ShaftStation { shaft: 1, station: 1 }, torque: torque * 46.0 / 30.0 },
         ],
         speed,
         mass_damping: 20.0,
