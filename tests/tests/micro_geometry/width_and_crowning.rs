@@ -281,7 +281,7 @@ fn defaults_against_the_finest(number: usize) {
     let mut fine = Reduced::new(2, width, SECTION, finest_face);
     let finest = FLANKS.map(|flank| fine.answer(flank, FINEST_SLICES));
     drop(fine);
-    let face = mesh::face_elements(width * MODULE, MODULE, 2, false);
+    let face = mesh::face_elements(width * MODULE, MODULE, 2, mesh::FaceResolution::Contact);
     let mut usual = Reduced::new(2, width, SECTION, face);
     let mut all = Vec::new();
     for (flank, finest) in FLANKS.into_iter().zip(&finest) {
@@ -346,7 +346,7 @@ fn the_finest_have_settled() {
 fn linear_elements_are_twice_as_many() {
     const SECTION: [u32; 4] = [6, 3, 4, 2];
     let width = WIDTHS[1];
-    let chosen = mesh::face_elements(width * MODULE, MODULE, 1, false);
+    let chosen = mesh::face_elements(width * MODULE, MODULE, 1, mesh::FaceResolution::Contact);
     let flanks = [[30.0, 0.0], [30.0, 100.0]];
     let mut fine = Reduced::new(1, width, SECTION, 3 * chosen);
     let finest = flanks.map(|flank| fine.answer(flank, 128));

@@ -21,7 +21,7 @@ const ROUND_OFF: f64 = 1e-9;
 
 fn case(gears: &[GearData; 2], torque: f64, factor: f64) -> (Case, StaticOptions) {
     let d = StructuredOptions::default();
-    let face = mesh::face_elements(gears[0].face_width, gears[0].normal_module, 2, true);
+    let face = mesh::face_elements(gears[0].face_width, gears[0].normal_module, 2, mesh::FaceResolution::RootStress);
     let all = [d.elements_profile, d.elements_fillet, d.elements_thickness, face, d.elements_rim];
     let counts = all.map(|c| 2 * (0.5 * factor * f64::from(c)).round() as u32);
     let case = quadratic(gears.clone(), None, torque, counts, Extent::Sector(5));

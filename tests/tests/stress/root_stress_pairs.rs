@@ -179,7 +179,7 @@ fn random_pairs(count: usize) -> Vec<Loaded> {
 
 /// Layers along the face that the program chooses.
 fn layers(pair: &Loaded) -> u32 {
-    mesh::face_elements(pair.gears[0].face_width, pair.gears[0].normal_module, 2, true)
+    mesh::face_elements(pair.gears[0].face_width, pair.gears[0].normal_module, 2, mesh::FaceResolution::RootStress)
 }
 
 /// Twenty random pairs, default counts (along the face: [`layers`]) against meshes 1.5 times finer in every direction.
