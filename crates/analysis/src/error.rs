@@ -6,7 +6,7 @@ use ltca::StaticError;
 use lumped::LumpedError;
 use mesh::MeshError;
 use scene::{Scene, SceneError};
-use study::{StudyError, calculix::CalculixError};
+use study::calculix::CalculixError;
 
 use crate::motion::UnstableSteps;
 
@@ -77,6 +77,57 @@ pub enum AnalysisError {
     /// Steps of given length are too long for an explicit method.
     #[error("{0}")]
     UnstableSteps(Box<UnstableSteps>),
+    /// The pair does not move as it is asked to.
+    #[error("{file}: {source}")]
+    Motion {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<dynamics::PairMotionError>,
+    },
+    /// Modes of a gear are not found, or its mesh cannot have them.
+    #[error("{file}: modes of the {gear}: {source}")]
+    Modes {
+        /// The scene.
+        file: String,
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: Box<reduction::ReductionError>,
+    },
+    /// Not one speed of a sweep has a motion that holds.
+    #[error("{file}: no speed has a result, at {speed_rpm:.0}/min: {reason}")]
+    NoSpeed {
+        /// The scene.
+        file: String,
+        /// The first speed of the sweep, 1/min.
+        speed_rpm: f64,
+        /// Why it has no motion.
+        reason: String,
+        /// What to do.
+        way_out: &'static str,
+    },
+    /// A record that no statistics can be made of.
+    #[error(transparent)]
+    Statistics(#[from] study::StudyError),
+    /// The scene asks for something else.
+    #[error("{file}: no {wanted}")]
+    OtherAnalysis {
+        /// The scene.
+        file: String,
+        /// What it does not ask for.
+        wanted: &'static str,
+    },
+    /// The rows that a motion is to be resumed with are not those before its checkpoint.
+    #[error("{file}: {found} rows are given, {wanted} came before the checkpoint")]
+    ResumedRows {
+        /// The scene.
+        file: String,
+        /// Rows given.
+        found: usize,
+        /// Rows before the checkpoint.
+        wanted: usize,
+    },
     /// ISO 6336-1 does not hold for the pair.
     #[error("{file}: model \"iso\": {source}")]
     Iso {
@@ -106,24 +157,6 @@ pub enum AnalysisError {
         /// What happened.
         source: Box<LumpedError>,
     },
-    /// A scene of another model was given to a cheaper one.
-    #[error("{file}: no model of the ladder")]
-    NoLumpedModel {
-        /// The scene.
-        file: String,
-    },
-    /// A scene at rest was given to an analysis in time.
-    #[error("{file}: no motion")]
-    NoMotion {
-        /// The scene.
-        file: String,
-    },
-    /// A sweep was given to an analysis of one motion.
-    #[error("{file}: is a sweep over speed")]
-    IsSweep {
-        /// The scene.
-        file: String,
-    },
     /// A motion has left all bounds.
     #[error("history.csv: holds what is no number")]
     OutOfBounds,
@@ -143,9 +176,6 @@ pub enum AnalysisError {
     /// What keeps every value of a sweep from a result.
     #[error("{0}")]
     Shared(Arc<AnalysisError>),
-    /// Nothing can be read off a history.
-    #[error(transparent)]
-    Study(#[from] StudyError),
     /// The loaded pair of a cheaper model finds nothing to rest on.
     #[error("{file}: nothing holds the loaded pair")]
     NothingHolds {
@@ -214,6 +244,11 @@ fn with_place(place: &str, source: &MeshError) -> String {
 }
 
 impl AnalysisError {
+    /// That a scene does not ask for what is wanted of it.
+    pub(crate) fn other_analysis(scene: &Scene, wanted: &'static str) -> Self {
+        Self::OtherAnalysis { file: scene.file.display().to_string(), wanted }
+    }
+
     /// What a cheaper model says of a scene.
     pub(crate) fn lumped(scene: &Scene, source: LumpedError) -> Self {
         Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
@@ -227,7 +262,6 @@ impl AnalysisError {
             | Self::Sink(_)
             | Self::UnstableSteps(_)
             | Self::OutOfBounds
-            | Self::Study(_)
             | Self::NothingHolds { .. }
             | Self::Calculix(_)
             | Self::BeyondCalculix { .. }
@@ -236,6 +270,8 @@ impl AnalysisError {
             Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
             Self::AtValue { source, .. } => source.is_without_result(),
             Self::Shared(source) => source.is_without_result(),
+            Self::Motion { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
+            Self::Modes { source, .. } => !matches!(**source, reduction::ReductionError::LargeBoundary { .. }),
             Self::Solver(failure) => {
                 matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
             }
@@ -254,18 +290,20 @@ impl AnalysisError {
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
             Self::Iso { source, .. } | Self::Lumped { source, .. } => source.hint(),
-            Self::NoLumpedModel { .. } => {
-                Some("use the model \"lumped8\", \"lumped12\", \"shaft18\" or \"impact\"".to_owned())
-            }
-            Self::NoMotion { .. } => Some("say `kind = \"dynamic\"` in [analysis]".to_owned()),
-            Self::IsSweep { .. } => Some("run it as a sweep of its key `operation.speed_rpm`".to_owned()),
             Self::OutOfBounds => {
                 Some("the motion has left all bounds: take smaller steps, or look at supports and damping".to_owned())
             }
             Self::NoValues => Some("give `--points 2` or more".to_owned()),
             Self::AtValue { source, .. } => source.hint(),
             Self::Shared(source) => source.hint(),
-            Self::Study(e) => e.hint(),
+            Self::Motion { source, .. } => Some(source.hint()),
+            Self::Modes { source, .. } => source.hint(),
+            Self::NoSpeed { way_out, .. } => Some((*way_out).to_owned()),
+            Self::Statistics(e) => e.hint(),
+            Self::OtherAnalysis { .. } => {
+                Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
+            }
+            Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
             Self::Calculix(e) => e.hint(),

@@ -4,9 +4,6 @@ use geometry::GearPair;
 
 use crate::facts::GeometryFacts;
 
-/// Backlash below this (um) is none.
-pub const NO_BACKLASH_UM: f64 = 1e-3;
-
 /// What a user should know of a pair that runs.
 pub fn warnings(pair: &GearPair) -> Vec<String> {
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];

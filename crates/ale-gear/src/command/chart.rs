@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use analysis::accuracy_chart::ChartOptions;
+use analysis::motion::motion_precision;
 use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
 
 use super::overrides::Overrides;
 use crate::{
     chart::chart,
     error::CommandError,
-    motion::precision,
     output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
     partial::Partial,
     phases::Phases,
@@ -115,8 +115,10 @@ impl ChartArgs {
         results: ResultDirectory,
         command: &str,
     ) -> Result<String, CommandError> {
-        let words = scene.motion.as_ref().ok_or_else(|| self.not_in_time())?;
-        let found = precision(scene, words, phases, self.quick)?;
+        if scene.motion.is_none() {
+            return Err(self.not_in_time());
+        }
+        let found = motion_precision(scene, phases, self.quick)?;
         let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
         let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
         let table = motion_precision_table(&found, command);

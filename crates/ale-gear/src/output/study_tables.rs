@@ -5,7 +5,7 @@ use std::fmt::Write;
 use analysis::accuracy_chart::SpeedUp;
 use report::csv::push_row;
 
-use super::{StudyResult, table::fixed};
+use super::{StudyResult, fixed};
 use crate::parameter_study::{CaseOutcome, Findings, Study};
 
 /// A number of every case.

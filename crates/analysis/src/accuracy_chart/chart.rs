@@ -6,7 +6,7 @@ use scene::Scene;
 use study::{Answer, AnswerError, Work};
 
 use super::{
-    Density, MemoryGauge, MotionRow, NoGauge, Point, ReducedMotion, Way, guard,
+    Density, MemoryGauge, MotionRow, NoGauge, Point, Way, guard,
     measure::{ChartTools, Measured, degrees_of_freedom, measure},
     motion,
     plan::{Engine, Range, Share, densities, reference},
@@ -104,7 +104,6 @@ pub struct AccuracyChart<'a> {
     scene: &'a Scene,
     options: &'a ChartOptions,
     tools: ChartTools<'a>,
-    reduced_motion: ReducedMotion<'a>,
 }
 
 impl std::fmt::Debug for AccuracyChart<'_> {
@@ -114,10 +113,9 @@ impl std::fmt::Debug for AccuracyChart<'_> {
 }
 
 impl<'a> AccuracyChart<'a> {
-    /// Of a scene, without memory readings, CalculiX, and the reduced model in motion.
+    /// Of a scene, without memory readings and CalculiX.
     pub fn new(scene: &'a Scene, options: &'a ChartOptions) -> Self {
-        let reduced_motion: ReducedMotion<'a> = &|_| Err("nobody runs it".to_owned());
-        Self { scene, options, tools: ChartTools { memory: &NoGauge, scratch: None }, reduced_motion }
+        Self { scene, options, tools: ChartTools { memory: &NoGauge, scratch: None } }
     }
 
     /// With peak and free memory of the process: a point that does not fit is left out.
@@ -132,12 +130,6 @@ impl<'a> AccuracyChart<'a> {
     pub fn with_scratch(mut self, folder: &'a Path) -> Self {
         self.tools.scratch = Some(folder);
         self
-    }
-
-    /// With the reduced model in motion, which the others in motion are compared with.
-    #[must_use]
-    pub fn with_reduced_motion(self, reduced_motion: ReducedMotion<'a>) -> Self {
-        Self { reduced_motion, ..self }
     }
 
     /// Runs every point.
@@ -157,7 +149,7 @@ impl<'a> AccuracyChart<'a> {
     }
 
     fn points(&self, mut seen: impl FnMut(&str)) -> Result<WorkPrecision, AnalysisError> {
-        let Self { scene, options, tools, reduced_motion } = *self;
+        let Self { scene, options, tools } = *self;
         let mut raw: Vec<MeasuredPoint> = Vec::new();
         for way in ways() {
             self.series(way, &mut raw, &mut seen);
@@ -169,7 +161,7 @@ impl<'a> AccuracyChart<'a> {
         // The finest mesh that is not the reference's own.
         let density = options.densities.iter().rev().nth(1).or(options.densities.first());
         let motion = match density.filter(|_| options.motion) {
-            Some(density) => motion::rows(scene, *density, reduced_motion, tools, seen),
+            Some(density) => motion::rows(scene, *density, tools, seen),
             None => Vec::new(),
         };
         Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows, motion })

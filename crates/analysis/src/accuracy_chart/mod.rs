@@ -25,6 +25,6 @@ mod speed_up;
 
 pub use chart::{AccuracyChart, ChartOptions, Outcome, PointRow, WorkPrecision};
 pub use memory::{MemoryGauge, NoGauge};
-pub use motion::{CYCLES as MOTION_CYCLES, MotionPoint, MotionRow, REDUCED, ReducedMotion};
+pub use motion::{MotionPoint, MotionRow, REDUCED};
 pub use plan::{CALCULIX, Density, FED, FULL, Point, Way, ways};
 pub use speed_up::{SpeedUp, speed_up};

@@ -8,10 +8,11 @@ use super::{Density, lumped_scene, measure::ChartTools, phase_times::PhaseTimes,
 use crate::{
     AnalysisError, NoCache,
     lumped::{ExcitationSource, LumpedInputs, steady_rows},
+    motion::{MotionAnalysis, MotionOutcome, NoMotionSink},
 };
 
 /// Mesh cycles that are judged.
-pub const CYCLES: u32 = 4;
+const CYCLES: u32 = 4;
 /// Models that are run.
 pub(super) const WAYS: usize = 6;
 /// Name of what the others are compared with.
@@ -51,14 +52,10 @@ fn reduced(scene: &mut Scene) {
     lumped_scene::in_motion(scene);
 }
 
-/// Runs the reduced model in motion, from its scene; the reason where nothing comes out.
-pub type ReducedMotion<'a> = &'a dyn Fn(&Scene) -> Result<MotionPoint, String>;
-
 /// Every model in motion, `reduced` first.
 pub(super) fn rows(
     scene: &Scene,
     density: Density,
-    reduced_motion: ReducedMotion<'_>,
     tools: ChartTools<'_>,
     mut seen: impl FnMut(&str),
 ) -> Vec<MotionRow> {
@@ -78,13 +75,24 @@ pub(super) fn rows(
         own.output.root_stress = false;
         own.output.contact_lines = false;
         own.output.vtu = false;
-        let outcome = match way {
-            REDUCED => reduced_motion(&own),
-            _ => cheap(&own, tools).map_err(|e| e.to_string()),
-        };
-        MotionRow { way, outcome: outcome.map_err(|said| said.replace('\n', " ")) }
+        let outcome = if way == REDUCED { elastic(&own, tools) } else { cheap(&own, tools) };
+        MotionRow { way, outcome: outcome.map_err(|e| e.to_string().replace('\n', " ")) }
     };
     ways.into_iter().map(one).collect()
+}
+
+/// The reduced model.
+fn elastic(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, AnalysisError> {
+    let mut phases = PhaseTimes::new(tools.memory);
+    let outcome = MotionAnalysis::new(scene).solve_into(&mut phases, &mut NoMotionSink)?;
+    let MotionOutcome::Finished(result) = outcome else {
+        // Nobody asked it to stop.
+        return Err(AnalysisError::other_analysis(scene, "motion"));
+    };
+    result.facts.certificate.verdict(scene)?;
+    let dte: Vec<f64> = result.rows.iter().map(|row| row.dte_um).collect();
+    let offline_s = phases.wall_s(|name| !matches!(name, "settle" | "solve"));
+    Ok(MotionPoint::of(&dte, 1, offline_s, phases.wall_s(|name| name == "solve") / f64::from(CYCLES)))
 }
 
 fn cheap(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, AnalysisError> {
@@ -102,7 +110,7 @@ fn cheap(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, AnalysisEr
 
 impl MotionPoint {
     /// Of dynamic transmission errors, um, evenly spaced in time, and what they took.
-    pub fn of(dte_um: &[f64], coordinates: usize, offline_s: f64, cycle_s: f64) -> Self {
+    fn of(dte_um: &[f64], coordinates: usize, offline_s: f64, cycle_s: f64) -> Self {
         let mean_um = study::mean(dte_um);
         let squares: f64 = dte_um.iter().map(|x| (x - mean_um).powi(2)).sum();
         Self {

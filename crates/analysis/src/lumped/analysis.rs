@@ -17,11 +17,11 @@ use super::{
     warnings::{certificate_warnings, no_backlash},
 };
 use crate::{
-    AnalysisError, EnergyRecord, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
     certificate::Certificate,
     facts::{Facts, Resolution},
     gears,
-    motion::{self, MotionSeries, MotionSpectrum, Passage},
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
     resolution::{resolution, with_slices},
     run_phase,
@@ -59,7 +59,7 @@ pub struct LumpedResult {
     /// Row by row, equally many in each mesh cycle.
     pub rows: Vec<LumpedRow>,
     /// Energy since the start, row by row and at the end.
-    pub energy: Vec<EnergyRecord>,
+    pub energy: Vec<EnergyRow>,
     /// Where it ends: another run may go on from there.
     pub end: State,
     /// The pair under the mean load as speed goes to zero; `None` where it finds nothing to rest on.
@@ -134,7 +134,7 @@ impl<'a> LumpedAnalysis<'a> {
         let scene = with_slices(self.scene.clone());
         let motion = motion_of(&scene)?;
         if motion.sweep.is_some() {
-            return Err(AnalysisError::IsSweep { file: scene.file.display().to_string() });
+            return Err(AnalysisError::other_analysis(&scene, "motion at one speed or over a ramp"));
         }
         let inputs = LumpedInputs::gather(&scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;
@@ -222,7 +222,7 @@ impl RunObserver for RowsOnward<'_> {
 
 /// The motion that a scene asks for.
 pub(super) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
-    scene.motion.as_ref().ok_or_else(|| AnalysisError::NoMotion { file: scene.file.display().to_string() })
+    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
 }
 
 /// Rows of a run to the steady state alone, and the mesh cycles that it took in all: for comparing models.

@@ -70,7 +70,7 @@ impl LumpedInputs {
     pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
         let Self { scene, pair, excitation } = self;
         let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
-        let none = || AnalysisError::NoLumpedModel { file: scene.file.display().to_string() };
+        let none = || AnalysisError::other_analysis(scene, "model of the ladder");
         if let Some(own) = &scene.impact {
             let (model, warnings) = impact::impact(scene, own, pair).map_err(complain)?;
             return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz: 0.0, warnings, shafts: None });

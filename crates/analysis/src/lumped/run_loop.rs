@@ -5,7 +5,10 @@ use integrate::{Forces, Integrator, Ledger, Mechanism, Periodicity, State, StepC
 use scene::{Analysis, MotionScene, Run, Scene};
 
 use super::{LumpedRow, mechanism::BoxedMechanism, periodicity::PeriodicityMonitor};
-use crate::{AnalysisError, EnergyRecord, SinkResult, motion::scheme};
+use crate::{
+    AnalysisError, SinkResult,
+    motion::{EnergyRow, scheme},
+};
 
 /// Phases of a mesh cycle at which the longest stable step is looked for.
 const PHASES: u32 = 32;
@@ -40,7 +43,7 @@ pub(crate) struct LumpedRun {
     /// Row by row.
     pub rows: Vec<LumpedRow>,
     /// Energy since the start of the run, row by row and at its end.
-    pub energy: Vec<EnergyRecord>,
+    pub energy: Vec<EnergyRow>,
     /// Where it ends.
     pub end: State,
     /// Rows in a mesh cycle.
@@ -185,11 +188,11 @@ impl RunPlan<'_> {
             let row = model.row(&state);
             observer.row(&row, k % per_cycle == 0).map_err(RunFailure::Sink)?;
             rows.push(row);
-            energy.push(EnergyRecord { time: state.time, ledger: ledger(model, &integrator, &state) });
+            energy.push(EnergyRow::of(state.time, &ledger(model, &integrator, &state)));
             advance(model, &mut integrator, &mut state, self.time(warm_up * per_cycle + k + 1))?;
         }
         let ledger = ledger(model, &integrator, &state);
-        energy.push(EnergyRecord { time: state.time, ledger });
+        energy.push(EnergyRow::of(state.time, &ledger));
         // Of a ramp the last speed is judged.
         let judged = match motion.ramp {
             Some(ramp) => ((ramp.after_s * frequencies.mesh_hz).floor() as u64).clamp(1, cycles),

@@ -3,7 +3,7 @@
 use scene::{Model, MotionScene, Run};
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
-use crate::gears::NO_BACKLASH_UM;
+use crate::motion::NO_BACKLASH_UM;
 
 /// Residual of the ledger over the turnover from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;

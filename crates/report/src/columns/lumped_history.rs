@@ -70,16 +70,7 @@ impl LumpedLayout {
 /// The rows of a scene as columns by name, for charts and studies of any analysis.
 pub fn lumped_columns<'a>(scene: &Scene, rows: impl IntoIterator<Item = &'a LumpedRow>) -> Columns {
     let layout = LumpedLayout::of(scene);
-    let sheet = layout.sheet();
-    let mut columns = Columns::named(sheet.names());
-    rows.into_iter().for_each(|row| columns.push(sheet.row(&layout, row)));
-    columns
-}
-
-/// The file of these rows.
-pub fn lumped_csv<'a>(scene: &Scene, rows: impl IntoIterator<Item = &'a LumpedRow>) -> String {
-    let layout = LumpedLayout::of(scene);
-    layout.sheet().csv(&layout, rows)
+    layout.sheet().columns(&layout, rows)
 }
 
 /// The column of that name as a quantity of rows; `None` where a scene's model has no such column.
