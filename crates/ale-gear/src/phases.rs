@@ -7,21 +7,10 @@ use std::time::{Duration, Instant};
 
 use analysis::{Observer, PhaseWork, Progress};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use serde::Serialize;
+use report::{Cost, Phase};
 
 use crate::memory;
 use crate::talk::{self, Loudness};
-
-/// What one phase cost.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Phase {
-    /// What was done: `read`, `reduce`, `solve`, ...
-    pub name: String,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// Largest resident set during the phase, MB; `null` where the system cannot tell a phase's own.
-    pub peak_memory_mb: Option<f64>,
-}
 
 /// Records phases one after the other.
 ///
@@ -173,6 +162,16 @@ impl Phases {
     pub fn peak_memory_mb(&self) -> Option<f64> {
         self.highest
     }
+
+    /// What it all cost so far.
+    pub fn cost(&self) -> Cost {
+        Cost {
+            threads: rayon::current_num_threads(),
+            wall_s: self.total_wall_s(),
+            peak_memory_mb: self.peak_memory_mb(),
+            phases: self.rows().to_vec(),
+        }
+    }
 }
 
 impl Observer for Phases {
@@ -187,6 +186,10 @@ impl Observer for Phases {
 
     fn end(&mut self) {
         self.close();
+    }
+
+    fn note(&mut self, message: String) {
+        talk::say(Loudness::Bars, || format!("ale-gear: {message}"));
     }
 }
 

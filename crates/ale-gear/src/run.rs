@@ -2,14 +2,11 @@
 
 use std::time::Instant;
 
-use analysis::{AnalysisError, SinkResult, StaticAnalysis, StaticResult, StaticSink};
+use analysis::{SinkResult, StaticAnalysis, StaticResult, StaticSink};
 use ltca::{StaticError, StaticModel, StaticPosition};
 use report::{paraview::FieldWriter, view::ViewRecorder};
 
-pub(crate) use analysis::{
-    body_warnings, dof_after, foreseen_s, free_dofs, options, reduced, static_certificate as certificate, time_again,
-    wider_window, worse,
-};
+pub(crate) use analysis::{foreseen_s, options, static_certificate as certificate, time_again};
 
 use crate::{
     cache::Cache,
@@ -98,42 +95,6 @@ impl StaticSink for FileSink<'_> {
 
     fn finish(&mut self) -> SinkResult {
         Ok(self.fields.finish().map_err(CommandError::from)?)
-    }
-}
-
-/// Why an attempt with one width of the window failed.
-pub(crate) enum Failure {
-    /// The solver's own error, which another width may cure.
-    Static(StaticError),
-    /// Anything else.
-    Command(CommandError),
-}
-
-impl From<CommandError> for Failure {
-    fn from(e: CommandError) -> Self {
-        Self::Command(e)
-    }
-}
-
-impl From<AnalysisError> for Failure {
-    fn from(e: AnalysisError) -> Self {
-        Self::Command(e.into())
-    }
-}
-
-impl From<StaticError> for Failure {
-    fn from(e: StaticError) -> Self {
-        Self::Static(e)
-    }
-}
-
-impl Failure {
-    /// What the user is told.
-    pub(crate) fn complaint(self, scene: &Scene) -> CommandError {
-        match self {
-            Self::Command(e) => e,
-            Self::Static(e) => complaint(scene, &e),
-        }
     }
 }
 

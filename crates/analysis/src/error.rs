@@ -73,6 +73,57 @@ pub enum AnalysisError {
     /// Steps of given length are too long for an explicit method.
     #[error("{0}")]
     UnstableSteps(Box<UnstableSteps>),
+    /// The pair does not move as it is asked to.
+    #[error("{file}: {source}")]
+    Motion {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<dynamics::PairMotionError>,
+    },
+    /// Modes of a gear are not found, or its mesh cannot have them.
+    #[error("{file}: modes of the {gear}: {source}")]
+    Modes {
+        /// The scene.
+        file: String,
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+        /// What happened.
+        source: Box<reduction::ReductionError>,
+    },
+    /// Not one speed of a sweep has a motion that holds.
+    #[error("{file}: no speed has a result, at {speed_rpm:.0}/min: {reason}")]
+    NoSpeed {
+        /// The scene.
+        file: String,
+        /// The first speed of the sweep, 1/min.
+        speed_rpm: f64,
+        /// Why it has no motion.
+        reason: String,
+        /// What to do.
+        way_out: &'static str,
+    },
+    /// A record that no statistics can be made of.
+    #[error(transparent)]
+    Statistics(#[from] study::StudyError),
+    /// The scene asks for something else.
+    #[error("{file}: no {wanted}")]
+    OtherAnalysis {
+        /// The scene.
+        file: String,
+        /// What it does not ask for.
+        wanted: &'static str,
+    },
+    /// The rows that a motion is to be resumed with are not those before its checkpoint.
+    #[error("{file}: {found} rows are given, {wanted} came before the checkpoint")]
+    ResumedRows {
+        /// The scene.
+        file: String,
+        /// Rows given.
+        found: usize,
+        /// Rows before the checkpoint.
+        wanted: usize,
+    },
     /// ISO 6336-1 does not hold for the pair.
     #[error("{file}: model \"iso\": {source}")]
     Iso {
@@ -139,6 +190,8 @@ impl AnalysisError {
     pub fn is_without_result(&self) -> bool {
         match self {
             Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) | Self::UnstableSteps(_) => true,
+            Self::Motion { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
+            Self::Modes { source, .. } => !matches!(**source, reduction::ReductionError::LargeBoundary { .. }),
             Self::Solver(failure) => {
                 matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
             }
@@ -156,6 +209,14 @@ impl AnalysisError {
             Self::Reduction { source, .. } => source.hint(),
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
+            Self::Motion { source, .. } => Some(source.hint()),
+            Self::Modes { source, .. } => source.hint(),
+            Self::NoSpeed { way_out, .. } => Some((*way_out).to_owned()),
+            Self::Statistics(e) => e.hint(),
+            Self::OtherAnalysis { .. } => {
+                Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
+            }
+            Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Iso { source, .. } => source.hint(),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),

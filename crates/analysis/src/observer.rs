@@ -29,6 +29,9 @@ pub trait Observer {
 
     /// The phase that began last is over.
     fn end(&mut self);
+
+    /// What those who wait should hear before the end.
+    fn note(&mut self, _message: String) {}
 }
 
 /// Hears nothing.

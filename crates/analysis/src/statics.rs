@@ -14,10 +14,13 @@ use crate::{
     elastic_gears::{ElasticGears, elastic_gears},
     error::SolverFailure,
     facts::Facts,
-    foreseen_s, gears, iso_model, iso_root,
-    meshes::{self, SceneMesh},
+    failure::Failure,
+    foreseen_s, gears,
+    inputs::{meshes_of, settled_scene},
+    iso_model, iso_root,
+    meshes::SceneMesh,
     options::options,
-    resolution::{resolution, with_slices},
+    resolution::resolution,
     run_phase,
     warnings::{body_warnings, deflection_warnings},
 };
@@ -121,7 +124,7 @@ impl<'a> StaticAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
-        let (scene, cache) = (&self.settled_scene(), self.cache);
+        let (scene, cache) = (&settled_scene(self.scene, self.meshes.is_some()), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
@@ -129,7 +132,7 @@ impl<'a> StaticAnalysis<'a> {
             history.warnings.extend(gears::warnings(&pair));
             return Ok(StaticResult { pair, history, facts, model: None });
         }
-        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| self.meshes_of(scene, &pair))?;
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, self.meshes))?;
         let mut warnings = gears::warnings(&pair);
         warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
         let options = options(scene, &pair);
@@ -147,10 +150,7 @@ impl<'a> StaticAnalysis<'a> {
                 Some(teeth)
             },
         );
-        let (model, mut history) = solved.map_err(|failure| match failure {
-            Failure::Static(e) => solver_error(scene, e),
-            Failure::Analysis(e) => *e,
-        })?;
+        let (model, mut history) = solved.map_err(|failure| failure.into_error(scene))?;
         let mut facts = facts_of(&model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
@@ -160,25 +160,6 @@ impl<'a> StaticAnalysis<'a> {
         warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm));
         history.warnings.extend(warnings);
         Ok(StaticResult { pair, history, facts, model: Some(model) })
-    }
-
-    /// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes in
-    /// memory.
-    fn settled_scene(&self) -> Scene {
-        let mut scene = with_slices(self.scene.clone());
-        if self.meshes.is_some() {
-            (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
-        }
-        scene
-    }
-
-    fn meshes_of(&self, scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
-        let Some([pinion, wheel]) = self.meshes else { return meshes::pair_meshes(scene, pair) };
-        let one = |whose: &str, gear, exact, mesh: &Mesh| {
-            let name = format!("the {whose}'s mesh in memory");
-            meshes::checked_mesh(scene, whose, (gear, exact), mesh.clone(), [name.clone(), name])
-        };
-        Ok([one("pinion", &scene.pinion, &pair.pinion, pinion)?, one("wheel", &scene.wheel, &pair.wheel, wheel)?])
     }
 }
 
@@ -212,26 +193,6 @@ pub fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, Analysis
     let run = model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ());
     run.map_err(|e| solver_error(scene, e))?;
     Ok(start.elapsed().as_secs_f64())
-}
-
-/// Why an attempt with one width of the window failed.
-enum Failure {
-    /// The solver's own error, which another width may cure.
-    Static(StaticError),
-    /// Anything else.
-    Analysis(Box<AnalysisError>),
-}
-
-impl From<AnalysisError> for Failure {
-    fn from(e: AnalysisError) -> Self {
-        Self::Analysis(Box::new(e))
-    }
-}
-
-impl From<StaticError> for Failure {
-    fn from(e: StaticError) -> Self {
-        Self::Static(e)
-    }
 }
 
 /// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the teeth.
@@ -357,7 +318,7 @@ mod tests {
             let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0);
             base.face_width_mm(120.0).torque_nm(300.0).set("pinion.modification.drive.lead_crowning_um", 30.0)
         };
-        let slices = |scene: Scene| StaticAnalysis::new(&scene).settled_scene().contact.slices;
+        let slices = |scene: Scene| settled_scene(&scene, false).contact.slices;
         let chosen = slices(wide().build().unwrap());
         assert!(chosen.is_some_and(|n| n > 32), "b/m_n = 40 with 30 um of crowning: {chosen:?} slices");
         assert_eq!(slices(wide().set("contact.slices", 32).build().unwrap()), Some(32), "stated");

@@ -12,6 +12,8 @@
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
+//! | [`tables`] | the table at the end of a run |
+//! | [`Cost`], [`write_summary`] | what a run cost; everything about it but its rows |
 //! | [`ResultFiles`] | where files go |
 
 pub mod charts;
@@ -19,6 +21,7 @@ mod columnar;
 pub mod columns;
 pub mod compare;
 pub mod contact_files;
+mod cost;
 pub mod csv;
 mod error;
 mod files;
@@ -26,12 +29,16 @@ pub mod motion_files;
 pub mod page;
 pub mod paraview;
 mod rows;
+mod summary;
+pub mod tables;
 pub mod view;
 
 pub use columnar::write_parquet;
+pub use cost::{Cost, Phase};
 pub use error::ReportError;
 pub use files::ResultFiles;
 pub use rows::{columns_to_csv, parse_columns, read_columns};
+pub use summary::write_summary;
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
 pub const SUMMARY_SCHEMA: u32 = 1;

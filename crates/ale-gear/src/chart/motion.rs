@@ -2,16 +2,16 @@
 
 use std::time::Instant;
 
+use analysis::motion::{MotionAnalysis, MotionOutcome, NoMotionSink};
 use report::columns::motion_history::DTE;
+use study::Columns;
 
 use super::{Density, ladder_scene, plan};
 use crate::{
     cache::Cache,
     error::CommandError,
     ladder::{self, Recipe, Sources},
-    motion::{self, Columns},
     output::ResultDirectory,
-    partial::Partial,
     phases::Phases,
     scene::Scene,
 };
@@ -86,13 +86,16 @@ pub(super) fn rows(
     ways.into_iter().map(one).collect()
 }
 
-/// The reduced model; its rows go into a folder of their own.
+/// The reduced model.
 fn whole(scene: &Scene) -> Result<MotionPoint, CommandError> {
-    let scratch = Partial::new(std::env::temp_dir().join(format!("ale-gear-chart-{}", std::process::id())));
-    std::fs::create_dir_all(scratch.path()).map_err(|e| CommandError::write(scratch.path(), &e))?;
     let mut phases = Phases::quiet();
-    let words = words(scene)?;
-    let rows = motion::rows_of(scene, words, &mut phases, scratch.path())?;
+    let outcome = MotionAnalysis::new(scene).solve_into(&mut phases, &mut NoMotionSink)?;
+    let MotionOutcome::Finished(result) = outcome else {
+        return Err(CommandError::failed(format_args!("{}: stopped before its end", scene.file.display()), None));
+    };
+    result.facts.certificate.verdict(scene)?;
+    let mut rows = Columns::named([DTE.name]);
+    result.rows.iter().for_each(|row| rows.push([row.dte_um]));
     let wall = |solve: bool| -> f64 {
         let own = phases.rows().iter().filter(|p| matches!(p.name.as_str(), "settle" | "solve") == solve);
         own.filter(|p| !solve || p.name == "solve").map(|p| p.wall_s).sum()

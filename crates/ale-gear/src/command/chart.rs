@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use analysis::motion::motion_precision;
+
 use super::overrides::Overrides;
 use crate::{
     chart::{ChartOptions, chart, point_count},
     error::CommandError,
-    motion::precision,
     output::{
         ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
         work_precision_svg, write_chart_csv,
@@ -120,8 +121,10 @@ impl ChartArgs {
         results: ResultDirectory,
         command: &str,
     ) -> Result<String, CommandError> {
-        let words = scene.motion.as_ref().ok_or_else(|| self.not_in_time())?;
-        let found = precision(scene, words, phases, self.quick)?;
+        if scene.motion.is_none() {
+            return Err(self.not_in_time());
+        }
+        let found = motion_precision(scene, phases, self.quick)?;
         let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
         let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
         let table = motion_precision_table(&found, command);

@@ -7,12 +7,9 @@ use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    facts::{Cost, Solved},
+    facts::Solved,
     motion::{self, Progression},
-    output::{
-        ResultDirectory, closing_table, headline, write_columnar, write_contact, write_history, write_report,
-        write_summary,
-    },
+    output::{ResultDirectory, close, closing_table, static_headline, write_contact, write_history, write_report},
     phases::Phases,
     resolution::with_slices,
     room, run,
@@ -204,20 +201,16 @@ fn write_static(
 ) -> Result<Written, CommandError> {
     let Solved { history, mut facts, view } = run::solve(scene, phases, results, cache)?;
     facts.certificate = run::certificate(&history.positions);
-    let headline = headline(scene, &history).map_err(|e| CommandError::failed(&e, e.hint()))?;
+    let headline = static_headline(scene, &history)?;
 
     let picture = phases.run("write", || {
         results.write("history.csv", write_history(scene, &history).as_bytes())?;
         Ok::<_, CommandError>(write_contact(scene, &history, results)?)
     })?;
-    let cost = Cost::of(phases);
+    let cost = phases.cost();
     let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
     report.write(results)?;
-    // Last of all, so that a summary means that everything is there.
-    write_columnar(scene, results)?;
-    let files = results.files()?;
-    let summary = write_summary(scene, &facts, &cost, &headline, &history.warnings, &files);
-    results.write("summary.json", summary.as_bytes())?;
+    close(scene, (&facts, &cost), &headline, &history.warnings, results)?;
     let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
     Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
 }

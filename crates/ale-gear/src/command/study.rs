@@ -6,7 +6,6 @@ use super::{cache_args::CacheArgs, run::write_result};
 use crate::{
     chart::{SpeedUp, speed_up},
     error::CommandError,
-    facts::Cost,
     output::{ResultDirectory, StudyResult, study_csv, study_table, write_study_report, write_study_summary},
     parameter_study::{CaseOutcome, Findings, Study, findings, run_cases},
     phases::Phases,
@@ -50,7 +49,7 @@ impl StudyArgs {
             let solve = |scene: &_, own: &_| {
                 let mut own_phases = Phases::quiet();
                 let verdict = write_result(scene, &mut own_phases, own, &cache)?.verdict;
-                Ok(verdict.map(|()| Cost::of(&own_phases)))
+                Ok(verdict.map(|()| own_phases.cost()))
             };
             run_cases(&study, &results, &solve, &|case| {
                 progress.say(case.label.clone());
@@ -64,7 +63,7 @@ impl StudyArgs {
             None
         });
         results.write("study.csv", study_csv(&study, &findings).as_bytes())?;
-        let cost = Cost::of(&phases);
+        let cost = phases.cost();
         let of = StudyResult {
             study: &study,
             runs: &runs,

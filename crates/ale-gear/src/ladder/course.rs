@@ -5,7 +5,8 @@ use integrate::{Forces, Integrator, Ledger, Mechanism, State, StepControl, StepL
 use lumped::LumpedError;
 
 use super::{model::Model, settle::Returns};
-use report::columns::{ENERGY, EnergyRecord};
+use analysis::motion::EnergyRow;
+use report::columns::ENERGY;
 
 use crate::{
     motion::{Columns, scheme},
@@ -150,12 +151,12 @@ pub(super) fn run(
         }
         history.push(values);
         let ledger = ledger(model, &integrator, &state);
-        energy.push(energy_columns.row(&(), &EnergyRecord { time: state.time, ledger }));
+        energy.push(energy_columns.row(&(), &EnergyRow::of(state.time, &ledger)));
         let until = (warm_up * per_cycle + row + 1) as f64 * period / per_cycle as f64;
         advance(model, &mut integrator, &mut state, until)?;
     }
     let ledger = ledger(model, &integrator, &state);
-    energy.push(energy_columns.row(&(), &EnergyRecord { time: state.time, ledger }));
+    energy.push(energy_columns.row(&(), &EnergyRow::of(state.time, &ledger)));
     // Of a ramp the last speed is judged.
     let judged = match words.ramp {
         Some(ramp) => ((ramp.after_s * mesh_hz).floor() as u64).clamp(1, cycles),

@@ -41,7 +41,7 @@ use crate::{
     cache::Cache,
     certificate::{Certificate, Written},
     error::CommandError,
-    facts::{Cost, Facts, Resolution},
+    facts::{Facts, Resolution},
     gears,
     motion::{self, ENERGY_FILE, HISTORY},
     output::{
@@ -186,7 +186,7 @@ impl Case<'_> {
         ] {
             results.write(name, text.as_bytes())?;
         }
-        let cost = Cost::of(phases);
+        let cost = phases.cost();
         let pictures = MotionPictures {
             rows: &course.history,
             energy: &course.energy,

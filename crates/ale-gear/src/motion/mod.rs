@@ -1,68 +1,43 @@
-//! Analyses in time: from a checked scene to rows, spectra, certificate and report.
+//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`].
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `elasticity` | elastic frequencies beside mesh harmonics |
-//! | `prepare` | gears, quasi-static cycle, mechanism |
-//! | `pattern` | what the flanks are pressed by |
-//! | `course` | settle, write rows, checkpoints |
-//! | `rows`, `table` | files of rows, written on the way and read back at the end |
+//! | `sink` | rows, checkpoints and the gears in space, as they come |
+//! | `rows` | files of rows, which a later run takes up again |
 //! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
-//! | `sweep` | steady states over speed |
-//! | `precision` | step sizes against errors of every method |
-//! | `headline`, `inertia` | what is read off the rows; which inertia counts |
-//! | `certificate` | what must hold of a motion |
-//! | `price` | what a longer analysis would cost |
-//! | `doubts` | what a user should hear of them |
-//! | `write` | files of the result |
 
-mod certificate;
-mod course;
-mod doubts;
-mod elasticity;
-mod headline;
-mod inertia;
 mod inputs;
-mod pattern;
-mod precision;
-mod prepare;
-mod price;
 mod rows;
+mod sink;
 mod store;
-mod sweep;
-mod write;
 
-use ale::solve_widening;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use course::{Finished, Places};
-use inputs::{Change, InputDigests};
-use prepare::{Inputs, Prepared, prepare};
+use analysis::motion::{MotionAnalysis, MotionLayout, MotionOutcome, MotionResult, SweepAnalysis};
+use report::{
+    motion_files::{write_motion, write_sweep},
+    tables::{motion_table, sweep_table},
+};
+
+use inputs::InputDigests;
+use sink::FileSink;
 use store::{CheckpointFolder, Checkpoints, Stored};
-use write::{no_statistics, write_motion, write_sweep};
 
 pub(crate) use analysis::motion::{
-    MOTION_WAY_OUT, RPM, Steps, bearing, drive, energy_check, motion_options, pulling_check, refuse_unstable, scheme,
-    speed, stated_body, steady_by, torque,
+    NO_BACKLASH_UM, RPM, Steps, bearing, drive, energy_check, pulling_check, refuse_unstable, scheme, speed,
+    stated_body, torque,
 };
-pub(crate) use doubts::NO_BACKLASH_UM;
-pub(crate) use elasticity::ElasticHeadline;
-pub(crate) use headline::MotionHeadline;
-pub(crate) use inertia::InertiaHeadline;
-pub(crate) use precision::{Precision, PrecisionPoint, precision};
 pub(crate) use report::{columns::GEARS, read_columns};
 pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
 pub(crate) use study::Columns;
-pub(crate) use sweep::{SweepHeadline, SweepRow};
 
 use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::ResultDirectory,
+    output::{ResultDirectory, close},
     phases::Phases,
-    run::Failure,
-    scene::{MotionScene, Scene, SweepScene},
+    scene::{MotionScene, Scene},
     talk::{self, Loudness},
 };
 
@@ -76,8 +51,8 @@ pub(crate) struct Progression {
 
 impl Progression {
     /// Checkpoints beside `out`, where scene or command ask for some.
-    pub fn new(words: &MotionScene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
-        let wanted = words.checkpoint_every_cycles.is_some_and(|every| every > 0) || resume || stop_after.is_some();
+    pub fn new(motion: &MotionScene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
+        let wanted = motion.checkpoint_every_cycles.is_some_and(|every| every > 0) || resume || stop_after.is_some();
         Self { folder: wanted.then(|| CheckpointFolder::beside(out)), resume, stop_after }
     }
 
@@ -109,15 +84,17 @@ pub(crate) enum Outcome {
 /// Exit status 2 when the input is wrong, 1 when no motion comes out.
 pub(crate) fn solve(
     scene: &Scene,
-    words: &MotionScene,
+    motion: &MotionScene,
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
-    let stop_after = progression.stop_after;
+    if motion.sweep.is_some() {
+        return sweep(scene, phases, results, cache).map(Outcome::Finished);
+    }
     let Some(folder) = &progression.folder else {
-        return through_windows(scene, words, phases, (results, cache), None, stop_after);
+        return one_motion(scene, phases, (results, cache), None, None);
     };
     if progression.resume && !folder.path().is_dir() {
         folder.read(scene)?;
@@ -130,7 +107,7 @@ pub(crate) fn solve(
     };
     let solved = begin().and_then(|(inputs, from)| {
         let checkpoints = Checkpoints { folder, inputs: &inputs };
-        through_windows(scene, words, phases, (results, cache), Some((checkpoints, from)), stop_after)
+        one_motion(scene, phases, (results, cache), Some((checkpoints, from)), progression.stop_after)
     });
     if solved.is_err() {
         folder.remove_if_empty();
@@ -155,128 +132,56 @@ fn going_on(folder: &CheckpointFolder, scene: &Scene, inputs: &InputDigests) -> 
     Ok(Some(stored))
 }
 
-/// Tries window after window until one suffices, from a state where there is one.
-fn through_windows(
+/// One motion, from a state where there is one.
+fn one_motion(
     scene: &Scene,
-    words: &MotionScene,
     phases: &mut Phases,
     (results, cache): (&ResultDirectory, &Cache),
     kept: Option<(Checkpoints<'_>, Option<Stored>)>,
     stop_after: Option<u64>,
 ) -> Result<Outcome, CommandError> {
-    let inputs = Inputs::new(scene, words, phases, cache)?;
-    let (checkpoints, mut from) = kept.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
-    if let Some(Checkpoints { inputs: digests, .. }) = checkpoints {
-        let meshes: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
-        if let Some(Change::File(file)) = digests.change(&InputDigests::of(scene)?) {
-            let file = scene.resolve(Path::new(&file));
-            let said = format_args!("{}: has changed while it was read", file.display());
-            return Err(CommandError::input(said, Some("run again when nobody writes to it".into())));
-        }
-        from.as_ref().map_or(Ok(()), |stored| stored.check_meshes(scene, &meshes))?;
+    let (checkpoints, from) = kept.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
+    let folder = checkpoints.map_or(results.folder(), |c| c.folder.path());
+    let mut analysis = MotionAnalysis::new(scene).with_cache(cache).stop_after(stop_after);
+    if let Some(stored) = &from {
+        let checkpoint = stored.checkpoint();
+        let layout = MotionLayout::of(scene, checkpoint.window);
+        let rows = rows::read(&layout, folder, &stored.rows)?;
+        analysis = analysis.resume(checkpoint, rows);
     }
-    let mut widened = Vec::new();
-    let solved = solve_widening(
-        from.as_ref().map(|f| f.window),
-        |window| attempt(&inputs, phases, results, (checkpoints, stop_after), window, from.take()),
-        |window, failure| {
-            let Failure::Static(e) = failure else { return None };
-            let teeth = prepare::wider(&inputs, window, e)?;
-            widened.push(format!("{e}; the window was widened to {teeth} teeth and the motion begun again"));
-            Some(teeth)
-        },
-    );
-    match solved.map_err(|e| e.complaint(scene))? {
-        Attempt::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
-        Attempt::Motion(mut prepared, done) => {
-            prepared.warnings.extend(widened);
-            write_motion(scene, words, phases, results, &prepared, &done).map(Outcome::Finished)
-        }
-        Attempt::Sweep(mut prepared, points, sweep) => {
-            prepared.warnings.extend(widened);
-            write_sweep(scene, (words, sweep), phases, results, &prepared, &points).map(Outcome::Finished)
+    let mut sink = FileSink::new(scene, folder, checkpoints, from.as_ref());
+    match analysis.solve_into(phases, &mut sink)? {
+        MotionOutcome::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
+        MotionOutcome::Finished(result) => {
+            let view = sink.view.take();
+            if checkpoints.is_some() {
+                for file in [HISTORY, ENERGY_FILE] {
+                    results.copy(&folder.join(file), file)?;
+                }
+            }
+            let cost = phases.cost();
+            write_motion(scene, &result, &cost, view.as_ref(), results)?;
+            let MotionResult { facts, headline, warnings, .. } = &*result;
+            close(scene, (facts, &cost), headline, warnings, results)?;
+            let table = motion_table(scene, facts, &cost, headline, warnings);
+            let verdict = facts.certificate.verdict(scene).map_err(CommandError::from);
+            Ok(Outcome::Finished(Written { table, verdict }))
         }
     }
 }
 
-/// Rows of a motion alone, written into `folder`: for comparing models.
-///
-/// # Errors
-/// Exit status 2 when the input is wrong, 1 when no motion comes out.
-pub(crate) fn rows_of(
+/// Steady states over speed.
+fn sweep(
     scene: &Scene,
-    words: &MotionScene,
-    phases: &mut Phases,
-    folder: &Path,
-) -> Result<Columns, CommandError> {
-    let cache = Cache::off();
-    let inputs = Inputs::new(scene, words, phases, &cache)?;
-    let solve = |window| {
-        let places = Places { rows: folder, checkpoints: None, from: None, stop_after: None };
-        let prepared = prepare(&inputs, phases, window)?;
-        doubts::unstable(scene, &prepared)?;
-        let done = course::run(scene, words, &prepared, phases, places)?;
-        let rows = read_columns(&folder.join(rows::HISTORY)).map_err(CommandError::from)?;
-        let headline = headline::headline(scene, words, &prepared, &done, &rows, None).map_err(no_statistics)?;
-        Ok::<_, Failure>(prepared.facts.certificate.and(headline.checks()).verdict(scene)?)
-    };
-    let wider = |window, failure: &Failure| match failure {
-        Failure::Static(e) => prepare::wider(&inputs, window, e),
-        Failure::Command(_) => None,
-    };
-    solve_widening(None, solve, wider).map_err(|e| e.complaint(scene))?;
-    Ok(read_columns(&folder.join(rows::HISTORY))?)
-}
-
-/// One width of the window.
-enum Attempt<'a> {
-    Motion(Box<Prepared>, Box<Finished>),
-    Sweep(Box<Prepared>, Vec<dynamics::SweepOutcome>, &'a SweepScene),
-    Stopped { cycles: u64 },
-}
-
-fn attempt<'a>(
-    inputs: &Inputs<'a>,
     phases: &mut Phases,
     results: &ResultDirectory,
-    (checkpoints, stop_after): (Option<Checkpoints<'_>>, Option<u64>),
-    window: Option<usize>,
-    from: Option<Stored>,
-) -> Result<Attempt<'a>, Failure> {
-    let Inputs { scene, words, .. } = *inputs;
-    let mut prepared = prepare(inputs, phases, window)?;
-    doubts::unstable(scene, &prepared)?;
-    prepared.warnings.extend(doubts::coarse(scene, words, &prepared));
-    prepared.warnings.extend(doubts::no_backlash(scene, &prepared));
-    let slow = doubts::slow(scene, words, &prepared).or_else(|| doubts::long(scene, words, &prepared));
-    if let Some(slow) = slow {
-        // Who waits should hear it before the end.
-        talk::say(Loudness::Bars, || format!("ale-gear: {slow}"));
-        prepared.warnings.push(slow);
-    }
-    if let Some(sweep) = &words.sweep {
-        let wider = |e: &ltca::StaticError| prepare::wider(inputs, window, e).is_some();
-        let outcomes = sweep::run(scene, (words, sweep), &prepared, &wider, phases)?;
-        return Ok(Attempt::Sweep(Box::new(prepared), outcomes, sweep));
-    }
-    let rows: PathBuf = match checkpoints {
-        Some(Checkpoints { folder, .. }) => {
-            if from.is_none() {
-                folder.start()?;
-            }
-            folder.path().to_owned()
-        }
-        None => results.folder().to_owned(),
-    };
-    let places = Places { rows: &rows, checkpoints, from, stop_after };
-    let done = course::run(scene, words, &prepared, phases, places)?;
-    if done.stopped {
-        return Ok(Attempt::Stopped { cycles: done.motion.cycle() });
-    }
-    if checkpoints.is_some() {
-        for file in [rows::HISTORY, rows::ENERGY_FILE] {
-            results.copy(&rows.join(file), file)?;
-        }
-    }
-    Ok(Attempt::Motion(Box::new(prepared), Box::new(done)))
+    cache: &Cache,
+) -> Result<Written, CommandError> {
+    let mut sink = FileSink::new(scene, results.folder(), None, None);
+    let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
+    let cost = phases.cost();
+    write_sweep(scene, &result, &cost, sink.view.as_ref(), results)?;
+    close(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
+    let table = sweep_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
+    Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

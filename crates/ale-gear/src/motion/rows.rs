@@ -6,26 +6,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use serde::{Deserialize, Serialize};
-
-use dynamics::{COORDINATES, Instant, PairMechanism};
-use integrate::Ledger;
+use analysis::motion::{MotionLayout, MotionRow};
+use dynamics::COORDINATES;
 use report::{
+    ReportError,
     columns::{
-        ENERGY, EnergyRecord, EnergyRows, MOTION_HISTORY, MotionLayout, MotionRows, Sheet,
+        ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet,
         motion_history::{DTE, MESH_PHASE, PINION_ANGLE, PINION_SPEED, TIME, WHEEL_SPEED},
+        motion_rows,
     },
     csv::push_row,
+    parse_columns,
 };
+use serde::{Deserialize, Serialize};
+use study::Columns;
 
-use study::FlankPattern;
-
-use crate::{
-    error::CommandError,
-    scene::{MotionScene, Scene},
-};
-
-use super::{no_statistics, pattern::PatternRecord};
+use crate::{error::CommandError, scene::Scene};
 
 /// What a row of turning gears with flanks begins with.
 pub(crate) const TURNING: [&str; 6] =
@@ -40,7 +36,7 @@ pub(crate) const ENERGY_FILE: &str = "energy.csv";
 
 /// Columns that `history.csv` of a scene's motion will have, but for those of single pairs, which go with the window.
 pub(crate) fn column_names(scene: &Scene) -> Vec<String> {
-    MOTION_HISTORY.sheet(&MotionLayout::of_scene(scene), &[]).names()
+    MOTION_HISTORY.sheet(&MotionLayout::of(scene, 0), &[]).names()
 }
 
 /// What a checkpoint keeps of a file of rows.
@@ -118,42 +114,47 @@ impl Growing {
     }
 }
 
-/// What the rows of both files share, and their columns.
-fn columns(
-    scene: &Scene,
-    system: &PairMechanism,
-    window: usize,
-) -> (MotionLayout, Sheet<MotionRows>, Sheet<EnergyRows>) {
-    let layout = MotionLayout::of(scene, system);
-    (layout, layout.sheet(window), ENERGY.sheet(&(), &[]))
+/// Columns of both files.
+fn sheets(layout: &MotionLayout) -> (Sheet<MotionRows>, Sheet<EnergyRows>) {
+    (MOTION_HISTORY.sheet(layout, &layout.pairs().collect::<Vec<_>>()), ENERGY.sheet(&(), &[]))
+}
+
+/// The columns of a file as far as a checkpoint kept it.
+fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, ReportError> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(kept.bytes).read_to_string(&mut text));
+    read.map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
+    parse_columns(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
+}
+
+/// The rows of a run so far, from both files as far as a checkpoint kept them.
+pub(super) fn read(
+    layout: &MotionLayout,
+    folder: &Path,
+    [history, energy]: &[Kept; 2],
+) -> Result<Vec<MotionRow>, CommandError> {
+    let history = columns_kept(&folder.join(HISTORY), history)?;
+    let energy = columns_kept(&folder.join(ENERGY_FILE), energy)?;
+    Ok(motion_rows(layout, &history, &energy)?)
 }
 
 /// Both files of rows.
 #[derive(Debug)]
 pub(super) struct Rows {
     layout: MotionLayout,
-    history_columns: Sheet<MotionRows>,
-    energy_columns: Sheet<EnergyRows>,
+    sheets: (Sheet<MotionRows>, Sheet<EnergyRows>),
     history: Growing,
     energy: Growing,
     line: String,
-    pattern: PatternRecord,
 }
 
 impl Rows {
     /// Fresh files in a folder.
-    pub fn new(
-        scene: &Scene,
-        words: &MotionScene,
-        system: &PairMechanism,
-        window: usize,
-        folder: &Path,
-    ) -> Result<Self, CommandError> {
-        let (layout, history_columns, energy_columns) = columns(scene, system, window);
-        let history = Growing::new(folder.join(HISTORY), &history_columns.header())?;
-        let energy = Growing::new(folder.join(ENERGY_FILE), &energy_columns.header())?;
-        let pattern = PatternRecord::new(scene, words, system.pair(), None).map_err(no_statistics)?;
-        Ok(Self { layout, history_columns, energy_columns, history, energy, line: String::new(), pattern })
+    pub fn new(layout: &MotionLayout, folder: &Path) -> Result<Self, CommandError> {
+        let sheets = sheets(layout);
+        let history = Growing::new(folder.join(HISTORY), &sheets.0.header())?;
+        let energy = Growing::new(folder.join(ENERGY_FILE), &sheets.1.header())?;
+        Ok(Self { layout: *layout, sheets, history, energy, line: String::new() })
     }
 
     /// Whether both files in a folder begin with what was kept of them.
@@ -166,23 +167,13 @@ impl Rows {
     }
 
     /// Files of before, cut to what was kept of them.
-    pub fn resume(
-        scene: &Scene,
-        words: &MotionScene,
-        system: &PairMechanism,
-        window: usize,
-        folder: &Path,
-        (kept, patterns): ([Kept; 2], [FlankPattern; 2]),
-    ) -> Result<Self, CommandError> {
+    pub fn resume(layout: &MotionLayout, folder: &Path, kept: &[Kept; 2]) -> Result<Self, CommandError> {
         let [history, energy] = [folder.join(HISTORY), folder.join(ENERGY_FILE)];
         // Both are looked at before either is cut.
         let digests = (digested(&history, &kept[0])?, digested(&energy, &kept[1])?);
-        let (layout, history_columns, energy_columns) = columns(scene, system, window);
         Ok(Self {
-            layout,
-            history_columns,
-            energy_columns,
-            pattern: PatternRecord::new(scene, words, system.pair(), Some(patterns)).map_err(no_statistics)?,
+            layout: *layout,
+            sheets: sheets(layout),
             history: Growing::resume(history, digests.0)?,
             energy: Growing::resume(energy, digests.1)?,
             line: String::new(),
@@ -190,24 +181,13 @@ impl Rows {
     }
 
     /// One row of each file.
-    pub fn push(&mut self, now: &Instant, ledger: &Ledger) {
+    pub fn push(&mut self, row: &MotionRow) {
         self.line.clear();
-        push_row(&mut self.line, self.history_columns.row(&self.layout, now));
+        push_row(&mut self.line, self.sheets.0.row(&self.layout, row));
         self.history.push(&self.line);
         self.line.clear();
-        push_row(&mut self.line, self.energy_columns.row(&(), &EnergyRecord { time: now.time, ledger: *ledger }));
+        push_row(&mut self.line, self.sheets.1.row(&(), &row.energy));
         self.energy.push(&self.line);
-        self.pattern.push(now);
-    }
-
-    /// A mesh cycle of rows is over.
-    pub fn end_cycle(&mut self) -> Result<(), CommandError> {
-        self.pattern.end_cycle().map_err(no_statistics)
-    }
-
-    /// What the flanks were pressed by in the cycles of rows.
-    pub fn pattern(&self) -> &PatternRecord {
-        &self.pattern
     }
 
     /// Writes out what is held back; what a checkpoint keeps of both files.

@@ -6,12 +6,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use analysis::motion::{MotionCheckpoint, MotionCourse};
 use dynamics::Checkpoint;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
 
 use super::{
-    course::CourseState,
     inputs::{Change, InputDigests},
     rows::{self, Kept, Rows},
 };
@@ -43,7 +43,7 @@ pub(super) struct Checkpoints<'a> {
 pub(crate) struct CheckpointFolder(PathBuf);
 
 /// Which program wrote a checkpoint.
-#[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 struct Writer {
     version: u32,
     program: String,
@@ -62,34 +62,38 @@ impl Writer {
 }
 
 /// What is in it beside the rows.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Stored {
     writer: Writer,
     inputs: InputDigests,
     meshes: String,
     /// Teeth of the window.
-    pub window: usize,
+    window: usize,
     /// The motion.
-    pub motion: Checkpoint,
+    motion: Checkpoint,
     /// How far the analysis has come.
-    pub course: CourseState,
+    course: MotionCourse,
     /// The files of rows.
     pub rows: [Kept; 2],
     /// What the flanks were pressed by so far.
-    pub patterns: [FlankPattern; 2],
+    patterns: [FlankPattern; 2],
 }
 
 impl Stored {
     /// State of a run of these inputs.
     pub fn new(
         (inputs, meshes): (&InputDigests, &[MeshFacts]),
-        window: usize,
-        motion: Checkpoint,
-        course: CourseState,
-        (rows, patterns): ([Kept; 2], [FlankPattern; 2]),
+        MotionCheckpoint { window, motion, course, patterns }: MotionCheckpoint,
+        rows: [Kept; 2],
     ) -> Self {
         let meshes = text_of_meshes(meshes);
         Self { writer: Writer::this(), inputs: inputs.clone(), meshes, window, motion, course, rows, patterns }
+    }
+
+    /// What the analysis goes on from.
+    pub fn checkpoint(&self) -> MotionCheckpoint {
+        let Self { window, motion, course, patterns, .. } = self.clone();
+        MotionCheckpoint { window, motion, course, patterns }
     }
 
     /// Whether it belongs to a run of these inputs: else it must not go on.

@@ -7,10 +7,7 @@ use report::{
     page::Rendered,
 };
 
-use super::{
-    motion_charts::{MotionPictures, SHOWN_CYCLES, motion_charts},
-    motion_report::render,
-};
+use super::{MotionPictures, SHOWN_CYCLES, motion_charts, render_run};
 use crate::error::CommandError;
 use crate::facts::{Cost, Facts};
 use crate::ladder::{CampbellDiagram, LadderHeadline};
@@ -55,7 +52,7 @@ pub(crate) fn write_ladder_report(
         charts.extend(portrait(pictures.motion.rows, pictures.section, name, whose));
     }
     charts.extend(pictures.campbell.and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
-    render(scene, facts, cost, headline, "ladder.html", charts, warnings)
+    Ok(render_run(scene, facts, cost, headline, "ladder.html", charts, warnings)?)
 }
 
 /// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.

@@ -5,7 +5,7 @@ use report::{
     page::Rendered,
 };
 
-use super::{motion_report::render, table::Lines};
+use super::{Lines, render_run};
 use crate::{
     error::CommandError,
     facts::{Cost, Facts},
@@ -61,7 +61,7 @@ pub(crate) fn write_ladder_sweep_report(
     warnings: &[String],
 ) -> Result<Rendered, CommandError> {
     let charts = bifurcation_charts(&summary.key, &summary.section_of, points);
-    render(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)
+    Ok(render_run(scene, facts, cost, summary, "ladder_sweep.html", charts, warnings)?)
 }
 
 /// A few values as text, ascending and each once, the rest as dots.

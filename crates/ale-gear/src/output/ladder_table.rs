@@ -1,6 +1,6 @@
 //! The table at the end of a run of a cheaper model.
 
-use super::table::Lines;
+use super::Lines;
 use crate::facts::{Cost, Facts};
 use crate::ladder::LadderHeadline;
 use crate::scene::Scene;

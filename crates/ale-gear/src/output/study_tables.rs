@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use report::csv::push_row;
 
-use super::{StudyResult, table::fixed};
+use super::{StudyResult, fixed};
 use crate::chart::SpeedUp;
 use crate::parameter_study::{CaseOutcome, Findings, Study};
 

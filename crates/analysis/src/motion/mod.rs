@@ -1,26 +1,47 @@
-//! The pair in motion.
+//! The pair in motion: from a checked scene to rows, spectra and certificate.
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `options` | words of the scene in the solvers' units |
-//! | `checks` | what must hold of any motion |
-//! | `stable` | steps too long for an explicit method |
-//! | `series` | quantities over time that the next three are read off |
-//! | `spectrum`, `passage` | orders at constant speed; what is largest over speed |
-//! | `campbell` | mesh orders through the pair's frequencies |
+//! | `analysis` | [`MotionAnalysis`]: one motion of a scene |
+//! | `setup` | words of the scene in the solvers' units, gears, quasi-static cycle, mechanism |
+//! | `course` | settle, then rows; checkpoints on the way |
+//! | `row`, `sink` | what a row is, and who gets it |
+//! | `orders` | spectra, waterfall, what is largest over speed, Campbell diagram |
+//! | `pattern` | what the flanks are pressed by |
+//! | `headline` | the few numbers that a motion is made for |
+//! | `checks`, `certificate` | what must hold of any motion, and of these |
+//! | `warnings`, `step_estimate` | what a user should hear; how many steps a longer analysis would take |
+//! | `sweep` | [`SweepAnalysis`]: steady states over speed |
+//! | `precision` | step sizes against errors of every method |
 
-mod campbell;
+mod analysis;
+mod certificate;
 mod checks;
-mod options;
-mod passage;
-mod series;
-mod spectrum;
-mod stable;
+mod course;
+mod headline;
+mod orders;
+mod pattern;
+mod precision;
+mod row;
+mod setup;
+mod sink;
+mod step_estimate;
+mod sweep;
+mod warnings;
 
-pub use campbell::{CampbellDiagram, CriticalSpeed};
+pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
 pub use checks::{MOTION_WAY_OUT, energy_check, force_jump_check, pulling_check};
-pub use options::{RPM, bearing, drive, motion_options, scheme, speed, stated_body, steady_by, torque};
-pub use passage::{OrderCut, Passage, PassageCycle, PassageHeadline, PeakOverSpeed};
-pub use series::MotionSeries;
-pub use spectrum::{MotionSpectrum, WaterfallLine, waterfall};
-pub use stable::{Steps, UnstableSteps, refuse_unstable};
+pub use headline::{MotionCertificate, MotionHeadline};
+pub use orders::{
+    CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, Passage, PassageCycle, PassageHeadline,
+    PeakOverSpeed, WaterfallLine, waterfall,
+};
+pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
+pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
+pub use setup::{
+    ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
+    motion_options, refuse_unstable, scheme, speed, stated_body, steady_by, torque,
+};
+pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};
+pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
+pub use warnings::NO_BACKLASH_UM;

@@ -1,14 +1,16 @@
 //! Numbers that are taken from a solved history before it is written: pairs by their place in the mesh cycle, contact patterns, the place of
-//! the largest pressure, the largest root stresses. No files here.
+//! the largest pressure, the largest root stresses, the few numbers that a run at rest is made for. No files here.
 
 pub mod pairs;
 mod pattern;
 mod pressure_place;
 mod root_stress;
+mod static_headline;
 
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
-pub use pressure_place::{PressurePlace, base_radius_mm, place_values};
+pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
 pub use root_stress::{
     GearRootStress, MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, Place, RootStressHeadline, VON_MISES, error_percent,
     root_stress_headline, root_stress_warnings,
 };
+pub use static_headline::{StaticHeadline, static_headline};

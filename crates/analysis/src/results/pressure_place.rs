@@ -49,11 +49,11 @@ impl PressurePlace {
         })
     }
 
-    /// Of one row of a motion, from its columns.
-    pub fn of_row([place, z_mm, pinion_diameter_mm]: [f64; 3], pinion_angle_deg: f64, mesh_phase: f64) -> Option<Self> {
-        let place = *Site::ALL.get((place as usize).checked_sub(1)?)?;
+    /// Of one row of a motion.
+    pub fn of_spot(spot: &PressureSpot, pinion_angle_deg: f64, mesh_phase: f64) -> Self {
+        let PressureSpot { site: place, z_mm, pinion_diameter_mm } = *spot;
         let (wheel_diameter_mm, pinion_tooth, wheel_tooth) = (None, None, None);
-        Some(Self {
+        Self {
             place,
             z_mm,
             pinion_diameter_mm,
@@ -62,7 +62,7 @@ impl PressurePlace {
             wheel_diameter_mm,
             pinion_tooth,
             wheel_tooth,
-        })
+        }
     }
 
     /// In words, for tables and reports.
@@ -82,11 +82,40 @@ fn words(site: Site) -> &'static str {
     }
 }
 
-/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row. Place: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel; 0 and `NaN` without any.
+/// Where the hardest pressed slice of a row is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressureSpot {
+    /// Flank, end face, or a tip edge.
+    pub site: Site,
+    /// Height on the pinion.
+    pub z_mm: f64,
+    /// Diameter on the pinion.
+    pub pinion_diameter_mm: f64,
+}
+
+impl PressureSpot {
+    /// Of the loaded slices of a row; `None` without any.
+    pub fn of<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> Option<Self> {
+        let s = SliceResult::hardest(slices)?;
+        Some(Self { site: s.site, z_mm: s.z, pinion_diameter_mm: diameter(base_radius_mm, s.roll[0]) })
+    }
+
+    /// Of a site by its number in files; `None` for a number that no site has.
+    pub fn of_number(number: usize, z_mm: f64, pinion_diameter_mm: f64) -> Option<Self> {
+        let site = *Site::ALL.get(number.checked_sub(1)?)?;
+        Some(Self { site, z_mm, pinion_diameter_mm })
+    }
+
+    /// Number of the site in files: 1 flank, 2 end face, 3 and 4 tip edge of pinion and wheel.
+    pub fn site_number(&self) -> usize {
+        Site::ALL.iter().position(|site| *site == self.site).map_or(0, |i| i + 1)
+    }
+}
+
+/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row, the place by [`PressureSpot::site_number`]; 0 and `NaN` without any.
 pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
-    let Some(s) = SliceResult::hardest(slices) else { return [0.0, f64::NAN, f64::NAN] };
-    let code = Site::ALL.iter().position(|site| *site == s.site).map_or(0, |i| i + 1);
-    [code as f64, s.z, diameter(base_radius_mm, s.roll[0])]
+    let Some(spot) = PressureSpot::of(base_radius_mm, slices) else { return [0.0, f64::NAN, f64::NAN] };
+    [spot.site_number() as f64, spot.z_mm, spot.pinion_diameter_mm]
 }
 
 /// Base radius of pinion (0) or wheel (1), mm.

@@ -1,6 +1,6 @@
 //! `energy.csv`: the ledger of a motion, row for row with its history.
 
-use integrate::Ledger;
+use analysis::motion::EnergyRow;
 
 use super::{Group, Over, Rows, Table, columns};
 
@@ -8,29 +8,20 @@ use super::{Group, Over, Rows, Table, columns};
 #[derive(Debug)]
 pub struct EnergyRows;
 
-/// The ledger at a time.
-#[derive(Debug, Clone, Copy)]
-pub struct EnergyRecord {
-    /// s.
-    pub time: f64,
-    /// Work and energy since the start, N mm = mJ.
-    pub ledger: Ledger,
-}
-
 impl Rows for EnergyRows {
     type Layout = ();
-    type Record = EnergyRecord;
+    type Record = EnergyRow;
 }
 
 columns!(EnergyRows, ALL, |(), _| true, {
-    TIME = "time_s" ["s"] "as in `history.csv`", |(), row, _| row.time;
-    KINETIC = "kinetic_mj" ["mJ"] "kinetic energy", |(), row, _| row.ledger.kinetic;
-    ELASTIC = "elastic_mj" ["mJ"] "elastic energy of teeth, bearings and modes", |(), row, _| row.ledger.potential;
-    SUPPLIED = "supplied_mj" ["mJ"] "work of drive and load", |(), row, _| row.ledger.supplied;
+    TIME = "time_s" ["s"] "as in `history.csv`", |(), row, _| row.time_s;
+    KINETIC = "kinetic_mj" ["mJ"] "kinetic energy", |(), row, _| row.kinetic_mj;
+    ELASTIC = "elastic_mj" ["mJ"] "elastic energy of teeth, bearings and modes", |(), row, _| row.elastic_mj;
+    SUPPLIED = "supplied_mj" ["mJ"] "work of drive and load", |(), row, _| row.supplied_mj;
     PARAMETRIC = "parametric_mj" ["mJ"] "what the turning of the teeth under load does to their elastic energy",
-        |(), row, _| row.ledger.parametric;
-    DISSIPATED = "dissipated_mj" ["mJ"] "in dampers and by friction", |(), row, _| row.ledger.dissipated;
-    RESIDUAL = "residual_mj" ["mJ"] "what the integrator adds or takes", |(), row, _| row.ledger.residual();
+        |(), row, _| row.parametric_mj;
+    DISSIPATED = "dissipated_mj" ["mJ"] "in dampers and by friction", |(), row, _| row.dissipated_mj;
+    RESIDUAL = "residual_mj" ["mJ"] "what the integrator adds or takes", |(), row, _| row.residual_mj;
 });
 
 /// All columns of a ledger.

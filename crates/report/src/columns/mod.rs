@@ -5,11 +5,13 @@
 
 pub mod energy;
 pub mod motion_history;
+mod motion_rows;
 pub mod static_history;
 mod table;
 
-pub use energy::{ENERGY, EnergyRecord, EnergyRows};
-pub use motion_history::{MOTION_HISTORY, MotionLayout, MotionRows};
+pub use energy::{ENERGY, EnergyRows};
+pub use motion_history::{MOTION_HISTORY, MotionRows};
+pub use motion_rows::motion_rows;
 pub use static_history::{STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, write_history};
 pub(crate) use table::columns;
 pub use table::{At, Column, GEARS, Group, Over, Rows, Sheet, Table};

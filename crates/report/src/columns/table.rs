@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use study::Columns;
+
 use crate::csv::push_row;
 
 /// The gears as columns and files name them.
@@ -148,6 +150,13 @@ impl<R: Rows> Sheet<R> {
     /// The numbers of a row.
     pub fn row(&self, layout: &R::Layout, record: &R::Record) -> impl Iterator<Item = f64> {
         self.columns.iter().map(move |(column, at)| (column.value)(layout, record, *at))
+    }
+
+    /// All numbers by the names of their columns.
+    pub fn columns<'a>(&self, layout: &R::Layout, records: impl IntoIterator<Item = &'a R::Record>) -> Columns {
+        let mut columns = Columns::named(self.names());
+        records.into_iter().for_each(|record| columns.push(self.row(layout, record)));
+        columns
     }
 
     /// The whole file.

@@ -1,7 +1,13 @@
 //! Pages: templates, scripts, and what a page is made of, so that it can be made again.
 
+mod motion_page;
 mod rendered;
+mod run_page;
+mod static_page;
 mod template;
 
+pub use motion_page::{render_run, write_motion_report, write_sweep_report};
 pub use rendered::{Rendered, report_again};
+pub use run_page::RunPage;
+pub use static_page::write_report;
 pub use template::render;

@@ -20,7 +20,6 @@ use super::{Made, Recipe, Sources, facts, no_backlash};
 use crate::{
     cache::Cache,
     error::CommandError,
-    facts::Cost,
     output::{ResultDirectory, bifurcation_picture, ladder_sweep_table, write_ladder_sweep_report, write_summary},
     phases::Phases,
     scene::{MotionScene, Run, Scene, SweepScene, SweepWay},
@@ -137,7 +136,7 @@ pub(crate) fn sweep_key(
         results.write("bifurcation.svg", picture.as_bytes())?;
     }
     let scene = &first.scene;
-    let cost = Cost::of(phases);
+    let cost = phases.cost();
     let report = write_ladder_sweep_report(scene, &facts, &cost, &summary, &points, &warnings)?;
     report.write(results)?;
     let files = results.files()?;

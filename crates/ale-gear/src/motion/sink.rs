@@ -1,0 +1,119 @@
+//! A motion into files: rows as they come, checkpoints, the gears in space.
+
+use std::path::Path;
+
+use analysis::{
+    Observer, PhaseWork, SinkResult,
+    facts::MeshFacts,
+    motion::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink},
+    run_phase,
+};
+use ltca::{StaticModel, StaticPosition};
+use report::view::{View, ViewRecorder};
+
+use super::{
+    inputs::{Change, InputDigests},
+    rows::Rows,
+    store::{Checkpoints, Stored},
+};
+use crate::{error::CommandError, scene::Scene};
+
+/// Where rows and checkpoints of a motion go.
+pub(super) struct FileSink<'a> {
+    scene: &'a Scene,
+    /// Folder of the rows.
+    folder: &'a Path,
+    checkpoints: Option<Checkpoints<'a>>,
+    /// State that the run goes on from.
+    from: Option<&'a Stored>,
+    meshes: Vec<MeshFacts>,
+    recorder: ViewRecorder,
+    rows: Option<Rows>,
+    /// The gears in space, once the quasi-static mesh cycle is solved.
+    pub view: Option<View>,
+}
+
+impl<'a> FileSink<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        folder: &'a Path,
+        checkpoints: Option<Checkpoints<'a>>,
+        from: Option<&'a Stored>,
+    ) -> Self {
+        let recorder = ViewRecorder::new(scene);
+        Self { scene, folder, checkpoints, from, meshes: Vec::new(), recorder, rows: None, view: None }
+    }
+
+    /// That nobody has written to a file of the scene while it was read, and that the meshes are those of the checkpoint.
+    fn check_inputs(&self) -> Result<(), CommandError> {
+        let Some(Checkpoints { inputs, .. }) = self.checkpoints else { return Ok(()) };
+        if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.scene)?) {
+            let file = self.scene.resolve(Path::new(&file));
+            let message = format_args!("{}: has changed while it was read", file.display());
+            return Err(CommandError::input(message, Some("run again when nobody writes to it".into())));
+        }
+        self.from.map_or(Ok(()), |stored| stored.check_meshes(self.scene, &self.meshes))
+    }
+
+    fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, CommandError> {
+        if let (true, Some(stored)) = (resumes, self.from) {
+            return Rows::resume(layout, self.folder, &stored.rows);
+        }
+        if let Some(Checkpoints { folder, .. }) = self.checkpoints {
+            folder.start()?;
+        }
+        Rows::new(layout, self.folder)
+    }
+}
+
+impl MotionSink for FileSink<'_> {
+    fn meshes(&mut self, meshes: &[MeshFacts]) -> SinkResult {
+        meshes.clone_into(&mut self.meshes);
+        Ok(self.check_inputs()?)
+    }
+
+    fn begin(&mut self) {
+        (self.recorder, self.rows, self.view) = (ViewRecorder::new(self.scene), None, None);
+    }
+
+    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) {
+        self.recorder.position(index, position, model);
+    }
+
+    fn quasi_static(&mut self, model: &StaticModel, observer: &mut dyn Observer) -> Vec<String> {
+        let recorder = std::mem::replace(&mut self.recorder, ViewRecorder::new(self.scene));
+        let mut warnings = Vec::new();
+        let view = run_phase(observer, "view", PhaseWork::Unknown, |_| {
+            recorder.view_or_warning(self.scene, model, &mut warnings)
+        });
+        self.view = view.map(View::quasi_static);
+        warnings
+    }
+
+    fn begin_rows(&mut self, layout: &MotionLayout, from: Option<&MotionCheckpoint>) -> SinkResult {
+        self.rows = Some(self.open(layout, from.is_some())?);
+        Ok(())
+    }
+
+    fn row(&mut self, row: &MotionRow) -> SinkResult {
+        if let Some(rows) = &mut self.rows {
+            rows.push(row);
+        }
+        Ok(())
+    }
+
+    fn checkpoint(&mut self, state: MotionCheckpoint) -> SinkResult {
+        if let (Some(Checkpoints { folder, inputs }), Some(rows)) = (self.checkpoints, &mut self.rows) {
+            let kept = rows.flush()?;
+            folder.write(&Stored::new((inputs, &self.meshes), state, kept))?;
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> SinkResult {
+        if let Some(rows) = &mut self.rows {
+            rows.flush()?;
+        }
+        Ok(())
+    }
+}

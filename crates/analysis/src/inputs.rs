@@ -1,0 +1,35 @@
+//! What every analysis with meshes begins with.
+
+use geometry::GearPair;
+use mesh::Mesh;
+use scene::Scene;
+
+use crate::{
+    AnalysisError,
+    meshes::{self, SceneMesh},
+    resolution::with_slices,
+};
+
+/// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes in
+/// memory.
+pub(crate) fn settled_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
+    let mut scene = with_slices(scene.clone());
+    if meshes_in_memory {
+        (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
+    }
+    scene
+}
+
+/// Meshes of pinion and wheel: those that the caller holds, checked as files are, else those of the scene.
+pub(crate) fn meshes_of(
+    scene: &Scene,
+    pair: &GearPair,
+    in_memory: Option<[&Mesh; 2]>,
+) -> Result<[SceneMesh; 2], AnalysisError> {
+    let Some([pinion, wheel]) = in_memory else { return meshes::pair_meshes(scene, pair) };
+    let one = |whose: &str, gear, exact, mesh: &Mesh| {
+        let name = format!("the {whose}'s mesh in memory");
+        meshes::checked_mesh(scene, whose, (gear, exact), mesh.clone(), [name.clone(), name])
+    };
+    Ok([one("pinion", &scene.pinion, &pair.pinion, pinion)?, one("wheel", &scene.wheel, &pair.wheel, wheel)?])
+}

@@ -1,0 +1,284 @@
+//! One motion of a scene.
+
+use ale::solve_widening;
+use geometry::GearPair;
+use mesh::Mesh;
+use scene::{MotionScene, Scene};
+use study::Window;
+
+use super::{
+    CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
+    MotionSpectrum, NoMotionSink, Passage, WaterfallLine,
+    course::{self, FinishedMotion, ResumedState, Span},
+    headline,
+    setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
+    step_estimate::{Pace, StepDemand},
+    warnings, waterfall,
+};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer,
+    facts::Facts,
+    failure::Failure,
+    inputs::settled_scene,
+    results::{GearPattern, root_stress_warnings},
+};
+
+/// A scene to be solved in time: `run` "steady", "shooting", "span" or "ramp" of reduced gears.
+#[derive(Clone)]
+pub struct MotionAnalysis<'a> {
+    scene: &'a Scene,
+    meshes: Option<[&'a Mesh; 2]>,
+    cache: &'a dyn GearCache,
+    from: Option<ResumedState>,
+    stop_after: Option<u64>,
+}
+
+impl std::fmt::Debug for MotionAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MotionAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+/// How a motion ended.
+#[derive(Debug)]
+pub enum MotionOutcome {
+    /// It came to its end.
+    Finished(Box<MotionResult>),
+    /// It stopped where it was asked to; the sink has a checkpoint.
+    Stopped {
+        /// Mesh cycles done.
+        cycles: u64,
+    },
+}
+
+/// The answer to a scene in time.
+#[derive(Debug, Clone)]
+pub struct MotionResult {
+    /// The exact pair.
+    pub pair: GearPair,
+    /// Equally many rows in each mesh cycle.
+    pub rows: Vec<MotionRow>,
+    /// What all rows share.
+    pub layout: MotionLayout,
+    /// The few numbers that it is made for.
+    pub headline: MotionHeadline,
+    /// The mesh cycle at rest that the motion starts from.
+    pub quasi_static: QuasiStatic,
+    /// Lines of a motion at constant speed.
+    pub spectrum: Option<MotionSpectrum>,
+    /// A motion whose speed changes.
+    pub ramp: Option<RampResult>,
+    /// What the driving flanks were pressed by.
+    pub patterns: [GearPattern; 2],
+    /// What it was made of, with its certificate.
+    pub facts: Facts,
+    /// What a user should hear.
+    pub warnings: Vec<String>,
+}
+
+/// What a run-up or run-down shows over speed.
+#[derive(Debug, Clone)]
+pub struct RampResult {
+    /// Mesh cycle by mesh cycle.
+    pub passage: Passage,
+    /// Order spectra, stretch by stretch.
+    pub waterfall: Vec<WaterfallLine>,
+    /// Mesh orders through the pair's frequencies.
+    pub campbell: CampbellDiagram,
+}
+
+impl<'a> MotionAnalysis<'a> {
+    /// Of a scene, its meshes read or made as it says.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, meshes: None, cache: &NoCache, from: None, stop_after: None }
+    }
+
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files are.
+    #[must_use]
+    pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
+        Self { meshes: Some(meshes), ..self }
+    }
+
+    /// With reduced gears from a cache.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// From a checkpoint on. `rows`: all rows before it, in the bits in which they were handed out.
+    #[must_use]
+    pub fn resume(self, checkpoint: MotionCheckpoint, rows: Vec<MotionRow>) -> Self {
+        Self { from: Some(ResumedState { checkpoint, rows }), ..self }
+    }
+
+    /// Stops when so many mesh cycles are done, settling included, and hands out a checkpoint; `None`: at its end only.
+    #[must_use]
+    pub fn stop_after(self, cycles: Option<u64>) -> Self {
+        Self { stop_after: cycles, ..self }
+    }
+
+    /// Solves it to its end, telling nobody.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve(self) -> Result<MotionResult, AnalysisError> {
+        let scene = self.scene;
+        match self.stop_after(None).solve_into(&mut NoObserver, &mut NoMotionSink)? {
+            MotionOutcome::Finished(result) => Ok(*result),
+            // Nobody asked it to stop.
+            MotionOutcome::Stopped { .. } => Err(other_analysis(scene)),
+        }
+    }
+
+    /// Solves it; rows go into `sink` as they come.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve_into(
+        self,
+        observer: &mut dyn Observer,
+        sink: &mut dyn MotionSink,
+    ) -> Result<MotionOutcome, AnalysisError> {
+        let Self { meshes, cache, mut from, stop_after, .. } = self;
+        let scene = &settled_scene(self.scene, meshes.is_some());
+        let one_motion = |m: &&MotionScene| m.sweep.is_none() && scene.analysis.model.is_reduced();
+        let motion = scene.motion.as_ref().filter(one_motion).ok_or_else(|| other_analysis(scene))?;
+        from.as_ref().map_or(Ok(()), |from| check_rows(scene, motion, from))?;
+        let inputs = MotionInputs::new((scene, motion), meshes, cache, observer)?;
+        let facts: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
+        sink.meshes(&facts).map_err(AnalysisError::Sink)?;
+        let mut widened = Vec::new();
+        let solved = solve_widening(
+            from.as_ref().map(|f| f.checkpoint.window),
+            |window| {
+                let prepared = ready(&inputs, observer, sink, window)?;
+                let span = Span { from: from.take(), stop_after };
+                let done = course::run((scene, motion), &prepared, observer, sink, span)?;
+                Ok((prepared, done))
+            },
+            |window, failure| {
+                let Failure::Static(e) = failure else { return None };
+                let teeth = inputs.wider(window, e)?;
+                widened.push(warnings::widened(e, teeth));
+                Some(teeth)
+            },
+        );
+        let (mut prepared, done) = solved.map_err(|e: Failure| e.into_error(scene))?;
+        if done.stopped {
+            return Ok(MotionOutcome::Stopped { cycles: done.motion.cycle() });
+        }
+        prepared.warnings.extend(widened);
+        let result = result((scene, motion), inputs.pair, prepared, done)?;
+        Ok(MotionOutcome::Finished(Box::new(result)))
+    }
+}
+
+fn other_analysis(scene: &Scene) -> AnalysisError {
+    let file = scene.file.display().to_string();
+    AnalysisError::OtherAnalysis { file, wanted: "single motion of reduced gears" }
+}
+
+fn check_rows(scene: &Scene, motion: &MotionScene, from: &ResumedState) -> Result<(), AnalysisError> {
+    let wanted = from.checkpoint.course.recorded as usize * motion.steps_per_mesh_cycle as usize;
+    let found = from.rows.len();
+    let file = || scene.file.display().to_string();
+    if found == wanted { Ok(()) } else { Err(AnalysisError::ResumedRows { file: file(), found, wanted }) }
+}
+
+/// A pair that is ready to move, with what a user should hear before it does.
+pub(super) fn ready(
+    inputs: &MotionInputs<'_>,
+    observer: &mut dyn Observer,
+    sink: &mut dyn MotionSink,
+    window: Option<usize>,
+) -> Result<PreparedMotion, Failure> {
+    let MotionInputs { scene, motion, .. } = *inputs;
+    let mut prepared = prepare(inputs, observer, sink, window)?;
+    warnings::unstable(scene, &prepared)?;
+    prepared.warnings.extend(warnings::coarse(scene, motion, &prepared));
+    prepared.warnings.extend(warnings::no_backlash(scene, &prepared));
+    let slow = warnings::slow(scene, motion, &prepared).or_else(|| warnings::long(scene, motion, &prepared));
+    if let Some(slow) = slow {
+        // Who waits should hear it before the end.
+        observer.note(slow.clone());
+        prepared.warnings.push(slow);
+    }
+    Ok(prepared)
+}
+
+/// Mesh orders through the mesh resonance and the gears' elastic frequencies, those with the bores held, at rest.
+pub(super) fn campbell_diagram(
+    prepared: &PreparedMotion,
+    teeth: u32,
+    highest_mesh_hz: f64,
+) -> Result<CampbellDiagram, AnalysisError> {
+    let resonance = (prepared.system.mesh_resonance_hz(), "mesh resonance".to_owned());
+    let all = std::iter::once(resonance).chain(prepared.elasticity.frequencies_hz());
+    Ok(CampbellDiagram::of(all, teeth, highest_mesh_hz)?)
+}
+
+fn result(
+    (scene, motion): (&Scene, &MotionScene),
+    pair: GearPair,
+    prepared: PreparedMotion,
+    done: FinishedMotion,
+) -> Result<MotionResult, AnalysisError> {
+    let per_cycle = motion.steps_per_mesh_cycle as usize;
+    let teeth = scene.driver_teeth();
+    let series = MotionSeries::of(&done.rows);
+    let driver = 1 - prepared.system.options().statics.driven();
+    let driver_rpm: Vec<f64> = done.rows.iter().map(|r| r.speed_rpm[driver]).collect();
+    let mesh_hz = mesh_range_hz(scene, motion, Some(&driver_rpm));
+    let mut ramp = None;
+    if let Some(words) = motion.ramp {
+        let waterfall = waterfall(&series, per_cycle, words.waterfall_cycles as usize, scene.pinion.teeth)?;
+        let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
+        let passage = Passage::of(&series, per_cycle, (law, teeth), force, &waterfall)?;
+        ramp = Some(RampResult { passage, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });
+    }
+    let passage = ramp.as_ref().map(|r| &r.passage);
+    let mut headline = headline::headline((scene, motion), &prepared, &done, passage)?;
+    if let Some(ramp) = &ramp {
+        headline.critical_speeds = ramp.campbell.critical_speeds();
+    }
+    let spectrum = match &ramp {
+        Some(_) => None,
+        None => {
+            let window = window(motion, &headline);
+            Some(MotionSpectrum::of(&series, headline.cycles, headline.mesh_frequency_hz, window)?)
+        }
+    };
+    let warnings = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    let PreparedMotion { quasi_static, mut facts, .. } = prepared;
+    facts.certificate = facts.certificate.and(headline.checks());
+    let FinishedMotion { rows, layout, patterns, .. } = done;
+    Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, warnings })
+}
+
+/// What was heard before the motion, and what its numbers say.
+fn warnings_of(
+    (scene, motion): (&Scene, &MotionScene),
+    prepared: &PreparedMotion,
+    headline: &MotionHeadline,
+    mesh_hz: [f64; 2],
+    wall_s: f64,
+) -> Vec<String> {
+    let mut all = prepared.warnings.clone();
+    all.extend(warnings::of_motion(motion, prepared, headline));
+    let resonance = prepared.system.mesh_resonance();
+    let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
+    let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
+    let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
+    let pace = Pace::of(wall_s, headline.certificate.steps as f64);
+    all.extend(prepared.elasticity.warning(&vibration, &demand, pace));
+    all.extend(headline.root_tensions().into_iter().flat_map(root_stress_warnings));
+    all
+}
+
+/// None for a record that repeats itself, where every line stands in one bin.
+fn window(motion: &MotionScene, headline: &MotionHeadline) -> Window {
+    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
+    let whole = headline.certificate.period_cycles.is_some_and(|p| headline.cycles.is_multiple_of(p as u64));
+    let periodic = headline.certificate.periodicity.is_some_and(|r| r <= 10.0 * tolerance);
+    if periodic && whole { Window::Rectangular } else { Window::Hann }
+}

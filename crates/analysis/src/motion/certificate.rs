@@ -1,0 +1,74 @@
+//! What must hold of a motion.
+
+use dynamics::SweepPoint;
+
+use super::{MotionHeadline, energy_check, force_jump_check, pulling_check};
+use crate::certificate::Certificate;
+
+/// What must hold of one speed of a sweep: the same as of a motion alone.
+pub(super) fn checks_of_speed(point: &SweepPoint) -> Certificate {
+    let force = point.extremes.largest_force.max(point.coast_force);
+    Certificate::new([
+        energy_check(point.ledger.residual(), point.throughput, point.ledger.relative_residual()),
+        pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
+        force_jump_check(point.changes.jump, force),
+    ])
+}
+
+impl MotionHeadline {
+    /// Energy, flanks that pull, forces that tooth changes set off.
+    pub(super) fn checks(&self) -> Certificate {
+        let c = &self.certificate;
+        let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
+        Certificate::new([
+            energy_check(c.ledger_residual_mj, c.work_through_pair_mj, c.ledger_residual_over_turnover),
+            pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
+            force_jump_check(c.force_jump_at_tooth_change_n, force),
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dynamics::{Extremes, SweepDirection, ToothChanges};
+    use integrate::Ledger;
+    use integrate::Periodicity;
+
+    use super::*;
+
+    /// A speed whose energy closes, without a flank that pulls or a force that jumps.
+    fn sound() -> SweepPoint {
+        SweepPoint {
+            speed: 100.0,
+            way: SweepDirection::Independent,
+            own_start: true,
+            periodicity: Periodicity { period: 1, residual: 0.0 },
+            waited: 10,
+            transmission_error: vec![5e-3; 4],
+            normal_force: vec![100.0; 4],
+            coast_force: 0.0,
+            bearing_force: 0.0,
+            ledger: Ledger { kinetic: 1.0, supplied: 1.0, turnover: 1.0, ..Ledger::default() },
+            throughput: 50.0,
+            extremes: Extremes { least_force: Some(1.0), largest_force: 100.0, ..Extremes::default() },
+            changes: ToothChanges { count: 10, jump: 1e-5 },
+        }
+    }
+
+    /// Each measure of a speed alone makes it a failed one: energy out of nothing, a flank that pulls, a change that drops a force, and what is no number.
+    #[test]
+    fn a_speed_is_held_to_what_a_motion_is_held_to() {
+        let missed = |change: fn(&mut SweepPoint)| {
+            let mut point = sound();
+            change(&mut point);
+            checks_of_speed(&point).missed().map(|check| check.name).collect::<Vec<_>>()
+        };
+        assert_eq!(missed(|_| ()), [""; 0]);
+        // 0.6 mJ of 50 mJ that go through the pair, and of 1 mJ that changed its motion.
+        assert_eq!(missed(|p| p.ledger.kinetic = 1.6), ["energy_residual"]);
+        assert_eq!(missed(|p| p.ledger.kinetic = 1.4), [""; 0]);
+        assert_eq!(missed(|p| p.ledger.kinetic = f64::NAN), ["energy_residual"]);
+        assert_eq!(missed(|p| p.extremes.least_force = Some(-0.01)), ["pulling_force"]);
+        assert_eq!(missed(|p| p.changes.jump = 0.02), ["force_jump"]);
+    }
+}

@@ -1,0 +1,231 @@
+//! The few numbers that a motion is run for.
+
+use dynamics::Drive;
+use scene::{MotionScene, Run, Scene};
+use serde::Serialize;
+use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, peak_to_peak};
+
+use super::{
+    MotionRow,
+    course::FinishedMotion,
+    orders::{CriticalSpeed, Passage, PassageHeadline},
+    setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration, mesh_range_hz},
+};
+use crate::results::PressurePlace;
+
+/// Mesh harmonics that are listed.
+const ORDERS: usize = 8;
+
+/// The few numbers that a motion is run for; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct MotionHeadline {
+    pub run: Run,
+    pub speed_rpm: f64,
+    pub mesh_frequency_hz: f64,
+    pub mesh_resonance_hz: f64,
+    pub inertia: InertiaHeadline,
+    pub elasticity: ElasticHeadline,
+    pub rows_per_cycle: u32,
+    pub cycles: u64,
+    pub free_coordinates: Vec<String>,
+    pub mean_dte_um: f64,
+    pub peak_to_peak_dte_um: f64,
+    pub min_dte_um: f64,
+    pub max_dte_um: f64,
+    pub dte_harmonics_um: Vec<f64>,
+    pub mean_ste_um: f64,
+    pub peak_to_peak_ste_um: f64,
+    pub mean_mesh_stiffness_n_per_um: f64,
+    pub mean_contact_line_length_mm: f64,
+    pub mean_normal_force_n: f64,
+    pub min_normal_force_n: f64,
+    pub max_normal_force_n: f64,
+    pub mean_static_normal_force_n: f64,
+    pub dynamic_factor: f64,
+    pub max_coast_normal_force_n: f64,
+    pub mean_wheel_force_n: [f64; 3],
+    pub peak_to_peak_wheel_axial_force_n: f64,
+    pub mean_pinion_tilting_moment_nmm: f64,
+    pub peak_to_peak_pinion_tilting_moment_nmm: f64,
+    pub mean_wheel_tilting_moment_nmm: f64,
+    pub max_bearing_force_n: f64,
+    pub max_pressure_mpa: f64,
+    pub max_pressure_at: Option<PressurePlace>,
+    pub max_root_tension_mpa: Option<[f64; 2]>,
+    pub max_root_tension_estimated_error_percent: Option<[f64; 2]>,
+    pub tooth_changes: u64,
+    pub ramp: Option<PassageHeadline>,
+    pub critical_speeds: Vec<CriticalSpeed>,
+    pub certificate: MotionCertificate,
+}
+
+impl MotionHeadline {
+    /// Largest root tension (MPa) of pinion and wheel and its estimated error (%), when they were asked for.
+    pub fn root_tensions(&self) -> Option<[(f64, f64); 2]> {
+        let (stress, error) = (self.max_root_tension_mpa?, self.max_root_tension_estimated_error_percent?);
+        Some([(stress[0], error[0]), (stress[1], error[1])])
+    }
+}
+
+/// How far a motion can be trusted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub struct MotionCertificate {
+    pub ledger_residual_mj: f64,
+    pub work_through_pair_mj: f64,
+    pub ledger_residual_over_work: f64,
+    pub ledger_residual_over_turnover: f64,
+    pub least_contact_force_n: Option<f64>,
+    pub force_jump_at_tooth_change_n: f64,
+    pub period_cycles: Option<usize>,
+    pub periodicity: Option<f64>,
+    pub shooting_multiplier: Option<f64>,
+    pub shooting_periods: Option<usize>,
+    pub warm_up_cycles: u64,
+    pub contact_losses: u64,
+    pub steps_without_contact: u64,
+    pub largest_gap_um: f64,
+    pub coast_contacts: u64,
+    pub steps: u64,
+    pub refused_steps: u64,
+}
+
+/// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of its `passage`.
+///
+/// # Errors
+/// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.
+pub(super) fn headline(
+    (scene, motion): (&Scene, &MotionScene),
+    prepared: &PreparedMotion,
+    done: &FinishedMotion,
+    passage: Option<&Passage>,
+) -> Result<MotionHeadline, StudyError> {
+    let cycles = done.course.recorded;
+    let rows = &done.rows;
+    let series = |value: &dyn Fn(&MotionRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
+    let dte = series(&|r| r.dte_um);
+    let of_dte = cycle_statistics(&dte, cycles as usize)?;
+    let ste: Vec<f64> = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e).collect();
+    let of_ste = cycle_statistics(&ste, 1)?;
+    let system = &prepared.system;
+    let options = system.options();
+    let driver = 1 - options.statics.driven();
+    let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][driver]);
+    let driver_rpm = series(&|r| r.speed_rpm[driver]);
+    let speed_rpm = match &options.drive {
+        Drive::Speed(_) | Drive::Balanced(_) if motion.ramp.is_none() => scene.operation.speed_rpm,
+        _ => mean(&driver_rpm).abs(),
+    };
+    let normal_force = series(&|r| r.normal_force_n);
+    let [min_force, max_force] = extent(&normal_force);
+    let [_, max_coast_force] = extent(&series(&|r| r.coast_normal_force_n));
+    let axial = series(&|r| r.force_n[1][2]);
+    let tilting = [0, 1].map(|gear| series(&|r| r.moment_nmm[gear][1]));
+    let static_force = prepared.quasi_static.normal_force;
+    let tension = root_tension(rows);
+    let ramp = passage.and_then(Passage::headline);
+    let (peak, harmonics): (f64, Vec<f64>) = match &ramp {
+        Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
+        None => {
+            let all = mesh_harmonics(&dte, cycles as usize, ORDERS)?;
+            (of_dte.peak_to_peak, all.iter().map(|h| h.amplitude).collect())
+        }
+    };
+    let vibration = Vibration {
+        mesh_hz: mesh_range_hz(scene, motion, Some(&driver_rpm)),
+        resonance: system.mesh_resonance(),
+        peak_to_peak_um: peak,
+    };
+    Ok(MotionHeadline {
+        run: motion.run,
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mesh_resonance_hz: system.mesh_resonance_hz(),
+        inertia: InertiaHeadline::of(system),
+        elasticity: prepared.elasticity.headline(&vibration),
+        rows_per_cycle: motion.steps_per_mesh_cycle,
+        cycles,
+        free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
+        mean_dte_um: of_dte.mean,
+        peak_to_peak_dte_um: peak,
+        min_dte_um: of_dte.min,
+        max_dte_um: of_dte.max,
+        dte_harmonics_um: harmonics,
+        mean_ste_um: of_ste.mean,
+        peak_to_peak_ste_um: of_ste.peak_to_peak,
+        mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
+        mean_contact_line_length_mm: mean(&series(&|r| r.contact_line_length_mm)),
+        mean_normal_force_n: mean(&normal_force),
+        min_normal_force_n: min_force,
+        max_normal_force_n: max_force,
+        mean_static_normal_force_n: static_force,
+        dynamic_factor: max_force.max(max_coast_force) / static_force,
+        max_coast_normal_force_n: max_coast_force,
+        mean_wheel_force_n: [0, 1, 2].map(|k| mean(&series(&|r| r.force_n[1][k]))),
+        peak_to_peak_wheel_axial_force_n: peak_to_peak(&axial),
+        mean_pinion_tilting_moment_nmm: mean(&tilting[0]),
+        peak_to_peak_pinion_tilting_moment_nmm: peak_to_peak(&tilting[0]),
+        mean_wheel_tilting_moment_nmm: mean(&tilting[1]),
+        max_bearing_force_n: bearing_force(rows, 0).max(bearing_force(rows, 1)),
+        max_pressure_mpa: extent(&series(&|r| r.max_pressure_mpa))[1],
+        max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
+        max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
+        max_pressure_at: hardest(rows),
+        tooth_changes: done.motion.system().changes().count,
+        ramp,
+        critical_speeds: Vec::new(),
+        certificate: certificate(done),
+    })
+}
+
+/// Largest force of the bearing of a gear, N; 0 where it has no free coordinates.
+fn bearing_force(rows: &[MotionRow], gear: usize) -> f64 {
+    let of_row = |row: &MotionRow| row.bearing[gear].as_ref().map_or(0.0, |b| b.force_n.map(|f| f * f).iter().sum());
+    rows.iter().map(|row| of_row(row).sqrt()).fold(0.0, f64::max)
+}
+
+/// Largest root tension of pinion and wheel over the rows (MPa), and its estimated error (%), when they were asked for.
+fn root_tension(rows: &[MotionRow]) -> Option<[(f64, f64); 2]> {
+    rows.first()?.root_stress.as_ref()?;
+    let largest = |gear: usize| {
+        let all = rows.iter().filter_map(|r| r.root_stress.as_ref()).map(|r| r[gear]);
+        // NaN where coast flanks press.
+        let known =
+            all.map(|r| (r.max_principal_mpa, r.estimated_error_percent)).filter(|(stress, _)| !stress.is_nan());
+        known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
+    };
+    Some([largest(0), largest(1)])
+}
+
+/// Where the pressure is largest in any row.
+fn hardest(rows: &[MotionRow]) -> Option<PressurePlace> {
+    let row = rows.iter().reduce(|best, row| if row.max_pressure_mpa > best.max_pressure_mpa { row } else { best })?;
+    Some(PressurePlace::of_spot(row.max_pressure_at.as_ref()?, row.pinion_angle_deg, row.mesh_phase))
+}
+
+fn certificate(done: &FinishedMotion) -> MotionCertificate {
+    let motion = &done.motion;
+    let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
+    let ledger = motion.ledger().copied().unwrap_or_default();
+    let settled = done.course.periodicity;
+    MotionCertificate {
+        ledger_residual_mj: ledger.residual(),
+        work_through_pair_mj: counts.throughput,
+        ledger_residual_over_work: ledger.residual() / counts.throughput.max(f64::MIN_POSITIVE),
+        ledger_residual_over_turnover: ledger.relative_residual(),
+        least_contact_force_n: extremes.least_force,
+        force_jump_at_tooth_change_n: changes.jump,
+        period_cycles: settled.map(|p| p.period),
+        periodicity: settled.map(|p| p.residual),
+        shooting_multiplier: done.shooting.as_ref().map(|s| s.multiplier),
+        shooting_periods: done.shooting.as_ref().map(|s| s.periods),
+        warm_up_cycles: motion.cycle() - done.course.recorded,
+        contact_losses: counts.losses,
+        steps_without_contact: extremes.steps_apart,
+        largest_gap_um: 1e3 * extremes.largest_gap,
+        coast_contacts: counts.coast_contacts,
+        steps: counts.steps,
+        refused_steps: counts.refused,
+    }
+}

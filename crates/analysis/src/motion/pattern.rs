@@ -1,0 +1,71 @@
+//! The pressure pattern that a motion leaves on the driving flank of one tooth of each gear.
+
+use dynamics::Instant;
+use geometry::GearPair;
+use scene::{MotionScene, Scene};
+use study::{FlankPattern, StudyError, Touch};
+
+use crate::results::{GearPattern, on_flank, touch, untouched};
+
+/// Touches of the mesh cycle under way, and the grids of all cycles before it.
+#[derive(Debug, Clone)]
+pub(super) struct PatternRecord {
+    sense: f64,
+    /// Engagements that are this near are one path: one and a half rows.
+    reach: f64,
+    touches: [Vec<Touch>; 2],
+    grids: [FlankPattern; 2],
+}
+
+impl PatternRecord {
+    /// Flanks that nothing has touched, or those of a checkpoint.
+    ///
+    /// # Errors
+    /// [`StudyError`] when a flank has no height.
+    pub fn new(
+        scene: &Scene,
+        motion: &MotionScene,
+        pair: &GearPair,
+        from: Option<[FlankPattern; 2]>,
+    ) -> Result<Self, StudyError> {
+        let grids = match from {
+            Some(grids) => grids,
+            None => [untouched(scene, pair, 0)?, untouched(scene, pair, 1)?],
+        };
+        let reach = 1.5 / f64::from(motion.steps_per_mesh_cycle);
+        Ok(Self { sense: scene.operation.rotation.sign(), reach, touches: Default::default(), grids })
+    }
+
+    /// A row of the cycle.
+    pub fn push(&mut self, now: &Instant) {
+        for pressed in &now.slices {
+            // A tooth that is one pitch ahead in the sense of rotation is one cycle further.
+            let engagement = self.sense * pressed.pair as f64 + now.cycles;
+            for (gear, touches) in self.touches.iter_mut().enumerate() {
+                touches.push(touch(&pressed.slice, gear, engagement));
+            }
+        }
+    }
+
+    /// The cycle is over: all its pairs together are one engagement of one tooth.
+    ///
+    /// # Errors
+    /// [`StudyError`] when a result is no number.
+    pub fn end_cycle(&mut self) -> Result<(), StudyError> {
+        for (touches, grid) in self.touches.iter_mut().zip(&mut self.grids) {
+            grid.press(touches, self.reach)?;
+            touches.clear();
+        }
+        Ok(())
+    }
+
+    /// The grids so far, for a checkpoint.
+    pub fn grids(&self) -> &[FlankPattern; 2] {
+        &self.grids
+    }
+
+    /// Patterns of pinion and wheel.
+    pub fn patterns(&self, scene: &Scene, pair: &GearPair) -> [GearPattern; 2] {
+        [0, 1].map(|gear| on_flank(scene, pair, gear, self.grids[gear].clone()))
+    }
+}

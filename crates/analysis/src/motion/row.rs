@@ -1,0 +1,241 @@
+//! One row of a motion: what is kept of each instant.
+
+use std::f64::consts::TAU;
+
+use dynamics::{COORDINATES, Displacement, Instant};
+use integrate::Ledger;
+use ltca::FilletStress;
+use scene::{Axis, Scene};
+
+use crate::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, PressureSpot, VON_MISES, base_radius_mm, error_percent};
+
+/// One row of a motion, in the units of the result files; a field's name ends in its unit, and `docs/outputs.md` says of each what it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionRow {
+    /// Since the quasi-static start.
+    pub time_s: f64,
+    /// Of the nominal motion; 0 where pair 0 stands in the middle of the path of contact.
+    pub pinion_angle_deg: f64,
+    /// 0 .. 1 within the mesh cycle, of the nominal motion.
+    pub mesh_phase: f64,
+    /// Pinion and wheel, about +z.
+    pub speed_rpm: [f64; 2],
+    /// Lag of the driven gear behind the nominal motion on its base circle: the dynamic transmission error.
+    pub dte_um: f64,
+    /// Its rate.
+    pub dte_rate_um_per_s: f64,
+    /// Of the driving flanks.
+    pub contact_line_length_mm: f64,
+    /// Tooth pairs whose driving flanks carry load.
+    pub pairs_in_contact: u32,
+    /// Of the mesh on pinion and wheel, fixed axes.
+    pub force_n: [[f64; 3]; 2],
+    /// The same about the displaced centres.
+    pub moment_nmm: [[f64; 3]; 2],
+    /// Normal force of each pair by its number within the mesh cycle, from the least number on (see [`MotionLayout::pairs`]);
+    /// 0 outside of the window.
+    pub pair_normal_force_n: Box<[f64]>,
+    /// Bearings and displacements of pinion and wheel; `None` for a gear without free coordinates.
+    pub bearing: [Option<Box<BearingRow>>; 2],
+    /// Sum over the driving flanks, damping included.
+    pub normal_force_n: f64,
+    /// The same of the coast flanks.
+    pub coast_normal_force_n: f64,
+    /// Of the driver in the running sense.
+    pub drive_torque_nm: f64,
+    /// On the driven gear against its motion.
+    pub load_torque_nm: f64,
+    /// Largest pressure.
+    pub max_pressure_mpa: f64,
+    /// Where that is; `None` without load.
+    pub max_pressure_at: Option<PressureSpot>,
+    /// Since the quasi-static start.
+    pub tooth_changes: u64,
+    /// Pinion and wheel, where the scene asks for it.
+    pub root_stress: Option<Box<[RootStressRow; 2]>>,
+    /// Where the energy went.
+    pub energy: EnergyRow,
+}
+
+/// What holds a gear that has free coordinates, and where it is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BearingRow {
+    /// On the gear.
+    pub force_n: [f64; 3],
+    /// On the gear, about x and y.
+    pub moment_nmm: [f64; 2],
+    /// Displacement of its centre.
+    pub displacement_um: [f64; 3],
+    /// Turns about x and y.
+    pub tilt_urad: [f64; 2],
+}
+
+/// Largest stresses in the fillets of one gear's window; no numbers where coast flanks press as well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RootStressRow {
+    /// Largest first principal stress.
+    pub max_principal_mpa: f64,
+    /// Least third principal stress.
+    pub min_principal_mpa: f64,
+    /// Largest von Mises stress.
+    pub von_mises_mpa: f64,
+    /// Estimate of how far the largest tension is off.
+    pub estimated_error_percent: f64,
+}
+
+/// The ledger of a motion at a time: work and energy since the start, mJ = N mm.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EnergyRow {
+    /// s.
+    pub time_s: f64,
+    /// Kinetic energy.
+    pub kinetic_mj: f64,
+    /// Elastic energy of teeth, bearings and modes.
+    pub elastic_mj: f64,
+    /// Work of drive and load.
+    pub supplied_mj: f64,
+    /// What the turning of the teeth under load does to their elastic energy.
+    pub parametric_mj: f64,
+    /// In dampers and by friction.
+    pub dissipated_mj: f64,
+    /// What the integrator adds or takes.
+    pub residual_mj: f64,
+}
+
+impl EnergyRow {
+    /// Of a ledger at a time, s.
+    pub fn of(time_s: f64, ledger: &Ledger) -> Self {
+        Self {
+            time_s,
+            kinetic_mj: ledger.kinetic,
+            elastic_mj: ledger.potential,
+            supplied_mj: ledger.supplied,
+            parametric_mj: ledger.parametric,
+            dissipated_mj: ledger.dissipated,
+            residual_mj: ledger.residual(),
+        }
+    }
+}
+
+/// What all rows of a motion share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionLayout {
+    /// Pitch angle of the pinion, rad.
+    pitch: f64,
+    /// Base radius of the pinion, mm.
+    base_radius: f64,
+    sense: i64,
+    free: [[bool; 5]; 2],
+    root_stress: bool,
+    /// Largest number of a pair.
+    reach: i64,
+}
+
+impl MotionLayout {
+    /// Of a scene and a window of so many teeth.
+    pub fn of(scene: &Scene, window: usize) -> Self {
+        let free = scene.gears().map(|g| {
+            let axes = g.body.as_ref().map_or(&[][..], |b| &b.free);
+            Axis::ALL.map(|axis| axes.contains(&axis))
+        });
+        Self {
+            pitch: TAU / f64::from(scene.pinion.teeth),
+            base_radius: base_radius_mm(scene, 0),
+            sense: scene.operation.rotation.sign() as i64,
+            free,
+            root_stress: scene.output.root_stress,
+            reach: window as i64 / 2 + 1,
+        }
+    }
+
+    /// Numbers of the pairs that a row has the forces of.
+    pub fn pairs(&self) -> std::ops::RangeInclusive<i64> {
+        -self.reach..=self.reach
+    }
+
+    /// Free coordinates of a gear: x, y, z, and the turns about x and y.
+    pub fn free(&self, gear: usize) -> [bool; 5] {
+        self.free[gear]
+    }
+
+    /// Whether rows have root stresses.
+    pub fn has_root_stress(&self) -> bool {
+        self.root_stress
+    }
+
+    /// The row of an instant.
+    pub fn row(&self, now: &Instant, ledger: &Ledger) -> MotionRow {
+        let cycle = cycle(now);
+        let gear = |all: &Displacement, i: usize| [0, 1, 2].map(|k| all[COORDINATES * i + k]);
+        let turn = |all: &Displacement, i: usize| [3, 4, 5].map(|k| all[COORDINATES * i + k]);
+        let stress = |i: usize| RootStressRow::of(&now.root_stress[i], now.normal_forces[1] == 0.0);
+        MotionRow {
+            time_s: now.time,
+            pinion_angle_deg: ((now.cycles - 0.5) * self.pitch).to_degrees(),
+            mesh_phase: (now.cycles - cycle).max(0.0),
+            speed_rpm: now.speeds.map(|w| w * 60.0 / TAU),
+            dte_um: 1e3 * now.transmission_error,
+            dte_rate_um_per_s: 1e3 * now.transmission_error_rate,
+            contact_line_length_mm: now.contact_line_length,
+            pairs_in_contact: now.pair_forces.iter().filter(|f| **f > 0.0).count() as u32,
+            force_n: [0, 1].map(|i| gear(&now.mesh, i)),
+            moment_nmm: [0, 1].map(|i| turn(&now.mesh, i)),
+            pair_normal_force_n: self.pairs().map(|pair| self.pair_force(now, pair)).collect(),
+            bearing: [0, 1].map(|i| self.free[i].contains(&true).then(|| Box::new(BearingRow::of(now, i)))),
+            normal_force_n: now.normal_forces[0],
+            coast_normal_force_n: now.normal_forces[1],
+            drive_torque_nm: 1e-3 * now.drive_torque,
+            load_torque_nm: 1e-3 * now.load_torque,
+            max_pressure_mpa: now.max_pressure,
+            max_pressure_at: PressureSpot::of(self.base_radius, now.slices.iter().map(|s| &s.slice)),
+            tooth_changes: now.tooth_changes,
+            root_stress: self.root_stress.then(|| Box::new([stress(0), stress(1)])),
+            energy: EnergyRow::of(now.time, ledger),
+        }
+    }
+
+    /// Normal force of a pair by its number within the mesh cycle, N; 0 outside of the window.
+    fn pair_force(&self, now: &Instant, pair: i64) -> f64 {
+        let running = self.sense * (pair - cycle(now) as i64);
+        let place = usize::try_from(running - now.first_pair).ok();
+        place.and_then(|i| now.pair_forces.get(i)).copied().unwrap_or(0.0)
+    }
+}
+
+impl MotionRow {
+    /// Normal force of a pair by its number within the mesh cycle, N; 0 outside of the window.
+    pub fn pair_force_n(&self, pair: i64) -> f64 {
+        let place = usize::try_from(pair + self.pair_normal_force_n.len() as i64 / 2).ok();
+        place.and_then(|i| self.pair_normal_force_n.get(i)).copied().unwrap_or(0.0)
+    }
+}
+
+impl BearingRow {
+    fn of(now: &Instant, gear: usize) -> Self {
+        let first = COORDINATES * gear;
+        Self {
+            force_n: [0, 1, 2].map(|k| now.bearing[first + k]),
+            moment_nmm: [3, 4].map(|k| now.bearing[first + k]),
+            displacement_um: [0, 1, 2].map(|k| now.displacement[first + k] * 1e3),
+            tilt_urad: [3, 4].map(|k| now.displacement[first + k] * 1e6),
+        }
+    }
+}
+
+impl RootStressRow {
+    /// The stress is that of the driving flanks: no number where coast flanks press as well.
+    fn of(fillets: &[FilletStress], driving_alone: bool) -> Self {
+        let or_none = |value: f64| if driving_alone { value } else { f64::NAN };
+        Self {
+            max_principal_mpa: or_none(MAX_PRINCIPAL.stress(fillets, None)),
+            min_principal_mpa: or_none(MIN_PRINCIPAL.stress(fillets, None)),
+            von_mises_mpa: or_none(VON_MISES.stress(fillets, None)),
+            estimated_error_percent: or_none(error_percent(fillets)),
+        }
+    }
+}
+
+/// Whole mesh cycles. A row at the end of a cycle belongs to the next one, whatever the last bits say.
+fn cycle(now: &Instant) -> f64 {
+    (now.cycles + 1e-9).floor()
+}

@@ -1,0 +1,220 @@
+//! The gears' lowest elastic frequencies, the mesh harmonics beside them, and the normal modes that are kept.
+
+use std::sync::Arc;
+
+use dynamics::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance};
+use reduction::{ElasticGear, GearModes, GearReducer, ModeChoice, ReductionError};
+use scene::{Boundary, DriveBy, ModesScene, MotionScene, Scene};
+use serde::Serialize;
+use study::mesh_harmonics;
+
+use super::QuasiStatic;
+use crate::{
+    AnalysisError, Observer, PhaseWork,
+    motion::step_estimate::{Pace, StepDemand},
+    reduced, run_phase,
+};
+
+/// How far mesh harmonics are from the gears' elastic frequencies; units are in the names, pinion first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct ElasticHeadline {
+    pub lowest_elastic_frequency_hz: [f64; 2],
+    pub highest_mesh_frequency_hz: f64,
+    pub mesh_harmonic: usize,
+    pub mesh_harmonic_over_elastic: f64,
+    pub limit_of_quasi_static: f64,
+    pub change_of_peak_to_peak_um: f64,
+    pub change_over_peak_to_peak: f64,
+    pub limit_of_change: f64,
+    pub kept_modes: Option<KeptModes>,
+}
+
+/// Normal modes that move beside the rigid bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub struct KeptModes {
+    pub count: [usize; 2],
+    pub highest_frequency_hz: [Option<f64>; 2],
+}
+
+/// What is known of the gears' elastic vibration before the motion begins.
+#[derive(Debug, Clone)]
+pub(crate) struct Elasticity {
+    lowest_hz: [f64; 2],
+    /// Harmonics of the quasi-static transmission error, um.
+    amplitudes_um: Vec<f64>,
+    kept: Option<[GearVibration; 2]>,
+}
+
+impl Elasticity {
+    /// Lowest frequencies of both gears, the modes that the scene keeps, and the harmonics of the static transmission error.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Modes`] when the modes are not found, or the mesh cannot have them.
+    pub fn new(
+        scene: &Scene,
+        gears: &[ElasticGear; 2],
+        quasi_static: &QuasiStatic,
+        observer: &mut dyn Observer,
+    ) -> Result<Self, AnalysisError> {
+        let samples = &quasi_static.transmission_error;
+        // Half of the positions a cycle is as high as they can tell.
+        let harmonics = mesh_harmonics(samples, 1, samples.len() / 2)?;
+        let amplitudes_um = harmonics.iter().map(|h| 1e3 * h.amplitude).collect();
+        let found = run_phase(observer, "frequencies", PhaseWork::Steps(2), |progress| {
+            let of = |i: usize| {
+                // Motion has reduced gears only; any other one would not vibrate.
+                let found = reduced(&gears[i]).map(|reducer| vibration(reducer, scene.modes.as_ref())).transpose();
+                progress.tick();
+                found.map(|f| f.unwrap_or((f64::INFINITY, None))).map_err(|e| failed_modes(scene, i, e))
+            };
+            Ok::<_, AnalysisError>([of(0)?, of(1)?])
+        })?;
+        let lowest_hz = [found[0].0, found[1].0];
+        let [(_, pinion), (_, wheel)] = found;
+        Ok(Self { lowest_hz, amplitudes_um, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
+    }
+
+    /// The modes that the scene keeps.
+    pub fn kept(&self) -> Option<[GearVibration; 2]> {
+        self.kept.clone()
+    }
+
+    /// Frequencies of the gears with their bores held, Hz, and what they are called: the kept modes, else the lowest of either gear.
+    pub fn frequencies_hz(&self) -> Vec<(f64, String)> {
+        let gears = ["pinion", "wheel"];
+        match &self.kept {
+            None => (0..2).map(|i| (self.lowest_hz[i], format!("{} elastic", gears[i]))).collect(),
+            Some(kept) => (0..2)
+                .flat_map(|i| {
+                    let all = kept[i].modes.frequencies_hz().into_iter().enumerate();
+                    all.map(move |(k, hz)| (hz, format!("{} mode {}", gears[i], k + 1)))
+                })
+                .collect(),
+        }
+    }
+
+    /// What the inertia of elastic deformation that is left out may change in a motion.
+    pub fn beside(&self, found: &Vibration) -> ElasticChange {
+        let bounds = match &self.kept {
+            None => self.lowest_hz,
+            Some(kept) => [0, 1].map(|i| highest(&kept[i]).unwrap_or(self.lowest_hz[i])),
+        };
+        ElasticChange::of(&self.amplitudes_um, found.mesh_hz, bounds, found.resonance)
+    }
+
+    /// For the results of a run.
+    pub fn headline(&self, found: &Vibration) -> ElasticHeadline {
+        let change = self.beside(found);
+        let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
+        ElasticHeadline {
+            lowest_elastic_frequency_hz: self.lowest_hz,
+            highest_mesh_frequency_hz: found.mesh_hz[1],
+            mesh_harmonic: change.harmonic,
+            mesh_harmonic_over_elastic: change.harmonic_hz() / lowest,
+            limit_of_quasi_static: LOW_FREQUENCY_LIMIT,
+            change_of_peak_to_peak_um: change.share * found.peak_to_peak_um,
+            change_over_peak_to_peak: change.share,
+            limit_of_change: CHANGE_LIMIT,
+            kept_modes: self.kept.as_ref().map(|kept| KeptModes {
+                count: kept.each_ref().map(|g| g.modes.count()),
+                highest_frequency_hz: kept.each_ref().map(highest),
+            }),
+        }
+    }
+
+    /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its highest kept mode. The remedy has its price, at the pace of this run.
+    pub fn warning(&self, found: &Vibration, demand: &StepDemand, pace: Pace) -> Option<String> {
+        let change = self.beside(found);
+        if !change.matters() {
+            return None;
+        }
+        let [pinion, wheel] = change.ratios();
+        let (gear, i) = if pinion >= wheel { ("pinion", 0) } else { ("wheel", 1) };
+        let which = match &self.kept {
+            None => format!("lowest elastic frequency, {:.0} Hz (bore held, flanks free)", self.lowest_hz[i]),
+            Some(_) => "highest kept mode".to_owned(),
+        };
+        // Modes up to twice the harmonic: what lies above is quasi-static to it, to a third.
+        let below_hz = nice(2.0 * change.harmonic_hz().max(self.lowest_hz[0].max(self.lowest_hz[1])));
+        let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
+        let remedy = match &self.kept {
+            None => format!("take the model `reduced+modes` with `below_hz = {below_hz:.0}` in [modes]"),
+            Some(_) => format!("keep more modes (`below_hz = {below_hz:.0}` in [modes])"),
+        };
+        Some(format!(
+            "mesh harmonic {} at {:.0} Hz is {:.2} of the {gear}'s {which}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {:.3} um, {:.0} % \
+             of it (told from {:.1} % on): {remedy}, {}",
+            change.harmonic,
+            change.harmonic_hz(),
+            change.largest_ratio(),
+            change.share * found.peak_to_peak_um,
+            100.0 * change.share,
+            100.0 * CHANGE_LIMIT,
+            demand.with_modes(below_hz, lowest, self.kept.is_some()).said(pace),
+        ))
+    }
+}
+
+/// What has been found of a motion, to be held against the elastic frequencies.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Vibration {
+    /// Least and highest mesh frequency, Hz.
+    pub mesh_hz: [f64; 2],
+    pub resonance: MeshResonance,
+    /// Peak to peak of the DTE, um.
+    pub peak_to_peak_um: f64,
+}
+
+/// Rounded up to two digits.
+fn nice(hz: f64) -> f64 {
+    let unit = 10f64.powf(hz.log10().floor() - 1.0);
+    (hz / unit).ceil() * unit
+}
+
+fn highest(gear: &GearVibration) -> Option<f64> {
+    gear.modes.frequencies_hz().last().copied()
+}
+
+/// Lowest frequency of a gear, bore held and flanks free, Hz, and the modes that the scene keeps.
+fn vibration(
+    reducer: &GearReducer,
+    modes: Option<&ModesScene>,
+) -> Result<(f64, Option<GearVibration>), ReductionError> {
+    let first = |of: &GearModes| of.frequencies_hz().first().copied();
+    let lowest = || reducer.lowest_elastic_hz();
+    let Some(asked) = modes else { return Ok((lowest()?, None)) };
+    let choice = match (asked.below_hz, asked.count) {
+        (Some(hz), _) => ModeChoice::Below { hz },
+        (None, count) => ModeChoice::Count(count.unwrap_or(0) as usize),
+    };
+    let found = match asked.boundary {
+        Boundary::Massless => reducer.modes(choice)?,
+        Boundary::Consistent => reducer.craig_bampton_modes(choice, asked.fixed_modes.unwrap_or(0) as usize)?,
+    };
+    // The gear's own frequencies: those of a Craig-Bampton model lie above.
+    let own = first(&found).filter(|_| asked.boundary == Boundary::Massless);
+    let hz = own.map_or_else(lowest, Ok)?;
+    Ok((hz, Some(GearVibration { modes: Arc::new(found), damping_ratio: asked.damping_ratio })))
+}
+
+fn failed_modes(scene: &Scene, i: usize, source: ReductionError) -> AnalysisError {
+    let file = scene.file.display().to_string();
+    AnalysisError::Modes { file, gear: ["pinion", "wheel"][i], source: Box::new(source) }
+}
+
+/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those that
+/// came of it as well, 1/min.
+pub(crate) fn mesh_range_hz(scene: &Scene, motion: &MotionScene, driver_rpm: Option<&[f64]>) -> [f64; 2] {
+    let teeth = scene.driver_teeth();
+    let by_torque = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && !d.torque.is_none());
+    let given = scene.operation.speed_rpm;
+    let rpm = match (motion.ramp, &motion.sweep, driver_rpm.filter(|_| by_torque)) {
+        (Some(ramp), ..) => [ramp.from_rpm.min(ramp.to_rpm), ramp.from_rpm.max(ramp.to_rpm)],
+        (_, Some(sweep), _) => [sweep.from_rpm, sweep.to_rpm],
+        (.., Some(speeds)) => speeds.iter().fold([given; 2], |[l, h], n| [l.min(n.abs()), h.max(n.abs())]),
+        _ => [given; 2],
+    };
+    rpm.map(|n| n * f64::from(teeth) / 60.0)
+}

@@ -1,0 +1,45 @@
+//! Which inertia vibrates on the teeth, and at which frequency.
+
+use dynamics::{Drive, PairMechanism};
+use serde::Serialize;
+
+/// t in kg.
+const TONNE_KG: f64 = 1e3;
+
+/// Inertia that carries the mesh resonance; units are in the names, pinion first.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct InertiaHeadline {
+    pub moving_gears: Vec<&'static str>,
+    pub base_circle_masses_kg: [f64; 2],
+    pub equivalent_mass_kg: f64,
+    pub mesh_resonance_both_free_hz: f64,
+    pub mesh_resonance_driver_held_hz: f64,
+}
+
+impl InertiaHeadline {
+    /// Of a pair.
+    pub fn of(system: &PairMechanism) -> Self {
+        let driven = system.options().statics.driven();
+        let moving_gears = match system.options().drive {
+            Drive::Speed(_) => vec![["pinion", "wheel"][driven]],
+            Drive::Balanced(_) | Drive::Torque { .. } => vec!["pinion", "wheel"],
+        };
+        let [both_free, driver_held] = system.mesh_resonances_hz();
+        Self {
+            moving_gears,
+            base_circle_masses_kg: system.base_circle_masses().map(|m| TONNE_KG * m),
+            equivalent_mass_kg: TONNE_KG * system.equivalent_mass(),
+            mesh_resonance_both_free_hz: both_free,
+            mesh_resonance_driver_held_hz: driver_held,
+        }
+    }
+
+    /// One line: whose inertia it is, and what the other choice would be.
+    pub fn words(&self) -> String {
+        match self.moving_gears.as_slice() {
+            [one] => format!("the {one} alone, both free {:.1} Hz", self.mesh_resonance_both_free_hz),
+            _ => format!("both gears, driver held {:.1} Hz", self.mesh_resonance_driver_held_hz),
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Everything before the first step: gears, the quasi-static cycle that the motion starts from, the mechanism.
+
+use std::sync::Arc;
+
+use dynamics::{MotionSettings, PairMechanism};
+use geometry::GearPair;
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
+use mesh::Mesh;
+use scene::{Flanks, MotionScene, Scene};
+
+use super::{Elasticity, motion_options, scheme};
+use crate::{
+    AnalysisError, GearCache, Observer, PhaseWork, body_warnings, dof_after,
+    elastic_gears::{ElasticGears, elastic_gears},
+    facts::Facts,
+    failure::Failure,
+    foreseen_s, free_dofs, gears,
+    inputs::meshes_of,
+    iso_root,
+    meshes::SceneMesh,
+    motion::MotionSink,
+    options::options,
+    reduced,
+    resolution::resolution,
+    run_phase, static_certificate, wider_window,
+};
+
+/// Gears, geometry and window of a run.
+pub(crate) struct MotionInputs<'a> {
+    pub scene: &'a Scene,
+    pub motion: &'a MotionScene,
+    pub pair: GearPair,
+    pub meshes: [SceneMesh; 2],
+    pub cache: &'a dyn GearCache,
+}
+
+impl<'a> MotionInputs<'a> {
+    /// Geometry and meshes; `motion`: what the scene says of it.
+    pub fn new(
+        (scene, motion): (&'a Scene, &'a MotionScene),
+        in_memory: Option<[&Mesh; 2]>,
+        cache: &'a dyn GearCache,
+        observer: &mut dyn Observer,
+    ) -> Result<Self, AnalysisError> {
+        let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory))?;
+        Ok(Self { scene, motion, pair, meshes, cache })
+    }
+
+    /// The width of the window to try next, where a pair beside it ought to carry load.
+    pub fn wider(&self, window: Option<usize>, error: &StaticError) -> Option<usize> {
+        let options = contact_options(self.scene, &self.pair, window);
+        wider_window(self.scene, &self.pair, &self.meshes, &options, error)
+    }
+}
+
+/// The quasi-static mesh cycle.
+#[derive(Debug, Clone)]
+pub struct QuasiStatic {
+    /// Transmission error, mm, position by position.
+    pub transmission_error: Vec<f64>,
+    /// Mean tangent stiffness, N/mm on the base circle.
+    pub stiffness: f64,
+    /// Mean length of the contact lines, mm.
+    pub line_length: f64,
+    /// Mean sum of the normal forces, N.
+    pub normal_force: f64,
+}
+
+impl QuasiStatic {
+    fn of(history: &StaticHistory) -> Self {
+        let all = &history.positions;
+        let mean = |f: &dyn Fn(&ltca::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
+        Self {
+            transmission_error: all.iter().map(|p| p.transmission_error).collect(),
+            stiffness: mean(&|p| p.tangent_stiffness),
+            line_length: mean(&|p| p.contact_line_length),
+            normal_force: mean(&|p| p.pairs.iter().map(|pair| pair.normal_force).sum()),
+        }
+    }
+
+    /// Mean transmission error, mm.
+    pub fn mean_error(&self) -> f64 {
+        self.transmission_error.iter().sum::<f64>() / self.transmission_error.len() as f64
+    }
+}
+
+/// A pair that is ready to move.
+pub(crate) struct PreparedMotion {
+    pub system: PairMechanism,
+    pub settings: MotionSettings,
+    pub quasi_static: QuasiStatic,
+    pub elasticity: Elasticity,
+    pub facts: Facts,
+    pub warnings: Vec<String>,
+}
+
+/// Reduced gears of the driving flanks, and of the coast flanks where the scene has them.
+struct Flanked {
+    driving: ElasticGears,
+    coast: Option<ElasticGears>,
+}
+
+/// Reduces the gears, solves the quasi-static cycle, and makes the mechanism.
+///
+/// # Errors
+/// [`Failure::Static`] where another window may do.
+pub(crate) fn prepare(
+    inputs: &MotionInputs<'_>,
+    observer: &mut dyn Observer,
+    sink: &mut dyn MotionSink,
+    window: Option<usize>,
+) -> Result<PreparedMotion, Failure> {
+    let MotionInputs { scene, motion, pair, meshes, cache } = inputs;
+    sink.begin();
+    let contact = contact_options(scene, pair, window);
+    let Flanked { driving, coast } = reduce(inputs, &contact, observer)?;
+    let ElasticGears { gears, keys, mut warnings } = driving;
+    let set_up = || StaticModel::new(pair.clone(), gears, contact.clone());
+    let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
+    let positions = scene.analysis.positions_per_cycle;
+    let steps = PhaseWork::Steps(u64::from(positions));
+    let history = run_phase(observer, "quasi-static", steps, |progress| {
+        model.run(positions as usize, 1, |index, position, model| {
+            progress.tick();
+            sink.position(index, position, model);
+        })
+    })?;
+    let quasi_static = QuasiStatic::of(&history);
+    let (resolution, said) = resolution(scene, pair, &contact);
+    warnings.extend(said);
+    warnings.extend(gears::warnings(pair));
+    warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
+    warnings.extend(body_warnings(&model));
+    warnings.extend(sink.quasi_static(&model, observer));
+    let mut facts = facts_of(&model, inputs, &history);
+    facts.resolution = Some(resolution);
+    if scene.output.root_stress {
+        warnings.extend(iso_root::add(&mut facts, scene, pair));
+    }
+    let gears = model.into_gears();
+    let (coast, coast_keys) = match coast {
+        Some(ElasticGears { gears, keys, warnings: said }) => {
+            warnings.extend(said);
+            (Some(Arc::new(gears)), Some(keys))
+        }
+        None => (None, None),
+    };
+    let elasticity = Elasticity::new(scene, &gears, &quasi_static, observer)?;
+    let options = motion_options(scene, pair, meshes, contact)?;
+    let means = [quasi_static.stiffness, quasi_static.line_length];
+    let system = run_phase(observer, "mechanism", PhaseWork::Unknown, |_| {
+        let system = PairMechanism::new(pair.clone(), Arc::clone(&gears), coast.clone(), options, means)?;
+        match elasticity.kept() {
+            Some(modes) => system.with_modes(modes),
+            None => Ok(system),
+        }
+    })?;
+    if cache.is_on() {
+        run_phase(observer, "store", PhaseWork::Unknown, |_| {
+            warnings.extend(keys.save(*cache, &gears));
+            if let (Some(keys), Some(gears)) = (&coast_keys, &coast) {
+                warnings.extend(keys.save(*cache, gears));
+            }
+        });
+    }
+    let settings = settings(motion, pair, &system, &quasi_static);
+    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, warnings })
+}
+
+fn reduce(
+    inputs: &MotionInputs<'_>,
+    contact: &StaticOptions,
+    observer: &mut dyn Observer,
+) -> Result<Flanked, AnalysisError> {
+    let MotionInputs { scene, pair, meshes, cache, .. } = inputs;
+    let both = scene.contact.flanks == Flanks::Both;
+    let sides = if both { 2.0 } else { 1.0 };
+    let work = PhaseWork::Seconds(sides * foreseen_s(scene, meshes));
+    run_phase(observer, "reduce", work, |_| {
+        let driving = elastic_gears(scene, pair, contact, meshes, *cache)?;
+        let backwards = || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, *cache);
+        Ok(Flanked { driving, coast: both.then(backwards).transpose()? })
+    })
+}
+
+/// What the summary says of the model that the motion starts from.
+fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHistory) -> Facts {
+    let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
+    Facts {
+        geometry: gears::geometry_facts(&inputs.pair),
+        meshes: inputs.meshes.iter().map(|m| m.facts.clone()).collect(),
+        dof_before,
+        dof_after: dof_after(model, dof_before),
+        window_teeth: Some(model.window().count() as u32),
+        // The motion begins in it and is measured by it.
+        certificate: static_certificate(&history.positions),
+        reduction: model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect(),
+        ..Facts::default()
+    }
+}
+
+/// How the scene wants the motion to be integrated.
+fn settings(
+    motion: &MotionScene,
+    pair: &GearPair,
+    system: &PairMechanism,
+    quasi_static: &QuasiStatic,
+) -> MotionSettings {
+    let driven = [&pair.pinion, &pair.wheel][system.options().statics.driven()];
+    let length = quasi_static.mean_error().abs().max(1e-6);
+    MotionSettings {
+        scheme: scheme(motion),
+        rows: motion.steps_per_mesh_cycle as usize,
+        steps_per_resonance: steps_per_resonance(motion, system),
+        tolerance: motion.error_tolerance,
+        stop_at_events: motion.stop_at_events,
+        scale: system.scales(&system.coordinates().scales(length, driven.base_radius()), length),
+    }
+}
+
+/// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.
+pub(crate) fn fastest_hz(system: &PairMechanism) -> f64 {
+    system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::max)
+}
+
+/// Steps in a period of the mesh resonance that give the fastest motion as many as the scene asks for.
+fn steps_per_resonance(motion: &MotionScene, system: &PairMechanism) -> usize {
+    let ratio = fastest_hz(system) / system.mesh_resonance_hz();
+    (f64::from(motion.steps_per_resonance) * ratio).ceil() as usize
+}
+
+/// Contact of the driving flanks: the coast flanks are a contact of their own.
+fn contact_options(scene: &Scene, pair: &GearPair, window: Option<usize>) -> StaticOptions {
+    let asked = options(scene, pair);
+    StaticOptions { window: window.or(asked.window), ..asked }.with_contact(|c| c.both_flanks = false)
+}

@@ -1,0 +1,105 @@
+//! Who gets the rows of a motion as they come, and the states that it can be resumed from.
+
+use dynamics::Checkpoint;
+use integrate::{Periodicity, Recurrence};
+use ltca::{StaticModel, StaticPosition};
+use serde::{Deserialize, Serialize};
+use study::FlankPattern;
+
+use super::{MotionLayout, MotionRow};
+use crate::{Observer, SinkResult, facts::MeshFacts};
+
+/// All that a motion is at the end of a mesh cycle, but for its rows so far: it goes on from here to the same bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MotionCheckpoint {
+    /// Teeth of the window.
+    pub window: usize,
+    /// State of the mechanism.
+    pub motion: Checkpoint,
+    /// How far the analysis has come.
+    pub course: MotionCourse,
+    /// What the flanks were pressed by so far.
+    pub patterns: [FlankPattern; 2],
+}
+
+/// How far the analysis of a motion has come.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MotionCourse {
+    /// Whether rows are written: the motion has settled, or need not.
+    pub recording: bool,
+    /// Mesh cycles with rows.
+    pub recorded: u64,
+    /// States at the beginnings of the last cycles.
+    pub returns: Recurrence,
+    /// How nearly the last cycle repeated an earlier one.
+    pub periodicity: Option<Periodicity>,
+}
+
+/// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis and comes back as
+/// [`crate::AnalysisError::Sink`].
+pub trait MotionSink {
+    /// The meshes are read.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn meshes(&mut self, _meshes: &[MeshFacts]) -> SinkResult {
+        Ok(())
+    }
+
+    /// The analysis begins, again where a wider window is needed: what came before does not count.
+    fn begin(&mut self) {}
+
+    /// A position of the quasi-static mesh cycle that the motion starts from, in order; the model is where it was found.
+    fn position(&mut self, _index: usize, _position: &StaticPosition, _model: &StaticModel) {}
+
+    /// The quasi-static mesh cycle is solved. What comes back are warnings.
+    fn quasi_static(&mut self, _model: &StaticModel, _observer: &mut dyn Observer) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Rows begin, or go on after a checkpoint.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn begin_rows(&mut self, _layout: &MotionLayout, _from: Option<&MotionCheckpoint>) -> SinkResult {
+        Ok(())
+    }
+
+    /// A row, in order.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn row(&mut self, _row: &MotionRow) -> SinkResult {
+        Ok(())
+    }
+
+    /// A mesh cycle of rows is complete; `recorded`: how many there are.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn end_cycle(&mut self, _recorded: u64) -> SinkResult {
+        Ok(())
+    }
+
+    /// A state to go on from with all rows so far, as often as the scene asks for one, and where the analysis stops before its end.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn checkpoint(&mut self, _state: MotionCheckpoint) -> SinkResult {
+        Ok(())
+    }
+
+    /// All rows have come.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn finish(&mut self) -> SinkResult {
+        Ok(())
+    }
+}
+
+/// Takes nothing: the result holds all rows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoMotionSink;
+
+impl MotionSink for NoMotionSink {}

@@ -1,0 +1,74 @@
+//! The few numbers that a sweep is made for.
+
+use scene::{MotionScene, Run, SweepScene, SweepWay};
+use serde::Serialize;
+
+use super::{SweepRow, SweepStatus};
+use crate::motion::{
+    orders::CriticalSpeed,
+    setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration},
+};
+
+/// A speed without a motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub struct FailedSpeed {
+    pub way: SweepWay,
+    pub speed_rpm: f64,
+    pub reason: String,
+}
+
+/// The few numbers that a sweep is made for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // as above
+pub struct SweepHeadline {
+    pub run: Run,
+    pub mesh_resonance_hz: f64,
+    pub mesh_resonance_rpm: f64,
+    pub inertia: InertiaHeadline,
+    pub elasticity: ElasticHeadline,
+    pub mean_ste_um: f64,
+    pub peak_to_peak_ste_um: f64,
+    pub mean_mesh_stiffness_n_per_um: f64,
+    pub mean_static_normal_force_n: f64,
+    pub largest: Vec<SweepRow>,
+    pub not_periodic_rpm: Vec<f64>,
+    pub failed: Vec<FailedSpeed>,
+    pub critical_speeds: Vec<CriticalSpeed>,
+}
+
+/// What a sweep is made for: the largest answer of each way, and where no periodic state was found.
+pub(super) fn headline(
+    (motion, sweep): (&MotionScene, &SweepScene),
+    prepared: &PreparedMotion,
+    (rows, vibration): (&[SweepRow], &Vibration),
+    critical_speeds: Vec<CriticalSpeed>,
+    teeth: u32,
+) -> SweepHeadline {
+    let has_motion = |r: &&SweepRow| r.status != SweepStatus::Failed;
+    let largest = sweep.ways.iter().filter_map(|way| {
+        let of_way = rows.iter().filter(|r| r.way == *way).filter(has_motion);
+        of_way.max_by(|a, b| a.peak_to_peak_dte_um.total_cmp(&b.peak_to_peak_dte_um)).cloned()
+    });
+    let ste = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e);
+    let [low, high] = ste.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], e| [l.min(e), h.max(e)]);
+    let resonance = prepared.system.mesh_resonance_hz();
+    let of_status = |status: SweepStatus| rows.iter().filter(move |r| r.status == status);
+    SweepHeadline {
+        run: motion.run,
+        mesh_resonance_hz: resonance,
+        mesh_resonance_rpm: 60.0 * resonance / f64::from(teeth),
+        inertia: InertiaHeadline::of(&prepared.system),
+        elasticity: prepared.elasticity.headline(vibration),
+        mean_ste_um: 1e3 * prepared.quasi_static.mean_error(),
+        peak_to_peak_ste_um: high - low,
+        mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
+        mean_static_normal_force_n: prepared.quasi_static.normal_force,
+        largest: largest.collect(),
+        not_periodic_rpm: of_status(SweepStatus::NotPeriodic).map(|r| r.speed_rpm).collect(),
+        failed: of_status(SweepStatus::Failed)
+            .map(|r| FailedSpeed { way: r.way, speed_rpm: r.speed_rpm, reason: r.reason.clone() })
+            .collect(),
+        critical_speeds,
+    }
+}

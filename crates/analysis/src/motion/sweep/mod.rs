@@ -1,0 +1,10 @@
+//! Sweeps over speed.
+
+mod analysis;
+mod headline;
+mod rows;
+mod run;
+
+pub use analysis::{SweepAnalysis, SweepResult};
+pub use headline::{FailedSpeed, SweepHeadline};
+pub use rows::{SWEEP_ORDERS, SweepRow, SweepStatus};

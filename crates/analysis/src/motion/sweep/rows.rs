@@ -1,0 +1,166 @@
+//! One row a speed and way of a sweep.
+
+use dynamics::{SweepDirection, SweepMiss, SweepOutcome, SweepPoint};
+use scene::{MotionScene, Scene, SweepWay};
+use serde::Serialize;
+use study::{StudyError, cycle_statistics, mesh_harmonics};
+
+use crate::{
+    AnalysisError,
+    motion::{
+        MOTION_WAY_OUT,
+        certificate::checks_of_speed,
+        setup::{QuasiStatic, RPM},
+    },
+};
+
+/// Mesh harmonics of a speed that are listed.
+pub const SWEEP_ORDERS: usize = 4;
+
+/// How a speed of a sweep came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SweepStatus {
+    /// The motion repeats itself.
+    Periodic,
+    /// It does not, in the cycles that it was given.
+    NotPeriodic,
+    /// There is no motion at all.
+    Failed,
+}
+
+/// One speed of a sweep; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct SweepRow {
+    pub way: SweepWay,
+    pub speed_rpm: f64,
+    pub mesh_frequency_hz: f64,
+    pub mean_dte_um: f64,
+    pub peak_to_peak_dte_um: f64,
+    pub dte_harmonics_um: Vec<f64>,
+    pub min_normal_force_n: f64,
+    pub max_normal_force_n: f64,
+    pub dynamic_factor: f64,
+    pub max_coast_normal_force_n: f64,
+    pub max_bearing_force_n: f64,
+    pub period_cycles: usize,
+    pub periodicity: f64,
+    pub warm_up_cycles: u64,
+    /// Whether it began in its own quasi-static equilibrium.
+    pub own_start: bool,
+    pub status: SweepStatus,
+    /// Why there is no motion; empty where there is one.
+    pub reason: String,
+}
+
+fn way_of(way: SweepDirection) -> SweepWay {
+    match way {
+        SweepDirection::Independent => SweepWay::Apart,
+        SweepDirection::Up => SweepWay::Up,
+        SweepDirection::Down => SweepWay::Down,
+    }
+}
+
+/// A row a way and speed: a speed without a motion has its reason.
+pub(super) fn rows(
+    scene: &Scene,
+    motion: &MotionScene,
+    quasi_static: &QuasiStatic,
+    outcomes: &[SweepOutcome],
+) -> Vec<SweepRow> {
+    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
+    let teeth = f64::from(scene.driver_teeth());
+    let cycles = scene.analysis.cycles as usize;
+    let one = |outcome: &SweepOutcome| match outcome {
+        Ok(point) => match checks_of_speed(point).missed().next() {
+            Some(check) => {
+                let reason = format!("the result does not hold: {}", check.words());
+                missing((point.way, point.speed), teeth, reason)
+            }
+            None => solved(point, cycles, (teeth, tolerance), quasi_static)
+                .unwrap_or_else(|e| missing((point.way, point.speed), teeth, e.to_string())),
+        },
+        Err(SweepMiss { speed, way, error }) => missing((*way, *speed), teeth, error.to_string()),
+    };
+    outcomes.iter().map(one).collect()
+}
+
+/// # Errors
+/// [`StudyError`] when a transmission error is no number.
+fn solved(
+    point: &SweepPoint,
+    cycles: usize,
+    (teeth, tolerance): (f64, f64),
+    quasi_static: &QuasiStatic,
+) -> Result<SweepRow, StudyError> {
+    let dte: Vec<f64> = point.transmission_error.iter().map(|e| 1e3 * e).collect();
+    let of_dte = cycle_statistics(&dte, cycles)?;
+    let extreme = |f: fn(f64, f64) -> f64, start| point.normal_force.iter().copied().fold(start, f);
+    let speed_rpm = point.speed / RPM;
+    Ok(SweepRow {
+        way: way_of(point.way),
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mean_dte_um: of_dte.mean,
+        peak_to_peak_dte_um: of_dte.peak_to_peak,
+        dte_harmonics_um: mesh_harmonics(&dte, cycles, SWEEP_ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        min_normal_force_n: extreme(f64::min, f64::INFINITY),
+        max_normal_force_n: extreme(f64::max, 0.0),
+        dynamic_factor: extreme(f64::max, point.coast_force) / quasi_static.normal_force,
+        max_coast_normal_force_n: point.coast_force,
+        max_bearing_force_n: point.bearing_force,
+        period_cycles: point.periodicity.period,
+        periodicity: point.periodicity.residual,
+        warm_up_cycles: point.waited,
+        own_start: point.own_start,
+        status: if point.periodicity.residual > tolerance { SweepStatus::NotPeriodic } else { SweepStatus::Periodic },
+        reason: String::new(),
+    })
+}
+
+/// Whether there is a speed with a motion that holds.
+///
+/// # Errors
+/// [`AnalysisError::NoSpeed`] with the reason of the first.
+pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisError> {
+    let failed = |row: &SweepRow| row.status == SweepStatus::Failed;
+    match rows.first() {
+        Some(first) if rows.iter().all(failed) => Err(AnalysisError::NoSpeed {
+            file: scene.file.display().to_string(),
+            speed_rpm: first.speed_rpm,
+            reason: first.reason.clone(),
+            way_out: MOTION_WAY_OUT,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A speed without a motion.
+fn missing((way, speed): (SweepDirection, f64), teeth: f64, reason: String) -> SweepRow {
+    let (speed_rpm, none) = (speed / RPM, f64::NAN);
+    SweepRow {
+        way: way_of(way),
+        speed_rpm,
+        mesh_frequency_hz: speed_rpm * teeth / 60.0,
+        mean_dte_um: none,
+        peak_to_peak_dte_um: none,
+        dte_harmonics_um: vec![none; SWEEP_ORDERS],
+        min_normal_force_n: none,
+        max_normal_force_n: none,
+        dynamic_factor: none,
+        max_coast_normal_force_n: none,
+        max_bearing_force_n: none,
+        period_cycles: 0,
+        periodicity: none,
+        warm_up_cycles: 0,
+        own_start: true,
+        status: SweepStatus::Failed,
+        reason,
+    }
+}
+
+/// The largest peak to peak of all speeds, um.
+pub(super) fn largest(rows: &[SweepRow]) -> f64 {
+    rows.iter().map(|r| r.peak_to_peak_dte_um).filter(|x| x.is_finite()).fold(0.0, f64::max)
+}

@@ -1,0 +1,77 @@
+//! A sweep over speed: steady states, each by itself or each from the one before.
+
+use std::ops::ControlFlow;
+
+use dynamics::{PairMotionError, SteadyOptions, SweepDirection, SweepOutcome, SweepPlan};
+use ltca::StaticError;
+use scene::{MotionScene, Scene, SweepScene, SweepWay};
+
+use crate::{
+    Observer, PhaseWork,
+    failure::Failure,
+    motion::{
+        course::failure,
+        setup::{PreparedMotion, RPM, steady_by},
+    },
+    run_phase,
+};
+
+/// The error of teeth missing beside the window, which a wider one may cure.
+fn starved(error: &PairMotionError) -> Option<&StaticError> {
+    error.contact_error().filter(|source| source.is_starved())
+}
+
+/// Runs the sweep of a scene. `wider`: whether a wider window may cure an error.
+///
+/// # Errors
+/// [`Failure::Static`] where another window may do; else that of the first speed where none has an answer.
+pub(super) fn run(
+    scene: &Scene,
+    (motion, sweep): (&MotionScene, &SweepScene),
+    prepared: &PreparedMotion,
+    wider: &(dyn Fn(&StaticError) -> bool + Sync),
+    observer: &mut dyn Observer,
+) -> Result<Vec<SweepOutcome>, Failure> {
+    let speeds: Vec<f64> = sweep.all_rpm().iter().map(|n| n * RPM).collect();
+    let ways = sweep.ways.iter().map(|w| match w {
+        SweepWay::Apart => SweepDirection::Independent,
+        SweepWay::Up => SweepDirection::Up,
+        SweepWay::Down => SweepDirection::Down,
+    });
+    let plan = SweepPlan {
+        ways: ways.collect(),
+        settings: prepared.settings.clone(),
+        steady: SteadyOptions {
+            by: steady_by(sweep.steady_by),
+            tolerance: motion.periodic_tolerance.unwrap_or(1e-6),
+            most: u64::from(motion.warm_up_cycles.unwrap_or(1000)),
+            cycles: u64::from(scene.analysis.cycles),
+        },
+        guess: prepared.quasi_static.transmission_error.first().copied().unwrap_or(0.0),
+        speeds,
+    };
+    let steps = (plan.speeds.len() * plan.ways.len()) as u64;
+    let curable = |error: &PairMotionError| starved(error).is_some_and(wider);
+    let outcomes = run_phase(observer, "sweep", PhaseWork::Steps(steps), |progress| {
+        dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
+            progress.tick();
+            match outcome {
+                Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),
+                Err(miss) => progress.say(format!("{:.0}/min: {}", miss.speed / RPM, miss.error)),
+            }
+            match outcome {
+                Err(miss) if curable(&miss.error) => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        })
+    })
+    .map_err(|e| failure(scene, e))?;
+    let mut misses = outcomes.iter().filter_map(|o| o.as_ref().err());
+    if let Some(miss) = misses.clone().find(|m| curable(&m.error)) {
+        return Err(failure(scene, miss.error.clone()));
+    }
+    match misses.next() {
+        Some(first) if outcomes.iter().all(Result::is_err) => Err(failure(scene, first.error.clone())),
+        _ => Ok(outcomes),
+    }
+}

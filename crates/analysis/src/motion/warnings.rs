@@ -1,0 +1,207 @@
+//! What a user should hear of a motion.
+
+use dynamics::{Drive, PairMechanism, stable_step};
+use ltca::StaticError;
+use scene::{Flanks, MotionScene, Run, Scene};
+
+use super::{
+    MotionHeadline, SweepHeadline,
+    course::failure,
+    setup::{PreparedMotion, Steps, fastest_hz, mesh_range_hz, refuse_unstable},
+    step_estimate::{Pace, StepDemand},
+};
+use crate::failure::Failure;
+
+/// More steps than this in a mesh cycle take half a minute or more.
+const SLOW: f64 = 20_000.0;
+/// More steps than this of a motion with modes take minutes: those who wait should know.
+const LONG: f64 = 100_000.0;
+/// Backlash below which there is none, um.
+pub const NO_BACKLASH_UM: f64 = 1e-3;
+/// Fewer steps than this in a period of the mesh resonance show it wrongly.
+const COARSE: f64 = 8.0;
+
+/// A window that was too narrow.
+pub(super) fn widened(error: &StaticError, teeth: usize) -> String {
+    format!("{error}; the window was widened to {teeth} teeth and the motion begun again")
+}
+
+/// Steps that are too long for the mesh resonance, or for the highest mode that is kept.
+pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+    let fastest = fastest_hz(&prepared.system);
+    let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+    let steps = f64::from(motion.steps_per_resonance).max(f64::from(motion.steps_per_mesh_cycle) * mesh / fastest);
+    let given = motion.error_tolerance.is_none() && motion.ramp.is_none() && motion.sweep.is_none();
+    let (what, or) = match fastest > prepared.system.mesh_resonance_hz() {
+        true => ("highest kept mode", ", or keep fewer modes"),
+        false => ("mesh resonance", ""),
+    };
+    (given && steps < COARSE).then(|| {
+        format!(
+            "a step is 1/{steps:.1} of the period of the {what} ({fastest:.0} Hz), which it cannot show: take more \
+             `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
+        )
+    })
+}
+
+/// Refuses steps of given length that are too long for an explicit method.
+///
+/// # Errors
+/// [`crate::AnalysisError::UnstableSteps`] with the limit, the step, and the number of steps that would do.
+pub(super) fn unstable(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
+    let PreparedMotion { system, settings, quasi_static, .. } = prepared;
+    if settings.tolerance.is_some() || !settings.scheme.is_explicit() {
+        return Ok(());
+    }
+    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
+    let limit = stable_step(system, settings.scheme, guess, &settings.scale).map_err(|e| failure(scene, e))?;
+    let Some(limit) = limit else { return Ok(()) };
+    let longest = longest_cycle(scene, system);
+    let step = settings.step(longest, system.mesh_resonance_hz());
+    let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: fastest_hz(system) };
+    Ok(refuse_unstable(scene, &limit, &steps)?)
+}
+
+/// Duration of the longest mesh cycle of a run, s: the slowest one.
+fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
+    let motion = scene.motion.as_ref();
+    let slowest = motion.and_then(|m| m.sweep.as_ref()).map(|s| s.from_rpm.min(s.to_rpm));
+    let speed_rpm = slowest.unwrap_or(scene.operation.speed_rpm);
+    let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().statics.driven()];
+    let steady = 60.0 / (speed_rpm * f64::from(teeth));
+    let (pair, contact, nominal) = (system.pair(), &system.options().statics, system.nominal());
+    let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
+    // The first cycle of a run-up, the last one of a run-down.
+    let cycles = |t: f64| nominal.cycles(pair, contact, t) - nominal.start;
+    let last = cycles(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
+    let times = [0.0, 1.0, last - 1.0, last].map(|c| nominal.time_at(pair, contact, c).unwrap_or(f64::NAN));
+    (times[1] - times[0]).max(times[3] - times[2])
+}
+
+/// Steps of a mesh cycle so many that a user should know why nothing seems to go on.
+pub(super) fn slow(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+    let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+    let fastest = fastest_hz(&prepared.system);
+    let steps = f64::from(motion.steps_per_resonance) * fastest / mesh;
+    let given = motion.ramp.is_none() && motion.sweep.is_none();
+    (given && steps > SLOW).then(|| {
+        format!(
+            "a mesh cycle lasts {:.0} periods of the fastest motion that steps have to show ({fastest:.3e} Hz), so it takes {steps:.0} steps; so slow a pair \
+             has nearly the answer of `kind = \"static\"`",
+            fastest / mesh
+        )
+    })
+}
+
+/// How many steps a motion with normal modes is going to take, if they are many: the highest mode says how long they are, the lowest how long it takes to settle.
+pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+    scene.modes?;
+    let mesh_hz = mesh_range_hz(scene, motion, None);
+    let cycles = match motion.ramp {
+        Some(ramp) => (ramp.before_s + ramp.duration_s + ramp.after_s) * 0.5 * (mesh_hz[0] + mesh_hz[1]),
+        None => motion.duration_s.map_or(f64::from(scene.analysis.cycles), |t| t * mesh_hz[1]),
+    };
+    let estimate = StepDemand::new(scene, motion, cycles, mesh_hz).as_it_is(prepared);
+    (estimate.steps() > LONG).then(|| {
+        format!(
+            "with its normal modes this motion takes {}: the highest kept mode, {:.0} Hz, says how long they are, and the lowest settles slowly; fewer modes (`below_hz` in [modes]), more \
+             damping of them or a larger `periodic_tolerance` make it shorter",
+            estimate.said(Pace { step_s: None }),
+            fastest_hz(&prepared.system)
+        )
+    })
+}
+
+/// A pair without backlash in a motion in which flanks may part.
+pub(super) fn no_backlash(scene: &Scene, prepared: &PreparedMotion) -> Option<String> {
+    let backlash_um = 1e3 * prepared.system.pair().backlash();
+    (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
+        let what = match scene.contact.flanks {
+            Flanks::Both => "where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
+            Flanks::Driving => "with `flanks = \"driving\"` teeth that part fly as if there were room behind them",
+        };
+        format!(
+            "the pair has no backlash: {what}; give `thickness_allowance_mm` in [pinion] and [wheel] (or a larger `centre_distance_mm` in [pair])"
+        )
+    })
+}
+
+/// What the certificate says that a user should hear.
+pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headline: &MotionHeadline) -> Vec<String> {
+    let mut said = Vec::new();
+    let c = &headline.certificate;
+    let settles = matches!(motion.run, Run::Steady | Run::Shooting);
+    if let (true, Some(found), Some(asked)) = (settles, c.periodicity, motion.periodic_tolerance)
+        && found > asked
+    {
+        let early = c.warm_up_cycles < u64::from(motion.warm_up_cycles.unwrap_or(1000)) && motion.run == Run::Steady;
+        let after = c.warm_up_cycles;
+        said.push(if early {
+            format!(
+                "the motion repeated itself to {asked:.0e} of its peak to peak after {after} mesh cycles, but those that were written do so to {found:.1e} only: \
+                 ask for a smaller `periodic_tolerance`, or give a transient more damping"
+            )
+        } else {
+            format!(
+                "the motion does not repeat itself: after {after} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); \
+                 it may be chaotic, or need more `warm_up_cycles`"
+            )
+        });
+    } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
+        said.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
+    }
+    if c.ledger_residual_over_work.abs() > 1e-6 {
+        said.push(format!(
+            "energy closes to {:.1e} of the work that goes through the pair only (asked: 1e-6): take smaller steps or `method = \"energy\"`",
+            c.ledger_residual_over_work.abs()
+        ));
+    }
+    // Without coast flanks nothing stops teeth that have parted.
+    let pair = prepared.system.pair();
+    let backlash = 1e3 * pair.backlash() * pair.base_helix_angle().cos();
+    if !prepared.system.has_coast_flanks() && c.largest_gap_um > backlash {
+        said.push(format!(
+            "the flanks part by {:.1} um, more than the backlash of {backlash:.1} um: the coast flanks would touch; use `flanks = \"both\"`",
+            c.largest_gap_um
+        ));
+    }
+    if let Drive::Torque { start, .. } = &prepared.system.options().drive {
+        let asked = start * 30.0 / std::f64::consts::PI;
+        if (headline.speed_rpm / asked - 1.0).abs() > 0.01 {
+            said.push(format!(
+                "the driver's mean speed is {:.1}/min, it began with {asked:.1}/min: mesh cycles, and orders of the spectrum, are those of the \
+                 start",
+                headline.speed_rpm
+            ));
+        }
+    }
+    said
+}
+
+/// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.
+pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<String> {
+    let mut said = Vec::new();
+    let (missed, failed) = (&headline.not_periodic_rpm, &headline.failed);
+    if !missed.is_empty() {
+        said.push(format!(
+            "no periodic state was found at {} of {speeds} speeds ({}): chaotic, of a longer period, or `warm_up_cycles` are too few",
+            missed.len(),
+            listed(missed.iter().copied())
+        ));
+    }
+    if let Some(first) = failed.first() {
+        said.push(format!(
+            "{} of {speeds} speeds have no solution ({}); their rows in resonance.csv say why, the first: {}",
+            failed.len(),
+            listed(failed.iter().map(|f| f.speed_rpm)),
+            first.reason
+        ));
+    }
+    said
+}
+
+/// A few speeds as text.
+fn listed(speeds_rpm: impl Iterator<Item = f64>) -> String {
+    let first: Vec<String> = speeds_rpm.take(8).map(|n| format!("{n:.0}")).collect();
+    format!("1/min: {}", first.join(", "))
+}

@@ -1,0 +1,102 @@
+//! The few numbers that a run is made for.
+
+use ltca::{StaticHistory, StaticPosition};
+use scene::{Driver, Scene};
+use serde::Serialize;
+use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
+
+use super::{PressurePlace, RootStressHeadline, root_stress_headline};
+use crate::worse;
+
+/// Mesh harmonics of the transmission error that are listed.
+const ORDERS: usize = 8;
+
+/// The few numbers that a run is made for; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct StaticHeadline {
+    pub mean_ste_um: f64,
+    pub peak_to_peak_ste_um: f64,
+    pub min_ste_um: f64,
+    pub max_ste_um: f64,
+    pub samples_per_cycle: usize,
+    pub cycles: usize,
+    pub ste_harmonics_um: Vec<f64>,
+    pub mean_mesh_stiffness_n_per_um: f64,
+    pub mean_mesh_stiffness_tangent_n_per_um: f64,
+    pub mean_contact_line_length_mm: f64,
+    pub mean_geometric_line_length_mm: f64,
+    pub mean_normal_force_n: f64,
+    pub mean_wheel_force_n: [f64; 3],
+    pub mean_pinion_tilting_moment_nmm: f64,
+    pub mean_wheel_tilting_moment_nmm: f64,
+    pub mean_friction_power_loss_w: f64,
+    pub efficiency: f64,
+    pub max_pair_force_n: f64,
+    pub max_pressure_mpa: f64,
+    pub max_pressure_at: Option<PressurePlace>,
+    pub root_stress: Option<RootStressHeadline>,
+    pub tooth_changes: u64,
+    pub worst_torque_residual: f64,
+    pub worst_complementarity_residual: f64,
+    pub worst_action_reaction_residual: f64,
+    pub worst_window_edge_load: f64,
+    pub bulk_compliance_error: f64,
+    pub iterations: usize,
+}
+
+/// Headline numbers of a history over the scene's whole mesh cycles.
+///
+/// # Errors
+/// [`StudyError`] when the history is not what the scene asked for, or holds a transmission error that is no number.
+pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticHeadline, StudyError> {
+    let positions = &history.positions;
+    let cycles = scene.analysis.cycles as usize;
+    let ste: Vec<f64> = positions.iter().map(|p| p.transmission_error * 1e3).collect();
+    let statistics = cycle_statistics(&ste, cycles)?;
+    let harmonics = mesh_harmonics(&ste, cycles, ORDERS)?;
+    let mean = |f: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(f).sum::<f64>() / positions.len() as f64;
+    let worst = |f: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(f).fold(0.0_f64, worse);
+    Ok(StaticHeadline {
+        mean_ste_um: statistics.mean,
+        peak_to_peak_ste_um: statistics.peak_to_peak,
+        min_ste_um: statistics.min,
+        max_ste_um: statistics.max,
+        samples_per_cycle: statistics.samples_per_cycle,
+        cycles,
+        ste_harmonics_um: harmonics.iter().map(|h: &Harmonic| h.amplitude).collect(),
+        mean_mesh_stiffness_n_per_um: mean(&|p| p.secant_stiffness * 1e-3),
+        mean_mesh_stiffness_tangent_n_per_um: mean(&|p| p.tangent_stiffness * 1e-3),
+        mean_contact_line_length_mm: mean(&|p| p.contact_line_length),
+        mean_geometric_line_length_mm: mean(&|p| p.geometric_line_length),
+        mean_normal_force_n: mean(&|p| p.pairs.iter().map(|pair| pair.normal_force).sum()),
+        mean_wheel_force_n: [0, 1, 2].map(|k| mean(&|p| p.wrench[1].force[k])),
+        mean_pinion_tilting_moment_nmm: mean(&|p| p.wrench[0].moment[1]),
+        mean_wheel_tilting_moment_nmm: mean(&|p| p.wrench[1].moment[1]),
+        mean_friction_power_loss_w: mean(&|p| 1e-3 * p.friction_work * scene.pinion_speed()),
+        efficiency: efficiency(scene, positions),
+        max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
+        max_pressure_mpa: worst(&|p| p.max_pressure),
+        max_pressure_at: PressurePlace::of(scene, history),
+        root_stress: root_stress_headline(history),
+        tooth_changes: positions.last().map_or(0, |p| p.tooth_changes),
+        worst_torque_residual: worst(&|p| p.certificate.torque_residual),
+        worst_complementarity_residual: worst(&|p| p.certificate.complementarity_residual),
+        worst_action_reaction_residual: worst(&|p| p.certificate.action_reaction_residual),
+        worst_window_edge_load: worst(&|p| p.certificate.window_edge_load),
+        bulk_compliance_error: worst(&|p| p.certificate.bulk_compliance_error),
+        iterations: positions.iter().map(|p| p.certificate.iterations).sum(),
+    })
+}
+
+/// Share of the driver's work over the mesh cycles that friction leaves; 1 without torque.
+fn efficiency(scene: &Scene, positions: &[StaticPosition]) -> f64 {
+    let driver = match scene.operation.driver {
+        Driver::Pinion => 0,
+        Driver::Wheel => 1,
+    };
+    let ratio = [1.0, f64::from(scene.pinion.teeth) / f64::from(scene.wheel.teeth)][driver];
+    let lost: f64 = positions.iter().map(|p| p.friction_work).sum();
+    let put_in: f64 = positions.iter().map(|p| ratio * p.wrench[driver].moment[2].abs()).sum();
+    if put_in > 0.0 { 1.0 - lost / put_in } else { 1.0 }
+}

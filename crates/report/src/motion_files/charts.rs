@@ -1,0 +1,274 @@
+//! Charts of a motion and of a sweep.
+
+use analysis::motion::{CampbellDiagram, MotionSpectrum, Passage, PassageCycle, RPM, SweepRow, WaterfallLine};
+use dynamics::Speed;
+use scene::SweepWay;
+use study::{Columns, StudyError, extent};
+
+use super::{SPECTRA, spectra};
+use crate::{
+    charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
+    columns::motion_history::{MESH_PHASE, TIME},
+    view::View,
+};
+
+/// Mesh cycles of a steady motion that are drawn, the last ones.
+pub const SHOWN_CYCLES: usize = 4;
+/// Orders of the spectrum that are drawn.
+const SHOWN_ORDERS: f64 = 12.0;
+/// Mesh orders whose amplitudes are drawn over speed.
+const SHOWN_CUTS: usize = 4;
+/// Columns and rows of the waterfall at most.
+const CELLS: [usize; 2] = [360, 300];
+/// Decades of the waterfall's colours.
+const DECADES: f64 = 4.0;
+
+/// What the charts of a motion are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub struct MotionPictures<'a> {
+    /// Rows of the history.
+    pub rows: &'a Columns,
+    /// Rows of the ledger.
+    pub energy: &'a Columns,
+    /// Spectra, at constant speed.
+    pub spectrum: Option<&'a MotionSpectrum>,
+    /// Waterfall of a run-up; else empty.
+    pub waterfall: &'a [WaterfallLine],
+    /// A run-up or run-down: speed of the driver over time, its teeth, and what was found over speed.
+    pub ramp: Option<(Speed, u32, &'a Passage)>,
+    /// Mesh orders beside the frequencies that they may meet.
+    pub campbell: Option<&'a CampbellDiagram>,
+    /// Rows in a mesh cycle.
+    pub per_cycle: usize,
+    /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
+    pub quasi_static: Option<&'a [f64]>,
+    /// The gears in space with their fields; `None` where a model has none.
+    pub view: Option<&'a View>,
+}
+
+/// All charts of a motion.
+///
+/// # Errors
+/// [`StudyError`] for rows without a column that every motion has.
+pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError> {
+    let steady = of.ramp.is_none();
+    let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
+    let time = &of.rows.series(TIME.name)?[first..];
+    let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
+    let unit = 1e3;
+    // Of a ramp everything is drawn over the speed that it is made for.
+    let place = |t: f64| match of.ramp {
+        Some((law, ..)) => law.at(t) / RPM,
+        None => unit * (t - begin),
+    };
+    let axis = of.ramp.map_or("time [ms], last mesh cycles".to_owned(), |(_, teeth, _)| speed_axis(teeth));
+    let axis = axis.as_str();
+    let points = |column: &[f64]| -> Vec<(f64, f64)> {
+        let column = column.get(first..).unwrap_or_default();
+        time.iter().zip(column).map(|(t, x)| (place(*t), *x)).collect()
+    };
+    // A model without such a quantity has no curve.
+    let curve = |label: &str, name: &str| Curve {
+        label: label.to_owned(),
+        points: points(of.rows.find(name).unwrap_or_default()),
+    };
+    let mut errors = vec![curve("DTE", "dte_um")];
+    if let (true, Some(ste)) = (steady, of.quasi_static) {
+        errors.push(Curve { label: "STE".into(), points: repeated(of, ste, time, begin, unit)? });
+    }
+    let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
+    let sharing: Vec<Curve> = of
+        .rows
+        .names_from("normal_force_pair_")
+        .into_iter()
+        .filter(|n| of.rows.find(n).is_some_and(|all| extent(all)[1] > 0.0))
+        .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
+        .collect();
+    let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
+    let energy_time = of.energy.series(TIME.name)?;
+    let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
+        if steady { ("time [s]", &|t| t) } else { (axis, &place) };
+    let residual = Curve {
+        label: "residual".into(),
+        points: energy_time.iter().zip(of.energy.series("residual_mj")?).map(|(t, x)| (energy_place(*t), *x)).collect(),
+    };
+    let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, passage)| passage_charts(passage, &speed_axis(teeth)));
+    all.extend([
+        line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
+        line_chart(
+            "Total contact-line length",
+            axis,
+            "length [mm]",
+            &[curve("length", "contact_line_length_mm")],
+            false,
+        ),
+        line_chart("Sum of normal forces", axis, "force [N]", &forces, true),
+        line_chart("Load sharing", axis, "normal force [N]", if steady { &sharing } else { &[] }, true),
+        line_chart("Axial force on the wheel", axis, "force [N]", &[curve("z", "wheel_force_z_n")], false),
+        line_chart("Tilting moment about y", axis, "moment [N mm]", &moments, false),
+    ]);
+    for gear in ["pinion", "wheel"] {
+        let names = of.rows.names_from(&format!("{gear}_bearing_force_"));
+        let curves: Vec<Curve> = names
+            .into_iter()
+            .map(|n| curve(n.trim_start_matches(&format!("{gear}_bearing_force_")).trim_end_matches("_n"), n))
+            .collect();
+        all.push(line_chart(&format!("Bearing force of the {gear}"), axis, "force [N]", &curves, false));
+    }
+    if let Some(spectrum) = of.spectrum {
+        all.extend([0, 1].map(|i| spectrum_chart(spectrum, i)));
+    }
+    all.push(waterfall_chart(of.waterfall, of.per_cycle));
+    all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
+    all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
+fn speed_axis(teeth: u32) -> String {
+    let hz = f64::from(teeth) / 60.0;
+    format!("speed of the driver [1/min], each {hz:.4} Hz of mesh frequency")
+}
+
+/// What a ramp is made for: peak to peak, order cuts and forces over speed.
+fn passage_charts(of: &Passage, axis: &str) -> Vec<Option<String>> {
+    let cycles = |label: &str, value: &dyn Fn(&PassageCycle) -> f64| Curve {
+        label: label.into(),
+        points: of.cycles.iter().map(|c| (c.driver_speed_rpm, value(c))).collect(),
+    };
+    let orders = of.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0).min(SHOWN_CUTS);
+    let cuts: Vec<Curve> = (0..orders)
+        .map(|n| Curve {
+            label: format!("mesh order {}", n + 1),
+            points: of.cuts.iter().map(|c| (c.driver_speed_rpm, c.amplitudes_um[n])).collect(),
+        })
+        .collect();
+    let forces = [
+        cycles("sum, largest", &|c| c.max_normal_force_n),
+        cycles("sum, least", &|c| c.min_normal_force_n),
+        cycles("one pair, largest", &|c| c.max_pair_normal_force_n.unwrap_or(f64::NAN)),
+    ];
+    let peak = [cycles("peak to peak", &|c| c.peak_to_peak_dte_um)];
+    let factor = [cycles("largest over static force", &|c| c.dynamic_factor)];
+    vec![
+        line_chart("Peak to peak of the DTE in each mesh cycle", axis, "peak to peak [um]", &peak, true),
+        line_chart("Order cuts of the DTE", axis, "amplitude [um]", &cuts, true),
+        line_chart("Dynamic factor of each mesh cycle", axis, "largest over static force", &factor, true),
+        line_chart("Normal forces of each mesh cycle", axis, "force [N]", &forces, true),
+    ]
+}
+
+/// The quasi-static error of one cycle under every cycle drawn.
+fn repeated(
+    of: &MotionPictures<'_>,
+    ste: &[f64],
+    time: &[f64],
+    begin: f64,
+    unit: f64,
+) -> Result<Vec<(f64, f64)>, StudyError> {
+    let phases = of.rows.series(MESH_PHASE.name)?;
+    let phases = &phases[phases.len() - time.len()..];
+    let n = ste.len();
+    let at = |phase: f64| {
+        let place = phase.rem_euclid(1.0) * n as f64;
+        let (i, share) = (place.floor() as usize % n, place.fract());
+        1e3 * ((1.0 - share) * ste[i] + share * ste[(i + 1) % n])
+    };
+    Ok(time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect())
+}
+
+/// Lines of one quantity as sticks.
+fn spectrum_chart(spectrum: &MotionSpectrum, quantity: usize) -> Option<String> {
+    let lines = spectrum.orders.iter().copied().zip(spectra(spectrum)[quantity].iter().copied()).skip(1);
+    let points = lines.take_while(|(order, _)| *order <= SHOWN_ORDERS).collect();
+    let (title, unit) = match SPECTRA[quantity] {
+        "dte_um" => ("Spectrum of the dynamic transmission error", "amplitude [um]"),
+        _ => ("Spectrum of the sum of normal forces", "amplitude [N]"),
+    };
+    stick_chart(title, "mesh order", unit, Curve { label: "amplitude".into(), points })
+}
+
+/// What the charts of a sweep are drawn from.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepPictures<'a> {
+    /// A row a way and speed.
+    pub rows: &'a [SweepRow],
+    /// Mesh orders beside the frequencies that they may meet.
+    pub campbell: &'a CampbellDiagram,
+    /// Teeth of the driver.
+    pub teeth: u32,
+    /// The gears in space; `None` where a model has none.
+    pub view: Option<&'a View>,
+}
+
+/// Largest minus smallest DTE over speed, way by way, its orders, and the largest force.
+pub fn sweep_charts(of: &SweepPictures<'_>) -> Vec<String> {
+    let rows = of.rows;
+    let curves = |value: &dyn Fn(&SweepRow) -> f64| -> Vec<Curve> {
+        [SweepWay::Apart, SweepWay::Up, SweepWay::Down]
+            .into_iter()
+            .filter_map(|way| {
+                let points: Vec<(f64, f64)> =
+                    rows.iter().filter(|r| r.way == way).map(|r| (r.speed_rpm, value(r))).collect();
+                let label = match way {
+                    SweepWay::Apart => "each speed by itself",
+                    SweepWay::Up => "upwards",
+                    SweepWay::Down => "downwards",
+                };
+                (!points.is_empty()).then(|| Curve { label: label.into(), points })
+            })
+            .collect()
+    };
+    let axis = speed_axis(of.teeth);
+    let speed = axis.as_str();
+    let orders = rows.iter().map(|r| r.dte_harmonics_um.len()).min().unwrap_or(0);
+    let cuts: Vec<Curve> = (0..orders)
+        .flat_map(|n| {
+            let ways = curves(&|r: &SweepRow| r.dte_harmonics_um[n]);
+            ways.into_iter().map(move |c| Curve { label: format!("mesh order {}, {}", n + 1, c.label), ..c })
+        })
+        .collect();
+    [
+        line_chart("Peak to peak of the DTE", speed, "peak to peak [um]", &curves(&|r| r.peak_to_peak_dte_um), true),
+        line_chart("Dynamic factor", speed, "largest over static force", &curves(&|r| r.dynamic_factor), true),
+        line_chart("Order cuts of the DTE", speed, "amplitude [um]", &cuts, true),
+        line_chart("Mean DTE", speed, "mean [um]", &curves(&|r| r.mean_dte_um), false),
+        campbell_chart(&of.campbell.diagram, &of.campbell.orders, &of.campbell.names),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Amplitudes of the DTE over order and time, colours by decades.
+fn waterfall_chart(lines: &[WaterfallLine], per_cycle: usize) -> Option<String> {
+    let (first, last) = (lines.first()?, lines.last()?);
+    let bins = (first.amplitudes.len() - 1).max(1);
+    let per_bin = 0.5 * per_cycle as f64 / bins as f64;
+    let shown = ((SHOWN_ORDERS / per_bin).floor() as usize).clamp(1, bins);
+    let largest = lines.iter().flat_map(|l| &l.amplitudes[1..=shown]).fold(0.0, |m: f64, a| m.max(*a));
+    let (across, along) = (shown.div_ceil(CELLS[0]).max(1), lines.len().div_ceil(CELLS[1]).max(1));
+    let columns: Vec<usize> = (1..=shown).step_by(across).collect();
+    let rows: Vec<&[WaterfallLine]> = lines.chunks(along).collect();
+    let cell = |block: &[WaterfallLine], from: usize| {
+        let to = (from + across).min(shown + 1);
+        let value = block.iter().flat_map(|l| &l.amplitudes[from..to]).fold(0.0, |m: f64, a| m.max(*a));
+        share(value, largest, Some(DECADES))
+    };
+    let order = |k: usize| per_bin * (k as f64 - 0.5);
+    let end = last.time.max(first.time + 1e-9);
+    let mean = |block: &[WaterfallLine]| block.iter().map(|l| l.speed_rpm).sum::<f64>() / block.len() as f64;
+    let map = FieldMap {
+        title: format!("Waterfall of the DTE, colours over {DECADES:.0} decades up to {largest:.3} um"),
+        sides: [
+            Side { label: "mesh order", edges: columns.iter().map(|&k| order(k)).chain([order(shown + 1)]).collect() },
+            Side { label: "time [s]", edges: rows.iter().map(|block| block[0].time).chain([end]).collect() },
+        ],
+        quantity: "DTE amplitude [um]",
+        largest,
+        decades: Some(DECADES),
+        beside: Some(("pinion speed [1/min]", Numbers(rows.iter().map(|block| mean(block)).collect(), 6))),
+        shares: rows.iter().flat_map(|block| columns.iter().map(|&from| cell(block, from))).collect(),
+    };
+    Some(figure(&map.picture()?, &[embedded("map", &map)]))
+}

@@ -1,0 +1,93 @@
+//! Error of the methods of integration against what they cost: chart, CSV and table.
+
+use std::fmt::Write;
+
+use analysis::motion::{MotionPrecision, MotionPrecisionPoint};
+use plotters::prelude::*;
+
+use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+
+const SIZE: (u32, u32) = (1040, 470);
+const HEAD: u32 = 84;
+/// Errors below this are drawn on the axis, um: what contact itself is known to is no more.
+const LEAST_UM: f64 = 1e-6;
+/// Errors above this are of methods that do not hold, um.
+const MOST_UM: f64 = 100.0;
+
+/// The chart as SVG: errors against steps and against wall time.
+///
+/// # Errors
+/// What the drawing library complains of.
+pub fn motion_precision_svg(title: &str, of: &MotionPrecision) -> Result<String, String> {
+    let mut svg = String::new();
+    draw(&mut svg, title, of).map_err(|e| e.to_string())?;
+    Ok(svg)
+}
+
+fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failure> {
+    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (head, body) = root.split_vertically(HEAD);
+    let methods = of.methods();
+    legend(&head, title, &methods)?;
+    let panels = body.split_evenly((1, 2));
+    let curves = |x: fn(&MotionPrecisionPoint) -> f64, labelled: bool| -> Vec<Vec<Labelled>> {
+        let of_method = |method: &&str| {
+            let points = of.points.iter().filter(|p| p.method == *method);
+            let stands = points.filter_map(|p| Some((p, p.error_um.filter(|e| *e < MOST_UM)?)));
+            let at = |p: &MotionPrecisionPoint, error: f64| Labelled {
+                at: (x(p), error.max(LEAST_UM)),
+                label: labelled.then(|| p.steps.to_string()),
+            };
+            stands.map(|(p, error)| at(p, error)).collect()
+        };
+        methods.iter().map(of_method).collect()
+    };
+    let words = |title, x| Captions { title, x, y: "largest error of DTE [um]" };
+    let by_steps = curves(|p| f64::from(p.steps), false);
+    log_panel(&panels[0], words("Error against step", "steps a mesh cycle"), &by_steps)?;
+    let by_time = curves(|p| p.cycle_s, true);
+    log_panel(&panels[1], words("Error against time (steps a mesh cycle)", "wall time of a mesh cycle [s]"), &by_time)?;
+    root.present()?;
+    Ok(())
+}
+
+/// Every point; a method that does not come through has its reason in `note`.
+pub fn motion_precision_csv(of: &MotionPrecision) -> String {
+    let mut text = "method,steps_per_mesh_cycle,error_dte_um,cycle_s,note\n".to_owned();
+    for p in &of.points {
+        let error = p.error_um.map_or_else(String::new, |e| e.to_string());
+        let note = p.note.replace('"', "\"\"");
+        let _ = writeln!(text, "{},{},{error},{},\"{note}\"", p.method, p.steps, p.cycle_s);
+    }
+    text
+}
+
+/// Errors and wall times as Markdown, a line a method.
+pub fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
+    let MotionPrecision { mesh_over_resonance, reference, cycles, .. } = of;
+    let mut t = format!(
+        "Made by `{command}`. f_m / f_0 = {mesh_over_resonance:.2}; {cycles} mesh cycles from the quasi-static start; reference: {reference}. Largest error of the DTE, um, and wall \
+         time of a mesh cycle, ms.\n\n| method |"
+    );
+    let counts = of.counts();
+    for n in &counts {
+        let _ = write!(t, " {n} |");
+    }
+    t.push_str("\n|---|");
+    t.push_str(&"---|".repeat(counts.len()));
+    for method in of.methods() {
+        let points = || of.points.iter().filter(|p| p.method == method);
+        let _ = write!(t, "\n| {method}: error |");
+        for p in points() {
+            let _ = write!(t, " {} |", p.error_um.map_or("fails".into(), |e| format!("{e:.1e}")));
+        }
+        let _ = write!(t, "\n| {method}: time |");
+        for p in points() {
+            let time = if p.cycle_s.is_finite() { format!("{:.1}", 1e3 * p.cycle_s) } else { "-".into() };
+            let _ = write!(t, " {time} |");
+        }
+    }
+    t.push('\n');
+    t
+}
