@@ -13,7 +13,7 @@
 //! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | what must hold of a result before its numbers count |
 //! | [`reduce`] | reduction of a scene's gears by itself |
-//! | [`parameter_study`] | the same figures of several scenes, side by side |
+//! | `study_cases` | runs the scenes of a study, each into a folder of its own |
 //! | `chart` | what a chart takes from this process |
 //! | [`command`] | the subcommands |
 
@@ -26,7 +26,6 @@ pub mod facts;
 pub mod memory;
 mod motion;
 pub mod output;
-pub mod parameter_study;
 pub mod phases;
 pub mod run;
 pub use ::scene;
@@ -36,6 +35,7 @@ mod lumped;
 mod partial;
 pub mod reduce;
 mod room;
+mod study_cases;
 mod work_folder;
 
 pub(crate) use analysis::{elastic_gears, gears};

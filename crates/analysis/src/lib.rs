@@ -39,6 +39,7 @@ pub mod meshes;
 pub mod motion;
 mod observer;
 mod options;
+pub mod parameter_study;
 pub mod resolution;
 pub mod results;
 mod static_certificate;

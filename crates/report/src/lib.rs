@@ -12,6 +12,7 @@
 //! | [`accuracy_chart`] | table and picture of accuracy against cost |
 //! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
+//! | [`study_files`] | the same figures of several scenes, side by side |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
@@ -33,6 +34,7 @@ pub mod motion_files;
 pub mod page;
 pub mod paraview;
 mod rows;
+pub mod study_files;
 mod summary;
 pub mod tables;
 pub mod view;

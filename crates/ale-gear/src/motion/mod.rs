@@ -25,7 +25,6 @@ use store::{CheckpointFolder, Checkpoints, Stored};
 
 pub(crate) use report::read_columns;
 pub(crate) use rows::{ENERGY_FILE, HISTORY, column_names};
-pub(crate) use study::Columns;
 
 use crate::{
     cache::Cache,

@@ -4,18 +4,12 @@
 mod columnar;
 mod directory;
 mod error;
-mod study_charts;
-mod study_report;
-mod study_tables;
 
 pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
 pub(crate) use columnar::close;
-pub(crate) use directory::CASES;
 pub use directory::ResultDirectory;
-pub(crate) use study_report::{StudyResult, write_study_report, write_study_summary};
-pub(crate) use study_tables::{study_csv, study_table};
 
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},
@@ -28,6 +22,6 @@ pub use ::report::{
 pub(crate) use ::report::{
     columns::history_columns,
     motion_files::{motion_precision_csv, motion_precision_svg, motion_precision_table},
-    tables::fixed,
+    study_files::CASES,
 };
 pub(crate) use analysis::results::{root_stress_headline, root_stress_warnings};

@@ -2,6 +2,8 @@
 
 use analysis::accuracy_chart::{Outcome, PointRow, WorkPrecision};
 
+use crate::csv::always_quoted;
+
 const HEADER: &str = "way,elements_profile,dof_before,dof_after,offline_s,cycle_s,first_cycle_s,further_cycle_s,position_s,\
                       positions_run,positions_asked,peak_memory_mb,mean_ste_um,peak_to_peak_ste_um,mean_line_length_mm,\
                       error_mean_ste,error_peak_to_peak_ste,error_mean_line_length,note\n";
@@ -26,10 +28,9 @@ pub fn chart_csv(chart: &WorkPrecision) -> String {
 
 fn line(row: &PointRow) -> String {
     let profile = row.density.map_or_else(String::new, |d| d.profile.to_string());
-    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
-    let way = quoted(row.way);
+    let way = always_quoted(row.way);
     match &row.outcome {
-        Outcome::Skipped(why) => format!("{way},{profile},{}{}\n", ",".repeat(16), quoted(why)),
+        Outcome::Skipped(why) => format!("{way},{profile},{}{}\n", ",".repeat(16), always_quoted(why)),
         Outcome::Measured { work, answer, error, note } => {
             let whole = work.positions_run == work.positions_asked;
             let fields = [
@@ -50,7 +51,7 @@ fn line(row: &PointRow) -> String {
                 optional(error.peak_to_peak_ste),
                 optional(error.mean_line_length),
             ];
-            format!("{way},{profile},{},{}\n", fields.join(","), quoted(note))
+            format!("{way},{profile},{},{}\n", fields.join(","), always_quoted(note))
         }
     }
 }

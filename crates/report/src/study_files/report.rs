@@ -3,40 +3,18 @@
 use minijinja::{context, value::Serde};
 use serde_json::{Map, Value, json};
 
-use analysis::accuracy_chart::SpeedUp;
-use report::page::Rendered;
-
 use super::{
-    directory::CASES,
-    study_charts::figures,
-    study_tables::{speed_up_text, step_s},
+    CASES, CaseResult, StudyResult,
+    charts::figures,
+    tables::{speed_up_text, step_s},
 };
-use crate::error::CommandError;
-use crate::facts::Cost;
-use crate::parameter_study::{CaseOutcome, Findings, Study};
-
-/// What files of a study are made of.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct StudyResult<'a> {
-    /// What was asked.
-    pub study: &'a Study,
-    /// What the cases left.
-    pub runs: &'a [CaseOutcome],
-    /// What was read off it.
-    pub findings: &'a Findings,
-    /// The whole model, where it was run.
-    pub speed_up: Option<&'a SpeedUp>,
-    /// What it all took.
-    pub cost: &'a Cost,
-    /// What a user should hear.
-    pub warnings: &'a [String],
-}
+use crate::{ReportError, page::Rendered};
 
 /// The report: figures, the table, each case's own report linked by its folder's name.
 ///
 /// # Errors
-/// Exit status 1 if the template cannot be filled; that would be a fault of this program.
-pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, CommandError> {
+/// For rows without a column that is drawn, and if the template cannot be filled.
+pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, ReportError> {
     let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
     let figures: Vec<Value> = figures(study, runs, findings)?
         .into_iter()
@@ -74,7 +52,7 @@ pub(crate) fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Ren
 }
 
 /// The summary as JSON; numbers without a value are `null`.
-pub(crate) fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> String {
+pub fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> String {
     let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
     let cases: Vec<Value> = (0..study.cases.len()).map(|i| case(of, i)).collect();
     let full = study.full.zip(speed_up).map(|(full, s)| {
@@ -108,7 +86,7 @@ pub(crate) fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> Stri
 }
 
 /// Whether a case left files.
-fn has_folder(run: &CaseOutcome) -> bool {
+fn has_folder(run: &CaseResult) -> bool {
     run.as_ref().map_or_else(|miss| miss.has_folder, |_| true)
 }
 
@@ -124,7 +102,7 @@ fn case(of: StudyResult<'_>, i: usize) -> Value {
         "scene": case.scene.file.display().to_string(),
         "reason": reason,
         "folder": has_folder(&of.runs[i]).then(|| format!("{CASES}/{}", of.study.folder(i))),
-        "geometry": run.map(|r| r.geometry),
+        "geometry": run.map(|r| r.record.geometry),
         "quantities": quantities,
         "steps": run.map(|r| r.steps),
         "wall_s": run.map(|r| r.cost.wall_s),

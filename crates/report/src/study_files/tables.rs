@@ -2,11 +2,17 @@
 
 use std::fmt::Write;
 
-use analysis::accuracy_chart::SpeedUp;
-use report::csv::push_row;
+use analysis::{accuracy_chart::SpeedUp, parameter_study::Findings};
+use scene::study::Study;
 
-use super::{StudyResult, fixed};
-use crate::parameter_study::{CaseOutcome, Findings, Study};
+use super::{CaseResult, StudyResult};
+use crate::{
+    csv::{always_quoted, push_row},
+    tables::fixed,
+};
+
+/// One row a case.
+pub const STUDY_FILE: &str = "study.csv";
 
 /// A number of every case.
 struct Line {
@@ -33,29 +39,24 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
     all
 }
 
-/// A text as a field of CSV.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
-}
-
 /// `study.csv`: one row a case; the last column says why a case has no result, and is empty where it has one.
-pub(crate) fn study_csv(study: &Study, findings: &Findings) -> String {
+pub fn study_csv(study: &Study, findings: &Findings) -> String {
     let lines = lines(study, findings);
     let names: Vec<&str> = lines.iter().map(|l| l.name.as_str()).collect();
     let mut csv = format!("label,value,{},reason\n", names.join(","));
     for (i, case) in study.cases.iter().enumerate() {
-        let _ = write!(csv, "{},", quoted(&case.label));
+        let _ = write!(csv, "{},", always_quoted(&case.label));
         let values = lines.iter().map(|l| l.values[i].unwrap_or(f64::NAN));
         push_row(&mut csv, std::iter::once(case.value).chain(values));
         // Behind the numbers, on their line.
         csv.pop();
-        let _ = writeln!(csv, ",{}", findings.reason(i).map(quoted).unwrap_or_default());
+        let _ = writeln!(csv, ",{}", findings.reason(i).map(always_quoted).unwrap_or_default());
     }
     csv
 }
 
 /// The closing table: a column a case, what the whole model took, phases, warnings.
-pub(crate) fn study_table(of: StudyResult<'_>) -> String {
+pub fn study_table(of: StudyResult<'_>) -> String {
     let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
     let lines = lines(study, findings);
     let label_width = lines.iter().map(|l| l.name.len()).max().unwrap_or(0).max(study.parameter.len());
@@ -95,7 +96,7 @@ pub(crate) fn study_table(of: StudyResult<'_>) -> String {
 }
 
 /// Wall time of a step in time of a case, s; `None` at rest and without a result.
-pub(super) fn step_s(runs: &[CaseOutcome], case: usize) -> Option<f64> {
+pub(super) fn step_s(runs: &[CaseResult], case: usize) -> Option<f64> {
     runs[case].as_ref().ok()?.step_s()
 }
 

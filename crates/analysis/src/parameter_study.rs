@@ -1,15 +1,44 @@
-//! What is read off the rows of the cases.
+//! What is read off the rows of the cases of a study.
 
-use super::{Case, CaseOutcome, CaseRun, Quantity, Study, Take, columns};
-use study::Columns;
+use scene::{
+    Scene,
+    study::{Study, StudyQuantity, Take, column_advice},
+};
+use study::{Columns, correlation as study_correlation};
 
-use crate::{error::CommandError, scene::Scene};
+use crate::facts::GeometryFacts;
+
+/// What a case left behind.
+#[derive(Debug, Clone)]
+pub struct CaseRecord {
+    /// Its rows, by the names of their columns.
+    pub rows: Columns,
+    /// Geometry of the pair.
+    pub geometry: GeometryFacts,
+}
+
+/// Why a case has no result.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct CaseFailure {
+    /// One line: what, where, what was expected.
+    pub message: String,
+    /// The line of a file that is meant, with a mark below it.
+    pub excerpt: Option<String>,
+    /// What to do next.
+    pub hint: Option<String>,
+    /// Whether the input is fine and yet no result came out.
+    pub is_without_result: bool,
+}
+
+/// A case's record, or why it has none.
+pub type CaseOutcome<'a> = Result<&'a CaseRecord, &'a CaseFailure>;
 
 /// Everything that tables and figures of a study are made of, but for the rows themselves.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Findings {
+pub struct Findings {
     /// Case by case, in the order of the file: its numbers, or why it has none.
-    pub cases: Vec<Result<CaseFindings, CommandError>>,
+    pub cases: Vec<Result<CaseFindings, CaseFailure>>,
     /// Pairs of columns of which one may follow the other.
     pub followers: Vec<Follower>,
     /// What could not be read off rows that are there.
@@ -18,7 +47,7 @@ pub(crate) struct Findings {
 
 /// Numbers of one case.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CaseFindings {
+pub struct CaseFindings {
     /// Contact ratios: transverse, overlap, total.
     pub contact_ratios: [f64; 3],
     /// The quantities of the study, in its order.
@@ -27,7 +56,7 @@ pub(crate) struct CaseFindings {
 
 /// How nearly one column follows another.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Follower {
+pub struct Follower {
     /// The one.
     pub column: String,
     /// The other.
@@ -44,16 +73,6 @@ impl Follower {
 }
 
 impl Findings {
-    /// Cases that have a result, with its rows.
-    pub fn with_result<'a>(
-        &'a self,
-        study: &'a Study,
-        runs: &'a [CaseOutcome],
-    ) -> impl Iterator<Item = (&'a Case, &'a CaseRun, &'a CaseFindings)> {
-        let all = study.cases.iter().zip(runs).zip(&self.cases);
-        all.filter_map(|((case, run), found)| Some((case, run.as_ref().ok()?, found.as_ref().ok()?)))
-    }
-
     /// Why a case has no result; `None` where it has one.
     pub fn reason(&self, case: usize) -> Option<&str> {
         self.cases[case].as_ref().err().map(|e| e.message.as_str())
@@ -71,11 +90,11 @@ impl Findings {
 ///
 /// # Errors
 /// The first complaint, where no case has a result.
-pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, CommandError> {
+pub fn findings(study: &Study, runs: &[CaseOutcome<'_>]) -> Result<Findings, CaseFailure> {
     let cases: Vec<_> = runs
         .iter()
         .enumerate()
-        .map(|(i, run)| run.as_ref().map_err(|miss| miss.error.clone()).and_then(|run| of_case(study, i, run)))
+        .map(|(i, run)| run.map_err(CaseFailure::clone).and_then(|run| of_case(study, i, run)))
         .collect();
     if let (true, Some(Err(first))) = (cases.iter().all(Result::is_err), cases.first()) {
         let (label, message) = (&study.cases[0].label, &first.message);
@@ -83,7 +102,7 @@ pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, 
             1 => message.clone(),
             n => format!("{}: none of {n} cases has a result; {label}: {message}", study.file.display()),
         };
-        return Err(CommandError { message, ..first.clone() });
+        return Err(CaseFailure { message, ..first.clone() });
     }
     let mut all = Findings { cases, followers: Vec::new(), warnings: Vec::new() };
     for follow in &study.follow {
@@ -93,9 +112,9 @@ pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, 
             }
             let mut correlation = Vec::with_capacity(runs.len());
             for (i, run) in runs.iter().enumerate() {
-                let run = run.as_ref().ok().filter(|_| all.cases[i].is_ok());
+                let run = run.ok().filter(|_| all.cases[i].is_ok());
                 let found =
-                    run.map(|run| ::study::correlation(run.rows.series(&follow.column)?, run.rows.series(beside)?));
+                    run.map(|run| study_correlation(run.rows.series(&follow.column)?, run.rows.series(beside)?));
                 if let Some(Err(e)) = &found {
                     let label = &study.cases[i].label;
                     all.warnings.push(format!("{label}: no correlation of {} with {beside}: {e}", follow.column));
@@ -109,9 +128,9 @@ pub(crate) fn findings(study: &Study, runs: &[CaseOutcome]) -> Result<Findings, 
 }
 
 /// Numbers of one case, which must have every column that is asked for.
-fn of_case(study: &Study, i: usize, run: &CaseRun) -> Result<CaseFindings, CommandError> {
+fn of_case(study: &Study, i: usize, run: &CaseRecord) -> Result<CaseFindings, CaseFailure> {
     let quantities = study.quantities.iter().map(|q| Ok(taken(q, column(study, i, run, &q.column)?)));
-    let quantities = quantities.collect::<Result<_, CommandError>>()?;
+    let quantities = quantities.collect::<Result<_, CaseFailure>>()?;
     let followed = study.follow.iter().flat_map(|f| std::iter::once(&f.column).chain(&f.beside));
     for name in followed.chain(study.over_time.iter().map(|o| &o.column)) {
         column(study, i, run, name)?;
@@ -121,19 +140,21 @@ fn of_case(study: &Study, i: usize, run: &CaseRun) -> Result<CaseFindings, Comma
 }
 
 /// A column of a case; some models tell only by their rows which they have.
-fn column<'a>(study: &Study, i: usize, run: &'a CaseRun, name: &str) -> Result<&'a [f64], CommandError> {
+fn column<'a>(study: &Study, i: usize, run: &'a CaseRecord, name: &str) -> Result<&'a [f64], CaseFailure> {
     if let Some(found) = run.rows.find(name).filter(|all| !all.is_empty()) {
         return Ok(found);
     }
-    let advice = columns::advice(name, &run.rows.names_from(""));
+    let advice = column_advice(name, &run.rows.names_from(""));
     let label = &study.cases[i].label;
-    Err(CommandError::input(
-        format_args!("{}: the case \"{label}\" has no column {name}", study.file.display()),
-        advice,
-    ))
+    Err(CaseFailure {
+        message: format!("{}: the case \"{label}\" has no column {name}", study.file.display()),
+        excerpt: None,
+        hint: advice,
+        is_without_result: false,
+    })
 }
 
-fn taken(quantity: &Quantity, column: &[f64]) -> f64 {
+fn taken(quantity: &StudyQuantity, column: &[f64]) -> f64 {
     let least = column.iter().copied().fold(f64::INFINITY, f64::min);
     let largest = column.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     match quantity.take {
@@ -150,7 +171,7 @@ fn rows_per_cycle(scene: &Scene) -> usize {
 }
 
 /// The last mesh cycles of a case's rows; all of them where none are given.
-pub(crate) fn last_cycles(scene: &Scene, rows: &Columns, cycles: Option<u32>) -> Columns {
+pub fn last_cycles(scene: &Scene, rows: &Columns, cycles: Option<u32>) -> Columns {
     let all = rows.len();
     rows.last(cycles.map_or(all, |n| (n as usize).saturating_mul(rows_per_cycle(scene)).min(all)))
 }

@@ -1,32 +1,26 @@
 //! Which columns the rows of a scene will have: a misspelt one is told before hours of work, not after.
 
-use analysis::lumped::is_lumped;
 use toml::Spanned;
 
-use super::Case;
-use crate::{
-    motion,
-    output::history_columns,
-    scene::{Scene, SceneError, Source, nearest},
-};
+use super::StudyCase;
+use crate::{Scene, SceneError, Source, nearest};
+
+/// Columns that a scene's rows will have; `None` where only a run can tell.
+pub type ColumnsOf<'a> = &'a dyn Fn(&Scene) -> Option<Vec<String>>;
 
 /// Columns of single pairs go with the window, which is known when the motion begins.
 const BY_PAIR: &str = "_pair_";
 
-/// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
-fn of(scene: &Scene) -> Option<Vec<String>> {
-    match &scene.motion {
-        Some(_) if is_lumped(scene) => None,
-        Some(_) => Some(motion::column_names(scene)),
-        None => Some(history_columns(scene, &[])),
-    }
-}
-
 /// A column as written, when every case may have it.
-pub(super) fn known(s: &Source<'_>, key: &str, word: &Spanned<String>, cases: &[Case]) -> Result<String, SceneError> {
+pub(super) fn known(
+    s: &Source<'_>,
+    key: &str,
+    word: &Spanned<String>,
+    (cases, columns): (&[StudyCase], ColumnsOf<'_>),
+) -> Result<String, SceneError> {
     let name = word.get_ref();
     for case in cases {
-        let Some(all) = of(&case.scene) else { continue };
+        let Some(all) = columns(&case.scene) else { continue };
         if all.contains(name) || name.contains(BY_PAIR) {
             continue;
         }
@@ -36,14 +30,14 @@ pub(super) fn known(s: &Source<'_>, key: &str, word: &Spanned<String>, cases: &[
             key: key.to_owned(),
             value: format!("\"{name}\""),
             allowed: format!("a column of history.csv of the case \"{}\"", case.label),
-            advice: advice(name, &all),
+            advice: column_advice(name, &all),
         });
     }
     Ok(name.clone())
 }
 
-/// What may have been meant.
-pub(super) fn advice(name: &str, all: &[&str]) -> Option<String> {
+/// What may have been meant by a column that is not there.
+pub fn column_advice(name: &str, all: &[&str]) -> Option<String> {
     Some(match nearest(name, all) {
         Some(near) => format!("did you mean \"{near}\"?"),
         None => "docs/outputs.md lists the columns of every kind of analysis".into(),

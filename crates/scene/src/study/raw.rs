@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::scene::{Number, Whole, Word};
+use crate::{Number, Whole, Word};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[

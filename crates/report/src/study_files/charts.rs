@@ -1,12 +1,14 @@
 //! Figures of a study.
 
+use analysis::parameter_study::{Findings, last_cycles};
+use scene::study::{Follow, OverTime, Study};
 use study::StudyError;
 
-use report::charts::{Curve, line_chart};
-
-use report::columns::motion_history::{MESH_PHASE, TIME};
-
-use crate::parameter_study::{CaseOutcome, Findings, Follow, OverTime, Study, last_cycles};
+use super::{CaseResult, with_result};
+use crate::{
+    charts::{Curve, line_chart},
+    columns::motion_history::{MESH_PHASE, TIME},
+};
 
 /// A figure: a sentence above its charts.
 pub(super) struct Figure {
@@ -18,7 +20,7 @@ pub(super) struct Figure {
 ///
 /// # Errors
 /// [`StudyError`] for rows without a column that is drawn.
-pub(super) fn figures(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Result<Vec<Figure>, StudyError> {
+pub(super) fn figures(study: &Study, runs: &[CaseResult], findings: &Findings) -> Result<Vec<Figure>, StudyError> {
     let follow = study.follow.iter().map(|f| following(study, runs, findings, f));
     let over_time = study.over_time.iter().map(|o| over_time(study, runs, findings, o));
     let over_value = (!study.quantities.is_empty()).then(|| Ok(over_value(study, runs, findings)));
@@ -26,13 +28,13 @@ pub(super) fn figures(study: &Study, runs: &[CaseOutcome], findings: &Findings) 
 }
 
 /// Columns of one case over mesh cycles, one under the other, and each pair of them against each other.
-fn following(study: &Study, runs: &[CaseOutcome], findings: &Findings, follow: &Follow) -> Result<Figure, StudyError> {
+fn following(study: &Study, runs: &[CaseResult], findings: &Findings, follow: &Follow) -> Result<Figure, StudyError> {
     let case = &study.cases[follow.case];
     let (Ok(run), Ok(_)) = (&runs[follow.case], &findings.cases[follow.case]) else {
         let text = format!("{} has no result: {} is not drawn.", case.label, follow.column);
         return Ok(Figure { text, charts: Vec::new() });
     };
-    let rows = last_cycles(&case.scene, &run.rows, follow.cycles);
+    let rows = last_cycles(&case.scene, &run.record.rows, follow.cycles);
     let cycles = mesh_cycles(rows.series(MESH_PHASE.name)?);
     let chart = |name: &String| {
         let curve = Curve { label: name.to_owned(), points: points(&cycles, rows.series(name)?) };
@@ -66,11 +68,10 @@ fn following(study: &Study, runs: &[CaseOutcome], findings: &Findings, follow: &
 }
 
 /// One column of all cases over time, each from the beginning of its cycles shown.
-fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &OverTime) -> Result<Figure, StudyError> {
-    let curves = findings
-        .with_result(study, runs)
+fn over_time(study: &Study, runs: &[CaseResult], findings: &Findings, over: &OverTime) -> Result<Figure, StudyError> {
+    let curves = with_result(study, runs, findings)
         .map(|(case, run, _)| {
-            let rows = last_cycles(&case.scene, &run.rows, over.cycles);
+            let rows = last_cycles(&case.scene, &run.record.rows, over.cycles);
             let time = rows.series(TIME.name)?;
             let begin = time.first().copied().unwrap_or(0.0);
             let since: Vec<f64> = time.iter().map(|t| 1e3 * (t - begin)).collect();
@@ -82,10 +83,10 @@ fn over_time(study: &Study, runs: &[CaseOutcome], findings: &Findings, over: &Ov
 }
 
 /// The quantities over the parameter, one chart each.
-fn over_value(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Figure {
+fn over_value(study: &Study, runs: &[CaseResult], findings: &Findings) -> Figure {
     let charts = study.quantities.iter().enumerate().filter_map(|(k, quantity)| {
         let mut at: Vec<(f64, f64)> =
-            findings.with_result(study, runs).map(|(case, _, found)| (case.value, found.quantities[k])).collect();
+            with_result(study, runs, findings).map(|(case, _, found)| (case.value, found.quantities[k])).collect();
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
         let name = quantity.name();
         let title = format!("{name} against {}", study.parameter);

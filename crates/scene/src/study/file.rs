@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::check::check;
+use super::columns::ColumnsOf;
 use super::raw::{RawStudy, tables};
-use crate::scene::{Scene, SceneError, Source, read_text};
+use crate::{Scene, SceneError, Source, read_text};
 
 /// A checked study.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,9 +19,9 @@ pub struct Study {
     /// What the value of a case is, with its unit: the axis of figures over it.
     pub parameter: String,
     /// The scenes, in the order of the file.
-    pub cases: Vec<Case>,
+    pub cases: Vec<StudyCase>,
     /// Numbers of each case: columns of the table, and a figure over the parameter each.
-    pub quantities: Vec<Quantity>,
+    pub quantities: Vec<StudyQuantity>,
     /// Figures over time, a curve a case.
     pub over_time: Vec<OverTime>,
     /// Figures of one case over mesh cycles, with correlations of every case.
@@ -31,7 +32,7 @@ pub struct Study {
 
 /// A scene of a study.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub struct StudyCase {
     /// Name in tables and legends.
     pub label: String,
     /// Place on the axis of the parameter.
@@ -42,7 +43,7 @@ pub struct Case {
 
 /// A number that is read off a column of a case's rows.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Quantity {
+pub struct StudyQuantity {
     /// Column of `history.csv`.
     pub column: String,
     /// What is taken of it.
@@ -95,23 +96,23 @@ pub struct FullRun {
 }
 
 impl Study {
-    /// Reads and checks a study file and the scenes that it names.
+    /// Reads and checks a study file and the scenes that it names; `columns` tells which columns the rows of a scene will have.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the study file or in a scene.
-    pub fn read(file: &Path) -> Result<Self, SceneError> {
+    pub fn read(file: &Path, columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
         let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file)
+        Self::parse(&text, file, columns)
     }
 
     /// Checks the text of a study file; `file` is what messages name and what paths are relative to.
     ///
     /// # Errors
     /// As [`Study::read`].
-    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+    pub fn parse(text: &str, file: &Path, columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
         let raw: RawStudy = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
-        check(&source, raw)
+        check(&source, raw, columns)
     }
 
     /// Name of the folder of a case's own results, below the study's: its number and its label, letters and digits.
@@ -121,7 +122,7 @@ impl Study {
     }
 }
 
-impl Quantity {
+impl StudyQuantity {
     /// Name with the unit that the column's name ends in.
     pub fn name(&self) -> String {
         format!("{}_{}", self.take.word(), self.column)
