@@ -4,7 +4,7 @@
 
 use std::mem::size_of;
 
-use analysis::lumped::is_lumped;
+use analysis::lumped::{LumpedRow, is_lumped};
 use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
 
@@ -22,6 +22,8 @@ const NUMBER: usize = size_of::<f64>();
 const TEXT: usize = 20;
 /// Columns of a cheaper model, about.
 const LUMPED_COLUMNS: usize = 40;
+/// A row of a cheaper model, its coordinates with their rates included.
+const LUMPED_ROW: usize = size_of::<LumpedRow>() + 24 * NUMBER;
 /// Teeth of a window, about, where the contact ratio says.
 const WINDOW: usize = 3;
 /// Square matrices of all slices of a window that contact holds at a time.
@@ -61,7 +63,7 @@ pub(crate) fn for_sweep(
         rows.push(("mesh cycles of a turn".to_owned(), f64::from(every)));
     }
     // Ways are run side by side.
-    let bytes_each = (ways.max(1) * LUMPED_COLUMNS * (NUMBER + TEXT)) as f64;
+    let bytes_each = (ways.max(1) * LUMPED_ROW) as f64;
     let along = vec![("--points".to_owned(), values as f64), cycles, ("ways".to_owned(), ways as f64)];
     let sections = Demand { what: "points of sections", factors: along, bytes_each: (NUMBER + 3 * TEXT) as f64 };
     each(scene, &[Demand { what: "rows", factors: rows, bytes_each }, sections])
@@ -91,13 +93,13 @@ fn demands(scene: &Scene) -> Vec<Demand> {
         Some(words) => {
             let mut factors =
                 vec![cycles(scene, words), count("motion.steps_per_mesh_cycle", words.steps_per_mesh_cycle)];
-            let on_ladder = is_lumped(scene);
-            let columns = if on_ladder { LUMPED_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
-            let mut bytes_each = columns * (NUMBER + TEXT);
+            let is_cheaper = is_lumped(scene);
+            let columns = if is_cheaper { LUMPED_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
+            let mut bytes_each = columns * (NUMBER + TEXT) + if is_cheaper { LUMPED_ROW } else { 0 };
             if let Some(sweep) = &words.sweep {
-                if on_ladder {
+                if is_cheaper {
                     // Rows of a speed are let go before the next one; ways are run side by side.
-                    bytes_each *= sweep.ways.len();
+                    bytes_each = LUMPED_ROW * sweep.ways.len();
                 } else {
                     factors.push(count("motion.sweep.speeds", sweep.speeds));
                     bytes_each = 2 * NUMBER * sweep.ways.len();
