@@ -6,6 +6,7 @@ mod pattern;
 mod pressure_place;
 mod root_stress;
 mod static_headline;
+mod tooth_change;
 
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
@@ -14,3 +15,4 @@ pub use root_stress::{
     root_stress_headline, root_stress_warnings,
 };
 pub use static_headline::{StaticHeadline, static_headline};
+pub use tooth_change::ToothChangeHeadline;
