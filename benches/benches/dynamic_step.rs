@@ -1,4 +1,5 @@
-//! Steps of the default pair in motion: time of one, and how that stands to the time it simulates; see `benches/README.md`.
+//! Steps of the default pair in motion: time of one, and how that stands to the time it simulates; see
+//! `benches/README.md`.
 #![allow(clippy::print_stdout, reason = "the table is what the bench is for")]
 
 use std::{f64::consts::TAU, time::Instant};

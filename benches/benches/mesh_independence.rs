@@ -1,7 +1,8 @@
-//! Transmission error over mesh density: slices, pressed points with exact contact, pressed points with a penalty; see `benches/README.md`.
+//! Transmission error over mesh density: slices, pressed points with exact contact, pressed points with a penalty; see
+//! `benches/README.md`.
 //!
-//! `cargo bench -p benches --bench mesh_independence` takes the three coarser meshes for all methods and the finest for slices; `-- --quick` leaves the finest
-//! out, `-- --points` the slices.
+//! `cargo bench -p benches --bench mesh_independence` takes the three coarser meshes for all methods and the finest for
+//! slices; `-- --quick` leaves the finest out, `-- --points` the slices.
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
 use std::time::Instant;

@@ -25,7 +25,8 @@ enum Way {
     Sector,
 }
 
-/// `offline`: the table; `offline --largest`: grows the mesh until memory ends; the rest is for the program's own children.
+/// `offline`: the table; `offline --largest`: grows the mesh until memory ends; the rest is for the program's own
+/// children.
 fn main() {
     let arguments: Vec<String> = env::args().collect();
     if let Some(at) = arguments.iter().position(|a| a == "--child") {

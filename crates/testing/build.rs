@@ -1,4 +1,5 @@
-//! Makes the folder of the records beside those of all builds of this profile, and in it the file that the doc examples include, still empty.
+//! Makes the folder of the records beside those of all builds of this profile, and in it the file that the doc examples
+//! include, still empty.
 
 use std::path::{Path, PathBuf};
 

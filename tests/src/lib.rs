@@ -97,7 +97,8 @@ pub fn summary(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (sum / n, high - low)
 }
 
-/// Meshes of the built-in mesher; `counts`: elements along the profile, the fillet, across the tooth, along the face, in the rim.
+/// Meshes of the built-in mesher; `counts`: elements along the profile, the fillet, across the tooth, along the face,
+/// in the rim.
 fn meshes(pair: &GearPair, order: u32, counts: [u32; 5], extent: mesh::Extent) -> [GearMesh; 2] {
     let [profile, fillet, thickness, face, rim] = counts;
     let options = mesh::StructuredOptions {
@@ -125,7 +126,8 @@ pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {
     Case { pair, meshes, elements: ElementOptions::default(), torque: 150e3 }
 }
 
-/// Any pair on quadratic meshes of the built-in mesher; `wheel` bears its own helix angle, `counts` as in [`generated`].
+/// Any pair on quadratic meshes of the built-in mesher; `wheel` bears its own helix angle, `counts` as in
+/// [`generated`].
 pub fn quadratic(
     data: [GearData; 2],
     centre_distance: Option<f64>,

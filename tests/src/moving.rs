@@ -12,7 +12,8 @@ use reduction::ElasticGear;
 
 use super::Case;
 
-/// Everything is held but the driven gear's turn: the driver keeps its `speed` (rad/s), `torque` (N mm) is steady, `ratio` damps the mesh.
+/// Everything is held but the driven gear's turn: the driver keeps its `speed` (rad/s), `torque` (N mm) is steady,
+/// `ratio` damps the mesh.
 pub fn at_speed(statics: StaticOptions, bodies: [RigidBody; 2], speed: f64, torque: f64, ratio: f64) -> MotionOptions {
     MotionOptions {
         statics,

@@ -13,8 +13,6 @@
 //! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | what must hold of a result before its numbers count |
 //! | [`reduce`] | reduction of a scene's gears by itself |
-//! | [`starter`] | the scene that a user begins with |
-//! | [`rexs`] | gear data from REXS files |
 //! | [`chart`] | accuracy against cost of every model |
 //! | [`parameter_study`] | the same figures of several scenes, side by side |
 //! | [`command`] | the subcommands |
@@ -32,13 +30,11 @@ pub mod parameter_study;
 pub mod phases;
 pub mod run;
 pub use ::scene;
-pub mod starter;
 pub mod talk;
 
 mod ladder;
 mod partial;
 pub mod reduce;
-pub mod rexs;
 mod room;
 mod work_folder;
 

@@ -59,7 +59,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
     warnings.extend(doubts(pair, bending / mean_te));
     let mut facts = Facts { geometry: gears::geometry_facts(pair), model, ..Facts::default() };
     warnings.extend(iso_root::add(&mut facts, scene, pair));
-    Ok((StaticHistory { positions, warnings }, facts))
+    Ok((StaticHistory { positions, warnings, ..StaticHistory::default() }, facts))
 }
 
 /// Transverse contact ratio below which ISO 6336-1 wants less stiffness than its formula and gives no figure.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use ale::solve_widening;
+use ale::{Station, solve_widening};
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
 use mesh::Mesh;
@@ -172,7 +172,7 @@ fn facts_of(model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
         dof_before,
         dof_after: dof_after(model, dof_before),
         window_teeth: Some(model.window().count() as u32),
-        contact_points: Some(model.contact_set().points().iter().map(Vec::len).sum()),
+        contact_points: Some(model.contact_set().candidate_count()),
         ..Facts::default()
     };
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
@@ -256,6 +256,12 @@ fn attempt(
         }
     })?;
     sink.finish().map_err(AnalysisError::Sink)?;
+    // Where a window of an odd number of teeth changes, the cycle ends. Whole gears have no window that could slide.
+    if model.contact_set().windows().is_some() {
+        let end = Station { cycle: cycles as i64, phase: 0.0 };
+        let closing = run_phase(observer, "change", PhaseWork::Unknown, |_| model.tooth_changes_at(end))?;
+        history.tooth_changes.extend(closing);
+    }
     if cache.is_on() {
         // After the run, when every window and half tooth that it took is known.
         warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));

@@ -1,4 +1,5 @@
-//! Contact alone: two reduced gears stand where they are told, and the wheel is turned into the pinion step by step.
+//! Contact alone: two reduced gears stand where they are told, and the wheel is turned into the pinion step by step;
+//! once with slices, once with points.
 //!
 //! `cargo run --release -p contact --example given_poses`
 #![allow(clippy::print_stdout, reason = "an example prints")]
@@ -6,7 +7,7 @@
 use std::error::Error;
 
 use ale::{SlidingWindow, Station, teeth_needed};
-use contact::{ContactOptions, ContactSet, MeshContact, frames};
+use contact::{ContactOptions, ContactSet, Method, WindowContact, frames};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
@@ -30,20 +31,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let [first, second] = window.first_teeth();
     let gears = [reduce(&pair.pinion, first)?, reduce(&pair.wheel, second)?];
-    let set = ContactSet::new(&pair, &gears, window, &options)?;
-    let mut contact = MeshContact::new(&pair, set.clone(), &options)?;
 
-    println!("{:>12} {:>12} {:>14} {:>16}", "approach", "force [N]", "tilting [N mm]", "stiffness [N/um]");
+    println!("{:>8} {:>12} {:>12} {:>14} {:>16}", "", "approach", "force [N]", "tilting [N mm]", "stiffness [N/um]");
     let station = Station { cycle: 0, phase: 0.25 };
-    for step in 0..5 {
-        let approach_mm = 5e-3 * f64::from(step);
-        let turn = options.side().sign() * approach_mm / pair.wheel.base_radius();
-        let poses = frames(&pair, &set, window, &options, station, [0.0, turn]);
-        let force = contact.evaluate(&poses)?;
-        let total: f64 = force.pair_forces.iter().sum();
-        // Stiffness about the wheel's axis, on its base circle.
-        let stiffness = -1e-3 * force.tangent[11][11] / pair.wheel.base_radius().powi(2);
-        println!("{approach_mm:>9.3} mm {total:>12.1} {:>14.0} {stiffness:>16.2}", force.wrench[0].moment[1]);
+    for method in [Method::Slice, Method::Nodal] {
+        let options = ContactOptions { method, ..options.clone() };
+        let set = ContactSet::new(&pair, &gears, window, &options)?;
+        let mut contact = WindowContact::new(&pair, set.clone(), &options)?;
+        for step in 0..5 {
+            let approach_mm = 5e-3 * f64::from(step);
+            let turn = options.side().sign() * approach_mm / pair.wheel.base_radius();
+            let poses = frames(&pair, &set, window, &options, station, [0.0, turn]);
+            let force = contact.evaluate(&pair, &gears, &options, &poses)?;
+            let (total, tilting): (f64, f64) = (force.pair_forces.iter().sum(), force.wrench[0].moment[1]);
+            // Stiffness about the wheel's axis, on its base circle.
+            let stiffness = -1e-3 * force.tangent[11][11] / pair.wheel.base_radius().powi(2);
+            println!("{method:?} {approach_mm:>12.3} mm {total:>12.1} {tilting:>14.0} {stiffness:>16.2}");
+        }
     }
     Ok(())
 }

@@ -14,6 +14,7 @@
 mod bracketing;
 pub mod complementarity;
 mod compliance;
+mod elastic_contact;
 mod error;
 mod flank;
 mod friction;
@@ -35,6 +36,7 @@ pub use complementarity::{
 pub use compliance::{
     BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
 };
+pub use elastic_contact::{CandidateRows, ElasticContact, WarmStart, warm_start};
 pub use error::ContactError;
 pub use flank::{
     Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, GapSource, Surface, contact_points,
@@ -52,11 +54,11 @@ pub use nodal::{
 pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
 pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};
-pub use result::{Site, SliceResult, Wrench, local_energy, slice_result, wrenches};
+pub use result::{MeshForce, Site, SliceResult, Wrench, local_energy, opening_by_motion, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
-    ContactWork, EvaluationLevel, FlankPair, MeshContact, MeshForce, NearestPoint, RigidFlanks, Slice, SliceFlank,
-    SliceHint, SlicePoint, SliceSet, ToothLayer, slice,
+    ContactWork, EvaluationLevel, FlankPair, MeshContact, NearestPoint, RigidFlanks, Slice, SliceFlank, SliceHint,
+    SlicePoint, SliceSet, ToothLayer, slice,
 };
 
 pub use window::WindowContact;

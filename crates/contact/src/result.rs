@@ -14,6 +14,35 @@ pub struct Wrench {
     pub moment: [f64; 3],
 }
 
+/// Forces of the mesh on both gears at given poses, and their derivatives by the motion of the gears.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshForce {
+    /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
+    pub wrench: [Wrench; 2],
+    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
+    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
+    ///
+    /// ```text
+    /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
+    /// ```
+    /// Exact while the contact points stay where they are on the flanks; their motion along the flanks changes it by
+    /// about a thousandth of its largest entries. Symmetric and negative semi-definite without friction.
+    pub tangent: [[f64; 12]; 12],
+    /// Normal force of each pair of the window, N, in order of running numbers.
+    pub pair_forces: Vec<f64>,
+    /// Newton steps.
+    pub iterations: usize,
+    /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
+    pub residual: f64,
+}
+
+impl MeshForce {
+    /// No contact; one 0 a pair of the window.
+    pub(crate) fn none(pair_forces: Vec<f64>) -> Self {
+        Self { wrench: Default::default(), tangent: [[0.0; 12]; 12], pair_forces, iterations: 0, residual: 0.0 }
+    }
+}
+
 /// What part of the flanks presses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -122,4 +151,17 @@ fn site(slice: &Slice, half_width: f64) -> Site {
 /// What the local approach stores beyond half of force times approach, N mm.
 pub fn local_energy(slice: &Slice, force: f64) -> f64 {
     slice.length * slice.local.law().curved_energy(force / slice.length)
+}
+
+/// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about
+/// their `centres`. Along the normal it is the derivative of the gap.
+pub fn opening_by_motion(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+    let mut j = [0.0; 12];
+    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
+        let force = sign * direction;
+        let moment = (row.position - centres[body]).cross(&force);
+        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
+        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
+    }
+    j
 }

@@ -25,10 +25,8 @@ pub struct ContactSet {
 #[derive(Debug)]
 struct Shared {
     patches: [Vec<FlankPatch>; 2],
-    points: Vec<Vec<ContactPoint>>,
-    trees: [Candidates; 2],
-    /// Axial stations for points of least gap: twice as many as Gauss points lie along the face.
-    stations: usize,
+    /// What points need; none for slices, which find their partner without it.
+    nodal: Option<NodalFlanks>,
     /// Side of each patch.
     sides: [Vec<Side>; 2],
     /// First tooth of each gear's window in the frame of its matrices.
@@ -36,6 +34,29 @@ struct Shared {
     slices: Option<SliceSet>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
     pitch_errors: [bool; 2],
+}
+
+/// What the contact of points needs beside the flank patches.
+#[derive(Debug)]
+struct NodalFlanks {
+    /// Contact points of each patch of the pinion.
+    points: Vec<Vec<ContactPoint>>,
+    /// Faces of both gears for stage 1.
+    trees: [Candidates; 2],
+    /// Axial stations for points of least gap: twice as many as Gauss points lie along the face.
+    stations: usize,
+}
+
+impl NodalFlanks {
+    fn new([first, second]: [&[FlankPatch]; 2], options: &ContactOptions) -> Self {
+        let points = first.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
+        let stations = first.first().map_or(0, |p| {
+            let [low, high] = p.range();
+            let faces = ((high[1] - low[1]) / p.mean_face_size()[1]).round().max(1.0);
+            2 * faces as usize * options.points_per_face_edge
+        });
+        Self { points, trees: [Candidates::new(first), Candidates::new(second)], stations }
+    }
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -71,16 +92,10 @@ impl ContactSet {
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
         let slices = slices.map(|s| s.with_tables([&p1, &p2], windows.as_ref(), options));
-        let points = p1.iter().map(|p| contact_points(p, options.points_per_face_edge, options.gap)).collect();
-        let stations = p1.first().map_or(0, |p| {
-            let [low, high] = p.range();
-            let faces = ((high[1] - low[1]) / p.mean_face_size()[1]).round().max(1.0);
-            2 * faces as usize * options.points_per_face_edge
-        });
-        let trees = [Candidates::new(&p1), Candidates::new(&p2)];
+        let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
-        let shared = Arc::new(Shared { patches, points, trees, stations, sides, first, slices, pitch_errors });
+        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, pitch_errors });
         Ok(Self { shared, windows })
     }
 
@@ -122,9 +137,11 @@ impl ContactSet {
         &self.shared.patches
     }
 
-    /// Contact points of each patch of the pinion.
-    pub fn points(&self) -> &[Vec<ContactPoint>] {
-        &self.shared.points
+    /// Contact points of the window, or slices of all its pairs.
+    pub fn candidate_count(&self) -> usize {
+        let points = |nodal: &NodalFlanks| nodal.points.iter().map(Vec::len).sum();
+        let slices = |slices: &SliceSet| self.pairs().len() * slices.stations().len();
+        self.shared.nodal.as_ref().map(points).or(self.slices().map(slices)).unwrap_or(0)
     }
 
     /// Side of a patch of the pinion.
@@ -178,27 +195,30 @@ impl ContactSet {
     /// Taken at the unloaded pose, so that they do not move while the pose is iterated.
     pub fn line_points(&self, options: &ContactOptions, poses: &[Pose; 2]) -> LinePoints {
         let mut line = LinePoints::new();
-        if options.method == Method::Slice || options.law != Law::Exact || options.gap != GapSource::Smooth {
+        let Some(nodal) = &self.shared.nodal else { return line };
+        if options.law != Law::Exact || options.gap != GapSource::Smooth {
             return line;
         }
         let [first, second] = &self.shared.patches;
         for (a, b) in self.pairs() {
-            line.insert((a, b), line_points(&first[a], &second[b], poses, self.shared.stations));
+            line.insert((a, b), line_points(&first[a], &second[b], poses, nodal.stations));
         }
         line
     }
 
-    /// The flanks of the window for a search of points; `line` holds the points of least gap.
-    pub fn scene<'a>(&'a self, options: &ContactOptions, line: &'a LinePoints) -> Scene<'a> {
-        Scene {
+    /// The flanks of the window for a search of points; `line` holds the points of least gap. `None` where contact is
+    /// made of slices.
+    pub fn scene<'a>(&'a self, options: &ContactOptions, line: &'a LinePoints) -> Option<Scene<'a>> {
+        let nodal = self.shared.nodal.as_ref()?;
+        Some(Scene {
             first: &self.shared.patches[0],
-            points: &self.shared.points,
+            points: &nodal.points,
             second: &self.shared.patches[1],
-            first_tree: &self.shared.trees[0],
-            second_tree: &self.shared.trees[1],
+            first_tree: &nodal.trees[0],
+            second_tree: &nodal.trees[1],
             source: options.gap,
             line,
-        }
+        })
     }
 
     /// Slices, when contact is made of them.

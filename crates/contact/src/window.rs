@@ -4,7 +4,7 @@ use ale::ToothWindow;
 use geometry::GearPair;
 use reduction::ElasticGear;
 
-use crate::{ContactError, ContactOptions, ContactSet, MeshContact};
+use crate::{ContactError, ContactOptions, ContactSet, ElasticContact, MeshContact, MeshForce, Pose};
 
 /// The contact of one window: its flanks, and the solver of slices on reduced gears.
 #[derive(Debug)]
@@ -24,6 +24,24 @@ impl WindowContact {
         let sliced = set.slices().is_some() && set.windows().is_some();
         let slices = sliced.then(|| MeshContact::new(pair, set.clone(), options)).transpose()?;
         Ok(Self { set, slices })
+    }
+
+    /// Forces of the mesh with the gears' frames at `poses`, and their tangent, whatever touches: points or slices,
+    /// gears reduced or whole.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate(
+        &mut self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        options: &ContactOptions,
+        poses: &[Pose; 2],
+    ) -> Result<MeshForce, ContactError> {
+        match &mut self.slices {
+            Some(slices) => slices.evaluate(poses).cloned(),
+            None => ElasticContact { pair, gears, set: &self.set, options }.evaluate(poses),
+        }
     }
 
     /// Goes over to another window, with the flanks and matrices of `set` where they serve it.

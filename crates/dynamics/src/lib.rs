@@ -2,7 +2,6 @@
 //! them.
 
 mod body;
-mod contact_line;
 mod coordinates;
 mod drive;
 mod elastic_displacement;

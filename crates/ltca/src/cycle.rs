@@ -10,7 +10,7 @@ use contact::ContactSet;
 use rayon::prelude::*;
 
 use crate::{
-    Equilibrium, StaticError, StaticPosition,
+    Equilibrium, StaticError, StaticPosition, ToothChangeRecord,
     cycle_solver::{CycleInputs, CycleSolver},
 };
 
@@ -26,6 +26,8 @@ pub(crate) struct SolverState {
     set: ContactSet,
     last: Option<Equilibrium>,
     changes: u64,
+    /// Tooth changes made at the station.
+    pub made: Vec<ToothChangeRecord>,
 }
 
 pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
@@ -33,7 +35,7 @@ pub(crate) type Solved = Result<(StaticPosition, SolverState), StaticError>;
 impl CycleSolver {
     /// Restores the state after a station, so that the next station goes on from there.
     pub fn resume(&mut self, inputs: &CycleInputs<'_>, state: SolverState) -> Result<(), StaticError> {
-        let SolverState { window, set, last, changes } = state;
+        let SolverState { window, set, last, changes, .. } = state;
         if self.window != window {
             self.contact.enter(inputs.pair, inputs.gears, window.window(), set, &inputs.options.contact)?;
             self.window = window;
@@ -92,7 +94,9 @@ pub(crate) fn solve(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations
         // The next group may have to be solved again: the solver goes on from here.
         if let Some(Ok((_, state))) = solved.last() {
             let (window, set, changes) = (state.window, state.set.clone(), state.changes);
-            if let Err(error) = solver.resume(inputs, SolverState { window, set, last: None, changes }) {
+            if let Err(error) =
+                solver.resume(inputs, SolverState { window, set, last: None, changes, made: Vec::new() })
+            {
                 all.extend(solved);
                 all.push(Err(error));
                 return all;
@@ -106,9 +110,10 @@ pub(crate) fn solve(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations
 fn solve_in_order(inputs: &CycleInputs<'_>, solver: &mut CycleSolver, stations: &[Station]) -> Vec<Solved> {
     let mut all = Vec::with_capacity(stations.len());
     for &station in stations {
-        let solved = solver.advance(inputs, station, |_| ()).map(|position| {
+        let mut made = Vec::new();
+        let solved = solver.advance(inputs, station, |change| made.push(change.record(station))).map(|position| {
             let (window, set, last) = (solver.window, solver.contact.set.clone(), solver.last.clone());
-            (position, SolverState { window, set, last, changes: solver.changes })
+            (position, SolverState { window, set, last, changes: solver.changes, made })
         });
         let failed = solved.is_err();
         all.push(solved);

@@ -1,13 +1,13 @@
 //! Torque equilibrium at one station. Theory (20).
 
 use ale::Station;
-use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, Solution, frames};
+use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, Solution, WarmStart, frames};
 use geometry::GearPair;
 
 use crate::{
     StaticError, WindowedPair,
     kinematic::Unloaded,
-    pose_solver::{PoseSolution, PoseSolver, PoseStep, WarmStart, warm_start_of},
+    pose_solver::{PoseSolution, PoseSolver, PoseStep},
 };
 
 /// Solved contact at one station.
@@ -72,7 +72,7 @@ impl Equilibrium {
     }
 
     pub(crate) fn warm_start(&self) -> WarmStart {
-        warm_start_of(&self.rows, &self.solution)
+        contact::warm_start(&self.rows, &self.solution)
     }
 
     /// Transmission error that is due to load, mm.

@@ -22,7 +22,7 @@ pub use equilibrium::Equilibrium;
 pub use error::StaticError;
 pub use kinematic::kinematic_transmission_error;
 pub use options::StaticOptions;
-pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange};
+pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
 pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};
 pub use statics::StaticModel;

@@ -1,16 +1,11 @@
 //! The contact problem of one pose, solved for forces and the turn of the driven gear.
 
-use std::collections::BTreeMap;
-
 use contact::{
-    Balance, ContactError, ContactRow, Friction, LinePoints, MeshContact, Pose, Slice, Solution, closest_points,
-    complementarity,
+    Balance, CandidateRows, ContactError, ContactRow, ElasticContact, LinePoints, MeshContact, Pose, Slice, Solution,
+    WarmStart,
 };
 
 use crate::WindowedPair;
-
-/// Forces by (patches, point), from which the next solution starts.
-pub(crate) type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
 /// Contact at one pose.
 pub(crate) struct PoseSolution {
@@ -40,7 +35,7 @@ pub(crate) enum PoseStep {
 
 impl PoseSolver<'_> {
     pub fn step(&mut self, windowed: &WindowedPair, poses: &[Pose; 2], reach: f64) -> Result<PoseStep, ContactError> {
-        let WindowedPair { pair, options, .. } = *windowed;
+        let WindowedPair { pair, gears, set, options, .. } = *windowed;
         let driven = options.driven();
         let moment = -options.side().sign() * options.torque;
         let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
@@ -60,19 +55,18 @@ impl PoseSolver<'_> {
                 Ok(short(mesh.rows(), turn).unwrap_or(PoseStep::Turn(turn, iterations)))
             }
             Self::General { line, warm_start, last } => {
-                let (rows, slices) = candidates(windowed, line, poses, reach);
-                let rows: Vec<ContactRow> = match Friction::new(pair, &options.contact) {
-                    Some(friction) => rows.into_iter().map(|row| friction.on(poses, row)).collect(),
-                    None => rows,
-                };
-                if !carries(&rows) {
+                let contact = ElasticContact { pair, gears, set, options: &options.contact };
+                let candidates = contact.rows(line, poses, reach);
+                if !carries(&candidates.rows) {
                     return Ok(PoseStep::OutOfReach);
                 }
-                let (solution, displacements) = general(windowed, &rows, &slices, moment, warm_start)?;
+                let (solution, displacements) =
+                    contact.solve(&candidates, Balance::Moment(moment), driven, warm_start)?;
+                let CandidateRows { rows, slices } = candidates;
                 if let Some(short) = short(&rows, solution.rotation) {
                     return Ok(short);
                 }
-                *warm_start = warm_start_of(&rows, &solution);
+                *warm_start = contact::warm_start(&rows, &solution);
                 let step = PoseStep::Turn(solution.rotation, solution.iterations);
                 *last = Some(Box::new(PoseSolution { rows, slices, solution, displacements }));
                 Ok(step)
@@ -100,51 +94,4 @@ impl PoseSolver<'_> {
             }
         }
     }
-}
-
-/// Rows within `reach` (mm), and their slices.
-fn candidates(
-    windowed: &WindowedPair,
-    line: &LinePoints,
-    poses: &[Pose; 2],
-    reach: f64,
-) -> (Vec<ContactRow>, Vec<Slice>) {
-    let WindowedPair { set, options, .. } = *windowed;
-    if let Some(slices) = set.slices() {
-        return slices.rows([&set.patches()[0], &set.patches()[1]], &set.pairs(), poses, reach);
-    }
-    let mut rows = closest_points(&set.scene(&options.contact, line), poses, reach);
-    rows.retain(|r| set.partners(r.patches));
-    (rows, Vec::new())
-}
-
-/// Solution on any elastic model, and the displacements of its boundary coordinates.
-fn general(
-    windowed: &WindowedPair,
-    rows: &[ContactRow],
-    slices: &[Slice],
-    moment: f64,
-    warm_start: &WarmStart,
-) -> Result<(Solution, [Vec<f64>; 2]), ContactError> {
-    let WindowedPair { gears, set, options, .. } = *windowed;
-    let driven = options.driven();
-    let start: Vec<f64> =
-        rows.iter().map(|r| warm_start.get(&(r.patches.0, r.patches.1, r.point)).copied().unwrap_or(0.0)).collect();
-    let mut bodies = set.bodies(gears, rows)?;
-    let solution = if set.slices().is_some() {
-        let local = |i: usize, force: f64| {
-            let state = slices[i].local.under(force / slices[i].length);
-            (state.approach, state.slope / slices[i].length)
-        };
-        complementarity::solve_slices(&mut *bodies, rows, driven, moment, local, &start)?
-    } else {
-        complementarity::solve(&mut *bodies, rows, driven, moment, options.contact.law, &start)?
-    };
-    let displacements = bodies.displacements(&solution.forces);
-    Ok((solution, displacements))
-}
-
-pub(crate) fn warm_start_of(rows: &[ContactRow], solution: &Solution) -> WarmStart {
-    let active = solution.active.iter();
-    active.map(|&i| ((rows[i].patches.0, rows[i].patches.1, rows[i].point), solution.forces[i])).collect()
 }

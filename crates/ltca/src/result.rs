@@ -1,6 +1,6 @@
 //! What a quasi-static analysis hands on, position by position.
 
-use ale::ToothWindow;
+use ale::{Station, ToothWindow};
 use contact::{SliceResult, Wrench};
 use serde::Serialize;
 
@@ -90,6 +90,8 @@ pub struct StaticPosition {
 pub struct StaticHistory {
     /// Positions in the order of the rotation.
     pub positions: Vec<StaticPosition>,
+    /// Tooth changes on the way, in their order.
+    pub tooth_changes: Vec<ToothChangeRecord>,
     /// What the user should know: neglected, doubtful, adjusted.
     pub warnings: Vec<String>,
 }
@@ -103,4 +105,42 @@ pub struct ToothChange {
     pub after: StaticPosition,
     /// The new window.
     pub window: ToothWindow,
+}
+
+/// Where a tooth change was made, and what it changed of the solution there: nothing but round-off, for the outgoing
+/// teeth are free of load.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ToothChangeRecord {
+    /// Mesh cycles since the start.
+    pub mesh_cycles: f64,
+    /// Pinion angle, rad, as that of a position.
+    pub pinion_angle: f64,
+    /// Outgoing teeth of pinion and wheel.
+    pub outgoing: [u32; 2],
+    /// Oncoming teeth of pinion and wheel.
+    pub oncoming: [u32; 2],
+    /// |transmission error after - before|, mm.
+    pub error_jump: f64,
+    /// |sum of normal forces after - before|, N.
+    pub force_jump: f64,
+}
+
+impl ToothChange {
+    /// Where it was made, and what it changed.
+    pub fn record(&self, station: Station) -> ToothChangeRecord {
+        let Self { before, after, .. } = self;
+        let only_in = |these: &StaticPosition, those: &StaticPosition| {
+            let own = these.pairs.iter().find(|p| those.pairs.iter().all(|q| q.pair != p.pair));
+            own.map_or([0; 2], |p| [p.pinion_tooth, p.wheel_tooth])
+        };
+        let force = |p: &StaticPosition| p.pairs.iter().map(|pair| pair.normal_force).sum::<f64>();
+        ToothChangeRecord {
+            mesh_cycles: station.cycle as f64 + station.phase,
+            pinion_angle: after.pinion_angle,
+            outgoing: only_in(before, after),
+            oncoming: only_in(after, before),
+            error_jump: (after.transmission_error - before.transmission_error).abs(),
+            force_jump: (force(after) - force(before)).abs(),
+        }
+    }
 }

@@ -8,7 +8,8 @@ use geometry::GearPair;
 use reduction::ElasticGear;
 
 use crate::{
-    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, ToothChange, cycle,
+    Equilibrium, RootStress, StaticError, StaticHistory, StaticOptions, StaticPosition, ToothChange, ToothChangeRecord,
+    cycle,
     cycle_solver::{CycleInputs, CycleSolver},
 };
 
@@ -141,6 +142,17 @@ impl StaticModel {
         solver.advance(&inputs, station, seen)
     }
 
+    /// The tooth changes that are due at a station: one that closes a mesh cycle belongs to it, as the one that opens
+    /// it belongs to the cycle before.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn tooth_changes_at(&mut self, station: Station) -> Result<Vec<ToothChangeRecord>, StaticError> {
+        let mut made = Vec::new();
+        self.advance(station, |change| made.push(change.record(station)))?;
+        Ok(made)
+    }
+
     /// Runs `cycles` mesh cycles of `positions` stations each from the start, wherever the model stands; `seen` is told
     /// of each result in order (for progress), the model standing where that result was found.
     ///
@@ -184,7 +196,8 @@ impl StaticModel {
             let (wave, rest) = left.split_at(cycle::wave(&inputs, solver).min(left.len()));
             left = rest;
             for solved in cycle::solve(&inputs, solver, wave) {
-                let (position, state) = solved?;
+                let (position, mut state) = solved?;
+                history.tooth_changes.append(&mut state.made);
                 let (inputs, solver) = self.split();
                 solver.resume(&inputs, state)?;
                 let i = history.positions.len();

@@ -15,8 +15,8 @@ use crate::{
 /// omega(t) = omega_0 + omega_a sin(nu t)
 /// c(t)     = c_0 + z / (2 pi) [omega_0 t + omega_a (1 - cos(nu t)) / nu]
 /// ```
-/// The phase is the *integral* of the speed. Seed 004 prints e_a sin(2 pi omega_h(t) t), the speed of now times all the time gone by: its frequency would
-/// swing wider and wider as time goes on.
+/// The phase is the *integral* of the speed. Seed 004 prints e_a sin(2 pi omega_h(t) t), the speed of now times all the
+/// time gone by: its frequency would swing wider and wider as time goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshClock {
     /// Teeth z of the driver.
@@ -52,7 +52,8 @@ impl MeshClock {
         self.speed * t + swing
     }
 
-    /// Mesh angle 2 pi c at time `t` (s) and its rate in rad/s; whole cycles are taken off, so that no digits are lost in long runs.
+    /// Mesh angle 2 pi c at time `t` (s) and its rate in rad/s; whole cycles are taken off, so that no digits are lost
+    /// in long runs.
     pub fn angle(&self, t: f64) -> [f64; 2] {
         let omega = self.speed + self.fluctuation * (self.fluctuation_frequency * t).sin();
         [TAU * self.cycles(t).rem_euclid(1.0), omega * f64::from(self.driver_teeth)]

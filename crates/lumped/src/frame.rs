@@ -15,8 +15,8 @@ use crate::{LumpedError, error::finite};
 /// e_x = sgn (cos psi, sin psi, 0)               across it: from the driver's axis to where the line of action touches its base circle
 /// n   = cos(b_b) e_y - sgn sin(b_b) e_z         normal of the flanks: the force on the driven gear is +F n
 /// ```
-/// psi is seed 003's orientation angle between the driver's y axis and the plane of action. b_b is the *driver's* base helix angle, positive for a right hand
-/// (the seed counts a left-hand driver positive).
+/// psi is seed 003's orientation angle between the driver's y axis and the plane of action. b_b is the *driver's* base
+/// helix angle, positive for a right hand (the seed counts a left-hand driver positive).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshFrame {
     /// Sense of the driver.

@@ -19,9 +19,11 @@ pub struct HistoryRow {
     pub mesh_phase: f64,
     /// Angle of the pinion, rad, in its sense, from the middle position of pair 0.
     pub pinion_angle: f64,
-    /// Dynamic transmission error r_b1 theta_1 - r_b2 theta_2 of driver and driven gear, mm; positive when the driven gear lags.
+    /// Dynamic transmission error r_b1 theta_1 - r_b2 theta_2 of driver and driven gear, mm; positive when the driven
+    /// gear lags.
     pub transmission_error: f64,
-    /// Relative displacement of the flanks along the transverse line of action, mm: the transmission error and what the supports give way.
+    /// Relative displacement of the flanks along the transverse line of action, mm: the transmission error and what the
+    /// supports give way.
     pub mesh_deflection: f64,
     /// Mesh stiffness k on the transverse line of action, N/mm.
     pub mesh_stiffness: f64,
@@ -47,7 +49,8 @@ pub trait LumpedModel: Mechanism<Error = Infallible> {
     /// What is what at a state.
     fn row(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> HistoryRow;
 
-    /// Coordinates at which the loaded pair stands at `cycles` mesh cycles as speed goes to zero, the driver's turn held; `None` where nothing holds it.
+    /// Coordinates at which the loaded pair stands at `cycles` mesh cycles as speed goes to zero, the driver's turn
+    /// held; `None` where nothing holds it.
     fn quasi_static(&self, cycles: f64) -> Option<DVector<f64>>;
 
     /// What counts as a large motion of each coordinate: for the integrators' tolerances.
@@ -94,7 +97,8 @@ impl RunPlan {
     }
 }
 
-/// State in which a run starts: the loaded pair at rest as for speed to zero, moving with the nominal rotation; all zero where nothing holds it.
+/// State in which a run starts: the loaded pair at rest as for speed to zero, moving with the nominal rotation; all
+/// zero where nothing holds it.
 pub fn starting_state(model: &impl LumpedModel) -> State {
     let n = model.mass().nrows();
     let start = model.quasi_static(model.pair().clock.cycles(0.0)).unwrap_or_else(|| DVector::zeros(n));

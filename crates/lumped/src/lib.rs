@@ -8,8 +8,8 @@
 //! | [`impact`] | rigid gears on their true flanks, impact function, stick-slip friction | 1 to 12 |
 //! | [`shaft18`] | lumped shafts with helical meshes between them, natural frequencies and backlash | as many as are kept; 18 |
 //!
-//! A [`LumpedPair`] holds what these have in common: directions, contact lines, bodies, excitation and load, from published data or fed by another model of the
-//! same pair ([`MeshCycle::fed`]). Units: mm, N, t, s, rad.
+//! A [`LumpedPair`] holds what these have in common: directions, contact lines, bodies, excitation and load, from
+//! published data or fed by another model of the same pair ([`MeshCycle::fed`]). Units: mm, N, t, s, rad.
 
 mod clock;
 mod dead_zone;

@@ -33,17 +33,18 @@ impl MeshCycle {
         Self { stiffness, error, length: None }
     }
 
-    /// Fed by a quasi-static analysis at evenly spaced phases k/n: stiffness (N/mm), contact-line length (mm), transmission error under load (mm), and the force on the
-    /// transverse line of action (N) it was found with.
+    /// Fed by a quasi-static analysis at evenly spaced phases k/n: stiffness (N/mm), contact-line length (mm),
+    /// transmission error under load (mm), and the force on the transverse line of action (N) it was found with.
     ///
     /// ```text
     /// e = STE - F_bt / k
     /// ```
-    /// so that this model, run slowly under the same force, gives the same STE, with the secant stiffness as with the tangent one. The tangent one is the
-    /// stiffness that vibration about that load feels.
+    /// so that this model, run slowly under the same force, gives the same STE, with the secant stiffness as with the
+    /// tangent one. The tangent one is the stiffness that vibration about that load feels.
     ///
     /// # Errors
-    /// [`LumpedError`] for samples that are none, not numbers, of different lengths, or a stiffness that is not positive between them.
+    /// [`LumpedError`] for samples that are none, not numbers, of different lengths, or a stiffness that is not
+    /// positive between them.
     pub fn fed(stiffness: &[f64], length: &[f64], ste: &[f64], force: f64) -> Result<Self, LumpedError> {
         let wanted = stiffness.len();
         for (quantity, found) in [("contact-line length in mm", length.len()), ("transmission error in mm", ste.len())]

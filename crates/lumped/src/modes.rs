@@ -13,9 +13,11 @@ const REAL: f64 = 1e-9;
 pub struct Mode {
     /// omega / (2 pi), Hz, >= 0; 0 for rigid motion and for divergence.
     pub frequency_hz: f64,
-    /// Real part of s, 1/s: negative dies out, positive grows. Of the pair of roots +s and -s that an undamped system has, the growing one.
+    /// Real part of s, 1/s: negative dies out, positive grows. Of the pair of roots +s and -s that an undamped system
+    /// has, the growing one.
     pub growth: f64,
-    /// Shape in the mechanism's coordinates, the kinetic energy of a unit amplitude's velocity one half (shape* M shape = 1).
+    /// Shape in the mechanism's coordinates, the kinetic energy of a unit amplitude's velocity one half (shape* M shape
+    /// = 1).
     pub shape: DVector<Complex<f64>>,
 }
 
@@ -46,13 +48,15 @@ pub fn linearised<M: Mechanism>(
     Ok((forces.stiffness, forces.damping))
 }
 
-/// Undamped modes of M x'' + K x = 0, ascending in frequency; `None` unless M is symmetric positive definite and K of the same size holds numbers.
+/// Undamped modes of M x'' + K x = 0, ascending in frequency; `None` unless M is symmetric positive definite and K of
+/// the same size holds numbers.
 ///
 /// ```text
 /// (K - omega^2 M) shape = 0,   s = i omega
 /// ```
-/// K may be non-symmetric. While all omega^2 are real and positive every motion is bounded. Friction follows the normal force and not its own displacement, so it
-/// makes K non-symmetric: pairs of omega^2 can merge and turn complex, and then one of the two roots grows (flutter); a negative omega^2 is divergence.
+/// K may be non-symmetric. While all omega^2 are real and positive every motion is bounded. Friction follows the normal
+/// force and not its own displacement, so it makes K non-symmetric: pairs of omega^2 can merge and turn complex, and
+/// then one of the two roots grows (flutter); a negative omega^2 is divergence.
 pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Mode>> {
     let inverse = inverse_root(mass, &[stiffness])?;
     let scaled = &inverse * stiffness * inverse.transpose();
@@ -79,7 +83,8 @@ pub fn undamped_modes(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<V
     Some(modes)
 }
 
-/// Damped modes of M x'' + C x' + K x = 0, ascending in frequency: roots with non-negative imaginary part, n for n coordinates where all oscillate.
+/// Damped modes of M x'' + C x' + K x = 0, ascending in frequency: roots with non-negative imaginary part, n for n
+/// coordinates where all oscillate.
 ///
 /// Overdamped motion has two real roots, both listed with frequency 0. `None` as for [`undamped_modes`].
 pub fn damped_modes(mass: &DMatrix<f64>, damping: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<Mode>> {
@@ -139,7 +144,8 @@ fn shape(inverse: &DMatrix<f64>, scaled: &DMatrix<f64>, value: Complex<f64>, lar
     inverse.transpose().map(|x| Complex::new(x, 0.0)) * null_vector(matrix, largest)
 }
 
-/// Unit vector that a nearly singular matrix takes to (nearly) nothing: inverse iteration a little beside the eigenvalue.
+/// Unit vector that a nearly singular matrix takes to (nearly) nothing: inverse iteration a little beside the
+/// eigenvalue.
 fn null_vector(matrix: DMatrix<Complex<f64>>, size: f64) -> DVector<Complex<f64>> {
     let n = matrix.nrows();
     // Unequal entries, so that the start is orthogonal to no vector of a symmetric structure.

@@ -50,7 +50,8 @@ pub struct Operation {
 }
 
 impl LumpedPair {
-    /// From exact geometry, operation, bodies of pinion and wheel, and the mesh cycle (ISO's, given, or fed by another model). The driver's torque balances the load.
+    /// From exact geometry, operation, bodies of pinion and wheel, and the mesh cycle (ISO's, given, or fed by another
+    /// model). The driver's torque balances the load.
     ///
     /// # Errors
     /// [`LumpedError`] for what has no meaning.

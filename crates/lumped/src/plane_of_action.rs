@@ -13,8 +13,9 @@ use crate::{
 /// ```text
 /// xi_j(z) = xi_M + (c + j) p_bt + sgn tan(b_b) z,   j = ..., -1, 0, 1, ...     clipped to xi_A <= xi <= xi_E, |z| <= b/2
 /// ```
-/// xi (mm) runs along the transverse line of action from the driver's tangent point to the driven gear's, in which direction contact moves; c are mesh cycles
-/// (pair 0 is in the middle xi_M of the path at mid-face at c = 0); flanks slide one way before the pitch point and the other way after it.
+/// xi (mm) runs along the transverse line of action from the driver's tangent point to the driven gear's, in which
+/// direction contact moves; c are mesh cycles (pair 0 is in the middle xi_M of the path at mid-face at c = 0); flanks
+/// slide one way before the pitch point and the other way after it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlaneOfAction {
     /// Path of contact [xi_A, xi_E], mm.
@@ -41,15 +42,18 @@ const MOST_LINES: f64 = 2e4;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LineSharing {
-    /// Evenly over the length of all lines, as the mesh stiffness is. Friction before the pitch line and after it cancels almost wholly where a contact ratio is
-    /// close to an integer: for seed 003 (eps_alpha 2.00) what is left is 0.2 % of mu F.
+    /// Evenly over the length of all lines, as the mesh stiffness is. Friction before the pitch line and after it
+    /// cancels almost wholly where a contact ratio is close to an integer: for seed 003 (eps_alpha 2.00) what is left
+    /// is 0.2 % of mu F.
     #[default]
     ByLength,
-    /// Evenly between the lines, and evenly within each, however short it is: seed 003's sum over single lines. It steps whenever a line comes or goes.
+    /// Evenly between the lines, and evenly within each, however short it is: seed 003's sum over single lines. It
+    /// steps whenever a line comes or goes.
     ByLine,
 }
 
-/// Means over all contact lines at one phase, for load spread evenly over their length (`split` with [`LineSharing::ByLine`]: over the lines).
+/// Means over all contact lines at one phase, for load spread evenly over their length (`split` with
+/// [`LineSharing::ByLine`]: over the lines).
 ///
 /// ```text
 /// s = sign(xi - xi_C),   w = -(sgn xi sin(b_b) + z cos(b_b)),   v = w - mean(w)
@@ -65,7 +69,8 @@ pub struct LineMeans {
     pub centre: [f64; 2],
     /// mean(v^2), mm^2: the tilt stiffness over the mesh stiffness.
     pub spread: f64,
-    /// mean(s), mean(s xi), mean(s z): friction force and its levers (1, mm, mm) over mu F. The first is lambda_1 - lambda_2 of seed 003 and L_F of seed 004.
+    /// mean(s), mean(s xi), mean(s z): friction force and its levers (1, mm, mm) over mu F. The first is lambda_1 -
+    /// lambda_2 of seed 003 and L_F of seed 004.
     pub split: [f64; 3],
     /// mean(s v), mean(s v xi), mean(s v z) (mm, mm^2, mm^2): the same for a load that grows along the lines.
     pub tilt_split: [f64; 3],
@@ -173,7 +178,8 @@ impl PlaneOfAction {
         }
     }
 
-    /// Adds the integrals of one line, in two parts where it crosses the pitch line. Simpson's rule is exact: nothing is above second order.
+    /// Adds the integrals of one line, in two parts where it crosses the pitch line. Simpson's rule is exact: nothing
+    /// is above second order.
     fn add_line(&self, middle: f64, [z0, z1]: [f64; 2], lever: f64, sums: &mut [f64; 7]) {
         let slope = self.helix.tan();
         let crossing = if slope == 0.0 { z1 } else { ((self.pitch_point - middle) / slope).clamp(z0, z1) };

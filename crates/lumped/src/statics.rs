@@ -17,13 +17,17 @@ const LEFT: f64 = 0.3;
 /// Farther than so many times its scale no coordinate goes on a line: what moves so far has nothing to rest on.
 const FAR: f64 = 100.0;
 
-/// Coordinates at which all forces vanish at time `t` with everything at rest, those in `held` kept as they are in `start`.
+/// Coordinates at which all forces vanish at time `t` with everything at rest, those in `held` kept as they are in
+/// `start`.
 ///
-/// Newton's method with the exact tangents first: one step where the forces are linear, one more for every contact that opens or closes. Where that does not settle, because nothing touches at
-/// the start or forces grow with a power of the overlap, it goes along lines: the direction is that of Newton's method with mass added to the stiffness, so much that the work of the forces along it is
-/// positive, and on the line it goes to where that work ends. Every line then lowers the energy of all forces that have one, and it is found where flanks meet.
+/// Newton's method with the exact tangents first: one step where the forces are linear, one more for every contact that
+/// opens or closes. Where that does not settle, because nothing touches at the start or forces grow with a power of the
+/// overlap, it goes along lines: the direction is that of Newton's method with mass added to the stiffness, so much
+/// that the work of the forces along it is positive, and on the line it goes to where that work ends. Every line then
+/// lowers the energy of all forces that have one, and it is found where flanks meet.
 ///
-/// `scale`: what counts as a large motion of each coordinate, > 0. `None` where neither settles: a coordinate that nothing holds, or clearance all around.
+/// `scale`: what counts as a large motion of each coordinate, > 0. `None` where neither settles: a coordinate that
+/// nothing holds, or clearance all around.
 ///
 /// # Errors
 /// The system's own.

@@ -124,7 +124,7 @@ impl FlankFit {
 
 /// Faces of one flank and how its nodes lie.
 #[derive(Debug, Default)]
-struct Found {
+struct FlankFaces {
     faces: Vec<Face>,
     squares: f64,
     nodes: usize,
@@ -133,9 +133,9 @@ struct Found {
     nominal_area: f64,
 }
 
-type Flanks = BTreeMap<(u32, Side), Found>;
+type Flanks = BTreeMap<(u32, Side), FlankFaces>;
 
-impl Found {
+impl FlankFaces {
     fn deviation(&self, tooth: u32, side: Side) -> FlankDeviation {
         FlankDeviation {
             tooth,

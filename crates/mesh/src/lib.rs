@@ -33,4 +33,4 @@ pub use numbered::Numbered;
 pub use quality::{element_volume, min_det_j, scaled_jacobian};
 pub use root_fillets::RootFillets;
 pub use sector::{Copies, Origin};
-pub use structured::{Extent, StructuredError, StructuredOptions, face_elements, generate};
+pub use structured::{Extent, FaceResolution, StructuredError, StructuredOptions, face_elements, generate};

@@ -103,7 +103,7 @@ impl FreeHalf {
         tooth: u32,
         side: Side,
     ) -> Result<Self, ReductionError> {
-        let place = Place::new(geometry, tooth, side);
+        let place = ToothHalf::new(geometry, tooth, side);
         let mesh = gear.mesh();
         let free: Vec<bool> = mesh.nodes.iter().map(|p| place.is_free(p)).collect();
         let (part, number) = elements_with(mesh, &free);
@@ -122,7 +122,7 @@ impl FreeHalf {
 }
 
 /// Where the free half of a tooth is.
-struct Place {
+struct ToothHalf {
     sign: f64,
     centre: f64,
     twist: f64,
@@ -131,7 +131,7 @@ struct Place {
     tolerance: f64,
 }
 
-impl Place {
+impl ToothHalf {
     fn new(geometry: &Gear, tooth: u32, side: Side) -> Self {
         Self {
             sign: side.sign(),

@@ -9,8 +9,8 @@ pub use toml::Value;
 
 /// A scene that is put together key by key and then checked as the text of a file is.
 ///
-/// Six keys have no default, each with a method of its own; every key of [`all_keys`](crate::all_keys) is set by [`set`](Self::set). Of two values of
-/// one key the last one holds.
+/// Six keys have no default, each with a method of its own; every key of [`all_keys`](crate::all_keys) is set by
+/// [`set`](Self::set). Of two values of one key the last one holds.
 ///
 /// ```
 /// let scene = scene::Scene::builder()
@@ -47,7 +47,8 @@ impl Scene {
 }
 
 impl SceneBuilder {
-    /// Number of teeth, and helix angle at the reference cylinder in degrees, right hand positive; the wheel's hand follows.
+    /// Number of teeth, and helix angle at the reference cylinder in degrees, right hand positive; the wheel's hand
+    /// follows.
     #[must_use]
     pub fn pinion(self, teeth: u32, helix_angle_deg: f64) -> Self {
         self.set("pinion.teeth", teeth).set("pinion.helix_angle_deg", helix_angle_deg)
@@ -77,8 +78,8 @@ impl SceneBuilder {
         self.set("operation.torque_nm", torque)
     }
 
-    /// The value of any key, in the unit that its name ends in. Keys have dots before them (`motion.sweep.from_rpm`); a number
-    /// among the parts counts the entries of a list that is set before, from 0.
+    /// The value of any key, in the unit that its name ends in. Keys have dots before them (`motion.sweep.from_rpm`); a
+    /// number among the parts counts the entries of a list that is set before, from 0.
     #[must_use]
     pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.values.push((key.to_owned(), value.into()));

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mesh::GroupNames;
+use mesh::{FaceResolution, GroupNames};
 use serde::Serialize;
 
 use super::{BearingScene, BodyScene, MisalignmentScene, ModificationScene, ShaftScene};
@@ -70,7 +70,8 @@ pub struct MesherScene {
     pub elements_face: u32,
     /// Elements from the root circle to the bore.
     pub elements_rim: u32,
-    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth, cut faces free.
+    /// 0: whole gear; 1: periodic sector, which stands for the whole gear where it is run; k: open sector of k teeth,
+    /// cut faces free.
     pub sector_teeth: u32,
 }
 
@@ -137,6 +138,7 @@ impl PairScene {
 
     /// Elements along the face that a mesh of this order asks for, with root stress or without.
     pub(crate) fn face_elements(&self, order: u32, root_stress: bool) -> u32 {
-        mesh::face_elements(self.face_width_mm, self.normal_module_mm, order, root_stress)
+        let resolution = if root_stress { FaceResolution::RootStress } else { FaceResolution::Contact };
+        mesh::face_elements(self.face_width_mm, self.normal_module_mm, order, resolution)
     }
 }

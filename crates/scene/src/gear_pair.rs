@@ -9,8 +9,8 @@ impl Scene {
     /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors.
     ///
     /// # Errors
-    /// [`SceneError::Geometry`] when no running pair can be made of the data, [`SceneError::DataFile`] when a topography or
-    /// a list of pitch errors cannot be read.
+    /// [`SceneError::Geometry`] when no running pair can be made of the data, [`SceneError::DataFile`] when a
+    /// topography or a list of pitch errors cannot be read.
     pub fn gear_pair(&self) -> Result<GearPair, SceneError> {
         let gear = |whose: &'static str, of: &GearScene| {
             let nominal = Gear::new(data(self, of)).map_err(|e| self.geometry_fault(whose, e))?;

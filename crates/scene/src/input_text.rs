@@ -14,7 +14,8 @@ const MOST: u64 = 16 << 20;
 /// The text of a file; also of what the shell has opened already (`/dev/stdin`, `<(command)`), up to 16 MB.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidInput`] for folders, devices and named pipes, and for a pipe without an end; else as the system says.
+/// [`ErrorKind::InvalidInput`] for folders, devices and named pipes, and for a pipe without an end; else as the system
+/// says.
 pub fn read_text(path: &Path) -> Result<String> {
     if !is_handed_over(path) {
         return read_regular_text(path);

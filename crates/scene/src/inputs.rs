@@ -34,7 +34,8 @@ fn in_program(path: &Path) -> Option<&'static [u8]> {
 }
 
 impl Scene {
-    /// The default scene, `scenes/default.toml` of the repository: it is part of the program with its meshes and needs no file.
+    /// The default scene, `scenes/default.toml` of the repository: it is part of the program with its meshes and needs
+    /// no file.
     ///
     /// # Errors
     /// None, as a test holds; the type is that of every scene.

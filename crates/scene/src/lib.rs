@@ -26,9 +26,11 @@ mod motion;
 mod operation;
 mod output;
 mod raw;
+mod rexs;
 mod schema;
 mod setting;
 mod source;
+mod starter;
 mod written;
 
 use std::f64::consts::PI;
@@ -56,11 +58,13 @@ pub use motion::{
 pub use operation::{Driver, Rotation};
 pub use output::{FieldName, OutputScene};
 pub use raw::{Number, Whole, Word};
+pub use rexs::{RexsError, read_pair};
 pub use schema::{
     ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use source::Source;
+pub use starter::Starter;
 pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.

@@ -1,7 +1,8 @@
-//! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the value, a field of what is checked.
+//! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the
+//! value, a field of what is checked.
 
-/// A table of the scene file: its rows make the [`Table`](super::Table) and the struct of what is written. With `=> Checked` they make the struct of
-/// what is meant as well, and `read`, which takes it from what is written.
+/// A table of the scene file: its rows make the [`Table`](super::Table) and the struct of what is written. With `=>
+/// Checked` they make the struct of what is meant as well, and `read`, which takes it from what is written.
 ///
 /// ```text
 /// table! { STATIC, RawStruct [=> Checked [Default]]: "what it is about", needed ["key", ...]; { key: kind(range and default), "meaning"; ... } }
@@ -149,7 +150,8 @@ macro_rules! choice {
     };
 }
 
-/// An enum each of whose values is a word of the scene file; the first one is the default where a default does not depend on other keys.
+/// An enum each of whose values is a word of the scene file; the first one is the default where a default does not
+/// depend on other keys.
 macro_rules! choices {
     ($(#[$meta:meta])* pub enum $name:ident { $($(#[$of:meta])* $variant:ident = $word:literal,)* }) => {
         $(#[$meta])*

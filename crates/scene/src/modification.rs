@@ -1,7 +1,7 @@
 //! Micro-geometry of a scene: its keys, their checks, and the depths in the geometry that they stand for.
 //!
-//! A new kind of modification is a row of `flank_tables!` and a line of [`FlankScene::in_geometry`] here, and its formula in
-//! [`geometry::modification`].
+//! A new kind of modification is a row of `flank_tables!` and a line of [`FlankScene::in_geometry`] here, and its
+//! formula in [`geometry::modification`].
 
 use std::path::PathBuf;
 
@@ -97,8 +97,8 @@ macro_rules! flank_read {
     };
 }
 
-/// The keys of a flank once for the three tables that they stand in, and for the struct of what they mean. (Unknown keys are refused, which serde
-/// cannot do for tables put together of two.)
+/// The keys of a flank once for the three tables that they stand in, and for the struct of what they mean. (Unknown
+/// keys are refused, which serde cannot do for tables put together of two.)
 macro_rules! flank_tables {
     ($($name:ident: $kind:ident, $about:literal;)*) => {
         const FLANK_KEYS: &[Key] = &[$($kind(stringify!($name), $about)),*];

@@ -11,8 +11,9 @@ use super::SceneError;
 
 /// A key of the scene with the value that takes the place of the file's.
 ///
-/// The key is written with dots from the top of the scene (`operation.torque_nm`, `pinion.modification.tip_relief_um`); a number among its parts counts the
-/// entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`). The value is TOML; what is no TOML is a text (`contact.method=slice`).
+/// The key is written with dots from the top of the scene (`operation.torque_nm`, `pinion.modification.tip_relief_um`);
+/// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`). The
+/// value is TOML; what is no TOML is a text (`contact.method=slice`).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
     label: String,

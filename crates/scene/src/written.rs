@@ -44,8 +44,8 @@ impl Written {
 }
 
 impl Scene {
-    /// Where the first of these keys is written that is: keys have dots (`pair.centre_distance_mm`), a table's own name stands for its
-    /// heading. `None` where none of them is.
+    /// Where the first of these keys is written that is: keys have dots (`pair.centre_distance_mm`), a table's own name
+    /// stands for its heading. `None` where none of them is.
     pub fn place_of(&self, keys: &[&str]) -> Option<Place> {
         let source = self.written.source(&self.file);
         let first = |root: Spanned<DeTable<'_>>| Ok(keys.iter().find_map(|key| find(root.get_ref(), key)));

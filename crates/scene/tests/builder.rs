@@ -39,7 +39,8 @@ fn set_all(mut builder: SceneBuilder, before: &str, value: &Value) -> SceneBuild
     }
 }
 
-/// All scenes that are shipped: at rest and in time, of every model. Code and text give the same scene but for the file's name.
+/// All scenes that are shipped: at rest and in time, of every model. Code and text give the same scene but for the
+/// file's name.
 #[test]
 fn code_and_text_give_the_same_scene() {
     let (mut seen, mut models) = (0, Vec::new());

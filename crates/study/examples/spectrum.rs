@@ -1,4 +1,5 @@
-//! What is in a vibration record: lines of the mesh frequency with sidebands at shaft frequency, read with their true amplitudes.
+//! What is in a vibration record: lines of the mesh frequency with sidebands at shaft frequency, read with their true
+//! amplitudes.
 //!
 //! `cargo run -p study --example spectrum`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -31,7 +31,8 @@ fn sweep<S, E>(
 
 /// Up along `values` and down again, the state carried all the way: where both answers differ there is hysteresis.
 ///
-/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of its section.
+/// `run` takes a motion on at one value until it has settled, leaves its end in the state, and returns the points of
+/// its section.
 ///
 /// # Errors
 /// The first of `run`.
@@ -57,7 +58,8 @@ impl Branch {
         Some([low, high])
     }
 
-    /// Number of distinct points, two being one when they lie within `tolerance`: 1 for a period of one, 2 after a doubling, many in chaos.
+    /// Number of distinct points, two being one when they lie within `tolerance`: 1 for a period of one, 2 after a
+    /// doubling, many in chaos.
     pub fn distinct(&self, tolerance: f64) -> usize {
         let mut sorted = self.points.clone();
         sorted.sort_by(f64::total_cmp);
@@ -67,7 +69,8 @@ impl Branch {
 }
 
 impl Bifurcation {
-    /// Ranges of the parameter in which both ways give other answers: their extents differ by more than `tolerance` (unit of the points). First and last value of each range.
+    /// Ranges of the parameter in which both ways give other answers: their extents differ by more than `tolerance`
+    /// (unit of the points). First and last value of each range.
     pub fn hysteresis(&self, tolerance: f64) -> Vec<[f64; 2]> {
         let mut bands: Vec<[f64; 2]> = Vec::new();
         let mut inside = false;

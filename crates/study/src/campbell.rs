@@ -32,11 +32,12 @@ pub struct Resonance {
 
 /// Diagram over `speeds` (Hz, ascending); `modes` gives the natural frequencies (Hz) at a speed, as many at each.
 ///
-/// Modes are taken in ascending order at every speed: where two cross, their numbers change places, and the resonances are the same.
-/// Between the speeds modes are straight.
+/// Modes are taken in ascending order at every speed: where two cross, their numbers change places, and the resonances
+/// are the same. Between the speeds modes are straight.
 ///
 /// # Errors
-/// [`StudyError`] for speeds that do not ascend, orders that are not positive, or another number of modes at another speed.
+/// [`StudyError`] for speeds that do not ascend, orders that are not positive, or another number of modes at another
+/// speed.
 pub fn campbell(
     speeds: &[f64],
     orders: &[f64],

@@ -11,14 +11,15 @@ const ROUND_OFF: f64 = 1e-13;
 /// r = sum (a - mean a)(b - mean b) / sqrt( sum (a - mean a)^2 sum (b - mean b)^2 )
 /// ```
 ///
-/// 1: b is a straight line of a that rises, -1: one that falls, 0: neither. Units cancel, and so does any factor or shift of
-/// either. It measures following without delay: a sine and a cosine have 0. Source: Pearson, Proc. R. Soc. 58 (1895), p. 240.
+/// 1: b is a straight line of a that rises, -1: one that falls, 0: neither. Units cancel, and so does any factor or
+/// shift of either. It measures following without delay: a sine and a cosine have 0. Source: Pearson, Proc. R. Soc. 58
+/// (1895), p. 240.
 ///
 /// `None` where one of them does not vary (its spread is round-off of its size): there is nothing to follow.
 ///
 /// # Errors
-/// [`StudyError::Lengths`] when they are of different lengths, [`StudyError::TooFewSamples`] with less than two samples,
-/// [`StudyError::NotFinite`] when one is no number.
+/// [`StudyError::Lengths`] when they are of different lengths, [`StudyError::TooFewSamples`] with less than two
+/// samples, [`StudyError::NotFinite`] when one is no number.
 ///
 /// # Example
 /// ```

@@ -21,15 +21,15 @@ pub struct Touch {
 
 /// Largest pressure and line load on every part of a flank, on a grid of roll angle by axial station.
 ///
-/// Contact at a station wanders along the profile while the tooth goes through the mesh. It is known at the positions that were
-/// solved; from one to the next, roll angle, pressure and line load are taken to change linearly:
+/// Contact at a station wanders along the profile while the tooth goes through the mesh. It is known at the positions
+/// that were solved; from one to the next, roll angle, pressure and line load are taken to change linearly:
 ///
 /// ```text
 /// p(u_i, z_j) = max of p over the path of station j within |u - u_i| <= h / 2     h: step of the grid
 /// ```
 ///
-/// so the largest value of the grid is the largest of all touches, and what no path comes within half a step of is 0. The band
-/// reaches its half-width farther; a path ends at the last solved position that carries load.
+/// so the largest value of the grid is the largest of all touches, and what no path comes within half a step of is 0.
+/// The band reaches its half-width farther; a path ends at the last solved position that carries load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlankPattern {
     rolls: Vec<f64>,
@@ -40,7 +40,8 @@ pub struct FlankPattern {
 }
 
 impl FlankPattern {
-    /// A flank that nothing has touched: `steps` equal steps of roll angle over `range` (rad), stations at heights `stations` (mm).
+    /// A flank that nothing has touched: `steps` equal steps of roll angle over `range` (rad), stations at heights
+    /// `stations` (mm).
     ///
     /// # Errors
     /// [`StudyError::NoGrid`] without a step or a station, or when the range is no range.
@@ -57,9 +58,9 @@ impl FlankPattern {
         Ok(Self { rolls, stations, max_pressure: zeros.clone(), max_line_load: zeros })
     }
 
-    /// Adds the touches of one mesh cycle, in any order. All teeth count as one tooth: what pair k does at phase s happens at
-    /// engagement k + s. Touches of one station are joined to a path where their engagements differ by at most `reach` cycles: a
-    /// little more than the distance of two positions.
+    /// Adds the touches of one mesh cycle, in any order. All teeth count as one tooth: what pair k does at phase s
+    /// happens at engagement k + s. Touches of one station are joined to a path where their engagements differ by at
+    /// most `reach` cycles: a little more than the distance of two positions.
     ///
     /// A touch belongs to the nearest station, and beyond the end of the grid to its last strip.
     ///
@@ -150,7 +151,8 @@ mod tests {
         Touch { z: 0.0, engagement, roll, pressure, line_load: 2.0 * pressure }
     }
 
-    /// A path sampled coarsely leaves no hole: every strip between two touches gets the line through them, at its higher end.
+    /// A path sampled coarsely leaves no hole: every strip between two touches gets the line through them, at its
+    /// higher end.
     #[test]
     fn between_positions_the_path_is_a_line() {
         let mut pattern = FlankPattern::new([0.0, 1.0], 10, vec![0.0]).unwrap();
@@ -162,7 +164,8 @@ mod tests {
         }
     }
 
-    /// Contact that ceases and returns leaves what lies between untouched, and a single position marks its own strip alone.
+    /// Contact that ceases and returns leaves what lies between untouched, and a single position marks its own strip
+    /// alone.
     #[test]
     fn a_gap_in_the_engagement_stays_empty() {
         let mut pattern = FlankPattern::new([0.0, 1.0], 10, vec![0.0]).unwrap();

@@ -1,9 +1,10 @@
 //! How good, how fast, how stable?
 //!
-//! Statistics of histories that are sampled evenly over whole mesh cycles, so that neither a window
-//! function nor leakage stands between a mesh harmonic and its amplitude; spectra with windows and sidebands where the record is no whole cycle; sections, bifurcation
-//! diagrams, Lyapunov exponents, phase portraits and Campbell diagrams of any motion; what contact leaves on a flank over such cycles;
-//! accuracy against cost of the ways to compute one, CalculiX among them ([`calculix`]).
+//! Statistics of histories that are sampled evenly over whole mesh cycles, so that neither a window function nor
+//! leakage stands between a mesh harmonic and its amplitude; spectra with windows and sidebands where the record is no
+//! whole cycle; sections, bifurcation diagrams, Lyapunov exponents, phase portraits and Campbell diagrams of any
+//! motion; what contact leaves on a flank over such cycles; accuracy against cost of the ways to compute one, CalculiX
+//! among them ([`calculix`]).
 
 mod bifurcation;
 pub mod calculix;

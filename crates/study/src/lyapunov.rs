@@ -7,18 +7,21 @@ use serde::Serialize;
 pub struct LyapunovPlan {
     /// Time of one stretch (one period of the excitation, or about one of the motion).
     pub stretch: f64,
-    /// Stretches before counting begins: the transient, and the turn of the difference into its direction of fastest growth.
+    /// Stretches before counting begins: the transient, and the turn of the difference into its direction of fastest
+    /// growth.
     pub settling: usize,
     /// Stretches that count.
     pub stretches: usize,
-    /// Distance to which the neighbour is set back after each stretch, in units of `scale`; 1e-7 is far above round-off and far below any curvature.
+    /// Distance to which the neighbour is set back after each stretch, in units of `scale`; 1e-7 is far above round-off
+    /// and far below any curvature.
     pub distance: f64,
 }
 
 /// Largest Lyapunov exponent and how well it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Lyapunov {
-    /// Mean rate of growth of a small difference, per unit of time: > 0 in chaos, 0 for a torus (or a free shift in time), < 0 for a motion that repeats.
+    /// Mean rate of growth of a small difference, per unit of time: > 0 in chaos, 0 for a torus (or a free shift in
+    /// time), < 0 for a motion that repeats.
     pub exponent: f64,
     /// Standard error from ten parts of the stretches.
     pub error: f64,
@@ -31,13 +34,15 @@ impl Lyapunov {
     }
 }
 
-/// Largest exponent of a motion by two neighbours, the distance set back after every stretch (Benettin, Galgani, Giorgilli, Strelcyn, Meccanica 15 (1980) 9).
+/// Largest exponent of a motion by two neighbours, the distance set back after every stretch (Benettin, Galgani,
+/// Giorgilli, Strelcyn, Meccanica 15 (1980) 9).
 ///
 /// ```text
 /// lambda = 1 / (m T) sum ln(d_k / d_0)
 /// ```
-/// `advance(x, k)` carries a state x from k T to (k + 1) T; `scale` is what counts as large of each entry, > 0. Works for flows, maps and motions with kinks: it needs no tangent.
-/// A difference that dies out to nothing within one stretch counts as the smallest number there is.
+/// `advance(x, k)` carries a state x from k T to (k + 1) T; `scale` is what counts as large of each entry, > 0. Works
+/// for flows, maps and motions with kinks: it needs no tangent. A difference that dies out to nothing within one
+/// stretch counts as the smallest number there is.
 ///
 /// # Errors
 /// Those of `advance`.

@@ -35,8 +35,9 @@ pub fn phase_portrait(coordinate: &[f64], velocity: &[f64]) -> Result<PhasePortr
 }
 
 impl PhasePortrait {
-    /// How far the path is from closing after `samples` points: largest distance of a point from the one that many later, each direction over its extent. 0 for a motion that
-    /// repeats with that period; 1 or so in chaos. `None` when the portrait is not longer than that.
+    /// How far the path is from closing after `samples` points: largest distance of a point from the one that many
+    /// later, each direction over its extent. 0 for a motion that repeats with that period; 1 or so in chaos. `None`
+    /// when the portrait is not longer than that.
     pub fn opening(&self, samples: usize) -> Option<f64> {
         let size = self.extent.map(|[low, high]| if high > low { high - low } else { 1.0 });
         let later = self.points.get(samples..).filter(|rest| !rest.is_empty() && samples > 0)?;
@@ -44,7 +45,8 @@ impl PhasePortrait {
         Some(self.points.iter().zip(later).map(apart).fold(0.0, f64::max))
     }
 
-    /// Area inside the path over whole periods by the shoelace formula, x times x': pi a^2 omega for one turn of a sine; positive clockwise, as all motion goes.
+    /// Area inside the path over whole periods by the shoelace formula, x times x': pi a^2 omega for one turn of a
+    /// sine; positive clockwise, as all motion goes.
     pub fn area(&self) -> f64 {
         let next = self.points.iter().cycle().skip(1);
         self.points.iter().zip(next).map(|(a, b)| 0.5 * (b[0] * a[1] - a[0] * b[1])).sum()

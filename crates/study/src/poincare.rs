@@ -4,12 +4,13 @@ use crate::error::{StudyError, positive};
 
 /// Points of a motion at offset, offset + period, ... by cubic interpolation between its samples.
 ///
-/// `times` ascend; `columns[c][k]` is quantity c at `times[k]`. The result holds one point a period, each with one entry a column. A period should have a dozen samples or more:
-/// the interpolation (through the two samples on either side) is of third order.
+/// `times` ascend; `columns[c][k]` is quantity c at `times[k]`. The result holds one point a period, each with one
+/// entry a column. A period should have a dozen samples or more: the interpolation (through the two samples on either
+/// side) is of third order.
 ///
 /// # Errors
-/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend, a period that is not positive or shorter than
-/// the samples are apart.
+/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend, a period that is not
+/// positive or shorter than the samples are apart.
 pub fn stroboscopic_section(
     times: &[f64],
     columns: &[&[f64]],
@@ -35,7 +36,8 @@ pub fn stroboscopic_section(
         .collect())
 }
 
-/// Points at which `surface` goes through zero from below, the columns interpolated to that time; one point a crossing, time first.
+/// Points at which `surface` goes through zero from below, the columns interpolated to that time; one point a crossing,
+/// time first.
 ///
 /// # Errors
 /// As for [`stroboscopic_section`].
@@ -80,8 +82,9 @@ pub fn iterated_section<S, P, E>(
     (0..keep).map(|_| step(state)).collect()
 }
 
-/// Period of a section: the least m for which every point comes back after m, within `tolerance` times the extent of each column over all points. `None` when no m up
-/// to a third of the points does: quasi-periodic, chaotic, or not settled.
+/// Period of a section: the least m for which every point comes back after m, within `tolerance` times the extent of
+/// each column over all points. `None` when no m up to a third of the points does: quasi-periodic, chaotic, or not
+/// settled.
 ///
 /// Columns that do not move at all count as coming back.
 pub fn section_period(points: &[Vec<f64>], tolerance: f64, scale: &[f64]) -> Option<usize> {

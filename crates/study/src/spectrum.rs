@@ -16,10 +16,11 @@ pub enum Window {
     Rectangular,
     /// (1 - cos 2 pi x) / 2: resolves neighbours four bins apart.
     Hann,
-    /// Four-term Blackman-Harris: side lobes 92 dB down, so that a small sideband stands out beside a large carrier; resolves eight bins.
+    /// Four-term Blackman-Harris: side lobes 92 dB down, so that a small sideband stands out beside a large carrier;
+    /// resolves eight bins.
     BlackmanHarris,
-    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins, and because its top is flat the frequency of a peak is
-    /// good to half a bin only.
+    /// Five-term flat top: an off-bin sine reads its amplitude within 0.1 % without interpolation; resolves ten bins,
+    /// and because its top is flat the frequency of a peak is good to half a bin only.
     FlatTop,
 }
 
@@ -47,7 +48,8 @@ impl Window {
         self.terms()[0]
     }
 
-    /// Equivalent noise bandwidth in bins, mean of w^2 over the square of its mean: power of noise in a band is the sum of amplitude^2 / 2 over this.
+    /// Equivalent noise bandwidth in bins, mean of w^2 over the square of its mean: power of noise in a band is the sum
+    /// of amplitude^2 / 2 over this.
     pub fn noise_bandwidth(self) -> f64 {
         let [first, rest @ ..] = self.terms() else { return 1.0 };
         1.0 + rest.iter().map(|a| 0.5 * a * a).sum::<f64>() / (first * first)
@@ -95,15 +97,16 @@ pub struct Sidebands {
     pub carrier: Peak,
     /// Below and above, at once, twice, ... the spacing.
     pub pairs: Vec<[Peak; 2]>,
-    /// Median of the spectrum's bins within reach that hold neither carrier nor sideband: what a line must stand out of.
+    /// Median of the spectrum's bins within reach that hold neither carrier nor sideband: what a line must stand out
+    /// of.
     pub floor: f64,
 }
 
 /// Spectrum of `samples`, taken `rate` times a second.
 ///
 /// # Errors
-/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample that is not a number, [`StudyError::NotPositive`] for a rate
-/// that is not above 0.
+/// [`StudyError::TooFewSamples`] for fewer than 8, [`StudyError::NotFinite`] for a sample that is not a number,
+/// [`StudyError::NotPositive`] for a rate that is not above 0.
 ///
 /// # Example
 /// ```
@@ -149,7 +152,8 @@ impl Spectrum {
         re.hypot(im)
     }
 
-    /// Local maxima of at least `least` (unit of the samples), ascending in frequency, each at its true place between the bins.
+    /// Local maxima of at least `least` (unit of the samples), ascending in frequency, each at its true place between
+    /// the bins.
     pub fn peaks(&self, least: f64) -> Vec<Peak> {
         let a = &self.amplitudes;
         (1..a.len().saturating_sub(1))

@@ -18,7 +18,8 @@ pub struct Answer {
 pub struct AnswerError {
     /// Mean of STE minus mean of the reference at the same positions, relative.
     pub mean_ste: f64,
-    /// Peak-to-peak STE minus that of the reference, relative; `None` unless the answer has every position of the reference.
+    /// Peak-to-peak STE minus that of the reference, relative; `None` unless the answer has every position of the
+    /// reference.
     pub peak_to_peak_ste: Option<f64>,
     /// Mean contact-line length minus that of the reference at the same positions, relative.
     pub mean_line_length: Option<f64>,
@@ -33,7 +34,8 @@ pub struct Work {
     pub cycle_s: f64,
     /// All positions of a later cycle, where one was run.
     pub further_cycle_s: Option<f64>,
-    /// Positions of the cycle that were run. Times of a cycle are scaled from them where they are fewer than [`Work::positions_asked`].
+    /// Positions of the cycle that were run. Times of a cycle are scaled from them where they are fewer than
+    /// [`Work::positions_asked`].
     pub positions_run: usize,
     /// Positions of the cycle.
     pub positions_asked: usize,

@@ -1,8 +1,9 @@
 //! Tests that need programs of others: which of them were left out?
 //!
-//! A test that cannot be done on this machine has neither passed nor failed. A [`Suite`] shows it as *ignored*, with the reason, in the result line of its
-//! own test program, and keeps a record. Examples in documentation are tested after all else, package by package in the order of the alphabet, and this
-//! package is the last. So at the end of `cargo test --workspace` every test that was left out stands once more, as an ignored example of a module named
+//! A test that cannot be done on this machine has neither passed nor failed. A [`Suite`] shows it as *ignored*, with
+//! the reason, in the result line of its own test program, and keeps a record. Examples in documentation are tested
+//! after all else, package by package in the order of the alphabet, and this package is the last. So at the end of
+//! `cargo test --workspace` every test that was left out stands once more, as an ignored example of a module named
 //! after the reason, and is counted in the very last result line. [`summary`] says the same in words.
 //!
 //! ```

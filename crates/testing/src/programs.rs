@@ -1,4 +1,5 @@
-//! Programs of others on this machine. What is missing is told in words that end a sentence: "left out: no browser ...".
+//! Programs of others on this machine. What is missing is told in words that end a sentence: "left out: no browser
+//! ...".
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -6,10 +7,12 @@ use std::process::Command;
 /// Names under which browsers that can be asked from a command line are known.
 const BROWSERS: [&str; 5] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome", "chrome"];
 
-/// What a shell's status is for a program that is not there, or cannot be run; what stands for several versions of a program ends so as well.
+/// What a shell's status is for a program that is not there, or cannot be run; what stands for several versions of a
+/// program ends so as well.
 const NOT_THERE: [i32; 2] = [126, 127];
 
-/// Whether a program in `PATH` starts when it is asked for its version, as by `ccx -v`; some end that with an odd status.
+/// Whether a program in `PATH` starts when it is asked for its version, as by `ccx -v`; some end that with an odd
+/// status.
 ///
 /// # Errors
 /// Says that it does not.

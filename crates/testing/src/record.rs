@@ -27,8 +27,8 @@ fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap_or(Path::new("."))
 }
 
-/// Keeps in a folder what the tests of one source file (`file!()`) are about to do, in place of what they did the last time; `part` where several keep
-/// their own.
+/// Keeps in a folder what the tests of one source file (`file!()`) are about to do, in place of what they did the last
+/// time; `part` where several keep their own.
 ///
 /// # Errors
 /// Of the file system.

@@ -8,7 +8,8 @@ use crate::record::{Record, folder, note};
 
 /// Tests of one program (`harness = false`), each with what it needs.
 ///
-/// It takes the words that cargo gives to any test program, and says what the usual harness says: `ok`, `FAILED` or `ignored` with a reason.
+/// It takes the words that cargo gives to any test program, and says what the usual harness says: `ok`, `FAILED` or
+/// `ignored` with a reason.
 #[derive(Debug)]
 pub struct Suite {
     source: &'static str,

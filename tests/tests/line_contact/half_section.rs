@@ -1,4 +1,5 @@
-//! The half tooth of a spur gear, resolved: flank (tip edge sharp or rounded) and tip land free, centre surface and foot clamped.
+//! The half tooth of a spur gear, resolved: flank (tip edge sharp or rounded) and tip land free, centre surface and
+//! foot clamped.
 
 use faer::Mat;
 use geometry::Gear;
@@ -7,7 +8,8 @@ use super::plane::{Lattice, Vec2, graded};
 
 /// Compliance of the part of a flank that a band can reach.
 pub struct Resolved {
-    /// Distance of the nodes from the sharp tip corner along the flank, mm; on a rounded edge along the flank's tangent.
+    /// Distance of the nodes from the sharp tip corner along the flank, mm; on a rounded edge along the flank's
+    /// tangent.
     pub x: Vec<f64>,
     pub compliance: Mat<f64>,
 }
@@ -36,8 +38,8 @@ impl HalfSection<'_> {
         self.edge_radius / (0.5 * omega).tan()
     }
 
-    /// The flank with nodes at the distances `fine` from the corner (element ends and middles by turns, ascending), all of the
-    /// arc before them when the first one is [`HalfSection::flank_start`] of a rounded edge.
+    /// The flank with nodes at the distances `fine` from the corner (element ends and middles by turns, ascending), all
+    /// of the arc before them when the first one is [`HalfSection::flank_start`] of a rounded edge.
     pub fn resolve(&self, fine: &[f64]) -> Resolved {
         let profile = self.gear.profile();
         let (tip, form, base) = (profile.roll_tip(), profile.roll_form(), self.gear.base_radius());

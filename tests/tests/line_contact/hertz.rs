@@ -2,12 +2,12 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
 //! Source: Hertz 1882; p0 = sqrt(q E* / (pi R)), a = 2 q / (pi p0), 1/R = 1/R1 + 1/R2, 1/E* = sum (1 - nu^2)/E.
-//! Tolerance: 3 % in p0 and half-width at eight hex8 elements a half-width, 6 x 6 points a face as in a run; pressure is the
-//! nodal one.
+//! Tolerance: 3 % in p0 and half-width at eight hex8 elements a half-width, 6 x 6 points a face as in a run; pressure
+//! is the nodal one.
 
 use contact::{
-    Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene, closest_points,
-    complementarity, contact_points, hertz, nodal_pressures,
+    Balance, Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene,
+    closest_points, complementarity, contact_points, hertz, nodal_pressures,
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
@@ -43,8 +43,8 @@ struct Body {
     bottom: Vec<u32>,
 }
 
-/// A block of hex8, one element thick, its upper face on the cylinder whose top is at the origin; material below (`up` = 1)
-/// or, for the mirrored body, above it (`up` = -1).
+/// A block of hex8, one element thick, its upper face on the cylinder whose top is at the origin; material below (`up`
+/// = 1) or, for the mirrored body, above it (`up` = -1).
 fn block(radius: f64, up: f64, h: f64, fine: f64, shift: f64) -> Body {
     let half = graded(h, fine, EXTENT);
     let mut xs: Vec<f64> = half.iter().rev().map(|x| -x).collect();
@@ -147,7 +147,7 @@ fn solve(per_half_width: f64, law: Law) -> Result<(f64, f64), ContactError> {
     }
     let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
     let load = -LINE_LOAD * THICKNESS;
-    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()])?;
+    let solution = complementarity::solve(&mut elastic, &rows, 0, Balance::Moment(load), law, &vec![0.0; rows.len()])?;
     let pressures = nodal_pressures(&patches[..1], 0, &rows, &solution.forces);
     let pressure = pressures.values().copied().fold(0.0, f64::max);
     // The half-ellipse has the second moment a^2 / 4: a measure that does not jump from element to element.

@@ -152,7 +152,8 @@ fn half_teeth_under_hertzian_bands() {
     assert!(worst < 0.01, "{worst}");
 }
 
-/// A tip edge on the mate's flank, band resolved on both half teeth: on the flank, cut off by the edge, off the line of action.
+/// A tip edge on the mate's flank, band resolved on both half teeth: on the flank, cut off by the edge, off the line of
+/// action.
 struct EdgeCase<'a> {
     tip: &'a Gear,
     mate: &'a Gear,
@@ -320,8 +321,9 @@ fn slice_ste(bulk: &[faer::Mat<f64>], local: &[LocalContact], load: f64) -> f64 
     ste
 }
 
-/// STE of the default tooth as a spur pair, sectors of 5 teeth, cuts free, bore held, against values with the band resolved on the whole sector
-/// (independent code, elements of a sixteenth of the half-width; given with the finite-element reference of the default pair).
+/// STE of the default tooth as a spur pair, sectors of 5 teeth, cuts free, bore held, against values with the band
+/// resolved on the whole sector (independent code, elements of a sixteenth of the half-width; given with the
+/// finite-element reference of the default pair).
 #[test]
 fn plane_strain_sector() {
     let data = GearData { helix_angle: 0.0, face_width: 1.0, ..GearData::default() };

@@ -1,13 +1,15 @@
-//! Contact patch test: two blocks with meshes that do not match, pressed together by a uniform pressure (failure mode F12).
+//! Contact patch test: two blocks with meshes that do not match, pressed together by a uniform pressure (failure mode
+//! F12).
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! Exact answer: sigma_z = -p everywhere, u_z linear, both faces sinking evenly. Pressing body 1's quadrature points loads body 2 by
-//! the integrals of its shape functions, whose kinks along its element edges run through the faces of body 1: what Gauss points
-//! miss of them is the error, and it has to vanish with the number of points along a face's edge.
+//! Exact answer: sigma_z = -p everywhere, u_z linear, both faces sinking evenly. Pressing body 1's quadrature points
+//! loads body 2 by the integrals of its shape functions, whose kinks along its element edges run through the faces of
+//! body 1: what Gauss points miss of them is the error, and it has to vanish with the number of points along a face's
+//! edge.
 
 use contact::{
-    Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface, Vec3,
-    closest_points, complementarity, contact_points,
+    Balance, Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface,
+    Vec3, closest_points, complementarity, contact_points,
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
@@ -46,7 +48,8 @@ struct Body {
     top: Vec<Face>,
 }
 
-/// A block of n[0] x n[1] x n[2] elements from the plane away; inner lattice lines are moved so that no two meshes share one.
+/// A block of n[0] x n[1] x n[2] elements from the plane away; inner lattice lines are moved so that no two meshes
+/// share one.
 fn block(kind: ElementKind, n: [usize; 3], up: f64, skew: f64) -> Body {
     let order = if kind == ElementKind::Hex8 { 1 } else { 2 };
     let counts = n.map(|k| k * order + 1);
@@ -101,8 +104,8 @@ fn block(kind: ElementKind, n: [usize; 3], up: f64, skew: f64) -> Body {
     Body { mesh: Mesh { nodes, node_tags, blocks, ..Mesh::default() }, top }
 }
 
-/// Compliance of the top nodes, the block on rollers: far face in z, faces x = 0 and y = 0 across. Uniform pressure is then an
-/// exact solution for any Poisson's ratio.
+/// Compliance of the top nodes, the block on rollers: far face in z, faces x = 0 and y = 0 across. Uniform pressure is
+/// then an exact solution for any Poisson's ratio.
 fn compliance(body: &Body, nodes: &[u32]) -> Mat<f64> {
     let dofs = DofMap::new(body.mesh.nodes.len(), &[]);
     let steel = Material::new(YOUNG, 0.3, 7.85e-9).unwrap();
@@ -161,7 +164,8 @@ fn deviation(kind: ElementKind, per_edge: usize, law: Law) -> [f64; 2] {
     }
     let mut elastic = Condensed::new(&rows, [compliances[0].as_ref(), compliances[1].as_ref()]);
     let load = -PRESSURE * SIZE[0] * SIZE[1];
-    let solution = complementarity::solve(&mut elastic, &rows, 0, load, law, &vec![0.0; rows.len()]).unwrap();
+    let solution =
+        complementarity::solve(&mut elastic, &rows, 0, Balance::Moment(load), law, &vec![0.0; rows.len()]).unwrap();
     let displacements = elastic.displacements(&solution.forces);
     let even = PRESSURE * SIZE[2] / YOUNG;
     [0, 1].map(|b| {

@@ -1,7 +1,8 @@
 //! Line contact in plane strain with the band resolved: the reference that closed forms of it are held against.
 //!
-//! Nothing of the library's local compliance is used: fully integrated quad8 on a lattice that is fine at the band, pressure linear
-//! between the nodes, gap and pressure complementary in the mean with the pressure's own shape functions.
+//! Nothing of the library's local compliance is used: fully integrated quad8 on a lattice that is fine at the band,
+//! pressure linear between the nodes, gap and pressure complementary in the mean with the pressure's own shape
+//! functions.
 
 use faer::{Mat, linalg::solvers::Solve};
 use fem::{BoundaryLastFactor, SymmetricMatrix};
@@ -104,8 +105,8 @@ impl Lattice<'_> {
     }
 }
 
-/// Integrals of the pressure's shape functions (linear between nodes) times the elements' (quadratic) over the surface with nodes at `x`
-/// (element ends and middles by turns, an end first): nodes x pressures.
+/// Integrals of the pressure's shape functions (linear between nodes) times the elements' (quadratic) over the surface
+/// with nodes at `x` (element ends and middles by turns, an end first): nodes x pressures.
 pub fn loads(x: &[f64]) -> Mat<f64> {
     let mut b = Mat::zeros(x.len(), x.len());
     let gauss = [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)];
@@ -135,7 +136,8 @@ pub struct Band {
     pub weights: Vec<f64>,
 }
 
-/// Contact of bodies whose compliances at the nodes `x` sum to `compliance`, under a line load q (N/mm), with an initial gap.
+/// Contact of bodies whose compliances at the nodes `x` sum to `compliance`, under a line load q (N/mm), with an
+/// initial gap.
 pub fn press(x: &[f64], compliance: &Mat<f64>, gap: impl Fn(f64) -> f64, q: f64) -> Band {
     let b = loads(x);
     let n = x.len();
@@ -192,8 +194,8 @@ pub fn under_hertz(x: &[f64], compliance: &Mat<f64>, a: f64, q: f64) -> f64 {
     (0..n).map(|j| p[j] * (0..n).map(|i| compliance[(middle, i)] * b[(i, j)]).sum::<f64>()).sum()
 }
 
-/// Positions from `start` to `end`: `fine` (element ends and middles by turns) inside, outside it elements that grow by `growth` up to
-/// `largest`.
+/// Positions from `start` to `end`: `fine` (element ends and middles by turns) inside, outside it elements that grow by
+/// `growth` up to `largest`.
 pub fn graded(start: f64, fine: &[f64], end: f64, growth: f64, largest: f64) -> Vec<f64> {
     let (low, high) = (fine[0], fine[fine.len() - 1]);
     let out = |from: f64, to: f64, first: f64| -> Vec<f64> {

@@ -25,7 +25,8 @@ pub struct Place {
 }
 
 impl<'a> PlaneGear<'a> {
-    /// A sector of five teeth with `along` elements along the flank, `fillet`, `across` and `rim` elsewhere; the gear is 1 mm wide.
+    /// A sector of five teeth with `along` elements along the flank, `fillet`, `across` and `rim` elsewhere; the gear
+    /// is 1 mm wide.
     pub fn new(gear: &'a Gear, material: &Material, [along, fillet, across, rim]: [u32; 4]) -> Self {
         let options = StructuredOptions {
             order: 2,

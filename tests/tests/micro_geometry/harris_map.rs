@@ -1,8 +1,8 @@
 //! Harris map: peak-to-peak STE over torque and tip relief.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! Source: S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958): every relief has a load at which STE is flattest,
-//! and is worse than none far below it.
+//! Source: S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958): every relief has a load at
+//! which STE is flattest, and is worse than none far below it.
 
 use std::sync::Arc;
 

@@ -1,8 +1,10 @@
-//! Unloaded, modified, misaligned flanks: the angle at which they just touch against the closed form in the plane of action.
+//! Unloaded, modified, misaligned flanks: the angle at which they just touch against the closed form in the plane of
+//! action.
 //!
-//! The closed form takes the gap of two flanks along their nominal contact line to be the sum of the depths. Flanks that are tilted against
-//! each other by G touch beside that line, R G^2 / 2 earlier (R: relative radius of curvature): a few nanometres for depths of a
-//! micrometre, and half a micrometre in the middle of a relief of 30 um. The search finds the true place.
+//! The closed form takes the gap of two flanks along their nominal contact line to be the sum of the depths. Flanks
+//! that are tilted against each other by G touch beside that line, R G^2 / 2 earlier (R: relative radius of curvature):
+//! a few nanometres for depths of a micrometre, and half a micrometre in the middle of a relief of 30 um. The search
+//! finds the true place.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use ale::Station;
@@ -26,7 +28,8 @@ fn options(pair: &GearPair) -> StaticOptions {
     StaticOptions::new(0.0, pair)
 }
 
-/// The same on both sides of both gears, tips relieved by `amount` (mm) over the last part of the profile from `from` on.
+/// The same on both sides of both gears, tips relieved by `amount` (mm) over the last part of the profile from `from`
+/// on.
 fn flanks(
     beta_deg: f64,
     from: f64,
@@ -53,10 +56,12 @@ fn stations(count: usize) -> impl Iterator<Item = Station> {
     (0..count).map(move |i| Station { cycle: (i / each) as i64, phase: (i % each) as f64 / each as f64 })
 }
 
-/// TE(phi) = min over all points of the contact lines of (h_1 + h_2 - R G^2 / 2) / cos b_b, in the plane of action alone.
+/// TE(phi) = min over all points of the contact lines of (h_1 + h_2 - R G^2 / 2) / cos b_b, in the plane of action
+/// alone.
 ///
-/// G is the slope of h_1 + h_2 along the profile and R the relative radius of curvature: flanks that are tilted against each other touch a
-/// little beside the nominal line. That term is the only one of second order; `second_order` leaves it out or in.
+/// G is the slope of h_1 + h_2 along the profile and R the relative radius of curvature: flanks that are tilted against
+/// each other touch a little beside the nominal line. That term is the only one of second order; `second_order` leaves
+/// it out or in.
 fn closed_form(pair: &GearPair, options: &StaticOptions, station: Station, second_order: bool) -> f64 {
     let side = options.side();
     let sign = options.contact.sense.sign();
@@ -113,7 +118,8 @@ fn deviations(pair: &GearPair, options: &StaticOptions, count: usize) -> [f64; 3
     [worst[0], worst[1], 1e3 * (high - low)]
 }
 
-/// Each kind of modification alone on top of a little tip relief, and all of them, mm, half a micrometre or less; none moves the place of first touch past the relief.
+/// Each kind of modification alone on top of a little tip relief, and all of them, mm, half a micrometre or less; none
+/// moves the place of first touch past the relief.
 fn kinds() -> Vec<(&'static str, FlankModification)> {
     use ReliefShape::{Linear, Parabolic};
     let none = FlankModification::default;
@@ -166,7 +172,8 @@ fn kinematic_te_is_the_geometric_one() {
     }
 }
 
-/// What the closed form leaves out is of second order: twice the depths, four times as much; and most of it is R G^2 / 2.
+/// What the closed form leaves out is of second order: twice the depths, four times as much; and most of it is R G^2
+/// / 2.
 #[test]
 fn the_closed_form_is_of_first_order() {
     for beta in [0.0, -20.0] {
@@ -185,9 +192,9 @@ fn the_closed_form_is_of_first_order() {
     }
 }
 
-/// TE of a spur pair with the same profile at every height, by turning: each point of the pinion's profile asks for a turn of the
-/// wheel that brings the wheel's profile, at the point's own radius, to it; the first touch is the least of them. No
-/// normals and no feet, exact at any depth, tip corners included.
+/// TE of a spur pair with the same profile at every height, by turning: each point of the pinion's profile asks for a
+/// turn of the wheel that brings the wheel's profile, at the point's own radius, to it; the first touch is the least of
+/// them. No normals and no feet, exact at any depth, tip corners included.
 fn by_turning(pair: &GearPair, options: &StaticOptions, station: Station) -> f64 {
     let side = options.side();
     let theta1 = pair.middle_angle(side) + (station.phase - 0.5) * pair.pinion.pitch_angle();
@@ -232,8 +239,8 @@ fn by_turning(pair: &GearPair, options: &StaticOptions, station: Station) -> f64
     least
 }
 
-/// Reliefs, crowning, slope and pitch errors of production size, kinks and corners among them: within 1e-3 um of turning the wheel until
-/// it touches. The closed form is half a micrometre off here.
+/// Reliefs, crowning, slope and pitch errors of production size, kinks and corners among them: within 1e-3 um of
+/// turning the wheel until it touches. The closed form is half a micrometre off here.
 #[test]
 fn real_depths_touch_where_turning_says() {
     let none = FlankModification::default;
@@ -269,7 +276,8 @@ fn real_depths_touch_where_turning_says() {
     }
 }
 
-/// Pitch errors without any relief: tips touch before and after their path of contact, where the closed form knows of no line.
+/// Pitch errors without any relief: tips touch before and after their path of contact, where the closed form knows of
+/// no line.
 #[test]
 fn corners_touch_where_turning_says() {
     let ground = |teeth| GearModifications {
@@ -307,7 +315,8 @@ fn either_driver_and_sense() {
     }
 }
 
-/// Misalignment by itself and with crowning, spur and helical: the gap field of the tilted gears along the contact lines.
+/// Misalignment by itself and with crowning, spur and helical: the gap field of the tilted gears along the contact
+/// lines.
 #[test]
 fn misaligned_flanks_touch_where_the_tilt_says() {
     for beta in [0.0, 12.0] {
@@ -337,7 +346,8 @@ fn largest_te(pair: &GearPair, options: &StaticOptions) -> f64 {
     stations(16).map(te).fold(0.0, f64::max)
 }
 
-/// Unmodified flanks on parallel axes have no transmission error, at any centre distance and wherever the gears are shifted to.
+/// Unmodified flanks on parallel axes have no transmission error, at any centre distance and wherever the gears are
+/// shifted to.
 #[test]
 fn parallel_axes_have_no_transmission_error() {
     let plain = pair(15.0, Default::default());
@@ -360,7 +370,8 @@ fn parallel_axes_have_no_transmission_error() {
     }
 }
 
-/// A spur gear shifted along its axis meets the same flanks: nothing changes as long as they are the same along the face.
+/// A spur gear shifted along its axis meets the same flanks: nothing changes as long as they are the same along the
+/// face.
 #[test]
 fn an_axial_shift_of_a_spur_gear_changes_nothing() {
     let flanks = flanks(0.0, 0.5, 20e-3, ReliefShape::Linear, &FlankModification::default());

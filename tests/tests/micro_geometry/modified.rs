@@ -94,8 +94,8 @@ fn the_loaded_error_tends_to_the_kinematic_one() {
     }
 }
 
-/// Pitch errors go with the gear's teeth and not with the frame of the matrices: the reduced model, whose window slides, answers
-/// as the full one, which has no frames, and the errors come round again after a turn of both gears.
+/// Pitch errors go with the gear's teeth and not with the frame of the matrices: the reduced model, whose window
+/// slides, answers as the full one, which has no frames, and the errors come round again after a turn of both gears.
 #[test]
 fn pitch_errors_stay_with_their_teeth() {
     let case = generated(20.0, SMALL);
@@ -157,8 +157,8 @@ fn lead_slope_and_misalignment_cancel_under_load() {
     }
 }
 
-/// Both gears moved alike, across and along: the same spur pair elsewhere. A wheel moved along its axis alone is the same pair with
-/// a narrower face in common.
+/// Both gears moved alike, across and along: the same spur pair elsewhere. A wheel moved along its axis alone is the
+/// same pair with a narrower face in common.
 #[test]
 fn a_common_shift_changes_nothing() {
     let case = generated(0.0, SMALL);

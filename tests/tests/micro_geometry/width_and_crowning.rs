@@ -1,4 +1,5 @@
-//! Slices and face elements that wide, crowned and misaligned pairs ask for: the counts that the program chooses against much finer ones.
+//! Slices and face elements that wide, crowned and misaligned pairs ask for: the counts that the program chooses
+//! against much finer ones.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
 //! Pairs of 30/30 teeth, module 3 mm, helix angle 20 degrees, at the line load of the default pair.
@@ -18,7 +19,8 @@ const WIDTHS: [f64; 3] = [5.0, 15.0, 40.0];
 const FLANKS: [[f64; 2]; 6] = [[0.0, 0.0], [30.0, 0.0], [200.0, 0.0], [0.0, 100.0], [30.0, 100.0], [200.0, 100.0]];
 const MODULE: f64 = 3.0;
 
-/// What is compared: mean and peak to peak of the elastic transmission error and of the whole one, contact-line length, largest pressure.
+/// What is compared: mean and peak to peak of the elastic transmission error and of the whole one, contact-line length,
+/// largest pressure.
 #[derive(Debug, Clone, Copy)]
 struct Answer {
     mean_um: f64,
@@ -107,7 +109,8 @@ fn counts_follow_width_and_load() {
     assert!(by_load[2] > by_load[0] && by_load[2] > 32, "{by_load:?}");
 }
 
-/// Contact-line length of the default pair at every position, with 16 and 32 slices against 256: within 0.1 %, where it went up and down by 0.5 mm of 34 with the slices that came and went. The mean within 0.02 %.
+/// Contact-line length of the default pair at every position, with 16 and 32 slices against 256: within 0.1 %, where it
+/// went up and down by 0.5 mm of 34 with the slices that came and went. The mean within 0.02 %.
 #[test]
 fn lengths_do_not_ripple_with_the_slices() {
     let case = quadratic(default_data(20.0), None, 150e3, [3, 2, 2, 4, 1], Extent::Periodic);
@@ -222,7 +225,8 @@ fn face_elements_alone() {
     }
 }
 
-/// Section of the meshes on which the defaults are judged: elements along the profile, the fillet, across the tooth, in the rim. What elements along the face lose hardly depends on it.
+/// Section of the meshes on which the defaults are judged: elements along the profile, the fillet, across the tooth, in
+/// the rim. What elements along the face lose hardly depends on it.
 const SECTION: [u32; 4] = [3, 2, 2, 1];
 
 /// A pair reduced once: crowning and misalignment leave the reduction as it is.
@@ -258,7 +262,8 @@ impl Reduced {
 
 /// Slices of the finest answers.
 const FINEST_SLICES: usize = 384;
-/// Elements along the face of the finest answers, for [`WIDTHS`]: three times as many as the program chooses, twice as many for the widest pair.
+/// Elements along the face of the finest answers, for [`WIDTHS`]: three times as many as the program chooses, twice as
+/// many for the widest pair.
 const FINEST_FACE: [u32; 3] = [18, 27, 48];
 /// Most that mean, peak to peak, length and pressure may be off by, per cent.
 const MOST: [f64; 4] = [1.0, 3.0, 2.0, 3.0];
@@ -269,13 +274,14 @@ fn assert_within(off: [f64; 4], share: f64, what: &str) {
     assert!(within, "{what}: mean, peak to peak, length, pressure off by {off:.2?} %, at most {share} of {MOST:?} %");
 }
 
-/// The counts that the program chooses, on a coarse section, against the finest: mean within 1 %, peak to peak and pressure within 3 %, length within 2 %.
+/// The counts that the program chooses, on a coarse section, against the finest: mean within 1 %, peak to peak and
+/// pressure within 3 %, length within 2 %.
 fn defaults_against_the_finest(number: usize) {
     let (width, finest_face) = (WIDTHS[number], FINEST_FACE[number]);
     let mut fine = Reduced::new(2, width, SECTION, finest_face);
     let finest = FLANKS.map(|flank| fine.answer(flank, FINEST_SLICES));
     drop(fine);
-    let face = mesh::face_elements(width * MODULE, MODULE, 2, false);
+    let face = mesh::face_elements(width * MODULE, MODULE, 2, mesh::FaceResolution::Contact);
     let mut usual = Reduced::new(2, width, SECTION, face);
     let mut all = Vec::new();
     for (flank, finest) in FLANKS.into_iter().zip(&finest) {
@@ -310,7 +316,8 @@ fn defaults_of_wide_pairs() {
     defaults_against_the_finest(2);
 }
 
-/// The finest answers have settled: more slices, and more elements along the face, move them by less than a third of what the defaults may be off by.
+/// The finest answers have settled: more slices, and more elements along the face, move them by less than a third of
+/// what the defaults may be off by.
 #[test]
 #[ignore = "twenty minutes: the proof of the tables in docs/validation.md"]
 fn the_finest_have_settled() {
@@ -332,13 +339,14 @@ fn the_finest_have_settled() {
     of(WIDTHS[2], [30.0, 0.0], [FINEST_FACE[2], 60], [FINEST_SLICES, 512]);
 }
 
-/// Linear elements, twice as many along the face, against three times as many of them: as good along the face as quadratic ones.
+/// Linear elements, twice as many along the face, against three times as many of them: as good along the face as
+/// quadratic ones.
 #[test]
 #[ignore = "minutes: a line of docs/validation.md"]
 fn linear_elements_are_twice_as_many() {
     const SECTION: [u32; 4] = [6, 3, 4, 2];
     let width = WIDTHS[1];
-    let chosen = mesh::face_elements(width * MODULE, MODULE, 1, false);
+    let chosen = mesh::face_elements(width * MODULE, MODULE, 1, mesh::FaceResolution::Contact);
     let flanks = [[30.0, 0.0], [30.0, 100.0]];
     let mut fine = Reduced::new(1, width, SECTION, 3 * chosen);
     let finest = flanks.map(|flank| fine.answer(flank, 128));

@@ -1,4 +1,5 @@
-//! Both gears free, the speed of their common motion held: the motion of a pair that a torque drives in balance with its load, without its drift.
+//! Both gears free, the speed of their common motion held: the motion of a pair that a torque drives in balance with
+//! its load, without its drift.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::{ops::ControlFlow, sync::OnceLock};
@@ -37,7 +38,8 @@ fn momentum(bench: &MovingPair, masses: [f64; 2], speeds: [f64; 2]) -> f64 {
     masses[0] * base[0] * speeds[0] - masses[1] * base[1] * speeds[1]
 }
 
-/// A torque of its own that balances the load, begun without momentum off the nominal one, moves the pair alike: without friction nothing drifts.
+/// A torque of its own that balances the load, begun without momentum off the nominal one, moves the pair alike:
+/// without friction nothing drifts.
 #[test]
 fn it_is_the_motion_of_a_balanced_torque() {
     let bench = bench();
@@ -69,7 +71,8 @@ fn it_is_the_motion_of_a_balanced_torque() {
     assert!(open.abs() < 1e-6, "energy open by {open:e}");
 }
 
-/// Momentum of the common motion is the nominal one at every row, both gears move by their share, and the driver's torque is that of the load.
+/// Momentum of the common motion is the nominal one at every row, both gears move by their share, and the driver's
+/// torque is that of the load.
 #[test]
 fn momentum_of_the_common_motion_is_held() {
     let bench = bench();
@@ -95,11 +98,13 @@ fn momentum_of_the_common_motion_is_held() {
     assert!(worst < 1e-12, "momentum off by {worst:e}");
     // Equal gears, the wheel with three times the inertia: it swings by a third.
     assert!((swings[0] / swings[1] - 3.0).abs() < 1e-6, "{swings:?} rad/s");
-    // The same load, without friction; damping acts along the normals, which do no work on the common motion but for the bent flanks.
+    // The same load, without friction; damping acts along the normals, which do no work on the common motion but for
+    // the bent flanks.
     assert!(torques.iter().all(|t| (t / TORQUE - 1.0).abs() < 1e-3), "{torques:?} N mm");
 }
 
-/// What vibrates is one equation in the lag: with both gears free it has the equivalent mass of both, and in units of its own resonance the motion is the one with a driver whose angle is given.
+/// What vibrates is one equation in the lag: with both gears free it has the equivalent mass of both, and in units of
+/// its own resonance the motion is the one with a driver whose angle is given.
 #[test]
 fn the_drive_changes_the_clock_only() {
     let bench = bench();
@@ -123,7 +128,8 @@ fn the_drive_changes_the_clock_only() {
         let size = peak_to_peak(&a.transmission_error);
         let off = worst(&a.transmission_error, &b.transmission_error) / size;
         println!("{:.1} and {:.1} rad/s: peak to peak {:.4} um, off by {off:.1e} of it", a.speed, b.speed, 1e3 * size);
-        // The driver's own share of the mean lag, some micrometres of a base pitch of 9 mm, moves the phase: 2 pi times that, and twice it for the second order. Measured 4e-3.
+        // The driver's own share of the mean lag, some micrometres of a base pitch of 9 mm, moves the phase: 2 pi times
+        // that, and twice it for the second order. Measured 4e-3.
         assert!(off < 1e-2, "{} rad/s: differs by {off:e}", a.speed);
         assert!((b.speed / a.speed - 2.0).abs() < 1e-12);
     }
@@ -176,8 +182,9 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
     assert_eq!(started, [true, false, true, false, true, true]);
 }
 
-/// A step that leaps over a tooth ends in a state like any other: it is refused there, with where it happened. Teeth are half a base pitch thick on their line of action, whichever coordinates bring
-/// them together, and flanks that part have the backlash besides.
+/// A step that leaps over a tooth ends in a state like any other: it is refused there, with where it happened. Teeth
+/// are half a base pitch thick on their line of action, whichever coordinates bring them together, and flanks that part
+/// have the backlash besides.
 #[test]
 fn a_step_over_a_tooth_is_refused_as_soon_as_it_is_done() {
     let bench = bench();

@@ -54,8 +54,9 @@ fn apart(a: &[f64], b: &[f64]) -> [f64; 2] {
     [off / mean, off / (high - low)]
 }
 
-/// Issue of the ladder: fed by the reduced model (tangent stiffness, contact-line length, STE, inertia), `lumped12`'s DTE stays within 5 % of it away from resonance, and within 5 % of its peak to peak; `lumped8`'s too.
-/// The driver's speed is prescribed, bodies held but for the driven gear's turn; coarse meshes of the default pair.
+/// Issue of the ladder: fed by the reduced model (tangent stiffness, contact-line length, STE, inertia), `lumped12`'s
+/// DTE stays within 5 % of it away from resonance, and within 5 % of its peak to peak; `lumped8`'s too. The driver's
+/// speed is prescribed, bodies held but for the driven gear's turn; coarse meshes of the default pair.
 #[test]
 fn fed_models_follow_the_reduced_one() {
     let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());

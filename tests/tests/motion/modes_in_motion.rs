@@ -1,4 +1,5 @@
-//! Normal modes beside the rigid bodies: the same at rest, exact forces, no trace of a tooth change, and where the low-frequency approximation ends.
+//! Normal modes beside the rigid bodies: the same at rest, exact forces, no trace of a tooth change, and where the
+//! low-frequency approximation ends.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::sync::{Arc, OnceLock};
@@ -110,7 +111,8 @@ fn scale(system: &PairMechanism) -> DVector<f64> {
     system.scales(&DVector::from_element(system.coordinates().count(), 1e-2), 1e-2)
 }
 
-/// Balance at the very place, from one near it: contact keeps places that were found up to a um away, which a static comparison to 1e-8 would see.
+/// Balance at the very place, from one near it: contact keeps places that were found up to a um away, which a static
+/// comparison to 1e-8 would see.
 fn settled(system: &mut PairMechanism, q: &DVector<f64>) -> DVector<f64> {
     let (mut q, still) = (q.clone(), DVector::zeros(q.len()));
     for _ in 0..4 {
@@ -123,8 +125,9 @@ fn settled(system: &mut PairMechanism, q: &DVector<f64>) -> DVector<f64> {
     q
 }
 
-/// At rest modes and residual make up the whole compliance: the same transmission error with modes as without, by tables and by matrices, with friction and without, with
-/// the gear's own modes and with those of its Craig-Bampton model.
+/// At rest modes and residual make up the whole compliance: the same transmission error with modes as without, by
+/// tables and by matrices, with friction and without, with the gear's own modes and with those of its Craig-Bampton
+/// model.
 #[test]
 fn modes_change_nothing_at_rest() {
     let pair = pair();
@@ -151,7 +154,8 @@ fn modes_change_nothing_at_rest() {
     }
 }
 
-/// Forces are the gradient of the potential in all coordinates, and tangents that of the forces; all rigid coordinates free, gears turned on.
+/// Forces are the gradient of the potential in all coordinates, and tangents that of the forces; all rigid coordinates
+/// free, gears turned on.
 #[test]
 fn forces_and_tangents_are_derivatives() {
     let pair = pair();
@@ -196,7 +200,8 @@ fn forces_and_tangents_are_derivatives() {
     assert!(worst_force < 2e-3 && worst_tangent < 1e-2, "{worst_force:e}, {worst_tangent:e}");
 }
 
-/// Over tooth changes force goes on to round-off, mode coordinates are not touched at all, and the energy ledger closes.
+/// Over tooth changes force goes on to round-off, mode coordinates are not touched at all, and the energy ledger
+/// closes.
 #[test]
 fn tooth_change_leaves_no_trace_in_the_modes() {
     let pair = pair();
@@ -225,7 +230,8 @@ fn tooth_change_leaves_no_trace_in_the_modes() {
     assert!(open < 1e-9 * turnover, "energy open by {open:e} N mm");
 }
 
-/// The periodic answer that waiting finds, with modes of both gears: amplitudes go on turned by a pitch from cycle to cycle, so that shooting finds it too, and finds it stable.
+/// The periodic answer that waiting finds, with modes of both gears: amplitudes go on turned by a pitch from cycle to
+/// cycle, so that shooting finds it too, and finds it stable.
 #[test]
 fn shooting_finds_what_waiting_finds() {
     let pair = pair();
@@ -257,7 +263,8 @@ fn shooting_finds_what_waiting_finds() {
     assert!(waited.1.len() == 32 && off < 1e-5, "the answers differ by {off:e} of the static error");
 }
 
-/// Response of all coordinates to the mesh going on with frequency `hz`: (K + i w C - w^2 M) x = df/dt at held coordinates, as amplitude of the lag.
+/// Response of all coordinates to the mesh going on with frequency `hz`: (K + i w C - w^2 M) x = df/dt at held
+/// coordinates, as amplitude of the lag.
 fn response(system: &mut PairMechanism, state: &State, hz: f64) -> f64 {
     let n = system.count();
     let still = DVector::zeros(n);
@@ -285,7 +292,8 @@ fn response(system: &mut PairMechanism, state: &State, hz: f64) -> f64 {
     x[lag].hypot(x[n + lag])
 }
 
-/// Quasi-static elasticity against modes over speed (figure 7): one below the bound, two above it, and the warning in between. The fixed-boundary frequency would warn too late.
+/// Quasi-static elasticity against modes over speed (figure 7): one below the bound, two above it, and the warning in
+/// between. The fixed-boundary frequency would warn too late.
 #[test]
 fn low_frequency_approximation_ends_where_the_warning_says() {
     for bore in [10.0, 20.0] {

@@ -1,4 +1,5 @@
-//! What is kept of the contact of a pair in motion is memory of a pure function: forces do not depend on where the pair has been.
+//! What is kept of the contact of a pair in motion is memory of a pure function: forces do not depend on where the pair
+//! has been.
 
 use std::sync::OnceLock;
 
@@ -40,7 +41,8 @@ fn forces(system: &mut PairMechanism, t: f64, q: &DVector<f64>) -> Forces {
     out
 }
 
-/// Forces of a pair that has been at a hundred other places, of one that has been here before, and of a new one are the same to the last bit.
+/// Forces of a pair that has been at a hundred other places, of one that has been here before, and of a new one are the
+/// same to the last bit.
 #[test]
 fn forces_do_not_depend_on_where_the_pair_has_been() {
     let mut travelled = system(true);
@@ -58,7 +60,8 @@ fn forces_do_not_depend_on_where_the_pair_has_been() {
     }
 }
 
-/// Strain energy is the integral of the forces: over a way of half a um along every axis at once, by Simpson's rule, to some millionths: slices come and go on it.
+/// Strain energy is the integral of the forces: over a way of half a um along every axis at once, by Simpson's rule, to
+/// some millionths: slices come and go on it.
 #[test]
 fn energy_is_what_the_forces_do() {
     let mut system = system(false);

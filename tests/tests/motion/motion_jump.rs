@@ -1,4 +1,5 @@
-//! Lightly loaded and lightly damped, the reduced pair loses contact at its resonance and jumps; its free vibration with separation keeps its energy.
+//! Lightly loaded and lightly damped, the reduced pair loses contact at its resonance and jumps; its free vibration
+//! with separation keeps its energy.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::sync::OnceLock;
@@ -84,7 +85,8 @@ fn jumps(ratios: &[f64], tolerance: f64) -> [[f64; 2]; 2] {
 fn the_pair_jumps_at_its_resonance() {
     let [up, down] = jumps(&[0.74, 0.77, 0.80, 0.83, 0.86, 0.90, 0.94, 0.97, 0.98], 1e-3);
     println!("jump up between {up:?}, down between {down:?}");
-    // In steps of a hundredth: up between 0.97 and 0.98, down between 0.77 and 0.76. Larger steps fall off the upper branch a little earlier.
+    // In steps of a hundredth: up between 0.97 and 0.98, down between 0.77 and 0.76. Larger steps fall off the upper
+    // branch a little earlier.
     assert_eq!(up, [0.97, 0.98]);
     assert!(down[0] < 0.85, "{down:?}");
 }

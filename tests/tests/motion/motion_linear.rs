@@ -1,11 +1,13 @@
-//! Heavily loaded flanks that never part are a linear oscillator: resonance and amplitudes are those of its transfer function.
+//! Heavily loaded flanks that never part are a linear oscillator: resonance and amplitudes are those of its transfer
+//! function.
 //!
 //! ```text
 //! m_e x'' + c x' + k_m (x - STE(t)) = 0,   c = 2 zeta sqrt(k_m m_e)
 //! X_n / STE_n = 1 / (1 - r^2 + 2 i zeta r),   r = n f_m / f_0
 //! ```
-//! The force of the mesh about its static balance is F + k(t) (x - STE), so what excites the oscillator is the quasi-static error. Held against the mean
-//! stiffness, k(t) must hardly vary: the pair has an overlap ratio of one, and contact lines of constant length.
+//! The force of the mesh about its static balance is F + k(t) (x - STE), so what excites the oscillator is the
+//! quasi-static error. Held against the mean stiffness, k(t) must hardly vary: the pair has an overlap ratio of one,
+//! and contact lines of constant length.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepDirection, SweepPlan};
@@ -37,8 +39,8 @@ fn size([re, im]: [f64; 2]) -> f64 {
     re.hypot(im)
 }
 
-/// f_0 over the expected one, from three speeds about a peak: STE_n^2 / X_n^2 = 1 - 2 (1 - 2 zeta^2) r^2 / r_0^2 + r^4 / r_0^4 is a parabola in r^2 with its least value
-/// at r_0^2 (1 - 2 zeta^2).
+/// f_0 over the expected one, from three speeds about a peak: STE_n^2 / X_n^2 = 1 - 2 (1 - 2 zeta^2) r^2 / r_0^2 + r^4
+/// / r_0^4 is a parabola in r^2 with its least value at r_0^2 (1 - 2 zeta^2).
 fn resonance(ratios: [f64; 3], sizes: [f64; 3]) -> f64 {
     let [x, y] = [ratios.map(|r| r * r), sizes.map(|s| s.powi(-2))];
     let [left, right] = [(y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])];
@@ -47,7 +49,8 @@ fn resonance(ratios: [f64; 3], sizes: [f64; 3]) -> f64 {
     (least / (1.0 - 2.0 * ZETA * ZETA)).sqrt()
 }
 
-/// The steady answer about resonance and about half of it: every order of the mesh that counts is as large as the transfer function says.
+/// The steady answer about resonance and about half of it: every order of the mesh that counts is as large as the
+/// transfer function says.
 #[test]
 fn a_heavily_loaded_pair_is_a_linear_oscillator() {
     let pair = steady_pair();

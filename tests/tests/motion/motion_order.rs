@@ -93,8 +93,9 @@ fn show(counts: &[usize], rows: &[Row]) {
 /// Contact is known to the cell of a lattice of poses: what is below this, mm, is not the method's.
 const FLOOR: f64 = 1e-11;
 
-/// Where no slice comes or goes forces are smooth, and every method has the order of its theory: a swing of a third of the transmission error with gears that stand still,
-/// large enough for the most accurate method at the finest steps to stay above the floor.
+/// Where no slice comes or goes forces are smooth, and every method has the order of its theory: a swing of a third of
+/// the transmission error with gears that stand still, large enough for the most accurate method at the finest steps to
+/// stay above the floor.
 #[test]
 fn orders_are_those_of_theory_where_forces_are_smooth() {
     let pair = pair();
@@ -129,8 +130,9 @@ fn turning(ratio: f64, counts: &[usize], finest: usize) -> Vec<Row> {
     rows
 }
 
-/// Of a pair that turns, slices come and go: forces have kinks, and second order is what any method has in the end. At a tenth of the resonance explicit methods
-/// need some 24 steps a mesh cycle to be stable; implicit ones are bounded with eight.
+/// Of a pair that turns, slices come and go: forces have kinks, and second order is what any method has in the end. At
+/// a tenth of the resonance explicit methods need some 24 steps a mesh cycle to be stable; implicit ones are bounded
+/// with eight.
 #[test]
 fn orders_of_a_pair_that_turns() {
     for (name, order, errors, _) in turning(0.1, &[8, 16, 32, 64, 128], 512) {
@@ -147,7 +149,8 @@ fn orders_of_a_pair_that_turns() {
     }
 }
 
-/// Largest and smallest lag (mm) in the last four of eight cycles at a tenth of the resonance, in `steps` steps a cycle.
+/// Largest and smallest lag (mm) in the last four of eight cycles at a tenth of the resonance, in `steps` steps a
+/// cycle.
 fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<ltca::StaticError>> {
     let pair = pair();
     let frequency = 0.1 * pair.resonance_hz();
@@ -165,8 +168,10 @@ fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<ltca::Sta
     Ok(found)
 }
 
-/// The step up to which an explicit method is stable is computed, and the motion knows of it: with steps just below it swings as it should, with steps an eighth beyond round-off has
-/// grown until teeth leave each other. From there on it is thrown about, and how far within so many cycles is chance (1.5 times the limit: 0.06 to 0.9 mm in the first four cycles).
+/// The step up to which an explicit method is stable is computed, and the motion knows of it: with steps just below it
+/// swings as it should, with steps an eighth beyond round-off has grown until teeth leave each other. From there on it
+/// is thrown about, and how far within so many cycles is chance (1.5 times the limit: 0.06 to 0.9 mm in the first four
+/// cycles).
 #[test]
 fn explicit_methods_hold_up_to_their_limit_and_no_farther() {
     let pair = pair();

@@ -1,4 +1,5 @@
-//! Tooth changes in motion leave nothing in the dynamic transmission error: no line that the mesh does not make, no mark of the wrap, no drift.
+//! Tooth changes in motion leave nothing in the dynamic transmission error: no line that the mesh does not make, no
+//! mark of the wrap, no drift.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::sync::{Arc, OnceLock};
@@ -73,13 +74,15 @@ fn the_spectrum_has_mesh_harmonics_alone() {
         between.1 as f64 / cycles as f64
     );
     assert_eq!(changes.count - before, cycles as u64, "a change a cycle");
-    // Contact is solved anew on the new window; what was last solved on the old one may have been for its energy, to a millionth of the approach.
+    // Contact is solved anew on the new window; what was last solved on the old one may have been for its energy, to a
+    // millionth of the approach.
     let force = motion.system().extremes().largest_force;
     assert!(changes.jump < 1e-6 * force, "the force jumps by {:e} of {force} N at a change", changes.jump);
     assert!(between.0 < 1e-9, "{:e} mm at order {}", between.0, between.1 as f64 / cycles as f64);
 }
 
-/// A window that is one tooth wider changes half a cycle later, and has a tooth to spare: the motion is the same at all times.
+/// A window that is one tooth wider changes half a cycle later, and has a tooth to spare: the motion is the same at all
+/// times.
 #[test]
 fn a_wider_window_moves_alike() {
     let pair = pair();
@@ -209,7 +212,8 @@ fn orbit_after(cycles: u64) {
     assert!(off < 1e-6, "{off:e} in cycle {at}");
 }
 
-/// The orbit stays what it was, and tooth 0 after tooth z - 1 is a tooth like any other: every cycle, with six wraps among them, is held against the hundredth.
+/// The orbit stays what it was, and tooth 0 after tooth z - 1 is a tooth like any other: every cycle, with six wraps
+/// among them, is held against the hundredth.
 #[test]
 fn hundreds_of_cycles_leave_the_orbit_alone() {
     orbit_after(280);

@@ -1,4 +1,5 @@
-//! Courses of a pair's motion: starts without a transient, periodic states by waiting and by shooting, sweeps, energy, tooth changes, either sense.
+//! Courses of a pair's motion: starts without a transient, periodic states by waiting and by shooting, sweeps, energy,
+//! tooth changes, either sense.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::sync::OnceLock;
@@ -41,7 +42,8 @@ fn motion(bench: &MovingPair, system: PairMechanism, scheme: Scheme) -> Motion {
     bench.motion(system, settings)
 }
 
-/// A slow, undamped motion that begins in quasi-static balance stays there: nothing rings that a later change of contact has not set off.
+/// A slow, undamped motion that begins in quasi-static balance stays there: nothing rings that a later change of
+/// contact has not set off.
 #[test]
 fn the_start_sets_nothing_off() {
     let bench = bench();
@@ -139,7 +141,8 @@ fn energy_closes_with_bearings_and_friction() {
     assert!((bearings[0] / bearings[1] + 1.0).abs() < 0.02, "{bearings:?} N");
 }
 
-/// Torque drives, a little too strong: the pair speeds up by what torque and inertia say, and the windows follow the teeth that are really there.
+/// Torque drives, a little too strong: the pair speeds up by what torque and inertia say, and the windows follow the
+/// teeth that are really there.
 #[test]
 fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     let bench = bench();
@@ -207,7 +210,8 @@ fn a_sweep_is_the_same_from_either_side() {
     }
 }
 
-/// A load that brings teeth beside the window into contact ends the motion with a message that names them: no force is missed in silence.
+/// A load that brings teeth beside the window into contact ends the motion with a message that names them: no force is
+/// missed in silence.
 #[test]
 fn a_starved_window_is_an_error() {
     let bench = bench();

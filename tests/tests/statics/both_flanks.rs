@@ -16,7 +16,8 @@ fn small() -> Case {
     generated(20.0, [2, 2, 2, 4, 1])
 }
 
-/// With backlash the coast flanks stay apart: the transmission error is that of the driving flanks alone, whichever gear drives whichever way.
+/// With backlash the coast flanks stay apart: the transmission error is that of the driving flanks alone, whichever
+/// gear drives whichever way.
 #[test]
 fn coast_flanks_that_stay_apart_change_nothing() {
     let case = small();
@@ -39,8 +40,8 @@ fn coast_flanks_that_stay_apart_change_nothing() {
     }
 }
 
-/// A tooth of the wheel that stands back by more than the backlash wedges the pinion's tooth before it: coast flanks press,
-/// driving flanks press the more, and the torque balances all the same.
+/// A tooth of the wheel that stands back by more than the backlash wedges the pinion's tooth before it: coast flanks
+/// press, driving flanks press the more, and the torque balances all the same.
 #[test]
 fn a_wedged_tooth_is_pressed_from_both_sides() {
     let mut case = small();
@@ -66,7 +67,8 @@ fn a_wedged_tooth_is_pressed_from_both_sides() {
     assert!(pressed.iter().all(|&p| p > 1.1), "normal forces over those of the driving flanks alone: {pressed:?}");
 }
 
-/// A load under which teeth would bend by their own height is told as such, with the torque, and not as flanks that are missing.
+/// A load under which teeth would bend by their own height is told as such, with the torque, and not as flanks that are
+/// missing.
 #[test]
 fn a_load_that_no_tooth_stands_is_told() {
     let case = small();

@@ -1,9 +1,9 @@
 //! `nodal` contact with penalty 1e7 MPa/mm against CalculiX on the same meshes.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! Source: CalculiX 2.20, surface-to-surface penalty 1e7 MPa/mm, frictionless, 2026; meshes by Gmsh, `meshes/reference/`
-//! (sector of 5 teeth a gear, cut faces free, bore rigid). Default pair, 150 N m. Numbers of each position as the program printed
-//! them. Tolerances: mean STE 0.5 %, peak to peak 5 %, pair forces 1 % of the total.
+//! Source: CalculiX 2.20, surface-to-surface penalty 1e7 MPa/mm, frictionless, 2026; meshes by Gmsh,
+//! `meshes/reference/` (sector of 5 teeth a gear, cut faces free, bore rigid). Default pair, 150 N m. Numbers of each
+//! position as the program printed them. Tolerances: mean STE 0.5 %, peak to peak 5 %, pair forces 1 % of the total.
 
 use contact::{GapSource, Law};
 use fem::{ElementOptions, IncompatibleModes, Integration};

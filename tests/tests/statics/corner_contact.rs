@@ -33,8 +33,8 @@ fn largest_step(positions: &[StaticPosition]) -> f64 {
     (0..positions.len()).map(|i| (te(i + 1) - te(i)).abs()).fold(0.0, f64::max)
 }
 
-/// Load comes in before the geometric start of contact; STE is continuous: four times finer steps are four times smaller ones. Without
-/// corner contact the step stays.
+/// Load comes in before the geometric start of contact; STE is continuous: four times finer steps are four times
+/// smaller ones. Without corner contact the step stays.
 #[test]
 fn load_comes_in_at_the_edge() {
     for (beta, edge_radius) in [(0.0, 0.0), (5.0, 0.0), (5.0, 0.1)] {

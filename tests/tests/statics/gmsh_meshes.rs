@@ -15,8 +15,8 @@ fn run(pinion: &str, wheel: &str) -> (StaticHistory, bool) {
     (model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{pinion}: {e}")), cyclic)
 }
 
-/// Whole gears of rising fineness: the transmission error grows as the local approach is resolved (the reference sector shows
-/// the same), all equilibrium certificates hold, and Gmsh's rotated sectors are recognised as cyclic.
+/// Whole gears of rising fineness: the transmission error grows as the local approach is resolved (the reference sector
+/// shows the same), all equilibrium certificates hold, and Gmsh's rotated sectors are recognised as cyclic.
 #[test]
 fn whole_gear_pairs() {
     let mut means = Vec::new();
@@ -31,8 +31,8 @@ fn whole_gear_pairs() {
         }
         means.push(mean);
     }
-    // Reference (validation.md): the whole gear lies at 8.30 um on a coarse hex8 mesh of ten elements along the profile; these
-    // have four and eight. hex20 with four is softer than hex8 with eight.
+    // Reference (validation.md): the whole gear lies at 8.30 um on a coarse hex8 mesh of ten elements along the
+    // profile; these have four and eight. hex20 with four is softer than hex8 with eight.
     assert!(means[0] < means[1] && means[1] < means[2], "{means:?}");
     assert!((means[1] / 8.30 - 1.0).abs() < 0.10, "medium hex8: {} um", means[1]);
 }
@@ -131,8 +131,8 @@ fn constraint_modes_equal_direct_solves() {
     }
 }
 
-/// M^ = T' M T: a rigid motion of the whole gear is outside it (the bore is held), but mass is symmetric positive and a flank
-/// motion's kinetic energy equals that of the field it stands for.
+/// M^ = T' M T: a rigid motion of the whole gear is outside it (the bore is held), but mass is symmetric positive and a
+/// flank motion's kinetic energy equals that of the field it stands for.
 #[test]
 fn condensed_mass_has_the_fields_energy() {
     let case = verification::generated(20.0, [2, 2, 2, 3, 1]);

@@ -33,7 +33,8 @@ fn contact_line_length_tends_to_the_analytic_one() {
     }
 }
 
-/// Contact forces balance the torque; axial / transverse base force = tan(b_b); action = reaction; force sum = T / (r_b cos b_b).
+/// Contact forces balance the torque; axial / transverse base force = tan(b_b); action = reaction; force sum = T / (r_b
+/// cos b_b).
 #[test]
 fn forces_are_in_equilibrium() {
     for (driver, sense) in [
@@ -66,8 +67,8 @@ fn forces_are_in_equilibrium() {
             // On the plane of action every normal force has the same direction.
             let a_wt = case.pair.working_pressure_angle();
             let on_plane = w1.force[0].hypot(w1.force[1]);
-            // The transverse base force is the torque over the base radius. The resultant of the transverse forces is a few
-            // 1e-6 smaller: the loaded band has a width, and across it the normals turn.
+            // The transverse base force is the torque over the base radius. The resultant of the transverse forces is a
+            // few 1e-6 smaller: the loaded band has a width, and across it the normals turn.
             let base_force = w2.moment[2].abs() / case.pair.wheel.base_radius();
             let ratio = w1.force[2].abs() / base_force;
             let wanted = case.pair.base_helix_angle().tan();
@@ -83,7 +84,8 @@ fn forces_are_in_equilibrium() {
     }
 }
 
-/// The same contact on all degrees of freedom and on the reduced gears: STE and pair forces within 1e-8, with either law.
+/// The same contact on all degrees of freedom and on the reduced gears: STE and pair forces within 1e-8, with either
+/// law.
 #[test]
 fn reduced_equals_full() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);

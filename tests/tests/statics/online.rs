@@ -20,7 +20,8 @@ fn small() -> Case {
     generated(20.0, [3, 2, 2, 6, 1])
 }
 
-/// Linear and quadratic elements, friction, reliefs, tilted axes: the tables change transmission error by less than a ten thousandth.
+/// Linear and quadratic elements, friction, reliefs, tilted axes: the tables change transmission error by less than a
+/// ten thousandth.
 #[test]
 fn tables_change_nothing_that_matters() {
     let hex20 = quadratic(default_data(20.0), None, 150e3, [4, 2, 2, 8, 1], mesh::Extent::Sector(5));
@@ -70,7 +71,8 @@ fn solved(options: impl Fn(&Case) -> StaticOptions) -> (StaticModel, MeshContact
     (model, mesh)
 }
 
-/// Where the static analysis stands, the contact of given poses presses with the same forces, and they balance the torque.
+/// Where the static analysis stands, the contact of given poses presses with the same forces, and they balance the
+/// torque.
 #[test]
 fn forces_are_those_of_the_static_pose() {
     for friction in [0.0, 0.06] {
@@ -91,7 +93,7 @@ fn forces_are_those_of_the_static_pose() {
 }
 
 /// A pose with gear `body` moved along one of its six coordinates.
-fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
+pub(super) fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
     let mut poses = *poses;
     let (pose, axis) = (&mut poses[coordinate / 6], coordinate % 3);
     let mut step = Vector3::zeros();
@@ -104,7 +106,7 @@ fn moved(poses: &[Pose; 2], coordinate: usize, by: f64) -> [Pose; 2] {
     poses
 }
 
-fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
+pub(super) fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
     let mut f = [0.0; 12];
     for (k, v) in wrench.iter().flat_map(|w| w.force.into_iter().chain(w.moment)).enumerate() {
         f[k] = v;
@@ -112,8 +114,9 @@ fn flat(wrench: &[contact::Wrench; 2]) -> [f64; 12] {
     f
 }
 
-/// The tangent is the derivative of the forces: central differences along all twelve coordinates, forces and moments scaled by the base radius.
-/// What it leaves out (contact wandering over the flanks, directions that turn) is a thousandth.
+/// The tangent is the derivative of the forces: central differences along all twelve coordinates, forces and moments
+/// scaled by the base radius. What it leaves out (contact wandering over the flanks, directions that turn) is a
+/// thousandth.
 #[test]
 fn tangent_is_derivative_of_forces() {
     for friction in [0.0, 0.06] {

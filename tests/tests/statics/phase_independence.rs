@@ -1,9 +1,9 @@
 //! Transmission error does not know where the nodes are: every row of flank nodes moved by half an element.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! The structured mesh is remapped node by node: along the profile so that the first element grows to 3/2, the last shrinks to 1/2 and all
-//! nodes between stand half an element lower; along the face likewise, twisted with the helix. Flank nodes stay on the
-//! involute. Tolerance: 0.2 % of STE at every position.
+//! The structured mesh is remapped node by node: along the profile so that the first element grows to 3/2, the last
+//! shrinks to 1/2 and all nodes between stand half an element lower; along the face likewise, twisted with the helix.
+//! Flank nodes stay on the involute. Tolerance: 0.2 % of STE at every position.
 
 use geometry::{Gear, Side};
 use ltca::StaticOptions;

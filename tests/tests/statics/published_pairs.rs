@@ -55,7 +55,8 @@ fn mesh_stiffness_of_the_iso_example() {
         assert!(off.abs() < 0.25, "mean mesh stiffness is {:+.1} % off", 100.0 * off);
         model.into_gears()
     };
-    // One pair alone: every other tooth of the pinion is set back by 0.3 mm. Half of the torque, about what a pair carries in the mesh.
+    // One pair alone: every other tooth of the pinion is set back by 0.3 mm. Half of the torque, about what a pair
+    // carries in the mesh.
     let mut errors = vec![-0.3; 17];
     errors[0] = 0.0;
     let lone = GearModifications { pitch_errors: errors, ..GearModifications::default() };
@@ -122,9 +123,10 @@ fn pressure_of_the_fzg_c14_gears() {
 
 /// FZG H701, helical: 962 MPa at C. Tolerance 3 %.
 ///
-/// The published figure is that of a mean line load: F_bn = 6081 N over the published mean length of contact lines, 26.86 mm, gives 978 MPa by Hertz,
-/// over 27.8 mm 962 MPa. Tested is the solver's force over its geometric length; printed beside it what the loaded length (edges that press off
-/// the line of action included) and the slices themselves say: lines through C carry more than the mean.
+/// The published figure is that of a mean line load: F_bn = 6081 N over the published mean length of contact lines,
+/// 26.86 mm, gives 978 MPa by Hertz, over 27.8 mm 962 MPa. Tested is the solver's force over its geometric length;
+/// printed beside it what the loaded length (edges that press off the line of action included) and the slices
+/// themselves say: lines through C carry more than the mean.
 #[test]
 fn pressure_of_the_fzg_h701_gears() {
     let data = GearData {

@@ -1,8 +1,8 @@
 //! Slice contact against the mesh-converged values of the default pair.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 //!
-//! Source: `nodal` contact with the band resolved by a fine local mesh under every contact line, made by an independent code,
-//! 2026; sectors of 5 teeth, cut faces free, bore rigid, 150 N m. Single positions +- 0.3 %, pair forces +- 10 N.
+//! Source: `nodal` contact with the band resolved by a fine local mesh under every contact line, made by an independent
+//! code, 2026; sectors of 5 teeth, cut faces free, bore rigid, 150 N m. Single positions +- 0.3 %, pair forces +- 10 N.
 
 use contact::Bulk;
 use fem::ElementOptions;
@@ -42,8 +42,8 @@ fn compare(name: &str, history: &StaticHistory) -> f64 {
     worst
 }
 
-/// 6 quadratic elements along the profile: STE within 0.7 % everywhere, mean within 0.5 %, peak to peak within 2 %, pair forces within
-/// 0.5 % of the total.
+/// 6 quadratic elements along the profile: STE within 0.7 % everywhere, mean within 0.5 %, peak to peak within 2 %,
+/// pair forces within 0.5 % of the total.
 #[test]
 fn hex20_reaches_the_converged_values() {
     let history = run("ref_qcoarse_hex20");
@@ -93,7 +93,8 @@ fn reduced_equals_full() {
     }
 }
 
-/// Power is lost at every position and comes out of the driver; without friction the torques are in the ratio of the teeth.
+/// Power is lost at every position and comes out of the driver; without friction the torques are in the ratio of the
+/// teeth.
 #[test]
 fn friction_takes_power() {
     let case = verification::generated(20.0, [2, 2, 2, 4, 1]);

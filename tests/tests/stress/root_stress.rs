@@ -23,11 +23,11 @@ type Peaks = [(f64, u64); 3];
 
 /// Given nodal forces on both programs, so that contact plays no part.
 ///
-/// Source: CalculiX 2.20, `tests/scripts/root_stress_ccx.py`, 2026; meshes by Gmsh. 1000 N along (0.3, -0.9, 0.3) in equal shares on the
-/// nodes of the left flank of tooth 0 with 47.0 <= r <= 48.5 mm, bore held, cuts free. Asked: 3 % of the largest von Mises stress;
-/// with the same integration and extrapolation 1e-4 is reached. (Its fully integrated C3D20 extrapolates from 27 points and not from
-/// the eight most accurate ones: 65.94 MPa in place of 61.31 here, with two elements along the fillet. That is another
-/// recovery, not another field.)
+/// Source: CalculiX 2.20, `tests/scripts/root_stress_ccx.py`, 2026; meshes by Gmsh. 1000 N along (0.3, -0.9, 0.3) in
+/// equal shares on the nodes of the left flank of tooth 0 with 47.0 <= r <= 48.5 mm, bore held, cuts free. Asked: 3 %
+/// of the largest von Mises stress; with the same integration and extrapolation 1e-4 is reached. (Its fully integrated
+/// C3D20 extrapolates from 27 points and not from the eight most accurate ones: 65.94 MPa in place of 61.31 here, with
+/// two elements along the fillet. That is another recovery, not another field.)
 struct Given {
     mesh: &'static str,
     element: &'static str,
@@ -125,7 +125,8 @@ fn largest(fillets: &[FilletStress], of: impl Fn(&FilletStress) -> f64) -> f64 {
 
 /// Largest first principal stress in the fillets of gear 1 and 2 at s = 0, 1/8 .. 7/8.
 ///
-/// Source: as in `calculix.rs`, nodal values of the same runs: from Gauss points, so it is that recovery which is compared.
+/// Source: as in `calculix.rs`, nodal values of the same runs: from Gauss points, so it is that recovery which is
+/// compared.
 const CONTACT_C3D20R: [[f64; 2]; 8] =
     [[82.9, 92.1], [84.8, 94.4], [89.1, 98.8], [95.4, 98.9], [96.7, 96.6], [99.2, 95.3], [99.2, 89.1], [94.5, 84.7]];
 const CONTACT_C3D8I: [[f64; 2]; 8] = [
@@ -165,8 +166,9 @@ fn hex20_under_contact_agrees_with_calculix() {
 
 /// hex8 with facet gaps: 3 % wherever the peak is the bending of a tooth.
 ///
-/// Left out, and printed: three of sixteen values where an edge contact of 0.13 to 0.5 kN on one corner of a tooth just coming in makes
-/// the peak, an element away from its force; there it depends on how a contact force is put on the nodes.
+/// Left out, and printed: three of sixteen values where an edge contact of 0.13 to 0.5 kN on one corner of a tooth just
+/// coming in makes the peak, an element away from its force; there it depends on how a contact force is put on the
+/// nodes.
 #[test]
 fn hex8_under_contact_agrees_with_calculix() {
     let positions = under_contact("ref_coarse_hex8", C3D8I, GapSource::Facet);
@@ -289,7 +291,8 @@ fn full_model_has_the_same_root_stress() {
     println!("reduced and full: root stress within {worst:.1e}");
 }
 
-/// The fillet of the loaded flank is pulled, the other one pressed; not asked for, nothing is computed; no torque, no stress.
+/// The fillet of the loaded flank is pulled, the other one pressed; not asked for, nothing is computed; no torque, no
+/// stress.
 #[test]
 fn tension_is_below_the_loaded_flank() {
     let case = generated(20.0, [2, 2, 2, 4, 1]);

@@ -1,8 +1,8 @@
 //! Root stress of default meshes against CalculiX on resolved ones.
 //!
-//! A pair is solved on both meshes. The forces of the flanks of the resolved one, K u, go into CalculiX on that mesh; its nodal stress, from
-//! Gauss points, is what a user of CalculiX would read. `cargo test --workspace --test stress -- root_stress_calculix:: --ignored --nocapture`;
-//! CalculiX (`calculix-ccx`) must be installed.
+//! A pair is solved on both meshes. The forces of the flanks of the resolved one, K u, go into CalculiX on that mesh;
+//! its nodal stress, from Gauss points, is what a user of CalculiX would read. `cargo test --workspace --test stress --
+//! root_stress_calculix:: --ignored --nocapture`; CalculiX (`calculix-ccx`) must be installed.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path, process::Command};
@@ -21,7 +21,7 @@ const ROUND_OFF: f64 = 1e-9;
 
 fn case(gears: &[GearData; 2], torque: f64, factor: f64) -> (Case, StaticOptions) {
     let d = StructuredOptions::default();
-    let face = mesh::face_elements(gears[0].face_width, gears[0].normal_module, 2, true);
+    let face = mesh::face_elements(gears[0].face_width, gears[0].normal_module, 2, mesh::FaceResolution::RootStress);
     let all = [d.elements_profile, d.elements_fillet, d.elements_thickness, face, d.elements_rim];
     let counts = all.map(|c| 2 * (0.5 * factor * f64::from(c)).round() as u32);
     let case = quadratic(gears.clone(), None, torque, counts, Extent::Sector(5));
@@ -91,7 +91,8 @@ fn calculix(folder: &Path, deck: &str) -> BTreeMap<u32, [f64; 6]> {
     .collect()
 }
 
-/// The default pair, and one of few teeth with a wide ratio: default meshes within 3 % of CalculiX on meshes 1.5 times as fine in every direction.
+/// The default pair, and one of few teeth with a wide ratio: default meshes within 3 % of CalculiX on meshes 1.5 times
+/// as fine in every direction.
 #[test]
 #[ignore = "minutes; needs CalculiX"]
 fn default_meshes_agree_with_calculix_on_resolved_ones() {

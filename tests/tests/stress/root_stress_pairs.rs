@@ -1,6 +1,7 @@
 //! How far is the root stress of the built-in mesher's defaults from that of meshes refined in every direction?
 //!
-//! A few pairs always; twenty random ones, and the order of convergence, with `--ignored --nocapture` (minutes for sections, hours for pairs).
+//! A few pairs always; twenty random ones, and the order of convergence, with `--ignored --nocapture` (minutes for
+//! sections, hours for pairs).
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::f64::consts::PI;
@@ -178,7 +179,7 @@ fn random_pairs(count: usize) -> Vec<Loaded> {
 
 /// Layers along the face that the program chooses.
 fn layers(pair: &Loaded) -> u32 {
-    mesh::face_elements(pair.gears[0].face_width, pair.gears[0].normal_module, 2, true)
+    mesh::face_elements(pair.gears[0].face_width, pair.gears[0].normal_module, 2, mesh::FaceResolution::RootStress)
 }
 
 /// Twenty random pairs, default counts (along the face: [`layers`]) against meshes 1.5 times finer in every direction.
@@ -204,8 +205,8 @@ fn twenty_random_pairs() {
     told(&all);
 }
 
-/// Root stress of a narrow pair of high helix and great shift, whose largest nodal value lies next to the flank at the end face and grows
-/// without an end: the hill in the fillet converges.
+/// Root stress of a narrow pair of high helix and great shift, whose largest nodal value lies next to the flank at the
+/// end face and grows without an end: the hill in the fillet converges.
 #[test]
 #[ignore = "many minutes"]
 fn the_narrow_pair_of_high_helix_converges() {

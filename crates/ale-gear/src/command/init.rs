@@ -8,11 +8,11 @@ use std::{
 use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 
+use scene::{Starter, read_pair};
+
 use crate::{
     error::CommandError,
-    rexs::read_pair,
     scene::{Kind, Scene},
-    starter::Starter,
     talk::{Loudness, colours_on_stderr, say},
 };
 

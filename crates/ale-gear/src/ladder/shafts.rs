@@ -6,8 +6,8 @@ use integrate::State;
 use lumped::{
     LumpedError, MeshCycle, MeshFrame, PlaneOfAction,
     shaft18::{
-        Mesh, MeshGeometry, Place, RunOut, Segment, Shaft, ShaftMechanism, ShaftRow, ShaftSystem, ShaftTorque, Station,
-        Support,
+        Mesh, MeshGeometry, RunOut, Segment, Shaft, ShaftMechanism, ShaftRow, ShaftStation, ShaftSystem, ShaftTorque,
+        Station, Support,
     },
 };
 use nalgebra::DVector;
@@ -65,7 +65,10 @@ pub(super) fn system(
         let Some(own) = &gear.shaft else { continue };
         let (shaft, at) = shaft(gear, own, &bodies[i]);
         shafts.push(shaft);
-        torques.push(ShaftTorque { place: Place { shaft: i, station: at }, torque: sense * torque_about_z(scene, i) });
+        torques.push(ShaftTorque {
+            place: ShaftStation { shaft: i, station: at },
+            torque: sense * torque_about_z(scene, i),
+        });
     }
     let mesh = live_mesh(scene, mesh, pair, &fed.cycle)?;
     let cos = pair.base_helix_angle().cos();
@@ -107,7 +110,7 @@ fn live_mesh(scene: &Scene, words: &MeshScene, pair: &GearPair, cycle: &MeshCycl
         })
     });
     Mesh {
-        gears: [0, 1].map(|shaft| Place { shaft, station: GEAR }),
+        gears: [0, 1].map(|shaft| ShaftStation { shaft, station: GEAR }),
         geometry: MeshGeometry::of_pair(pair, scene.side()),
         stiffness: cycle.stiffness.clone(),
         damping_ratio: scene.motion.as_ref().and_then(|m| m.mesh_damping_ratio).unwrap_or(0.0),

@@ -22,6 +22,16 @@ pub enum Balance {
     Moment(f64),
 }
 
+impl Balance {
+    /// The moment, N mm, and whether the bodies stand still.
+    pub(super) fn moment(self) -> (f64, bool) {
+        match self {
+            Self::Moment(moment) => (moment, false),
+            Self::Held => (0.0, true),
+        }
+    }
+}
+
 /// Contact of n rows that see each other with a dense compliance.
 ///
 /// ```text

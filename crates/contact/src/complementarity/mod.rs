@@ -22,6 +22,7 @@ use crate::{ContactError, ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
 pub use near::SavedSolution;
+pub(crate) use proximal::LAST_COMPLIANCE;
 pub use proximal::solve;
 pub use slices::solve_slices;
 
@@ -106,18 +107,66 @@ pub struct Solution {
 /// Violation that counts as solved, relative to approach and force.
 pub(crate) const TOLERANCE: f64 = 1e-11;
 
-fn levers_of(rows: &[ContactRow], body: usize) -> [Vec<f64>; 2] {
-    [rows.iter().map(|r| r.levers[body]).collect(), rows.iter().map(|r| r.torque_levers[body]).collect()]
+/// The rows as the body sees them that is free to turn.
+struct DrivenRows {
+    levers: Vec<f64>,
+    torque_levers: Vec<f64>,
+    balance: Balance,
 }
 
-/// Points that touch first when the body turns: those within a hundredth of the way of the nearest.
-fn first_guess(rows: &[ContactRow], levers: &[f64], driving: f64) -> Vec<usize> {
-    let way = |i: usize| if levers[i] * driving > 0.0 { rows[i].gap / levers[i].abs() } else { f64::INFINITY };
-    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| way(i).is_finite()).collect();
-    order.sort_by(|&a, &b| way(a).total_cmp(&way(b)));
-    order.truncate((rows.len() / 20).max(1));
-    order.sort_unstable();
-    order
+/// Levers of the rows on a body, which must be able to carry the moment.
+///
+/// # Errors
+/// [`ContactError::NoLever`].
+fn driven_rows(rows: &[ContactRow], body: usize, balance: Balance) -> Result<DrivenRows, ContactError> {
+    let levers = rows.iter().map(|r| r.levers[body]).collect();
+    let torque_levers = rows.iter().map(|r| r.torque_levers[body]).collect();
+    let driven = DrivenRows { levers, torque_levers, balance };
+    let (moment, held) = balance.moment();
+    let lever_mm = driven.longest();
+    let carries = !rows.is_empty() && lever_mm > 0.0 && moment.is_finite() && moment != 0.0;
+    if held || carries { Ok(driven) } else { Err(ContactError::NoLever { lever_mm }) }
+}
+
+impl DrivenRows {
+    /// The longest lever against the moment, mm.
+    fn longest(&self) -> f64 {
+        let driving = self.balance.moment().0.signum();
+        self.levers.iter().fold(0.0f64, |m, l| m.max(l * driving))
+    }
+
+    /// Points that touch first when the body turns: the twentieth of them that is nearest. Of bodies that stand still,
+    /// those that overlap.
+    fn first_guess(&self, rows: &[ContactRow]) -> Vec<usize> {
+        let (moment, held) = self.balance.moment();
+        if held {
+            return (0..rows.len()).filter(|&i| rows[i].gap < 0.0).collect();
+        }
+        let way = |i: usize| {
+            let lever = self.levers[i];
+            if lever * moment.signum() > 0.0 { rows[i].gap / lever.abs() } else { f64::INFINITY }
+        };
+        let mut order: Vec<usize> = (0..rows.len()).filter(|&i| way(i).is_finite()).collect();
+        order.sort_by(|&a, &b| way(a).total_cmp(&way(b)));
+        order.truncate((rows.len() / 20).max(1));
+        order.sort_unstable();
+        order
+    }
+
+    /// A typical force of one of `n` rows, N: half of them share the moment.
+    fn typical_force(&self, n: usize) -> f64 {
+        let (moment, held) = self.balance.moment();
+        if held { 1.0 } else { 2.0 * moment.abs() / (self.longest() * n as f64) }
+    }
+}
+
+impl Problem {
+    /// Rows with these gaps (mm) and compliances of their own (mm/N).
+    fn new(gaps: Vec<f64>, rows: &DrivenRows, compliance: Vec<f64>, balance: Balance) -> Self {
+        let (moment, held) = balance.moment();
+        let (levers, torque_levers) = (rows.levers.clone(), rows.torque_levers.clone());
+        Self { gaps, levers, torque_levers, compliance, moment, held }
+    }
 }
 
 fn finish(problem: &Problem, answer: Equality, active: Vec<usize>, iterations: usize) -> Solution {

@@ -1,7 +1,7 @@
 //! Points that press on a mesh: forces that need not be unique, by proximal continuation. Theory (19).
 
 use super::{
-    Law, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
+    Balance, Law, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot,
 };
 use crate::{ContactError, ContactRow};
 
@@ -11,7 +11,7 @@ const FIRST_COMPLIANCE: f64 = 0.1;
 /// Each proximal step's compliance relative to the one before: the set hardly changes from step to step.
 const COMPLIANCE_DECAY: f64 = 0.1;
 /// Smallest; below it rows of faces with more points than nodes are linearly dependent to round-off.
-const LAST_COMPLIANCE: f64 = 1e-6;
+pub(crate) const LAST_COMPLIANCE: f64 = 1e-6;
 /// Residual of a proximal step relative to the one before from which on it creeps.
 const SLOW: f64 = 0.5;
 /// Proximal steps before giving up.
@@ -19,7 +19,7 @@ const PROXIMAL_STEPS: usize = 300;
 /// Violation of the penalty law that is still an answer.
 const PENALTY_TOLERANCE: f64 = 1e-9;
 
-/// Solves the contact of `rows` under `moment` (N mm) about the axis of body number `body`.
+/// Solves the contact of `rows`; `balance` is about the axis of body number `body`.
 ///
 /// Block principal pivoting (all violated points change at once); where that stops making progress, the primal
 /// active-set method, which ends because every step lowers the energy. Exact contact with more points than nodes has no
@@ -33,26 +33,20 @@ pub fn solve(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],
     body: usize,
-    moment: f64,
+    balance: Balance,
     law: Law,
     start: &[f64],
 ) -> Result<Solution, ContactError> {
     let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
-    let [levers, torque_levers] = levers_of(rows, body);
-    let driving = moment.signum();
-    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
-    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
-        return Err(ContactError::NoLever { lever_mm });
-    }
+    let driven = driven_rows(rows, body, balance)?;
     let compliance = match law {
         Law::Penalty(k) => rows.iter().map(|r| 1.0 / (k * r.area)).collect(),
         Law::Exact => vec![0.0; rows.len()],
     };
-    let mut problem =
-        Problem { gaps: gaps.clone(), levers: levers.clone(), torque_levers, compliance, moment, held: false };
+    let mut problem = Problem::new(gaps.clone(), &driven, compliance, balance);
     let mut active: Vec<usize> = (0..rows.len()).filter(|&i| start[i] > 0.0).collect();
     if active.is_empty() {
-        active = first_guess(rows, &levers, driving);
+        active = driven.first_guess(rows);
     }
     let Law::Exact = law else {
         let (answer, active, iterations) = pivot(bodies, &problem, active)?;
@@ -76,7 +70,7 @@ pub fn solve(
         let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
         total += iterations;
         let mut solution = finish(&problem, answer, settled.clone(), total);
-        solution.residual = exact_residual(&gaps, &levers, &solution);
+        solution.residual = exact_residual(&gaps, &driven.levers, &solution);
         if solution.residual < TOLERANCE {
             return Ok(solution);
         }

@@ -1,8 +1,6 @@
 //! Slices: rows with a compliance of their own, not linear in the force.
 
-use super::{
-    Balance, LinearContact, Problem, Solution, TOLERANCE, exact_residual, finish, first_guess, levers_of, pivots::pivot,
-};
+use super::{Balance, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot};
 use crate::{ContactError, ContactRow};
 
 /// Newton steps on the local compliance of slices before giving up; five or six do.
@@ -24,27 +22,20 @@ pub fn solve_slices(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],
     body: usize,
-    moment: f64,
+    balance: Balance,
     local: impl Fn(usize, f64) -> (f64, f64),
     start: &[f64],
 ) -> Result<Solution, ContactError> {
-    let [levers, torque_levers] = levers_of(rows, body);
-    let driving = moment.signum();
-    let lever_mm = levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
-    if rows.is_empty() || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
-        return Err(ContactError::NoLever { lever_mm });
-    }
+    let driven = driven_rows(rows, body, balance)?;
     let n = rows.len();
     let mut active: Vec<usize> = (0..n).filter(|&i| start[i] > 0.0).collect();
     let mut forces = start.to_vec();
     if active.is_empty() {
-        active = first_guess(rows, &levers, driving);
-        // Tangents at a typical force: half of the rows share the load.
-        forces.fill(2.0 * moment.abs() / (lever_mm * n as f64));
+        active = driven.first_guess(rows);
+        forces.fill(driven.typical_force(n));
     }
     let gaps: Vec<f64> = rows.iter().map(|r| r.gap).collect();
-    let balance = Balance::Moment(moment);
-    let rows = Rows { gaps: &gaps, levers: &levers, torque_levers: &torque_levers, balance };
+    let rows = Rows { gaps: &gaps, levers: &driven.levers, torque_levers: &driven.torque_levers, balance };
     newton(bodies, &rows, local, forces, active)
 }
 
@@ -65,10 +56,7 @@ pub(super) fn newton(
     mut active: Vec<usize>,
 ) -> Result<Solution, ContactError> {
     let n = rows.gaps.len();
-    let (moment, held) = match rows.balance {
-        Balance::Moment(moment) => (moment, false),
-        Balance::Held => (0.0, true),
-    };
+    let (moment, held) = rows.balance.moment();
     let mut problem = Problem {
         gaps: vec![0.0; n],
         levers: rows.levers.to_vec(),

@@ -128,7 +128,7 @@ impl LinearContact for Condensed<'_> {
             carried += problem.torque_levers[i] * x[(a, 0)];
             stiffness += problem.torque_levers[i] * x[(a, 1)];
         }
-        let rotation = (carried - problem.moment) / stiffness;
+        let rotation = if problem.held { 0.0 } else { (carried - problem.moment) / stiffness };
         let forces: Vec<f64> = (0..n).map(|a| x[(a, 0)] - rotation * x[(a, 1)]).collect();
         let mut all = vec![0.0; self.rows.len()];
         active.iter().zip(&forces).for_each(|(&i, &f)| all[i] = f);

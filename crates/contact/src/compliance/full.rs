@@ -14,7 +14,8 @@ use reduction::FullGear;
 /// [-A   -D   -l ] [ F      ] = [ g0 ]
 /// [ 0   -l'   0 ] [ dtheta ]   [ -M ]
 /// ```
-/// K stiffness of both gears, A openings of the active rows, D their own compliance and correction, l their levers.
+/// Bodies that stand still have neither the last row nor the last column. K stiffness of both gears, A openings of the
+/// active rows, D their own compliance and correction, l their levers.
 #[derive(Debug)]
 pub struct FullContact<'a> {
     rows: &'a [ContactRow],
@@ -43,7 +44,13 @@ impl<'a> FullContact<'a> {
             if let Some(x) = &self.correction {
                 entries.extend(active[..=k].iter().enumerate().map(|(l, &j)| (n + k, n + l, -x[(i, j)])));
             }
-            entries.push((n + na, n + k, -problem.levers[i]));
+            if !problem.held {
+                entries.push((n + na, n + k, -problem.levers[i]));
+            }
+        }
+        if problem.held {
+            let matrix = SymmetricMatrix::from_triplets(n + na, &entries)?;
+            return Ok((matrix, (n..n + na).collect()));
         }
         // An entry of its own, so that the pattern has the diagonal.
         entries.push((n + na, n + na, 0.0));
@@ -66,12 +73,15 @@ impl LinearContact for FullContact<'_> {
         let factor = IndefiniteFactor::new(&matrix, &last)?;
         let [n1, n2] = self.gears.map(|g| g.dofs.free_count());
         let (n, na) = (n1 + n2, active.len());
-        let mut x = Mat::<f64>::zeros(n + na + 1, 2);
+        let free = usize::from(!problem.held);
+        let mut x = Mat::<f64>::zeros(n + na + free, 1 + free);
         for (k, &i) in active.iter().enumerate() {
             x[(n + k, 0)] = problem.gaps[i];
         }
-        x[(n + na, 0)] = -problem.moment;
-        x[(n + na, 1)] = 1.0;
+        if !problem.held {
+            x[(n + na, 0)] = -problem.moment;
+            x[(n + na, 1)] = 1.0;
+        }
         factor.solve(x.as_mut())?;
         self.displacements = [(0, n1), (n1, n2)].map(|(at, len)| (at..at + len).map(|i| x[(i, 0)]).collect());
         let openings = self
@@ -87,12 +97,8 @@ impl LinearContact for FullContact<'_> {
                 sum
             })
             .collect();
-        Ok(Equality {
-            forces: (0..na).map(|k| x[(n + k, 0)]).collect(),
-            rotation: x[(n + na, 0)],
-            openings,
-            stiffness: 1.0 / x[(n + na, 1)],
-        })
+        let (rotation, stiffness) = if problem.held { (0.0, 0.0) } else { (x[(n + na, 0)], 1.0 / x[(n + na, 1)]) };
+        Ok(Equality { forces: (0..na).map(|k| x[(n + k, 0)]).collect(), rotation, openings, stiffness })
     }
 
     fn self_compliance(&mut self) -> Result<f64, ContactError> {

@@ -82,7 +82,7 @@ pub fn nodal_contact_line(
     let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
     let [low, high] = patch.range();
     let line = LinePoints::new();
-    let scene = set.scene(options, &line);
+    let Some(scene) = set.scene(options, &line) else { return Vec::new() };
     let gap = |z: f64| -> Option<f64> {
         let coordinates = least_gap(patch, other, poses, z)?;
         let at = patch.face_at(coordinates)?;

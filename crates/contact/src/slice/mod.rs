@@ -10,7 +10,7 @@ mod tooth_layer;
 
 pub use flank_pair::{FlankPair, Slice, SliceFlank, SlicePoint, slice};
 pub use hint::SliceHint;
-pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact, MeshForce};
+pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use set::SliceSet;
 pub use tooth_layer::ToothLayer;

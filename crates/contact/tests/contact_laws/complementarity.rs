@@ -1,6 +1,8 @@
 //! The complementarity solver on dense problems of its own: its conditions hold whatever the compliance.
 
-use contact::{ContactError, ContactRow, Equality, Law, LinearContact, Problem, Support, Vec3, complementarity};
+use contact::{
+    Balance, ContactError, ContactRow, Equality, Law, LinearContact, Problem, Support, Vec3, complementarity,
+};
 use faer::{Mat, Side, linalg::solvers::Solve};
 use proptest::prelude::*;
 
@@ -62,7 +64,7 @@ fn check(c: &Mat<f64>, gaps: &[f64], moment: f64, law: Law) -> Result<(), TestCa
     let levers: Vec<f64> = (0..n).map(|i| -42.0 - 0.01 * i as f64).collect();
     let rows: Vec<ContactRow> = gaps.iter().zip(&levers).map(|(&g, &l)| row(g, l)).collect();
     let mut bodies = Dense(c.clone());
-    let s = complementarity::solve(&mut bodies, &rows, 0, moment, law, &vec![0.0; n])
+    let s = complementarity::solve(&mut bodies, &rows, 0, Balance::Moment(moment), law, &vec![0.0; n])
         .map_err(|e| TestCaseError::fail(e.to_string()))?;
     let carried: f64 = s.forces.iter().zip(&levers).map(|(f, l)| f * l).sum();
     prop_assert!((carried / moment - 1.0).abs() < 1e-9, "moment {carried}, not {moment}");
@@ -98,7 +100,7 @@ proptest! {
 fn two_points_share_by_their_compliance() {
     let c = Mat::from_fn(2, 2, |i, j| if i == j { [1e-5, 3e-5][i] } else { 0.0 });
     let rows = [row(0.0, -1.0), row(0.0, -1.0)];
-    let s = complementarity::solve(&mut Dense(c), &rows, 0, -4.0, Law::Exact, &[0.0; 2]).unwrap();
+    let s = complementarity::solve(&mut Dense(c), &rows, 0, Balance::Moment(-4.0), Law::Exact, &[0.0; 2]).unwrap();
     assert!((s.forces[0] - 3.0).abs() < 1e-9 && (s.forces[1] - 1.0).abs() < 1e-9, "{:?}", s.forces);
     assert!((s.rotation - 3e-5).abs() < 1e-14, "{}", s.rotation);
 }
@@ -107,6 +109,7 @@ fn two_points_share_by_their_compliance() {
 #[test]
 fn no_lever_is_an_error() {
     let c = Mat::from_fn(1, 1, |_, _| 1e-5);
-    let refused = complementarity::solve(&mut Dense(c), &[row(0.0, 1.0)], 0, -4.0, Law::Exact, &[0.0]).unwrap_err();
+    let refused = complementarity::solve(&mut Dense(c), &[row(0.0, 1.0)], 0, Balance::Moment(-4.0), Law::Exact, &[0.0])
+        .unwrap_err();
     assert!(matches!(refused, ContactError::NoLever { .. }), "{refused}");
 }

@@ -57,9 +57,9 @@ impl PairMechanism {
     /// velocities change with the window.
     ///
     /// # Errors
-    /// [`contact::ContactError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping ratio is no
-    /// number >= 0, and where the bodies' inertia is less than what the modes share of it: given for other gears than
-    /// were meshed.
+    /// [`contact::ContactError::Reduction`] for modes of another gear; [`StaticError::OutOfRange`] where a damping
+    /// ratio is no number >= 0, and where the bodies' inertia is less than what the modes share of it: given for other
+    /// gears than were meshed.
     pub fn with_modes(mut self, gears: [GearVibration; 2]) -> Result<Self, StaticError> {
         if let Some(value) = gears.iter().map(|g| g.damping_ratio).find(|z| !z.is_finite() || *z < 0.0) {
             return Err(StaticError::OutOfRange { name: "modal damping ratio", value, expected: "a number >= 0" });

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::PairMechanism;
 use crate::{
-    COORDINATES, Displacement, Instant, NominalState, contact_line,
+    COORDINATES, Displacement, Instant, NominalState,
     elastic_displacement::ElasticDisplacement,
     mesh_side::{SideContacts, SideForce},
     modal::ModalBalance,
@@ -41,7 +41,7 @@ impl PairMechanism {
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| nominal.velocity[g] + rate[of_turn(g)]);
         let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
-        let contact_line_length = contact_line::length(&self.pair, contact, &poses);
+        let contact_line_length = contact.line_length(&self.pair, &poses);
         let root_stress = match &self.roots {
             Some(roots) => self.drive_side.root_stress(&self.pair, &poses, roots)?,
             None => Default::default(),

@@ -21,7 +21,7 @@ const CHUNK: usize = 512;
 impl Pattern {
     pub(super) fn new(mesh: &Mesh, dofs: &DofMap) -> Result<Self, FemError> {
         check(mesh, dofs)?;
-        let touching = Touching::new(mesh, dofs);
+        let touching = ElementsOfNode::new(mesh, dofs);
         let lists: Vec<(Vec<usize>, Vec<u32>)> = dofs
             .free_nodes()
             .par_chunks(CHUNK)
@@ -86,12 +86,12 @@ impl Pattern {
 }
 
 /// For each free node the elements it belongs to, as (block, element), ascending.
-struct Touching {
+struct ElementsOfNode {
     starts: Vec<usize>,
     elements: Vec<(u32, u32)>,
 }
 
-impl Touching {
+impl ElementsOfNode {
     fn new(mesh: &Mesh, dofs: &DofMap) -> Self {
         let mut starts = vec![0usize; dofs.free_nodes().len() + 1];
         for node in mesh.blocks.iter().flat_map(|b| &b.connectivity) {

@@ -27,7 +27,7 @@ pub(super) struct Slice {
 
 /// Where a pair stands: angles for the pair in the middle of its cycle, and how many teeth have gone by.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Standing {
+pub(super) struct NominalPose {
     /// Pinion angle by which tooth `shift` stands where tooth 0 stood, rad.
     pub pinion_angle: f64,
     /// Running number of that tooth.
@@ -36,7 +36,7 @@ pub(super) struct Standing {
     pub wheel_angle: f64,
 }
 
-impl Standing {
+impl NominalPose {
     /// Angles of the gears' own frames.
     pub fn frame_angles(&self, pair: &GearPair) -> [f64; 2] {
         let whole = |gear: &Gear| self.shift.rem_euclid(i64::from(gear.teeth())) as f64 * gear.pitch_angle();
@@ -61,7 +61,7 @@ impl FlankSide {
     }
 
     /// Calls `found` for every slice near the path of contact, by tooth and height, the gears' own frames at `poses`.
-    pub fn search(&mut self, pair: &GearPair, at: &Standing, poses: &[Pose; 2], found: impl FnMut(Slice)) {
+    pub fn search(&mut self, pair: &GearPair, at: &NominalPose, poses: &[Pose; 2], found: impl FnMut(Slice)) {
         self.search_within(BEYOND, pair, at, poses, found);
     }
 
@@ -69,7 +69,7 @@ impl FlankSide {
         &mut self,
         beyond: f64,
         pair: &GearPair,
-        at: &Standing,
+        at: &NominalPose,
         poses: &[Pose; 2],
         mut found: impl FnMut(Slice),
     ) {
@@ -112,7 +112,8 @@ mod tests {
 
     use super::*;
 
-    /// Flanks that overlap by a fiftieth of the module, a heavy load, touch early at their tips; no slice in contact lies beyond where the search looks, at any phase.
+    /// Flanks that overlap by a fiftieth of the module, a heavy load, touch early at their tips; no slice in contact
+    /// lies beyond where the search looks, at any phase.
     #[test]
     fn no_contact_is_missed_beyond_the_path() {
         let data = GearData { thickness_allowance: 0.0, ..GearData::default() };
@@ -124,7 +125,7 @@ mod tests {
                 let pinion_angle =
                     pair.middle_angle(side) + pair.pinion.pitch_angle() * (f64::from(phase) / 20.0 - 0.5);
                 let wheel_angle = pair.wheel_angle(side, pinion_angle);
-                let at = Standing { pinion_angle, shift: 7, wheel_angle };
+                let at = NominalPose { pinion_angle, shift: 7, wheel_angle };
                 let overlap = 0.02 * pair.pinion.data().normal_module;
                 let lag = side.sign() * overlap / pair.wheel.base_radius();
                 let angles = at.frame_angles(&pair);

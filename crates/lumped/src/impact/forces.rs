@@ -61,7 +61,8 @@ impl FlankForce {
         self.elastic + self.damping + self.friction
     }
 
-    /// Adds what one slice does that stands for `share` of the face width; `velocity`: of both gears, and the nominal part of it.
+    /// Adds what one slice does that stands for `share` of the face width; `velocity`: of both gears, and the nominal
+    /// part of it.
     pub(super) fn add(
         &mut self,
         slice: &Slice,

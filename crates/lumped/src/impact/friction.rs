@@ -13,7 +13,8 @@ use crate::{
 /// mu(v) = mu_s (3 x - x^3) / 2                    x = v/v_s,  0 <= v <= v_s
 ///       = mu_s + (mu_d - mu_s) y^2 (3 - 2 y)      y = (v - v_s)/(v_d - v_s),  v_s <= v <= v_d;   mu_d beyond
 /// ```
-/// Cubic steps, from -mu_s at -v_s to mu_s at v_s and on to mu_d: slopes do not jump. Below v_s flanks creep where they should stick.
+/// Cubic steps, from -mu_s at -v_s to mu_s at v_s and on to mu_d: slopes do not jump. Below v_s flanks creep where they
+/// should stick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StickSlip {
     /// mu_s.

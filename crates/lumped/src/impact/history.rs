@@ -66,13 +66,15 @@ impl ImpactMechanism {
         }
     }
 
-    /// What counts as a large motion of each coordinate, for an integrator: a tenth of a millimetre, or the turn that moves a flank by as much.
+    /// What counts as a large motion of each coordinate, for an integrator: a tenth of a millimetre, or the turn that
+    /// moves a flank by as much.
     pub fn scale(&self) -> DVector<f64> {
         let radius = self.pair().pinion.base_radius().max(self.pair().wheel.base_radius());
         self.coordinates().scales(0.1, radius)
     }
 
-    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt. A driver that a torque turns is held.
+    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt.
+    /// A driver that a torque turns is held.
     ///
     /// # Errors
     /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on.

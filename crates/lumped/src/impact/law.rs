@@ -12,7 +12,8 @@ use crate::{
 /// ```text
 /// F = max(0, K delta^e + C s(delta/d) delta'),   s(x) = x^2 (3 - 2 x) for 0 <= x <= 1, 1 beyond;   F = 0 for delta <= 0
 /// ```
-/// delta overlap (mm), delta' its rate (mm/s). The step lets damping begin without a jump, and flanks that part never pull.
+/// delta overlap (mm), delta' its rate (mm/s). The step lets damping begin without a jump, and flanks that part never
+/// pull.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ImpactLaw {
     /// K, N/mm^e: of a tooth pair that touches over its whole face width.
@@ -87,8 +88,9 @@ impl ImpactForce {
 /// ```text
 /// K = 4/3 sqrt(R) E*,   1/E* = sum of (1 - nu^2)/E,   R = i d_1 cos a_t tan a_t' / (2 (1 + i) cos b_b)
 /// ```
-/// d_1 reference diameter of the driving gear (mm), i = z_2/z_1, a_t transverse pressure angle, a_t' that of the mesh, b_b base helix angle; R is the relative normal radius of
-/// curvature at the pitch point. Both gears of one material; E in MPa. The formula belongs to the exponent 1.5 of two balls; the seed uses its number with 2.2.
+/// d_1 reference diameter of the driving gear (mm), i = z_2/z_1, a_t transverse pressure angle, a_t' that of the mesh,
+/// b_b base helix angle; R is the relative normal radius of curvature at the pitch point. Both gears of one material; E
+/// in MPa. The formula belongs to the exponent 1.5 of two balls; the seed uses its number with 2.2.
 ///
 /// # Errors
 /// [`LumpedError::NotPositive`] when the result is no stiffness.

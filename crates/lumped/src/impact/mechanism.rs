@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     ImpactOptions,
-    flanks::{FlankSide, Standing},
+    flanks::{FlankSide, NominalPose},
     forces::{FlankForce, Square},
 };
 use crate::LumpedError;
@@ -25,8 +25,9 @@ use crate::LumpedError;
 /// R = -mu(|v_t|) F J_t' v_t / |v_t|,   v_t sliding velocity of the flanks in their tangent plane
 /// V = sum of w K delta^(e+1) / (e+1) + d' K_b d / 2
 /// ```
-/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where its place is one of least gap or on the pinion's tip edge, since
-/// slices stand on the pinion; at the wheel's edge, which then slides along, to a thousandth of the largest force.
+/// Flanks on both sides of the teeth; teeth may separate and strike either. A gap's change is J_n . dd exactly where
+/// its place is one of least gap or on the pinion's tip edge, since slices stand on the pinion; at the wheel's edge,
+/// which then slides along, to a thousandth of the largest force.
 #[derive(Debug)]
 pub struct ImpactMechanism {
     pair: GearPair,
@@ -100,16 +101,20 @@ impl ImpactMechanism {
         self.nominal.cycles(&self.pair, &self.running, t)
     }
 
-    fn standing(&self, t: f64) -> Standing {
+    fn standing(&self, t: f64) -> NominalPose {
         let station = Station::at_cycles(self.cycles(t));
         let sign = self.running.contact.sense.sign();
         let side = self.running.side();
         let pinion_angle =
             self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
-        Standing { pinion_angle, shift: -sign * station.cycle, wheel_angle: self.pair.wheel_angle(side, pinion_angle) }
+        NominalPose {
+            pinion_angle,
+            shift: -sign * station.cycle,
+            wheel_angle: self.pair.wheel_angle(side, pinion_angle),
+        }
     }
 
-    fn poses(&self, at: &Standing, d: &Displacement) -> [Pose; 2] {
+    fn poses(&self, at: &NominalPose, d: &Displacement) -> [Pose; 2] {
         let angles = at.frame_angles(&self.pair);
         [0, 1].map(|g| {
             let i = COORDINATES * g;
@@ -120,7 +125,8 @@ impl ImpactMechanism {
         })
     }
 
-    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal motion.
+    /// Forces of driving and coast flanks with the gears displaced by `d` and moving by `rate` from their nominal
+    /// motion.
     pub fn flank_forces(&mut self, t: f64, d: &Displacement, rate: &Displacement) -> [FlankForce; 2] {
         let at = self.standing(t);
         let poses = self.poses(&at, d);
@@ -142,7 +148,8 @@ impl ImpactMechanism {
         })
     }
 
-    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero when the load drives.
+    /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero
+    /// when the load drives.
     pub(super) fn guessed_lag(&self) -> f64 {
         let driven = self.running.driven();
         let radius = [&self.pair.pinion, &self.pair.wheel][driven].base_radius();

@@ -8,10 +8,12 @@
 //! 4. `flanks`: where teeth are nearest, slice by slice, with the search of [`contact`];
 //! 5. [`ImpactMechanism`]: equations of motion, static equilibrium, [`ImpactRow`]s of a history.
 //!
-//! Coordinates are those of [`dynamics`]: deviations from the nominal motion; with rigid shafts and a prescribed speed the transmission error alone.
+//! Coordinates are those of [`dynamics`]: deviations from the nominal motion; with rigid shafts and a prescribed speed
+//! the transmission error alone.
 //!
-//! Seed: "Simulation analysis of helical gears in the gear box of the rolling mill", which lets ADAMS find one contact of two solids a tooth pair. Here each pair has the same
-//! law slice by slice, so that a pair comes in and goes out with the length of its contact line.
+//! Seed: "Simulation analysis of helical gears in the gear box of the rolling mill", which lets ADAMS find one contact
+//! of two solids a tooth pair. Here each pair has the same law slice by slice, so that a pair comes in and goes out
+//! with the length of its contact line.
 
 mod flanks;
 mod forces;

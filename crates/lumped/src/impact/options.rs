@@ -21,7 +21,8 @@ pub struct ImpactOptions {
     pub bodies: [RigidBody; 2],
     /// Their bearings.
     pub bearings: [Bearing; 2],
-    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's always.
+    /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's
+    /// always.
     pub free: [[bool; COORDINATES]; 2],
     /// Driver.
     pub drive: Drive,

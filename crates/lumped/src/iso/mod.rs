@@ -1,5 +1,5 @@
-//! What ISO 6336 says of a pair without any mesh: stiffness of teeth and mesh (part 1, method B), nominal tooth root stress (part 3); and what it leaves
-//! out of narrow helical gears, the bending of their bodies. Theory (23).
+//! What ISO 6336 says of a pair without any mesh: stiffness of teeth and mesh (part 1, method B), nominal tooth root
+//! stress (part 3); and what it leaves out of narrow helical gears, the bending of their bodies. Theory (23).
 //!
 //! Stiffness is stated per mm of face width, in N/(mm um), as the standard does.
 
@@ -72,8 +72,8 @@ pub struct IsoStiffness {
 /// c' by up to 10 %; that is left to the user, as it gives no figure.
 ///
 /// # Errors
-/// [`LumpedError::OutOfRange`] outside of |beta| <= 45 deg and -0.5 <= x1 + x2 <= 2 (the standard's own limits), or where
-/// an input is not positive or not a number.
+/// [`LumpedError::OutOfRange`] outside of |beta| <= 45 deg and -0.5 <= x1 + x2 <= 2 (the standard's own limits), or
+/// where an input is not positive or not a number.
 ///
 /// # Example
 /// ISO/TR 6336-30, example 1:

@@ -1,4 +1,5 @@
-//! Nominal tooth root stress after ISO 6336-3, method B: a bar that is as thick as the tooth at its 30 degree tangents. Theory (23a), (23b).
+//! Nominal tooth root stress after ISO 6336-3, method B: a bar that is as thick as the tooth at its 30 degree tangents.
+//! Theory (23a), (23b).
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4, FRAC_PI_6, PI};
 
@@ -68,13 +69,13 @@ impl IsoRoot {
     /// Y_F  = f_eps 6 (h_Fe/m_n) cos a_Fen / [(s_Fn/m_n)^2 cos a_n]
     /// Y_S  = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)),   L = s_Fn/h_Fe,   q_s = s_Fn/(2 rho_F)
     /// ```
-    /// The thinning A_s of the teeth is that of the gear here: it widens the rack's tooth and leaves its depth. f_eps, Y_beta and Y_DT are those of
-    /// the 2019 edition; Y_B is that of external gears.
-    /// Source: ISO 6336-3:2019, clauses 6 to 10.
+    /// The thinning A_s of the teeth is that of the gear here: it widens the rack's tooth and leaves its depth. f_eps,
+    /// Y_beta and Y_DT are those of the 2019 edition; Y_B is that of external gears. Source: ISO 6336-3:2019, clauses 6
+    /// to 10.
     ///
     /// # Errors
-    /// [`LumpedError::OutOfRange`] where the standard has no value: eps_an not in 1 .. 3, q_s not in 1 .. 8, a rim of half the tooth height or less,
-    /// a rack whose rounding leaves no 30 degree tangent.
+    /// [`LumpedError::OutOfRange`] where the standard has no value: eps_an not in 1 .. 3, q_s not in 1 .. 8, a rim of
+    /// half the tooth height or less, a rack whose rounding leaves no 30 degree tangent.
     pub fn new(gear: &Gear, pair: IsoRootPair) -> Result<Self, LumpedError> {
         let data = gear.data();
         let cos_a = data.normal_pressure_angle.cos();
@@ -155,7 +156,8 @@ impl RootSection {
         })
     }
 
-    /// Lever (mm) of a load at pressure angle `alpha_e` of the virtual gear over the chord, and its angle (rad) against the chord.
+    /// Lever (mm) of a load at pressure angle `alpha_e` of the virtual gear over the chord, and its angle (rad) against
+    /// the chord.
     fn lever(&self, gear: &Gear, virtual_teeth: f64, alpha_e: f64) -> Result<(f64, f64), LumpedError> {
         let data = gear.data();
         let (alpha, m) = (data.normal_pressure_angle, data.normal_module);

@@ -108,9 +108,10 @@ impl Motion12 {
 
     /// Undamped modes at `cycles` mesh cycles, frozen there, with friction as it is in the parameters.
     ///
-    /// Without friction the matrix is symmetric: all motions are bounded. With it, friction in x feeds on the deflection along the line of action: when a mode across the line of action
-    /// comes close to one along it, the two merge and grow (flutter; [`Mode::flutters`]). How close is what [`Mode::growth`] and the frequencies over mu tell.
-    /// `None` only if mass or stiffness hold no numbers.
+    /// Without friction the matrix is symmetric: all motions are bounded. With it, friction in x feeds on the
+    /// deflection along the line of action: when a mode across the line of action comes close to one along it, the two
+    /// merge and grow (flutter; [`Mode::flutters`]). How close is what [`Mode::growth`] and the frequencies over mu
+    /// tell. `None` only if mass or stiffness hold no numbers.
     pub fn modes(&self, cycles: f64) -> Option<Vec<Mode>> {
         undamped_modes(&self.mass, &self.stiffness_at(cycles))
     }

@@ -14,7 +14,8 @@ pub struct MeshVectors {
     pub tilt: SVector<f64, 12>,
     /// a_f: generalised friction force for a normal force of 1 spread evenly, mu = 1.
     pub friction: SVector<f64, 12>,
-    /// a_ft: the same for a tilt moment of 1 (N mm): line load in proportion to the distance from the centre along the lines.
+    /// a_ft: the same for a tilt moment of 1 (N mm): line load in proportion to the distance from the centre along the
+    /// lines.
     pub tilt_friction: SVector<f64, 12>,
     /// k_t / k_m, mm^2.
     pub spread: f64,

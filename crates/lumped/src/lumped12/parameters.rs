@@ -10,7 +10,8 @@ use crate::{LumpedError, LumpedPair, error::not_negative};
 /// Springs that hold one gear: bearings, and what drives or loads it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Support12 {
-    /// Along x, y, z (N/mm) and about x, y, z (N mm/rad), global axes, >= 0. The last is 0 for a gear that is free to turn.
+    /// Along x, y, z (N/mm) and about x, y, z (N mm/rad), global axes, >= 0. The last is 0 for a gear that is free to
+    /// turn.
     pub stiffness: [f64; 6],
 }
 
@@ -21,8 +22,9 @@ pub struct Lumped12 {
     pub pair: LumpedPair,
     /// Supports of driver and driven gear.
     pub supports: [Support12; 2],
-    /// Rayleigh damping C = a M + b K: a (1/s) and b (s), >= 0. K is that of the supports and of the mesh as it then is, without friction's part; at the mesh it acts on the
-    /// rate of the mesh deflection, l' - e', so that a pair that follows its error slowly is not damped.
+    /// Rayleigh damping C = a M + b K: a (1/s) and b (s), >= 0. K is that of the supports and of the mesh as it then
+    /// is, without friction's part; at the mesh it acts on the rate of the mesh deflection, l' - e', so that a pair
+    /// that follows its error slowly is not damped.
     pub rayleigh: [f64; 2],
 }
 

@@ -12,16 +12,18 @@ use crate::{
     terms::{add_load, add_support, slope_in_time},
 };
 
-/// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put right:
+/// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put
+/// right:
 ///
 /// * eta_py p_1, eta_pz p_1 stand for p_2 and p_3;
 /// * xi_gmy p_11 in the rows of p_5 and p_8 stands for its derivative;
 /// * g = 2 T / (b_n M omega_n^2) lacks a radius below the line: it is a length, not a number;
-/// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied by kappa;
+/// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied
+///   by kappa;
 /// * m_e, and the signs of the driven gear's turn, as in the [module](super).
 ///
-/// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither dropped a term. It is written for
-/// [`MeshLaw::Projected`], the printed law.
+/// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither
+/// dropped a term. It is written for [`MeshLaw::Projected`], the printed law.
 #[derive(Debug, Clone)]
 pub struct Dimensionless {
     equations: Equations18,
@@ -32,7 +34,7 @@ pub struct Dimensionless {
 }
 
 /// What varies in (18).
-struct Moment {
+struct Coefficients {
     /// K(t) / K_m.
     stiffness: f64,
     /// (e_y, e_z) / b_n and rates.
@@ -59,7 +61,8 @@ impl Lumped8 {
     /// Dimensionless form.
     ///
     /// # Errors
-    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter has no meaning.
+    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter
+    /// has no meaning.
     pub fn dimensionless(&self) -> Result<Dimensionless, LumpedError> {
         self.check()?;
         positive("half backlash in mm, the unit of length,", self.half_backlash)?;
@@ -112,7 +115,7 @@ impl Dimensionless {
         DVector::from_fn(8, |i, _| if i % 4 == 3 { length / radii[i / 4] } else { length })
     }
 
-    fn at(&self, tau: f64) -> Moment {
+    fn at(&self, tau: f64) -> Coefficients {
         let (pair, length) = (&self.model.pair, self.model.half_backlash);
         let t = tau / self.omega;
         let [k, e, rate] = pair.excitation(t);
@@ -134,7 +137,7 @@ impl Dimensionless {
                 self.equations.torque[i] * pair.torques[i].at(t) / mean
             }
         });
-        Moment {
+        Coefficients {
             stiffness: k / pair.cycle.stiffness.mean,
             error: [1.0, -tan].map(|share| [share * e / length, share * rate / (length * self.omega)]),
             lines: [s, s_xi / r, (s_xi - pair.plane.tangent_length * s) / big_r],
@@ -149,7 +152,7 @@ impl Dimensionless {
     }
 
     /// p_11 and p_12 with all that (18) makes of them.
-    fn relatives(&self, now: &Moment, p: &[f64], v: &[f64]) -> [Relative; 2] {
+    fn relatives(&self, now: &Coefficients, p: &[f64], v: &[f64]) -> [Relative; 2] {
         let tan = self.model.pair.frame.local_helix().tan();
         let along = [0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 1.0];
         let axial = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0];
@@ -195,7 +198,7 @@ impl Dimensionless {
     }
 
     /// L_1, L_2, L_3 times the size of the bracket of p_11, in the rows of x and turn.
-    fn add_friction(&self, gear: usize, now: &Moment, at: &Relative, v: &[f64], out: &mut Forces) {
+    fn add_friction(&self, gear: usize, now: &Coefficients, at: &Relative, v: &[f64], out: &mut Forces) {
         let mass = self.equations.mass_ratio[gear];
         let [eta, xi] = self.mesh(gear, 0, at);
         let bracket = mass * (eta * at.beyond.value + 2.0 * xi * at.slip);

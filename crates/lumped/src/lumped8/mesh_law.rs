@@ -24,14 +24,16 @@ pub enum MeshLaw {
     /// F_y = K_n cos b f(delta_y - e_y; b_n cos b) + C_n cos b (delta_y' - e_y')
     /// F_z = K_n sin b f(delta_z - e_z; b_n sin b) + C_n sin b (delta_z' - e_z'),   delta_z = z_p - z_g - delta_y tan b
     /// ```
-    /// with K_n = k / cos b. Stiffness and displacement are both projected: with z held, F_z = F_y tan^2 b, short of the F_y tan b of statics by tan b (5.7 times
-    /// at 10 degrees). And F_z moves the gears along their axes without loading the line of action in return: the linear matrix is not symmetric, and the axial force does
-    /// work out of nothing, which the ledger books as supplied.
+    /// with K_n = k / cos b. Stiffness and displacement are both projected: with z held, F_z = F_y tan^2 b, short of
+    /// the F_y tan b of statics by tan b (5.7 times at 10 degrees). And F_z moves the gears along their axes without
+    /// loading the line of action in return: the linear matrix is not symmetric, and the axial force does work out of
+    /// nothing, which the ledger books as supplied.
     Projected,
 }
 
 impl MeshLaw {
-    /// Half backlash b_n along the normal (mm) that gives a pair its backlash j along the transverse line of action: j/2 cos b_b, or j/2 / cos b_b where the clearance is projected.
+    /// Half backlash b_n along the normal (mm) that gives a pair its backlash j along the transverse line of action:
+    /// j/2 cos b_b, or j/2 / cos b_b where the clearance is projected.
     pub fn half_backlash(self, pair: &GearPair) -> f64 {
         let (half, cos) = (0.5 * pair.backlash().max(0.0), pair.base_helix_angle().cos());
         match self {

@@ -14,7 +14,8 @@ pub struct Support8 {
     pub stiffness: [f64; 3],
     /// C_x, C_y, C_z, N s/mm, >= 0.
     pub damping: [f64; 3],
-    /// Torsional stiffness between the gear and what turns uniformly with it, N mm/rad, >= 0; 0 as printed: the gear is free to turn.
+    /// Torsional stiffness between the gear and what turns uniformly with it, N mm/rad, >= 0; 0 as printed: the gear is
+    /// free to turn.
     #[serde(default)]
     pub turning_stiffness: f64,
     /// The same for damping, N mm s/rad.
@@ -31,7 +32,8 @@ pub struct Lumped8 {
     pub supports: [Support8; 2],
     /// Mesh damping C on the transverse line of action, N s/mm, >= 0; it acts in the clearance too, as in the seed.
     pub mesh_damping: f64,
-    /// Half of the backlash along the flanks' normal, b_n, mm, >= 0; 0: no clearance, the flanks pull as well as push (a linear mesh).
+    /// Half of the backlash along the flanks' normal, b_n, mm, >= 0; 0: no clearance, the flanks pull as well as push
+    /// (a linear mesh).
     pub half_backlash: f64,
     /// Transverse and axial force.
     #[serde(default)]
@@ -69,7 +71,8 @@ impl Lumped8 {
         Motion8::new(self.clone())
     }
 
-    /// b_n, seen along the transverse line of action: the mesh deflection at which the driving flanks begin to touch, mm.
+    /// b_n, seen along the transverse line of action: the mesh deflection at which the driving flanks begin to touch,
+    /// mm.
     pub fn clearance(&self) -> f64 {
         let cos = self.pair.frame.base_helix_angle.cos();
         match self.law {

@@ -26,7 +26,8 @@ impl Condensation {
             map[(i, j)] = 1.0;
         }
         if !left.is_empty() {
-            // Turns and displacements have stiffnesses of very different size: scaled, round-off cannot look like a free motion.
+            // Turns and displacements have stiffnesses of very different size: scaled, round-off cannot look like a
+            // free motion.
             let scale: Vec<f64> =
                 left.iter().map(|&i| stiffness[(i, i)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
             let of = |rows: &[usize], columns: &[usize]| {

@@ -20,7 +20,8 @@ pub struct Continuum {
 }
 
 impl Continuum {
-    /// Elements no longer than `longest` (mm); what sits at the stations is rigid and of no width, meshes have their mean stiffness.
+    /// Elements no longer than `longest` (mm); what sits at the stations is rigid and of no width, meshes have their
+    /// mean stiffness.
     ///
     /// # Errors
     /// [`LumpedError`] when data have no meaning.

@@ -36,10 +36,11 @@ pub struct MeshGeometry {
 /// delta = h_1 . d_1 + h_2 . d_2,   h_1 = [n; p_1 x n],  h_2 = -[n; p_2 x n]
 /// n = cos b_b t - s sin b_b e_z,   t = (sin a_wt, s cos a_wt),   p_1 = r_w1 e_c,  p_2 = -r_w2 e_c       (e_c along the line of centres)
 /// ```
-/// delta: compression of the mesh along the normal, mm; a normal force F presses gear i with -F h_i. n: out of gear 1's loaded flank, s = +1 left,
-/// -1 right; p: from the gear's centre to the pitch point at mid-face, where the resultant of an evenly loaded mesh acts on average. Turns alone give
-/// delta = s cos b_b (r_b1 theta_1 + r_b2 theta_2). On the coast flanks the true line of action is the mirror image: with one line for both, backlash is
-/// exact in turning and along the line, and not across it.
+/// delta: compression of the mesh along the normal, mm; a normal force F presses gear i with -F h_i. n: out of gear 1's
+/// loaded flank, s = +1 left, -1 right; p: from the gear's centre to the pitch point at mid-face, where the resultant
+/// of an evenly loaded mesh acts on average. Turns alone give delta = s cos b_b (r_b1 theta_1 + r_b2 theta_2). On the
+/// coast flanks the true line of action is the mirror image: with one line for both, backlash is exact in turning and
+/// along the line, and not across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshLine {
     /// h_1 and h_2: 1 for displacements, mm for turns.

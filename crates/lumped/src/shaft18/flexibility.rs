@@ -1,4 +1,5 @@
-//! How a stepped shaft yields: flexibility influence coefficients in bending, series rule in torsion and along the axis. Theory (51).
+//! How a stepped shaft yields: flexibility influence coefficients in bending, series rule in torsion and along the
+//! axis. Theory (51).
 
 use fem::beam::{BeamPiece, BeamTheory};
 use nalgebra::DMatrix;
@@ -18,8 +19,8 @@ impl Influence {
         p
     }
 
-    /// Bending moment m (EI u'' = m) at `z` and its slope, for a unit load on a shaft pinned at both `pins`; `before` says whether z is taken
-    /// to lie before the load.
+    /// Bending moment m (EI u'' = m) at `z` and its slope, for a unit load on a shaft pinned at both `pins`; `before`
+    /// says whether z is taken to lie before the load.
     fn moment(self, z: f64, before: bool, [a, b]: [f64; 2]) -> (f64, f64) {
         let l = b - a;
         match (self, before) {
@@ -36,7 +37,8 @@ impl Influence {
 /// ```text
 /// a_ij = integral of [m_i m_j / (E I) + v_i v_j / (kappa G A)] dz,   m moment by the unit load, v = dm/dz its shear force
 /// ```
-/// Unit-load theorem (Mohr, Maxwell), exact for any steps; v only with [`BeamTheory::Timoshenko`]. Units mm/N, 1/N, 1/(N mm).
+/// Unit-load theorem (Mohr, Maxwell), exact for any steps; v only with [`BeamTheory::Timoshenko`]. Units mm/N, 1/N,
+/// 1/(N mm).
 ///
 /// For a solid disc at a and b = l - a between two shafts without shear and with E I alike it is
 /// ```text
@@ -46,9 +48,11 @@ impl Influence {
 /// ```text
 /// a_rr = a^2 b^2 (a / E I_3 + b / E I_4) / (3 l^2),  a_rp = a b (b^2 / E I_4 - a^2 / E I_3) / (3 l^2),  a_pp = (a^3 / E I_3 + b^3 / E I_4) / (3 l^2)
 /// ```
-/// The seed prints these in another arrangement, with a misprint in the middle one: 2 a^2 E I_3 l must read 2 a E I_3 l.
+/// The seed prints these in another arrangement, with a misprint in the middle one: 2 a^2 E I_3 l must read 2 a E I_3
+/// l.
 ///
-/// `pins` and all places must lie between the ends of the `pieces`, and the places between the pins: a load beyond them is left out.
+/// `pins` and all places must lie between the ends of the `pieces`, and the places between the pins: a load beyond them
+/// is left out.
 pub fn bending_influence(
     pieces: &[BeamPiece],
     pins: [f64; 2],
@@ -96,7 +100,8 @@ pub fn bending_influence(
 /// ```text
 /// l / (G I_p) = sum of l_n / (G I_p)_n,   l = sum of l_n
 /// ```
-/// `segments`: lengths (mm) and torsional stiffnesses (N mm^2). 0 without segments. The stiffness between the ends is G I_p / l.
+/// `segments`: lengths (mm) and torsional stiffnesses (N mm^2). 0 without segments. The stiffness between the ends is G
+/// I_p / l.
 ///
 /// ```
 /// // One half twice as stiff as the other: 2 / (1/1 + 1/2).

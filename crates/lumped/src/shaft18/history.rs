@@ -14,8 +14,9 @@ pub struct ShaftRow {
     pub time: f64,
     /// Phase of the mesh, 0 .. 1.
     pub mesh_phase: f64,
-    /// Dynamic transmission error on the transverse line of action, um: from the turns of the gears, positive when the driven gear lags; 0 where the driving flanks of the error-free, unloaded
-    /// pair touch, half the backlash off the middle of the clearance.
+    /// Dynamic transmission error on the transverse line of action, um: from the turns of the gears, positive when the
+    /// driven gear lags; 0 where the driving flanks of the error-free, unloaded pair touch, half the backlash off the
+    /// middle of the clearance.
     pub transmission_error_um: f64,
     /// Compression of the mesh along the normal, mm: everything that moves the flanks against each other.
     pub compression: f64,
@@ -48,7 +49,8 @@ impl ShaftMechanism {
         })
     }
 
-    /// What counts as a large motion of each coordinate, for an integrator: a millimetre, or the turn that moves a flank by one.
+    /// What counts as a large motion of each coordinate, for an integrator: a millimetre, or the turn that moves a
+    /// flank by one.
     pub fn scale(&self) -> DVector<f64> {
         let radius = self.meshes.iter().flat_map(|m| m.line.base_radii).fold(1.0, f64::max);
         let all = self.coordinates();
@@ -60,8 +62,8 @@ impl ShaftMechanism {
         self.meshes.get(mesh).map(|m| std::f64::consts::TAU / m.rate)
     }
 
-    /// Carries a state that stands at a whole number of periods of mesh `mesh` on by one, in `steps` fixed steps, and returns what is there: a stroboscopic section, for bifurcation
-    /// diagrams and Lyapunov exponents.
+    /// Carries a state that stands at a whole number of periods of mesh `mesh` on by one, in `steps` fixed steps, and
+    /// returns what is there: a stroboscopic section, for bifurcation diagrams and Lyapunov exponents.
     ///
     /// # Errors
     /// [`LumpedError::NoMesh`], [`LumpedError::NotFinite`] at rest, [`LumpedError::Motion`].

@@ -43,8 +43,9 @@ struct Points {
 impl LumpedShaft {
     /// The shaft, bending with shear or without; `number` names it in complaints.
     ///
-    /// Mass and polar inertia of each piece of shaft go to the stations on either side by the law of the lever, which keeps mass and centre of mass, with its rotary
-    /// inertia in the same shares; what lies beyond the outermost stations turns with them rigidly. Coordinates that are not kept follow statically.
+    /// Mass and polar inertia of each piece of shaft go to the stations on either side by the law of the lever, which
+    /// keeps mass and centre of mass, with its rotary inertia in the same shares; what lies beyond the outermost
+    /// stations turns with them rigidly. Coordinates that are not kept follow statically.
     ///
     /// # Errors
     /// [`LumpedError`] when data have no meaning, stations coincide, or what is left out could move freely.

@@ -12,15 +12,17 @@ use crate::{
     modes::{Mode, damped_modes, undamped_modes},
 };
 
-/// A system of lumped shafts as an integrator sees it: deviations q from the steady turn of all shafts in the ratios of their teeth.
+/// A system of lumped shafts as an integrator sees it: deviations q from the steady turn of all shafts in the ratios of
+/// their teeth.
 ///
 /// ```text
 /// M q'' + (C + G) q' + K q + sum over meshes of h F = f
 /// F = k(phi) g(delta) + c delta',   delta = h . q + e(t),   phi = z_1 |Omega_1| t
 /// c = 2 xi sqrt(k_s / (1/m_1 + 1/m_2)),   m_i = J_i / (r_bi cos b_b)^2
 /// ```
-/// g the dead zone of half-width b_n, e error and run-out of the teeth, f torques and weight, C Rayleigh's damping and that of the supports, G gyroscopic moments.
-/// As the seed has it, mesh damping acts in the clearance as well (oil between the flanks); there F may be below zero.
+/// g the dead zone of half-width b_n, e error and run-out of the teeth, f torques and weight, C Rayleigh's damping and
+/// that of the supports, G gyroscopic moments. As the seed has it, mesh damping acts in the clearance as well (oil
+/// between the flanks); there F may be below zero.
 #[derive(Debug, Clone)]
 pub struct ShaftMechanism {
     pub(super) shafts: Vec<LumpedShaft>,
@@ -123,7 +125,8 @@ impl LiveMesh {
     }
 }
 
-/// Torques and weight on the coordinates; power that the torques leave over by speed ratios, and the largest of a single one.
+/// Torques and weight on the coordinates; power that the torques leave over by speed ratios, and the largest of a
+/// single one.
 fn loads(system: &ShaftSystem, shafts: &[LumpedShaft], first: &[usize], speeds: &[f64]) -> (DVector<f64>, [f64; 2]) {
     let mut load = DVector::zeros(first[shafts.len()]);
     for (s, shaft) in shafts.iter().enumerate() {
@@ -216,8 +219,9 @@ impl ShaftMechanism {
         k
     }
 
-    /// Undamped modes of the shafts that turn at `share` of their speed, every mesh in contact at its mean stiffness, ascending in frequency; gyroscopic moments
-    /// part the whirls. Shafts that turn freely have one at about 0. `None` only if the matrices hold no numbers.
+    /// Undamped modes of the shafts that turn at `share` of their speed, every mesh in contact at its mean stiffness,
+    /// ascending in frequency; gyroscopic moments part the whirls. Shafts that turn freely have one at about 0. `None`
+    /// only if the matrices hold no numbers.
     pub fn whirl(&self, share: f64) -> Option<Vec<Mode>> {
         let k = self.mean_stiffness();
         if share == 0.0 {
@@ -227,7 +231,8 @@ impl ShaftMechanism {
         }
     }
 
-    /// Undamped natural frequencies and shapes at rest, every mesh in contact at its mean stiffness; shafts that turn freely have one at 0.
+    /// Undamped natural frequencies and shapes at rest, every mesh in contact at its mean stiffness; shafts that turn
+    /// freely have one at 0.
     ///
     /// # Errors
     /// [`LumpedError::Beam`] when the matrices are none.

@@ -1,5 +1,5 @@
-//! Shafts with gears after Prohl and Myklestad: masses at stations, massless elastic shaft between them, helical meshes that couple bending, torsion and
-//! axial motion.
+//! Shafts with gears after Prohl and Myklestad: masses at stations, massless elastic shaft between them, helical meshes
+//! that couple bending, torsion and axial motion.
 //!
 //! The files in the order of the model:
 //!
@@ -10,11 +10,14 @@
 //! 5. [`ShaftMechanism`]: equations of motion, static equilibrium, natural frequencies, [`ShaftRow`]s of a history;
 //! 6. [`continuum_modes`]: the same system with beam elements, for comparison.
 //!
-//! With two shafts that keep the six coordinates of their gear and x, y and turn of the coupled end it has the 18 coordinates of its name.
+//! With two shafts that keep the six coordinates of their gear and x, y and turn of the coupled end it has the 18
+//! coordinates of its name.
 //!
-//! Seed: "Modeling and Nonlinear Analysis of Helical Gear Transmission Systems Using Prohl-Myklested Method". Its relation between displacements and compression of the mesh
-//! has cosines of products of angles and is replaced by [`MeshLine`], derived from the geometry; one exponent of its flexibility coefficients is a misprint, see
-//! [`bending_influence`]; its claim of chaos without backlash cannot hold, since the equations are then linear with periodic coefficients.
+//! Seed: "Modeling and Nonlinear Analysis of Helical Gear Transmission Systems Using Prohl-Myklested Method". Its
+//! relation between displacements and compression of the mesh has cosines of products of angles and is replaced by
+//! [`MeshLine`], derived from the geometry; one exponent of its flexibility coefficients is a misprint, see
+//! [`bending_influence`]; its claim of chaos without backlash cannot hold, since the equations are then linear with
+//! periodic coefficients.
 
 mod condense;
 mod continuum;
@@ -32,4 +35,4 @@ pub use flexibility::{Influence, bending_influence, equivalent_torsional_stiffne
 pub use history::ShaftRow;
 pub use lumping::LumpedShaft;
 pub use mechanism::ShaftMechanism;
-pub use parameters::{Mesh, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};
+pub use parameters::{Mesh, RunOut, Segment, Shaft, ShaftStation, ShaftSystem, ShaftTorque, Station, Support};

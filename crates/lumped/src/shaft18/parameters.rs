@@ -41,7 +41,8 @@ pub struct Station {
     pub polar_inertia: f64,
     /// Its inertia about an axis across, t mm^2.
     pub transverse_inertia: f64,
-    /// Which of displacements x, y, z and turns about x, y, z remain coordinates of the model; the others follow statically.
+    /// Which of displacements x, y, z and turns about x, y, z remain coordinates of the model; the others follow
+    /// statically.
     pub kept: [bool; 6],
 }
 
@@ -69,7 +70,7 @@ pub struct Shaft {
 
 /// A station of a shaft, by numbers from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Place {
+pub struct ShaftStation {
     /// Shaft.
     pub shaft: usize,
     /// Station on it.
@@ -89,7 +90,7 @@ pub struct RunOut {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// Stations that bear gear 1 and gear 2.
-    pub gears: [Place; 2],
+    pub gears: [ShaftStation; 2],
     /// Teeth and where the gears stand to each other.
     pub geometry: MeshGeometry,
     /// Stiffness along the normal of the flanks, N/mm, over the phase of the mesh, 2 pi a tooth.
@@ -108,7 +109,7 @@ pub struct Mesh {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ShaftTorque {
     /// Where.
-    pub place: Place,
+    pub place: ShaftStation,
     /// About +z, N mm.
     pub torque: f64,
 }
@@ -207,7 +208,8 @@ impl Mesh {
     /// ```text
     /// k_n = k / cos^2 b_b,   excess = -e cos b_b
     /// ```
-    /// The cycle is stated on the transverse line of action, where e > 0 lets the driven gear lag; here along the normal, where an excess presses.
+    /// The cycle is stated on the transverse line of action, where e > 0 lets the driven gear lag; here along the
+    /// normal, where an excess presses.
     ///
     /// # Errors
     /// Those of [`MeshGeometry::line`].
@@ -231,7 +233,7 @@ impl Mesh {
 
 impl ShaftSystem {
     /// The station at a place, if there is one.
-    pub fn station(&self, place: Place) -> Result<&Station, LumpedError> {
+    pub fn station(&self, place: ShaftStation) -> Result<&Station, LumpedError> {
         let shaft = self.shafts.get(place.shaft);
         shaft
             .and_then(|s| s.stations.get(place.station))
@@ -260,7 +262,8 @@ impl ShaftSystem {
     /// Speed of each shaft about +z, rad/s: by the teeth of the meshes, from shaft 0 on.
     ///
     /// # Errors
-    /// [`LumpedError::NotConnected`] when a shaft is in no chain of meshes with shaft 0, [`LumpedError::Ratios`] when two chains disagree.
+    /// [`LumpedError::NotConnected`] when a shaft is in no chain of meshes with shaft 0, [`LumpedError::Ratios`] when
+    /// two chains disagree.
     pub fn speeds(&self) -> Result<Vec<f64>, LumpedError> {
         let mut ratios: Vec<Option<f64>> = vec![None; self.shafts.len()];
         if let Some(first) = ratios.first_mut() {

@@ -16,8 +16,8 @@ impl ShaftMechanism {
     /// Shafts that turn freely stand where the first free turn is zero.
     ///
     /// # Errors
-    /// [`LumpedError::NotBalanced`] when shafts that turn freely would not stay where they are; [`LumpedError::NoEquilibrium`] when contact
-    /// of the meshes does not settle.
+    /// [`LumpedError::NotBalanced`] when shafts that turn freely would not stay where they are;
+    /// [`LumpedError::NoEquilibrium`] when contact of the meshes does not settle.
     pub fn static_state(&self, t: f64) -> Result<DVector<f64>, LumpedError> {
         if !self.held && self.imbalance[0].abs() > BALANCE * self.imbalance[1] {
             return Err(LumpedError::NotBalanced { torque: self.imbalance[0] });

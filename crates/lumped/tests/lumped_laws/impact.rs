@@ -1,7 +1,7 @@
 //! Rigid gears on their true flanks: the laws of the model, and seed 001.
 //!
-//! Normal force of seed 001: T / (r_b cos b_b) = 7.378e5 N. The paper prints 7.89e5 N as theory; its formula 2 T / (d cos a_n cos b) needs d = 722 mm for that, and the 30-tooth gear's
-//! reference diameter is 773 mm.
+//! Normal force of seed 001: T / (r_b cos b_b) = 7.378e5 N. The paper prints 7.89e5 N as theory; its formula 2 T / (d
+//! cos a_n cos b) needs d = 722 mm for that, and the 30-tooth gear's reference diameter is 773 mm.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::f64::consts::{PI, TAU};
@@ -65,7 +65,8 @@ fn amplitude(samples: &[f64], h: f64, frequency: f64) -> f64 {
     2.0 * re.hypot(im) / n
 }
 
-/// What must be true of a run of the seed: mean force, no pull, no coast contact, speed, peaks of the spectrum at multiples of the mesh frequency.
+/// What must be true of a run of the seed: mean force, no pull, no coast contact, speed, peaks of the spectrum at
+/// multiples of the mesh frequency.
 fn judge(rows: &[ImpactRow], h: f64, from: f64) {
     let wanted = normal_force();
     let steady: Vec<&ImpactRow> = rows.iter().filter(|r| r.time > from).collect();
@@ -97,7 +98,8 @@ fn judge(rows: &[ImpactRow], h: f64, from: f64) {
     assert!(at_mesh > 0.5 * largest, "the mesh frequency is not among the largest peaks: {at_mesh} N of {largest} N");
 }
 
-/// The start: from the static equilibrium along (T + J alpha) / (r_b cos b_b), with what the first mesh resonance adds on the way; nothing is thrown off.
+/// The start: from the static equilibrium along (T + J alpha) / (r_b cos b_b), with what the first mesh resonance adds
+/// on the way; nothing is thrown off.
 fn judge_ramp(rows: &[ImpactRow], duration: f64) {
     let pair = mill::pair();
     let ramp = Speed::Ramp { from: 0.0, to: mill::SPEED, start: 0.0, duration };
@@ -131,8 +133,8 @@ fn stiffness_formula_gives_the_reference_number() {
     assert!(contact_stiffness(&mill::pair(), Driver::Wheel, 2.1e5, 1.0).is_err());
 }
 
-/// Seed 001 shortened: ramp of 0.1 s, 0.25 s after it, 13 slices. Sixteen steps a mesh cycle: what slices that come and go leave above half the sampling rate folds back
-/// onto multiples of the mesh frequency and not between them.
+/// Seed 001 shortened: ramp of 0.1 s, 0.25 s after it, 13 slices. Sixteen steps a mesh cycle: what slices that come and
+/// go leave above half the sampling rate folds back onto multiples of the mesh frequency and not between them.
 #[test]
 fn seed_001_shortened() {
     let mut model = model(|o| {
@@ -161,7 +163,8 @@ fn start_is_without_a_jolt() {
     judge_ramp(&rows, 0.3);
 }
 
-/// Without friction the torque alone says what the mean force is; with it the sliding teeth take their share, less than 1 %.
+/// Without friction the torque alone says what the mean force is; with it the sliding teeth take their share, less than
+/// 1 %.
 #[test]
 fn friction_raises_the_mean_force() {
     let mean = |with: bool| {
@@ -188,7 +191,8 @@ fn displaced(n: usize, phase: f64) -> DVector<f64> {
     DVector::from_fn(n, |i, _| of(i))
 }
 
-/// Elastic forces are the slopes of the potential, and both tangents those of the forces: flanks, tip edges, tilted gears.
+/// Elastic forces are the slopes of the potential, and both tangents those of the forces: flanks, tip edges, tilted
+/// gears.
 #[test]
 fn forces_are_slopes_of_the_potential_and_tangents_of_the_forces() {
     let mut model = model(|o| {
@@ -237,7 +241,8 @@ fn forces_are_slopes_of_the_potential_and_tangents_of_the_forces() {
     }
 }
 
-/// Flanks press on both gears alike: forces cancel, moments balance about any point, and friction takes power from what slides.
+/// Flanks press on both gears alike: forces cancel, moments balance about any point, and friction takes power from what
+/// slides.
 #[test]
 fn both_gears_feel_the_same() {
     let mut model = model(free);
@@ -260,7 +265,8 @@ fn both_gears_feel_the_same() {
     assert!(power < 0.0 && -power < 0.05 * through, "{power} of {through}");
 }
 
-/// After a million turns, across tooth z-1 to 0, nothing is different; other hand of rotation and other driver the same in the mirror.
+/// After a million turns, across tooth z-1 to 0, nothing is different; other hand of rotation and other driver the same
+/// in the mirror.
 #[test]
 fn turns_and_mirrors_change_nothing() {
     let rows = |change: &dyn Fn(&mut ImpactOptions)| {
@@ -293,7 +299,8 @@ fn turns_and_mirrors_change_nothing() {
     assert!(pinion.iter().all(|r| r.normal_force[0] > 0.0 && r.normal_force[1] == 0.0));
 }
 
-/// The load turns round: teeth leave the driving flanks, strike the coast flanks and carry there. No slice ever pulls, and the ledger closes.
+/// The load turns round: teeth leave the driving flanks, strike the coast flanks and carry there. No slice ever pulls,
+/// and the ledger closes.
 #[test]
 fn torque_reversal_strikes_the_coast_flanks() {
     let mut model = model(|o| {
@@ -374,8 +381,9 @@ fn nonsense_is_refused() {
     assert!((6000.0 * PI / 180.0 - mill::SPEED).abs() < 1e-12);
 }
 
-/// The contact lines of seed 001 are longer under its load than those of rigid gears that just touch (581.1 mm in the mean): its flanks overlap by 0.6 mm, and flanks that overlap reach beyond the
-/// path of contact at the tips, on lines that no unloaded gears have. As the load goes to zero the length goes to the analytic one.
+/// The contact lines of seed 001 are longer under its load than those of rigid gears that just touch (581.1 mm in the
+/// mean): its flanks overlap by 0.6 mm, and flanks that overlap reach beyond the path of contact at the tips, on lines
+/// that no unloaded gears have. As the load goes to zero the length goes to the analytic one.
 #[test]
 fn lines_are_those_of_geometry_as_the_load_vanishes() {
     const PHASES: usize = 8;

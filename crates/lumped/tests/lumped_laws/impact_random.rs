@@ -56,7 +56,8 @@ fn body(gear: &Gear) -> RigidBody {
     RigidBody { mass, transverse_inertia: 0.5 * polar_inertia + mass * b * b / 12.0, polar_inertia }
 }
 
-/// A pair of 12 to 60 and 13 to 90 teeth, modules 0.5 to 6, 0.1 to 1000 N m by size, all kinds of flanks; `None` where the numbers make no pair.
+/// A pair of 12 to 60 and 13 to 90 teeth, modules 0.5 to 6, 0.1 to 1000 N m by size, all kinds of flanks; `None` where
+/// the numbers make no pair.
 fn scene(seed: u64) -> Option<(ImpactMechanism, f64)> {
     let r = &mut Random::new(seed);
     let module = 0.5 * r.between(0.0, 12f64.log2()).exp2();
@@ -181,7 +182,8 @@ fn small_pair() -> ImpactMechanism {
     ImpactMechanism::new(pair, options).unwrap()
 }
 
-/// Two mesh cycles by each method in steps of a 32nd and of a 256th: where flanks turn round at the pitch line, a whole Newton step jumps from one sign of the friction to the other whatever the time step.
+/// Two mesh cycles by each method in steps of a 32nd and of a 256th: where flanks turn round at the pitch line, a whole
+/// Newton step jumps from one sign of the friction to the other whatever the time step.
 #[test]
 fn friction_that_turns_round_has_a_solution() {
     let cycle = 60.0 / (1805.0 * 12.0);

@@ -1,4 +1,5 @@
-//! Slices of rigid gears that overlap, wide and narrow: those that the springs of elastic gears ask for, against many more.
+//! Slices of rigid gears that overlap, wide and narrow: those that the springs of elastic gears ask for, against many
+//! more.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use dynamics::{Bearing, Drive, RigidBody, Speed, Torque};
@@ -57,7 +58,8 @@ fn cycle(pair: &GearPair, slices: usize) -> [f64; 3] {
     [mean(&errors), most, mean(&lengths)]
 }
 
-/// The slices that the springs ask for against 800: mean within 0.1 %, peak to peak within 3 %, length (of whole slices) within 2 %. How far 32 slices are off in the peak to peak, per cent.
+/// The slices that the springs ask for against 800: mean within 0.1 %, peak to peak within 3 %, length (of whole
+/// slices) within 2 %. How far 32 slices are off in the peak to peak, per cent.
 fn judge(width: f64, crowning: f64) -> f64 {
     let pair = pair(width, crowning);
     let needed = slices_needed(&pair, &StaticOptions::new(LINE_LOAD * pair.face_width(), &pair)).count;
@@ -75,7 +77,8 @@ fn judge(width: f64, crowning: f64) -> f64 {
     of_32[1]
 }
 
-/// A narrow pair is as good with 32 slices as with more; in a wide one they come and go by more than the pair itself moves.
+/// A narrow pair is as good with 32 slices as with more; in a wide one they come and go by more than the pair itself
+/// moves.
 #[test]
 fn rigid_flanks_ask_for_slices_as_elastic_ones_do() {
     assert!(judge(5.0, 30.0).abs() < 1.0);

@@ -50,7 +50,8 @@ fn pair(teeth: [u32; 2], m: f64, beta_deg: f64, b: f64, x: [f64; 2], bore: [f64;
     GearPair::new(gear(0, 1.0)?, gear(1, -1.0)?, None).ok()
 }
 
-/// z 17 .. 60, ratio 1 .. 3, m_n 1.5 .. 6, beta 0 .. 35 deg, b/m_n 4 .. 16, x 0 .. 0.5 and 0 .. 0.4, 150 .. 500 N/mm, bores of 55 %.
+/// z 17 .. 60, ratio 1 .. 3, m_n 1.5 .. 6, beta 0 .. 35 deg, b/m_n 4 .. 16, x 0 .. 0.5 and 0 .. 0.4, 150 .. 500 N/mm,
+/// bores of 55 %.
 fn drawn(count: usize) -> Vec<Drawn> {
     let mut random = Random(2026);
     let mut pairs = Vec::new();
@@ -68,8 +69,8 @@ fn drawn(count: usize) -> Vec<Drawn> {
     pairs
 }
 
-/// Mean transmission error of the pair by finite elements (um), and of it what the axial forces do with their own displacements and with those of
-/// the transverse forces, of pinion and wheel.
+/// Mean transmission error of the pair by finite elements (um), and of it what the axial forces do with their own
+/// displacements and with those of the transverse forces, of pinion and wheel.
 struct Measured {
     te: f64,
     axial: [f64; 2],
@@ -208,8 +209,8 @@ fn random_pairs() {
     }
 }
 
-/// A narrow pair of high helix angle (37/55, 29 degrees): ISO alone is a third too stiff, bodies that bend under the axial force are what it lacks. Without the helix angle, nothing of
-/// the kind: the axial force is the cause.
+/// A narrow pair of high helix angle (37/55, 29 degrees): ISO alone is a third too stiff, bodies that bend under the
+/// axial force are what it lacks. Without the helix angle, nothing of the kind: the axial force is the cause.
 #[test]
 fn narrow_pairs_of_high_helix_angle() {
     let narrow = |beta_deg: f64| Drawn {
@@ -226,7 +227,8 @@ fn narrow_pairs_of_high_helix_angle() {
     );
     assert!(fe.te / iso > 1.25, "ISO alone: {:.3} of FE", iso / fe.te);
     assert!((fe.te / whole - 1.0).abs() < 0.15, "with bodies: {:.3} of FE", whole / fe.te);
-    // What the axial forces do in the finite elements, their own deflections and the coupled ones, is what the plates say, and the shear of the teeth.
+    // What the axial forces do in the finite elements, their own deflections and the coupled ones, is what the plates
+    // say, and the shear of the teeth.
     let axial: f64 = (0..2).map(|i| fe.axial[i] + fe.coupled[i]).sum();
     let plates = bodies[0] + bodies[1];
     assert!((0.8..1.6).contains(&(axial / plates)), "axial forces: {axial:.2} um, plates {plates:.2} um");

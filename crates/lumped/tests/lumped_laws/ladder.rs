@@ -51,13 +51,15 @@ fn at(pair: &LumpedPair, phase: f64) -> LumpedPair {
     LumpedPair { clock: MeshClock { start: phase, ..MeshClock::steady(30, 1e-9) }, ..pair.clone() }
 }
 
-/// Share of the turning against each other in a mode's kinetic energy, and its frequency in Hz: the torsional one has the most.
+/// Share of the turning against each other in a mode's kinetic energy, and its frequency in Hz: the torsional one has
+/// the most.
 fn torsional(modes: &[Mode], mass: &nalgebra::DMatrix<f64>, turns: [usize; 2]) -> f64 {
     let share = |m: &Mode| turns.iter().map(|&i| mass[(i, i)] * m.shape[i].norm_sqr()).sum::<f64>();
     modes.iter().filter(|m| m.frequency_hz > 1.0).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap().frequency_hz
 }
 
-/// Same static deflection within 1 % at every phase, the same torsional resonance within 2 %, which with stiff supports is sqrt(k / m_e) / (2 pi).
+/// Same static deflection within 1 % at every phase, the same torsional resonance within 2 %, which with stiff supports
+/// is sqrt(k / m_e) / (2 pi).
 #[test]
 fn static_deflection_and_torsional_resonance_agree() {
     let pair = fed(100.0);

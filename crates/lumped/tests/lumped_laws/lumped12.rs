@@ -33,11 +33,13 @@ fn vibration(model: &Lumped12) -> [f64; 3] {
     })
 }
 
-/// Seed 003's finding: mu = 0.1 lifts vibration off the line of action most. The tables are not reproduced (masses, supports, error and load are not given).
+/// Seed 003's finding: mu = 0.1 lifts vibration off the line of action most. The tables are not reproduced (masses,
+/// supports, error and load are not given).
 ///
-/// Load 100 N m on the driven gear; supports that differ by a fiftieth between x and y, so that there is vibration across without friction to compare with. The growth takes the
-/// seed's way of sharing load, line by line: with load spread evenly over the whole length of the lines, friction before and after the pitch line cancels in this
-/// pair (eps_alpha 2.00).
+/// Load 100 N m on the driven gear; supports that differ by a fiftieth between x and y, so that there is vibration
+/// across without friction to compare with. The growth takes the seed's way of sharing load, line by line: with load
+/// spread evenly over the whole length of the lines, friction before and after the pitch line cancels in this pair
+/// (eps_alpha 2.00).
 #[test]
 fn friction_lifts_vibration_across_the_line_of_action_most() {
     let of = |sharing, mu, round: bool| {
@@ -71,7 +73,8 @@ fn friction_lifts_vibration_across_the_line_of_action_most() {
     }
 }
 
-/// Mirror images: the other hand in the plane z = 0, the other hand and sense in y = 0, the other sense by half a turn about x. With friction and load.
+/// Mirror images: the other hand in the plane z = 0, the other hand and sense in y = 0, the other sense by half a turn
+/// about x. With friction and load.
 #[test]
 fn mirrors_of_hand_and_sense() {
     let loaded = |helix, sense| {
@@ -108,7 +111,8 @@ fn mirrors_of_hand_and_sense() {
     }
 }
 
-/// Tangents are derivatives, forces of friction and mesh cancel between the gears, and the stiffness matrix is the tangent.
+/// Tangents are derivatives, forces of friction and mesh cancel between the gears, and the stiffness matrix is the
+/// tangent.
 #[test]
 fn tangents_are_derivatives() {
     let model = seed_003(30.25, Sense::Ccw, 0.1);
@@ -165,7 +169,8 @@ fn integrators_agree() {
     }
 }
 
-/// Without friction the stiffness is symmetric and no mode grows; friction moves the frequencies a little, as the seed's table says (less than 1 %).
+/// Without friction the stiffness is symmetric and no mode grows; friction moves the frequencies a little, as the
+/// seed's table says (less than 1 %).
 #[test]
 fn friction_makes_the_stiffness_non_symmetric_and_moves_frequencies_little() {
     let [free, rubbed] = [0.0, 0.1].map(|mu| seed_003(30.25, Sense::Ccw, mu).motion().unwrap());
@@ -191,8 +196,9 @@ fn friction_makes_the_stiffness_non_symmetric_and_moves_frequencies_little() {
     }
 }
 
-/// Seed 004's gears with a face of 10 mm (few lines at once, so that friction of one does not cancel that of another), frozen where the lines are split most unevenly. Supports
-/// are turned a little against the line of action and almost alike in both directions: friction across it then comes back along it, and two modes can merge.
+/// Seed 004's gears with a face of 10 mm (few lines at once, so that friction of one does not cancel that of another),
+/// frozen where the lines are split most unevenly. Supports are turned a little against the line of action and almost
+/// alike in both directions: friction across it then comes back along it, and two modes can merge.
 fn near_flutter(mu: f64, ratio: f64, turned: f64) -> Lumped12 {
     let mut pair = pair_004(mu);
     pair.torques = [0.0; 2].map(FourierTorque::constant);
@@ -211,7 +217,8 @@ fn fluttering(model: &Lumped12) -> Option<lumped::modes::Mode> {
     modes.into_iter().filter(|m| m.flutters()).max_by(|a, b| a.growth.total_cmp(&b.growth))
 }
 
-/// Flutter: friction merges two modes where the eigenvalues say so; in time the motion grows at that rate; damping stops it; without friction it cannot be.
+/// Flutter: friction merges two modes where the eigenvalues say so; in time the motion grows at that rate; damping
+/// stops it; without friction it cannot be.
 #[test]
 fn flutter_grows_as_the_eigenvalues_say() {
     let ratios: Vec<f64> = (0..160).map(|i| 0.4 + 0.005 * f64::from(i)).collect();

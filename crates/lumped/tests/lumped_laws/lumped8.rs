@@ -16,7 +16,8 @@ use study::{
     sweep_both_ways,
 };
 
-/// Validation notes, seed 004: F_bn 7094.5 N, F_a 1157.7 N (1e-4); forces of both gears cancel, moments balance about any point, the driver's torque is F_bt r_b.
+/// Validation notes, seed 004: F_bn 7094.5 N, F_a 1157.7 N (1e-4); forces of both gears cancel, moments balance about
+/// any point, the driver's torque is F_bt r_b.
 #[test]
 fn statics_of_the_seed_are_those_of_the_geometry() {
     let motion = seed_004(MeshLaw::Normal, 0.0).motion().unwrap();
@@ -52,7 +53,8 @@ fn at_phase(model: &Lumped8, phase: f64) -> lumped::LumpedPair {
     pair
 }
 
-/// The printed law gives F_y tan^2(beta) along the axis, not F_y tan(beta): projected twice. Reported, and the reason for the other law.
+/// The printed law gives F_y tan^2(beta) along the axis, not F_y tan(beta): projected twice. Reported, and the reason
+/// for the other law.
 #[test]
 fn the_printed_law_is_short_of_axial_force() {
     let mut model = seed_004(MeshLaw::Projected, 0.0);
@@ -130,7 +132,8 @@ fn check_tangents<M: Mechanism<Error = std::convert::Infallible>>(
     }
 }
 
-/// The two forms are written separately: 20 mesh cycles with friction, backlash, contact lost and regained, a speed that fluctuates and torques that vary, 1e-9.
+/// The two forms are written separately: 20 mesh cycles with friction, backlash, contact lost and regained, a speed
+/// that fluctuates and torques that vary, 1e-9.
 #[test]
 fn dimensionless_is_dimensional() {
     let mut model = seed_004(MeshLaw::Projected, 0.08);
@@ -178,7 +181,8 @@ fn dimensionless_is_dimensional() {
     }
 }
 
-/// Energy closes to round-off with the energy scheme (5000 steps, contact lost, friction, both laws, both forms), and at the method's order with others.
+/// Energy closes to round-off with the energy scheme (5000 steps, contact lost, friction, both laws, both forms), and
+/// at the method's order with others.
 #[test]
 fn energy_ledger_closes() {
     for law in [MeshLaw::Normal, MeshLaw::Projected] {
@@ -215,10 +219,12 @@ fn energy_ledger_closes() {
     }
 }
 
-/// What holds the turn against friction's torque: N mm/rad, N mm s/rad; some 70 Hz on both gears' inertia, a third of critical damping.
+/// What holds the turn against friction's torque: N mm/rad, N mm s/rad; some 70 Hz on both gears' inertia, a third of
+/// critical damping.
 const MOTOR: (f64, f64) = (1e7, 13e3);
 
-/// Seed 004 as printed (1000/min, 300 / 900 N m): time history, phase portraits and sections of y_p, y_g and z_g; the settled motion repeats with every mesh cycle.
+/// Seed 004 as printed (1000/min, 300 / 900 N m): time history, phase portraits and sections of y_p, y_g and z_g; the
+/// settled motion repeats with every mesh cycle.
 #[test]
 fn the_seed_settles_to_one_point_a_cycle() {
     let mut model = seed_004(MeshLaw::Normal, 0.05);
@@ -252,8 +258,9 @@ fn the_seed_settles_to_one_point_a_cycle() {
     }
 }
 
-/// Chaos is confirmed by a positive exponent, motion that repeats has a negative one: light load (a fiftieth of k b), error amplitude b / 5, mesh damping ratio 0.03, at 0.4 and 1.2 of the
-/// resonance. Every stretch is one mesh cycle, so that the excitation is the same at its start.
+/// Chaos is confirmed by a positive exponent, motion that repeats has a negative one: light load (a fiftieth of k b),
+/// error amplitude b / 5, mesh damping ratio 0.03, at 0.4 and 1.2 of the resonance. Every stretch is one mesh cycle, so
+/// that the excitation is the same at its start.
 #[test]
 fn chaos_and_order_have_exponents_of_their_sign() {
     let mut model = seed_004(MeshLaw::Normal, 0.0);
@@ -316,8 +323,9 @@ fn backlash_of_a_pair_is_its_clearance_on_the_line_of_action() {
     }
 }
 
-/// Clearance oscillator of the validation notes as a limit: stiff supports, no helix, no friction; e = b F_ah cos gives F_ah W^2 cos.
-/// Wanted: jump up between 0.82 and 0.83, down between 0.71 and 0.70; peak to peak 0.1267 / 0.6367 at 0.75, 0.3740 at 1.0; 1 % (1.5 % for 64 steps a cycle).
+/// Clearance oscillator of the validation notes as a limit: stiff supports, no helix, no friction; e = b F_ah cos gives
+/// F_ah W^2 cos. Wanted: jump up between 0.82 and 0.83, down between 0.71 and 0.70; peak to peak 0.1267 / 0.6367 at
+/// 0.75, 0.3740 at 1.0; 1 % (1.5 % for 64 steps a cycle).
 #[test]
 fn one_coordinate_limit_is_the_clearance_oscillator() {
     let mut model = seed_004(MeshLaw::Normal, 0.0);

@@ -6,7 +6,8 @@ use lumped::{LineSharing, MeshFrame, PlaneOfAction};
 
 use crate::common::{gears_003, gears_004, pair_003};
 
-/// The total length is that of `geometry` at every phase, whichever gear drives and whichever way; friction's split is that of the lines.
+/// The total length is that of `geometry` at every phase, whichever gear drives and whichever way; friction's split is
+/// that of the lines.
 #[test]
 fn lines_are_those_of_the_geometry() {
     for gears in [gears_004(), gears_003(30.25), gears_003(-30.25)] {
@@ -60,7 +61,8 @@ fn lines_are_those_of_the_geometry() {
     }
 }
 
-/// Seed 003's printed lengths, with the parameters of the validation notes: longest line 21.51 mm, total 62.05 .. 62.08 mm; within 0.01 mm.
+/// Seed 003's printed lengths, with the parameters of the validation notes: longest line 21.51 mm, total 62.05 .. 62.08
+/// mm; within 0.01 mm.
 #[test]
 fn seed_003_has_its_printed_lengths() {
     let plane = pair_003(30.25, Sense::Ccw, 0.0).plane;
@@ -77,7 +79,8 @@ fn seed_003_has_its_printed_lengths() {
     assert!((plane.overlap_ratio() - 2.885).abs() < 1e-3);
 }
 
-/// Seed 004 (validation notes): L mean 103.9, min 99.8, max 105.6 mm, eps_alpha 1.708, eps_beta 1.106; the last printed digit.
+/// Seed 004 (validation notes): L mean 103.9, min 99.8, max 105.6 mm, eps_alpha 1.708, eps_beta 1.106; the last printed
+/// digit.
 #[test]
 fn seed_004_has_the_lengths_of_the_notes() {
     let gears = gears_004();
@@ -92,7 +95,8 @@ fn seed_004_has_the_lengths_of_the_notes() {
     assert!((plane.transverse_contact_ratio() - 1.708).abs() < 6e-4 && (plane.overlap_ratio() - 1.106).abs() < 6e-4);
 }
 
-/// A wide pair of whole overlap ratio has one line's worth everywhere: the tilt spread of a single line of length l is l^2 / 12.
+/// A wide pair of whole overlap ratio has one line's worth everywhere: the tilt spread of a single line of length l is
+/// l^2 / 12.
 #[test]
 fn spread_of_one_line_is_that_of_a_bar() {
     let plane = PlaneOfAction {

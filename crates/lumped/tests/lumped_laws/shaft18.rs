@@ -7,7 +7,7 @@ use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
 use integrate::{Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::shaft18::{
-    Influence, LumpedShaft, MeshGeometry, Place, Shaft, ShaftMechanism, ShaftSystem, Station, Support,
+    Influence, LumpedShaft, MeshGeometry, Shaft, ShaftMechanism, ShaftStation, ShaftSystem, Station, Support,
     bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
 use lumped::{Fourier, LumpedError, MeshCycle, Recording};
@@ -28,7 +28,8 @@ fn stepped() -> Shaft {
     }
 }
 
-/// The series rule: exact for the equivalent stiffness, and the twist of a stepped shaft between its stations is what it says.
+/// The series rule: exact for the equivalent stiffness, and the twist of a stepped shaft between its stations is what
+/// it says.
 #[test]
 fn torsion_follows_the_series_rule() {
     let shaft = stepped();
@@ -48,7 +49,8 @@ fn torsion_follows_the_series_rule() {
     assert!((twist / expected - 1.0).abs() < 1e-12, "{twist:e} rad/(N mm), not {expected:e}");
 }
 
-/// One disc between two stiffnesses: the seed's formulas, the misprinted exponent corrected (2 a E I_3 l for 2 a^2 E I_3 l).
+/// One disc between two stiffnesses: the seed's formulas, the misprinted exponent corrected (2 a E I_3 l for 2 a^2 E
+/// I_3 l).
 #[test]
 fn influence_coefficients_of_one_disc_are_the_seeds() {
     let shaft = Shaft { segments: vec![steel(113.8, 38.5), steel(96.6, 25.77)], ..Shaft::default() };
@@ -90,7 +92,8 @@ fn by_elements(shaft: &Shaft, theory: BeamTheory) -> DMatrix<f64> {
     DMatrix::from_fn(n, n, |i, j| moved[(nodes[i], j)]).try_inverse().unwrap()
 }
 
-/// Bending, torsion, axial stiffness between stations and supports of a stepped shaft = a fine row of beam elements condensed to the same coordinates.
+/// Bending, torsion, axial stiffness between stations and supports of a stepped shaft = a fine row of beam elements
+/// condensed to the same coordinates.
 #[test]
 fn stiffness_is_that_of_beam_theory() {
     let shaft = stepped();
@@ -143,7 +146,8 @@ fn lumping_keeps_mass_centre_and_inertia_about_the_axis() {
     }
 }
 
-/// The line of action is what the true flanks say: the gap at the pitch point changes with each displacement of either gear by -h.
+/// The line of action is what the true flanks say: the gap at the pitch point changes with each displacement of either
+/// gear by -h.
 #[test]
 fn mesh_line_is_the_slope_of_the_true_gap() {
     for (side, hand) in [(Side::Left, 1.0), (Side::Right, 1.0), (Side::Left, -1.0), (Side::Right, -1.0)] {
@@ -308,7 +312,8 @@ fn more_stations_come_nearer_to_the_continuum() {
     assert!(ShaftMechanism::new(&system).is_ok(), "a shaft without mass of its own");
 }
 
-/// Three shafts in a train, gears of six coordinates each: eighteen as well; speeds follow the teeth, torques are in balance through the idler.
+/// Three shafts in a train, gears of six coordinates each: eighteen as well; speeds follow the teeth, torques are in
+/// balance through the idler.
 #[test]
 fn three_shafts_make_a_train() {
     let mut system = gearbox(200.0, 0.0);
@@ -318,7 +323,7 @@ fn three_shafts_make_a_train() {
     third.stations[1].kept = [false; 6];
     system.shafts.push(third);
     let mut second = system.meshes[0].clone();
-    second.gears = [Place { shaft: 1, station: 0 }, Place { shaft: 2, station: 0 }];
+    second.gears = [ShaftStation { shaft: 1, station: 0 }, ShaftStation { shaft: 2, station: 0 }];
     second.geometry.teeth = [46, 46];
     second.geometry.helix_angle *= -1.0;
     second.geometry.centre_distance *= 92.0 / 76.0;
@@ -326,7 +331,7 @@ fn three_shafts_make_a_train() {
     second.geometry.side = Side::Right;
     system.meshes.push(second);
     let load = &mut system.torques[1];
-    load.place = Place { shaft: 2, station: 0 };
+    load.place = ShaftStation { shaft: 2, station: 0 };
     load.torque *= -1.0;
     let mut model = ShaftMechanism::new(&system).unwrap();
     assert_eq!(model.count(), 18);
@@ -418,7 +423,8 @@ fn mirrored_systems_answer_mirrored() {
     sense.speed *= -1.0;
     sense.meshes[0].geometry.side = Side::Right;
     sense.torques.iter_mut().for_each(|t| t.torque *= -1.0);
-    // Mirrored in z: hand and f_z, m_x, m_y change. Turned about the line of centres: the hand stays, sense and f_y, f_z, m_y, m_z change.
+    // Mirrored in z: hand and f_z, m_x, m_y change. Turned about the line of centres: the hand stays, sense and f_y,
+    // f_z, m_y, m_z change.
     for (name, other, signs) in [
         ("other hand", hand, [1.0, 1.0, -1.0, -1.0, -1.0, 1.0]),
         ("other sense", sense, [1.0, -1.0, -1.0, 1.0, -1.0, -1.0]),
@@ -457,7 +463,8 @@ fn slow_running_is_static() {
     }
 }
 
-/// Fed by another model's cycle on the transverse line of action: the same static transmission error under the same torque.
+/// Fed by another model's cycle on the transverse line of action: the same static transmission error under the same
+/// torque.
 #[test]
 fn a_fed_mesh_has_the_transmission_error_of_its_source() {
     let mut system = gearbox(100.0, 0.0);

@@ -1,7 +1,8 @@
 //! Lumped shafts with and without backlash: bifurcations, chaos, sidebands (seed 002).
 //!
-//! The seed reports chaos without backlash as well. Its equations cannot have any: without a clearance they are linear with periodic coefficients, so that all motions tend to one, or grow
-//! without bounds where the stiffness excites them. What is reproduced is the rest: with backlash period-one windows alternate with chaos, the more the faster.
+//! The seed reports chaos without backlash as well. Its equations cannot have any: without a clearance they are linear
+//! with periodic coefficients, so that all motions tend to one, or grow without bounds where the stiffness excites
+//! them. What is reproduced is the rest: with backlash period-one windows alternate with chaos, the more the faster.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::f64::consts::TAU;
@@ -86,7 +87,8 @@ fn without_backlash_every_motion_repeats_with_the_mesh() {
     assert!(found.exponent + found.error < 0.0, "{found:?}");
 }
 
-/// With backlash: windows of one point with a negative exponent between bands of many points with a positive one; most of the upper range is chaotic.
+/// With backlash: windows of one point with a negative exponent between bands of many points with a positive one; most
+/// of the upper range is chaotic.
 #[test]
 fn with_backlash_chaos_and_windows_alternate() {
     let speeds = [250.0, 350.0, 450.0, 500.0, 550.0, 600.0, 650.0, 750.0, 850.0, 950.0, 1100.0, 1250.0, 1400.0, 1600.0];
@@ -107,8 +109,9 @@ fn with_backlash_chaos_and_windows_alternate() {
     }
 }
 
-/// Backlash of 50 um, shaft at 50 Hz, little load, run-out of 20 um: teeth separate once a turn more than on the other side of it, and lines stand one shaft frequency beside the
-/// multiples of the mesh frequency about the mesh's natural one (3.5 kHz). Without backlash there is next to nothing of them.
+/// Backlash of 50 um, shaft at 50 Hz, little load, run-out of 20 um: teeth separate once a turn more than on the other
+/// side of it, and lines stand one shaft frequency beside the multiples of the mesh frequency about the mesh's natural
+/// one (3.5 kHz). Without backlash there is next to nothing of them.
 #[test]
 fn backlash_brings_sidebands_at_shaft_frequency() {
     let [without, with] = [0.0, 0.025].map(|half_backlash| {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::error::{MshError, MshProblem, Place};
+use super::error::{FilePosition, MshError, MshProblem};
 
 /// Reads a file front to back. Nothing here panics on any input.
 #[derive(Debug, Clone)]
@@ -37,9 +37,9 @@ impl<'a> Cursor<'a> {
     pub fn error_at(&self, offset: usize, problem: MshProblem) -> MshError {
         let offset = offset.min(self.bytes.len());
         let place = if self.binary {
-            Place::Byte(offset)
+            FilePosition::Byte(offset)
         } else {
-            Place::Line(1 + self.bytes[..offset].iter().filter(|&&b| b == b'\n').count())
+            FilePosition::Line(1 + self.bytes[..offset].iter().filter(|&&b| b == b'\n').count())
         };
         MshError { path: self.path.to_owned(), section: self.section.clone(), place, problem }
     }

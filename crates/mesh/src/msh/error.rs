@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 /// A place in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePosition {
     /// Line of a text file, counted from 1.
     Line(usize),
     /// Offset in a binary file, bytes from its start.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
@@ -30,7 +30,7 @@ pub struct MshError {
     /// The section being read, such as `$Nodes`.
     pub section: String,
     /// Line (text) or byte (binary) where reading stopped.
-    pub place: Place,
+    pub place: FilePosition,
     /// What is wrong there.
     pub problem: MshProblem,
 }

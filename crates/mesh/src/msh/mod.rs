@@ -10,7 +10,7 @@ mod v2;
 mod v4;
 mod write;
 
-pub use error::{MshError, MshProblem, Place};
+pub use error::{FilePosition, MshError, MshProblem};
 pub use write::MshFormat;
 
 use std::path::Path;

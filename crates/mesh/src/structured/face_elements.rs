@@ -7,6 +7,15 @@ const LENGTH_MODULES: f64 = 1.7;
 /// The same where root stress is wanted: towards an end face it falls within a module.
 const LENGTH_FOR_STRESS_MODULES: f64 = 1.0;
 
+/// What a mesh has to resolve along the face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaceResolution {
+    /// Deflections and contact.
+    Contact,
+    /// Stress in the root fillets, too.
+    RootStress,
+}
+
 /// Elements along the face that a gear of this face width and normal module (both mm) asks for: six, or as many as keep
 /// them below 1.7 modules, which is three quarters of a tooth's height, below one module where root stress is wanted;
 /// linear elements (`order` 1) half as long.
@@ -14,8 +23,11 @@ const LENGTH_FOR_STRESS_MODULES: f64 = 1.0;
 /// Measured with slices on pairs of 5, 15 and 40 modules of face width, crowned and misaligned
 /// (`tests/tests/micro_geometry/width_and_crowning.rs`); root stress against CalculiX
 /// (`tests/tests/stress/root_stress_calculix.rs`): elements of 1.2 modules 3.2 % low, of 0.9 0.2 %.
-pub fn face_elements(face_width: f64, normal_module: f64, order: u32, root_stress: bool) -> u32 {
-    let modules = if root_stress { LENGTH_FOR_STRESS_MODULES } else { LENGTH_MODULES };
+pub fn face_elements(face_width: f64, normal_module: f64, order: u32, resolution: FaceResolution) -> u32 {
+    let modules = match resolution {
+        FaceResolution::Contact => LENGTH_MODULES,
+        FaceResolution::RootStress => LENGTH_FOR_STRESS_MODULES,
+    };
     let longest = modules * normal_module * if order == 1 { 0.5 } else { 1.0 };
     let count = (face_width / longest).ceil();
     if count.is_finite() { (count as u32).clamp(LEAST, 2000) } else { LEAST }

@@ -24,7 +24,7 @@ mod section;
 mod sweep;
 
 pub use error::StructuredError;
-pub use face_elements::face_elements;
+pub use face_elements::{FaceResolution, face_elements};
 pub use options::{Extent, StructuredOptions};
 
 use geometry::Gear;

@@ -79,7 +79,7 @@ impl CyclicGear {
         copies.dedup();
         let fields = self.fields(&copies, forces)?;
         let at = |p: &mesh::Origin, i: usize| {
-            let column = k * copies.binary_search(&loaded(p.copy)).unwrap_or_default() + i;
+            let column = k * copies.partition_point(|&c| c < loaded(p.copy)) + i;
             self.at(p.node, p.copy, fields.as_ref(), column)
         };
         Ok((0..k).map(|i| places.iter().map(|p| at(p, i)).collect()).collect())
@@ -100,7 +100,7 @@ impl CyclicGear {
         let fields = self.fields(&copies, MatRef::from_column_major_slice(forces, forces.len(), 1))?;
         let mut carried = Vec::with_capacity(3 * self.coordinates.len());
         for (&(copy, _), load) in self.coordinates.iter().zip(loads) {
-            let column = copies.binary_search(&((copy + pitches) % z)).unwrap_or_default();
+            let column = copies.partition_point(|&c| c < (copy + pitches) % z);
             let mut mean = [0.0; 3];
             for &(node, weight) in load {
                 let u = self.at(self.part.places[node as usize].node, copy, fields.as_ref(), column);
@@ -153,7 +153,7 @@ impl CyclicGear {
             let turn = tensor_turn(self.angle(copy));
             for (i, part) in parts.iter().enumerate() {
                 for &(_, node, share) in part.iter().filter(|p| p.0 == copy) {
-                    let from = 6 * own.binary_search(&node).unwrap_or_default();
+                    let from = 6 * own.partition_point(|&known| known < node);
                     for k in 0..stress.ncols() {
                         for (a, row) in turn.iter().enumerate() {
                             let turned: f64 = row.iter().enumerate().map(|(b, t)| t * local[(from + b, k)]).sum();

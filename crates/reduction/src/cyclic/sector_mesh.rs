@@ -76,7 +76,7 @@ impl SectorMesh {
             blocks.push(part);
         }
         let own: Vec<u32> = (0..mesh.nodes.len() as u32).filter(|&n| used[n as usize]).collect();
-        let number = |n: u32| own.binary_search(&n).unwrap_or_default() as u32;
+        let number = |n: u32| own.partition_point(|&known| known < n) as u32;
         let mut cuts = Vec::new();
         let mut places = vec![Origin { copy: 0, node: 0 }; mesh.nodes.len()];
         for orbit in orbits(&turn.nodes, teeth)? {

@@ -60,8 +60,9 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
     Ok(pair)
 }
 
-/// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is less: 0.3178 at 25 degrees.
-/// A rack that has room for none keeps the default, and the geometry says why there is no gear.
+/// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is
+/// less: 0.3178 at 25 degrees. A rack that has room for none keeps the default, and the geometry says why there is no
+/// gear.
 fn fitting_root_radius(pair: &PairScene) -> f64 {
     let data = GearData {
         normal_module: pair.normal_module_mm,
@@ -74,7 +75,8 @@ fn fitting_root_radius(pair: &PairScene) -> f64 {
     if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
 }
 
-/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the mesh is needed.
+/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the
+/// mesh is needed.
 fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
     let mesh = Mesh::parse(content, file).ok()?;
     let [low, high] = mesh.radii(&mesh.surface(&names.bore)?.nodes());

@@ -1,4 +1,5 @@
-//! What a scene says to the cheaper models of the pair, beside what it says to all: one table each, and one for the mesh.
+//! What a scene says to the cheaper models of the pair, beside what it says to all: one table each, and one for the
+//! mesh.
 
 mod check;
 mod impact;
@@ -38,7 +39,8 @@ pub struct MeshScene {
     /// Sine amplitudes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub error_sin_um: Vec<f64>,
-    /// Half of the backlash along the normal; 0: a linear mesh. `None`: that of the geometry, or of no meaning to the model.
+    /// Half of the backlash along the normal; 0: a linear mesh. `None`: that of the geometry, or of no meaning to the
+    /// model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub half_backlash_um: Option<f64>,
     /// How friction weighs the contact lines; of the models that have lines.

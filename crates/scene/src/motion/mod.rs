@@ -5,6 +5,7 @@ mod check;
 mod modes;
 mod torque;
 
+use integrate::Scheme;
 use serde::Serialize;
 
 use crate::RampScene;
@@ -249,6 +250,19 @@ choices! {
         DormandPrince = "dormand-prince",
         /// Runge-Kutta's classical method of fourth order, explicit.
         RungeKutta4 = "rk4",
+    }
+}
+
+impl MotionScene {
+    /// The method with its parameters.
+    pub fn scheme(&self) -> Scheme {
+        match self.method {
+            Integration::Energy => Scheme::Energy,
+            Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: self.spectral_radius.unwrap_or(0.9) },
+            Integration::Newmark => Scheme::Newmark,
+            Integration::DormandPrince => Scheme::DormandPrince,
+            Integration::RungeKutta4 => Scheme::RungeKutta4,
+        }
     }
 }
 

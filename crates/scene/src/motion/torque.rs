@@ -11,7 +11,8 @@ use crate::{Model, SceneError};
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
 
-/// What drives the driver of a model. Flanks of elastic gears turn both gears freely unless the scene holds the driver; the others prescribe its speed, or know no difference.
+/// What drives the driver of a model. Flanks of elastic gears turn both gears freely unless the scene holds the driver;
+/// the others prescribe its speed, or know no difference.
 pub(crate) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
     let mut words = DriveBy::CHOICES.to_vec();
     if !model.is_reduced() {

@@ -1,4 +1,5 @@
-//! Every key of a scene file once: type, range, default, meaning. Checks take ranges and defaults from here, and so does the JSON Schema.
+//! Every key of a scene file once: type, range, default, meaning. Checks take ranges and defaults from here, and so
+//! does the JSON Schema.
 //!
 //! | module | tables |
 //! |---|---|
@@ -73,7 +74,8 @@ pub(crate) struct Key {
 /// What may stand behind a key.
 #[derive(Debug)]
 pub(crate) enum Kind {
-    /// A number within a range; an infinite end depends on the rest of the scene. No default: it follows from other keys, or there is none.
+    /// A number within a range; an infinite end depends on the rest of the scene. No default: it follows from other
+    /// keys, or there is none.
     Number { low: f64, high: f64, default: Option<f64> },
     /// A whole number.
     Whole { low: u32, high: u32, default: Option<u32> },
@@ -187,7 +189,8 @@ impl Table {
     }
 }
 
-/// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`, `pinion.shaft.discs.0.at_mm`.
+/// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`,
+/// `pinion.shaft.discs.0.at_mm`.
 pub fn all_keys() -> Vec<String> {
     let mut all = Vec::new();
     walk("", &SCENE, &mut |path, table| {
@@ -264,7 +267,8 @@ mod tests {
         all
     }
 
-    /// What the reader takes is what the tables list, no more and no less: the reader itself names what it knows when it meets another key.
+    /// What the reader takes is what the tables list, no more and no less: the reader itself names what it knows when
+    /// it meets another key.
     #[test]
     fn the_tables_are_the_words_that_are_read() {
         for (path, table) in every_table() {

@@ -37,8 +37,8 @@ pub struct Deck<'a> {
     pub pairs: &'a [[u32; 2]],
     /// Torque on the driven gear, N mm, > 0, against its motion.
     pub torque: f64,
-    /// Angle by which the driven gear is turned into contact beforehand, rad, > 0: without contact its rotation would have no
-    /// stiffness. The mesh takes it back; it belongs to the result.
+    /// Angle by which the driven gear is turned into contact beforehand, rad, > 0: without contact its rotation would
+    /// have no stiffness. The mesh takes it back; it belongs to the result.
     pub closing: f64,
     /// Pressure a mm of penetration, MPa/mm.
     pub penalty: f64,

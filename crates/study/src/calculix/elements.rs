@@ -4,8 +4,8 @@ use mesh::{ElementBlock, ElementKind, FaceTable, Mesh};
 
 use super::CalculixError;
 
-/// CalculiX's name of an element kind, the one that is nearest to this program's default variant: incompatible modes for linear
-/// bricks, full integration for quadratic ones.
+/// CalculiX's name of an element kind, the one that is nearest to this program's default variant: incompatible modes
+/// for linear bricks, full integration for quadratic ones.
 ///
 /// # Errors
 /// [`CalculixError::NoSuchElement`] for hex27.

@@ -14,7 +14,8 @@ fn main() -> ExitCode {
     Suite::new(file!()).needing(&calculix, "calculix_balances_the_torque", balances_the_torque).run()
 }
 
-/// The forces of the pairs balance the torque, and the rotation does not depend on how far the gears were closed beforehand.
+/// The forces of the pairs balance the torque, and the rotation does not depend on how far the gears were closed
+/// beforehand.
 fn balances_the_torque(calculix: Calculix) {
     let model = pair(2);
     let scratch = tempfile::tempdir().unwrap();

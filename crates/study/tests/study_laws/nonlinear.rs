@@ -21,7 +21,8 @@ fn rk4<const N: usize>(f: impl Fn(f64, [f64; N]) -> [f64; N], t: f64, x: [f64; N
     std::array::from_fn(|i| x[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
 }
 
-/// Logistic map: fixed point 1 - 1/r up to r = 3, period 2 beyond, 4 beyond 1 + sqrt 6, 3 in its window at 3.835; branches in closed form.
+/// Logistic map: fixed point 1 - 1/r up to r = 3, period 2 beyond, 4 beyond 1 + sqrt 6, 3 in its window at 3.835;
+/// branches in closed form.
 #[test]
 fn logistic_map_doubles_where_it_must() {
     let run = |r: f64, x: &mut f64| {
@@ -62,7 +63,8 @@ fn exponent_of_the_logistic_map() {
     assert!((fixed.exponent - f64::ln(0.8)).abs() < 1e-3 && !fixed.is_chaotic(), "{fixed:?}");
 }
 
-/// Lorenz's system (10, 28, 8/3): 0.9056 (Sprott, Chaos and Time-Series Analysis, 2003); a damped driven oscillator: -zeta omega.
+/// Lorenz's system (10, 28, 8/3): 0.9056 (Sprott, Chaos and Time-Series Analysis, 2003); a damped driven oscillator:
+/// -zeta omega.
 #[test]
 fn exponents_of_flows() {
     let lorenz = |_: f64, [x, y, z]: [f64; 3]| [10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z];
@@ -90,7 +92,8 @@ fn exponents_of_flows() {
     assert!((found.exponent + 0.05).abs() < 2e-3, "{found:?}");
 }
 
-/// Growth that is drawn anew for each stretch: the error of its mean is the deviation over the root of their number. Ten parts tell it to a quarter.
+/// Growth that is drawn anew for each stretch: the error of its mean is the deviation over the root of their number.
+/// Ten parts tell it to a quarter.
 #[test]
 fn the_error_of_an_exponent_is_that_of_a_mean() {
     let rate = |k: usize| {
@@ -163,7 +166,8 @@ fn sections_of_a_cosine() {
     let touching = crossing_section(&[0.0, 1.0, 2.0, 3.0], &[-1.0, 0.0, 1.0, 2.0], &[]).unwrap();
     assert_eq!(touching.len(), 1);
     assert!((touching[0][0] - 1.0).abs() < 1e-9, "{touching:?}");
-    // Ends of the record count although round-off puts them beside it: 0.1, 0.4, ... 0.7 of times that are sums of tenths.
+    // Ends of the record count although round-off puts them beside it: 0.1, 0.4, ... 0.7 of times that are sums of
+    // tenths.
     let tenths: Vec<f64> = (1..=7).map(|k| 0.1 * f64::from(k)).collect();
     assert_eq!(stroboscopic_section(&tenths, &[&tenths], 0.3, 0.1).unwrap().len(), 3);
     assert_eq!(stroboscopic_section(&tenths, &[&tenths], 0.3, 0.1 + 1e-11).unwrap().len(), 3);
@@ -181,7 +185,8 @@ fn sections_of_a_cosine() {
     assert!(matches!(crossing_section(&[0.0, 1.0, 2.0], &short, &[]), Err(StudyError::Lengths { .. })));
 }
 
-/// A sine of amplitude a at omega: an ellipse of area pi a^2 omega that closes after a period and not after half of one.
+/// A sine of amplitude a at omega: an ellipse of area pi a^2 omega that closes after a period and not after half of
+/// one.
 #[test]
 fn portrait_of_a_sine_is_an_ellipse() {
     let (a, omega, n) = (0.3, 7.0, 200);

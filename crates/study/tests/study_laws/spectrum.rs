@@ -25,8 +25,8 @@ fn a_sine_on_a_bin_reads_its_amplitude() {
     }
 }
 
-/// Off the bins: interpolated amplitude within 1e-3 and frequency within a thousandth of a bin, for every window that tapers; without a taper leakage of the negative
-/// frequency is left, some 1 % at 40 bins.
+/// Off the bins: interpolated amplitude within 1e-3 and frequency within a thousandth of a bin, for every window that
+/// tapers; without a taper leakage of the negative frequency is left, some 1 % at 40 bins.
 #[test]
 fn a_sine_off_the_bins_reads_its_amplitude_too() {
     for window in WINDOWS {
@@ -46,7 +46,8 @@ fn a_sine_off_the_bins_reads_its_amplitude_too() {
     }
 }
 
-/// What a bin alone reads of a line half a bin off is what the closed form of the window says; the flat top needs no interpolation.
+/// What a bin alone reads of a line half a bin off is what the closed form of the window says; the flat top needs no
+/// interpolation.
 #[test]
 fn scalloping_is_that_of_the_window() {
     for window in WINDOWS {
@@ -95,7 +96,8 @@ fn sidebands_are_found_at_the_shaft_frequency() {
     }
 }
 
-/// Sidebands five bins apart, each a thousand times what stands between them: the floor is of the bins that hold no line, and of these the middle one.
+/// Sidebands five bins apart, each a thousand times what stands between them: the floor is of the bins that hold no
+/// line, and of these the middle one.
 #[test]
 fn the_floor_is_what_lines_stand_out_of() {
     let n = 4000;
@@ -113,7 +115,8 @@ fn the_floor_is_what_lines_stand_out_of() {
     let window = Window::Hann;
     let found = spectrum(&samples, RATE, window).unwrap().sidebands(carrier, spacing, 40).unwrap();
     assert!(found.pairs.iter().flatten().all(|side| (side.amplitude / 0.1 - 1.0).abs() < 0.02), "{found:?}");
-    // Rayleigh: the square of the median is ln 2 of the mean square, 4 sigma^2 (1/12 for the noise) times the window's bandwidth over n. Eighty bins: a tenth.
+    // Rayleigh: the square of the median is ln 2 of the mean square, 4 sigma^2 (1/12 for the noise) times the window's
+    // bandwidth over n. Eighty bins: a tenth.
     let mean_square = 4.0 / 12.0 * deviation * deviation * window.noise_bandwidth() / f64::from(n);
     let wanted = (2f64.ln() * mean_square).sqrt();
     assert!((found.floor / wanted - 1.0).abs() < 0.3, "floor {:e}, of the noise {wanted:e}", found.floor);

@@ -12,7 +12,8 @@ const PAGES: [&str; 4] = ["md", "rs", "sh", "toml"];
 const NAMING: [(&str, Kind); 4] =
     [("--test", Kind::Test), ("--bench", Kind::Bench), ("--example", Kind::Example), ("--bin", Kind::Binary)];
 
-/// Words of each command of cargo in a text: in code font up to the closing mark, over the end of a line if need be, else up to the end of the line.
+/// Words of each command of cargo in a text: in code font up to the closing mark, over the end of a line if need be,
+/// else up to the end of the line.
 fn commands(text: &str) -> Vec<Vec<&str>> {
     let ends = |at: usize| if text[..at].ends_with('`') { '`' } else { '\n' };
     let starts = ["cargo test ", "cargo bench ", "cargo run "].into_iter().flat_map(|c| text.match_indices(c));

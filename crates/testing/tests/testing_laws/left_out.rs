@@ -55,7 +55,8 @@ fn the_last_line_names_what_was_left_out() {
     }
 }
 
-/// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the last one is this package's.
+/// Cargo tests the examples in the documentation after all else, package by package in the order of the alphabet; the
+/// last one is this package's.
 #[test]
 fn no_package_has_its_examples_tested_later() {
     let mut names = Vec::new();

@@ -84,7 +84,8 @@ impl Program {
         program
     }
 
-    /// Adds a file and all that its `mod` lines lead to. `owns` says whether its modules lie beside it, as those of `main.rs` and `mod.rs` do.
+    /// Adds a file and all that its `mod` lines lead to. `owns` says whether its modules lie beside it, as those of
+    /// `main.rs` and `mod.rs` do.
     fn follow(&mut self, module: &str, file: PathBuf, owns: bool) {
         let text = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
         self.files.push((module.to_owned(), file.clone()));

@@ -29,7 +29,7 @@ fn shipped_scenes_fit_the_schema() {
         seen += 1;
     }
     assert!(seen >= 10, "{seen} scenes only");
-    let starter = ale_gear::starter::Starter::default().text("a.toml");
+    let starter = scene::Starter::default().text("a.toml");
     fits(&schema, &as_json(&starter)).unwrap();
 }
 

@@ -4,10 +4,7 @@ use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBod
 use geometry::GearPair;
 use integrate::Scheme;
 use nalgebra::Matrix6;
-use scene::{
-    Axis, BearingScene, BodyScene, DriveBy, Driver, Integration, MotionScene, Scene, SteadyBy as SteadyWord,
-    TorqueScene,
-};
+use scene::{Axis, BearingScene, BodyScene, DriveBy, Driver, MotionScene, Scene, SteadyBy as SteadyWord, TorqueScene};
 
 use crate::{AnalysisError, elastic_gears::material, meshes::SceneMesh};
 
@@ -148,13 +145,7 @@ pub fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing
 
 /// Method of integration.
 pub fn scheme(words: &MotionScene) -> Scheme {
-    match words.method {
-        Integration::Energy => Scheme::Energy,
-        Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: words.spectral_radius.unwrap_or(0.9) },
-        Integration::Newmark => Scheme::Newmark,
-        Integration::DormandPrince => Scheme::DormandPrince,
-        Integration::RungeKutta4 => Scheme::RungeKutta4,
-    }
+    words.scheme()
 }
 
 /// How steady states are found.

@@ -13,39 +13,18 @@ use faer::MatRef;
 use geometry::GearPair;
 use pose_bin::LINEAR_RANGE;
 use pose_cache::PoseCache;
-use pose_contact::{PoseContact, opening};
+use pose_contact::PoseContact;
 use reduction::{ElasticGear, GearModes};
 use std::sync::Arc;
 
 use crate::{
     Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
-    LocalState, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, Wrench, wrenches,
+    LocalState, MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, covered,
+    line_station, opening_by_motion, slice_line, wrenches,
 };
 
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
-
-/// Forces of the mesh on both gears at given poses, and their derivatives by the motion of the gears.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeshForce {
-    /// Force (N) and moment (N mm, about the gear's own centre) on pinion and wheel, common axes.
-    pub wrench: [Wrench; 2],
-    /// df/dq: f forces and moments, q displacements (mm) and small turns (rad) about the gears' centres, common axes,
-    /// in the order pinion x y z, turns about x y z, wheel the same. N/mm, N, N mm.
-    ///
-    /// ```text
-    /// df/dq = -J_t' (S + diag delta')^-1 J      on the active rows
-    /// ```
-    /// Exact while the contact points stay where they are on the flanks; their motion along the flanks changes it by
-    /// about a thousandth of its largest entries. Symmetric and negative semi-definite without friction.
-    pub tangent: [[f64; 12]; 12],
-    /// Normal force of each pair of the window, N, in order of running numbers.
-    pub pair_forces: Vec<f64>,
-    /// Newton steps.
-    pub iterations: usize,
-    /// Largest violation of g >= 0, F >= 0, F g = 0 relative to the largest approach.
-    pub residual: f64,
-}
 
 /// The slice contact of a window: search, compliance and solution. Memory is allocated once and used again.
 ///
@@ -95,13 +74,7 @@ impl MeshContact {
         let most = pairs.len() * slices.stations().len();
         let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
         let friction = Friction::new(pair, options);
-        let force = MeshForce {
-            wrench: Default::default(),
-            tangent: [[0.0; 12]; 12],
-            pair_forces: vec![0.0; pairs.len()],
-            iterations: 0,
-            residual: 0.0,
-        };
+        let force = MeshForce::none(vec![0.0; pairs.len()]);
         let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
         Ok(Self {
             friction,
@@ -250,7 +223,7 @@ impl MeshContact {
         let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
         let rigid = |i: usize| {
             let row = &rows[i];
-            [row.normal, row.traction].map(|direction| opening(row, &direction, &centres))
+            [row.normal, row.traction].map(|direction| opening_by_motion(row, &direction, &centres))
         };
         match modal {
             None => force.tangent = solver.tangent(rigid),
@@ -335,6 +308,27 @@ impl MeshContact {
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
         &self.contact.slices
+    }
+
+    /// Total length of the contact lines of the last evaluation on the driving side, with the gears' frames at `poses`,
+    /// mm: as that of a position at rest, theory (21b).
+    pub fn line_length(&self, pair: &GearPair, poses: &[Pose; 2]) -> f64 {
+        let half = 0.5 * pair.face_width();
+        let (rows, slices) = (self.rows(), self.slices());
+        let (forces, openings) = (self.solver.forces(), self.solver.openings());
+        let mut length = 0.0;
+        let mut from = 0;
+        while from < rows.len() {
+            let patches = rows[from].patches;
+            let to = from + rows[from..].iter().take_while(|row| row.patches == patches).count();
+            let stations = (from..to).map(|i| {
+                let station = line_station(rows[i].gap, openings[i], &slices[i], forces[i], self.modal_opening(i));
+                (rows[i].point, station, slices[i])
+            });
+            length += covered(&slice_line(&self.set, poses, patches, stations, half), [-half, half]);
+            from = to;
+        }
+        length / pair.base_helix_angle().cos()
     }
 
     /// Forces, openings and active rows of the last solution.

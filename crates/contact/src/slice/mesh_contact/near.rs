@@ -4,11 +4,9 @@
 //! the motion from there to first order; forces follow by the tangent of the centre, iterated until they are exact. A
 //! periodic motion comes through the same bins again and finds their contact in the cache.
 
-use crate::{Balance, ContactError, Pose};
+use crate::{Balance, ContactError, MeshForce, Pose};
 
-use super::{
-    LINEAR_RANGE, MeshContact, MeshForce, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem,
-};
+use super::{LINEAR_RANGE, MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
 
 /// How much an evaluation computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

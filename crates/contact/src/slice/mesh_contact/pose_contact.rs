@@ -1,7 +1,9 @@
 //! Contact rows at given poses, and their linearisation there.
 
 use super::pose_bin::{LINEAR_RANGE, PoseBin};
-use crate::{ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows};
+use crate::{
+    ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows, opening_by_motion,
+};
 
 /// Rows and their compliance at some poses.
 #[derive(Debug, Default)]
@@ -78,7 +80,7 @@ impl PoseContact {
         gaps.clear();
         gaps.extend(rows.iter().map(|r| r.gap));
         openings.clear();
-        openings.extend(rows.iter().map(|row| opening(row, &row.normal, &centres)));
+        openings.extend(rows.iter().map(|row| opening_by_motion(row, &row.normal, &centres)));
         (*tangent, *neighbour_gap) = (None, None);
     }
 
@@ -94,17 +96,4 @@ impl PoseContact {
             row.gap = gap + opening.iter().zip(motion).map(|(j, d)| j * d).sum::<f64>();
         }
     }
-}
-
-/// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about
-/// their `centres`. Along the normal it is the derivative of the gap.
-pub(super) fn opening(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
-    let mut j = [0.0; 12];
-    for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
-        let force = sign * direction;
-        let moment = (row.position - centres[body]).cross(&force);
-        j[6 * body..6 * body + 3].copy_from_slice(force.as_slice());
-        j[6 * body + 3..6 * body + 6].copy_from_slice(moment.as_slice());
-    }
-    j
 }

@@ -33,7 +33,8 @@ pub fn gears_004() -> GearPair {
     )
 }
 
-/// Seed 003 by the parameters of the validation notes: m_n 1.5057, alpha_n 15 deg, beta 30.25 deg, b 27.09; addendum for eps_alpha 2.00.
+/// Seed 003 by the parameters of the validation notes: m_n 1.5057, alpha_n 15 deg, beta 30.25 deg, b 27.09; addendum
+/// for eps_alpha 2.00.
 pub fn gears_003(helix_deg: f64) -> GearPair {
     let data = GearData {
         normal_module: 1.5057,
@@ -48,7 +49,8 @@ pub fn gears_003(helix_deg: f64) -> GearPair {
     pair([86, 82], data, None)
 }
 
-/// 5 kg and 45 kg, inertia of a disc of the base circle's radius (the 2 of the seed's dimensionless equations): J = M r_b^2 / 2.
+/// 5 kg and 45 kg, inertia of a disc of the base circle's radius (the 2 of the seed's dimensionless equations): J = M
+/// r_b^2 / 2.
 pub fn bodies_004(gears: &GearPair) -> [RigidBody; 2] {
     [(0.005, &gears.pinion), (0.045, &gears.wheel)].map(|(mass, gear)| {
         let disc = 0.5 * mass * gear.base_radius().powi(2);
@@ -68,7 +70,8 @@ pub fn pair_004(friction: f64) -> LumpedPair {
     LumpedPair::new(&gears, &operation(900e3, friction), bodies_004(&gears), cycle).unwrap()
 }
 
-/// The seed says nothing of supports and damping: 5e8 N/m, and 2 % of them at their own frequency; mesh damping ratio 0.07.
+/// The seed says nothing of supports and damping: 5e8 N/m, and 2 % of them at their own frequency; mesh damping ratio
+/// 0.07.
 pub fn seed_004(law: MeshLaw, friction: f64) -> Lumped8 {
     let pair = pair_004(friction);
     let support = |mass: f64| {
@@ -79,7 +82,8 @@ pub fn seed_004(law: MeshLaw, friction: f64) -> Lumped8 {
     Lumped8::new(pair, supports, 0.07, 0.1, law).unwrap()
 }
 
-/// Seed 003: k 1.5e8 +- 2e7 N/m along the normal, e = 1 um sin, no load, driver at 1000/min, alpha_ij 75.5 deg; steel discs.
+/// Seed 003: k 1.5e8 +- 2e7 N/m along the normal, e = 1 um sin, no load, driver at 1000/min, alpha_ij 75.5 deg; steel
+/// discs.
 pub fn pair_003(helix_deg: f64, sense: Sense, friction: f64) -> LumpedPair {
     let gears = gears_003(helix_deg);
     let cos2 = gears.base_helix_angle().cos().powi(2);
@@ -96,7 +100,8 @@ pub fn pair_003(helix_deg: f64, sense: Sense, friction: f64) -> LumpedPair {
     pair
 }
 
-/// Supports of seed 003 (it gives none): 1e5 N/mm, a fiftieth softer along global x, 1e8 N mm/rad against tilting; 3 % damping between 400 and 4000 Hz.
+/// Supports of seed 003 (it gives none): 1e5 N/mm, a fiftieth softer along global x, 1e8 N mm/rad against tilting; 3 %
+/// damping between 400 and 4000 Hz.
 pub fn seed_003(helix_deg: f64, sense: Sense, friction: f64) -> Lumped12 {
     let stiffness = [0.98e5, 1e5, 1e5, 1e8, 1e8, 0.0];
     Lumped12::new(pair_003(helix_deg, sense, friction), [Support12 { stiffness }; 2], 0.03, [400.0 * TAU, 4000.0 * TAU])

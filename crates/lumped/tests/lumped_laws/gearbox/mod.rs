@@ -2,7 +2,9 @@
 
 use geometry::Side;
 use lumped::Fourier;
-use lumped::shaft18::{Mesh, MeshGeometry, Place, RunOut, Segment, Shaft, ShaftSystem, ShaftTorque, Station, Support};
+use lumped::shaft18::{
+    Mesh, MeshGeometry, RunOut, Segment, Shaft, ShaftStation, ShaftSystem, ShaftTorque, Station, Support,
+};
 
 pub const ALL: [bool; 6] = [true; 6];
 /// What a coupled end keeps: x, y and turn.
@@ -29,15 +31,16 @@ fn bearing(position: f64, [x, y, z]: [f64; 3]) -> Support {
     Support { position, stiffness: [x, y, z, 0.0, 0.0, 0.0], damping: [0.5, 0.5, 0.5, 0.0, 0.0, 0.0] }
 }
 
-/// Two shafts of two segments each with the gear where they join (Table 1 of the seed: lengths, diameters, masses of gears); bearings at all ends, softer in y than in x.
+/// Two shafts of two segments each with the gear where they join (Table 1 of the seed: lengths, diameters, masses of
+/// gears); bearings at all ends, softer in y than in x.
 ///
-/// Not in the seed, chosen for it: teeth 30/46, m_n 2.75 mm, 20 deg, beta 30 deg, b 30 mm (solid discs of these diameters have the seed's masses), bearings, coupled inertias,
-/// mesh stiffness after ISO 6336, torque 100 N m.
+/// Not in the seed, chosen for it: teeth 30/46, m_n 2.75 mm, 20 deg, beta 30 deg, b 30 mm (solid discs of these
+/// diameters have the seed's masses), bearings, coupled inertias, mesh stiffness after ISO 6336, torque 100 N m.
 pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
     let teeth = [30, 46];
     let (m_n, beta) = (2.75, 30f64.to_radians());
     let centre_distance = 0.5 * m_n * f64::from(teeth[0] + teeth[1]) / beta.cos();
-    let [p, g] = [Place { shaft: 0, station: 1 }, Place { shaft: 1, station: 0 }];
+    let [p, g] = [ShaftStation { shaft: 0, station: 1 }, ShaftStation { shaft: 1, station: 0 }];
     let torque = 1e5;
     ShaftSystem {
         shafts: vec![
@@ -84,9 +87,9 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
             run_out: [RunOut::default(); 2],
         }],
         torques: vec![
-            ShaftTorque { place: Place { shaft: 0, station: 0 }, torque },
+            ShaftTorque { place: ShaftStation { shaft: 0, station: 0 }, torque },
             // The driven gear turns the other way; its load resists.
-            ShaftTorque { place: Place { shaft: 1, station: 1 }, torque: torque * 46.0 / 30.0 },
+            ShaftTorque { place: ShaftStation { shaft: 1, station: 1 }, torque: torque * 46.0 / 30.0 },
         ],
         speed,
         mass_damping: 20.0,
@@ -95,7 +98,8 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
     }
 }
 
-/// The same with little load, a transmission error of 5 um and a drive that holds the mean turn: teeth separate. `half_backlash` in mm.
+/// The same with little load, a transmission error of 5 um and a drive that holds the mean turn: teeth separate.
+/// `half_backlash` in mm.
 pub fn light(speed: f64, half_backlash: f64) -> ShaftSystem {
     let mut system = gearbox(speed, half_backlash);
     for (t, torque) in system.torques.iter_mut().zip([2e4, 2e4 * 46.0 / 30.0]) {

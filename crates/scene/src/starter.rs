@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::scene::Kind;
+use crate::Kind;
 
 /// The few numbers that a pair begins with; the rest of the scene has defaults.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,7 +190,7 @@ kind = \"dynamic\"                  # motion in time
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::Scene;
 
     fn read(text: &str) -> Scene {
         Scene::parse(text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"))

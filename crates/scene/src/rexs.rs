@@ -5,7 +5,7 @@
 
 use roxmltree::{Document, Node};
 
-use crate::starter::Starter;
+use crate::Starter;
 
 /// Why no pair comes out of a REXS file.
 #[derive(Debug, thiserror::Error)]
