@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, path::Path};
 
-use analysis::AnalysisError;
+use analysis::{AnalysisError, parameter_study::CaseFailure};
 use study::StudyError;
 
 use crate::scene::SceneError;
@@ -67,6 +67,13 @@ impl From<AnalysisError> for CommandError {
         let hint = error.hint();
         let told = if error.is_without_result() { Self::failed(&error, hint) } else { Self::input(&error, hint) };
         told.about(error.excerpt())
+    }
+}
+
+impl From<CaseFailure> for CommandError {
+    fn from(failure: CaseFailure) -> Self {
+        let CaseFailure { message, excerpt, hint, is_without_result } = failure;
+        Self { status: if is_without_result { 1 } else { 2 }, message, excerpt, hint }
     }
 }
 

@@ -6,37 +6,37 @@
 //! | [`resolution`] | how many slices a scene's contact is cut into |
 //! | [`run`] | turns a checked scene into a call of the solvers |
 //! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
-//! | `ladder` | cheaper models of the same pair, in time |
+//! | `lumped` | runs of cheaper models, and their files |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
 //! | [`output`] | `summary.json`, pages and the closing table, of this crate's types of results; the rest is in the crate `report` |
 //! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | what must hold of a result before its numbers count |
 //! | [`reduce`] | reduction of a scene's gears by itself |
-//! | [`chart`] | accuracy against cost of every model |
-//! | [`parameter_study`] | the same figures of several scenes, side by side |
+//! | `study_cases` | runs the scenes of a study, each into a folder of its own |
+//! | `chart` | what a chart takes from this process |
 //! | [`command`] | the subcommands |
 
 pub mod cache;
 pub mod certificate;
-pub mod chart;
+mod chart;
 pub mod command;
 pub mod error;
 pub mod facts;
 pub mod memory;
 mod motion;
 pub mod output;
-pub mod parameter_study;
 pub mod phases;
 pub mod run;
 pub use ::scene;
 pub mod talk;
 
-mod ladder;
+mod lumped;
 mod partial;
 pub mod reduce;
 mod room;
+mod study_cases;
 mod work_folder;
 
-pub(crate) use analysis::{elastic_gears, gears, iso_model};
+pub(crate) use analysis::{elastic_gears, gears};
 pub use analysis::{iso_root, meshes, resolution};

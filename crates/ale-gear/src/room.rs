@@ -4,12 +4,13 @@
 
 use std::mem::size_of;
 
+use analysis::lumped::is_lumped;
 use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
 
 use crate::{
     error::CommandError,
-    ladder, memory, motion,
+    memory, motion,
     output::history_columns,
     scene::{MotionScene, Scene},
 };
@@ -19,8 +20,8 @@ const UNKNOWN_MB: f64 = 1e6;
 /// A number in memory, and as text.
 const NUMBER: usize = size_of::<f64>();
 const TEXT: usize = 20;
-/// Columns of a model of the ladder, about: only the model knows.
-const LADDER_COLUMNS: usize = 40;
+/// Columns of a cheaper model, about.
+const LUMPED_COLUMNS: usize = 40;
 /// Teeth of a window, about, where the contact ratio says.
 const WINDOW: usize = 3;
 /// Square matrices of all slices of a window that contact holds at a time.
@@ -60,7 +61,7 @@ pub(crate) fn for_sweep(
         rows.push(("mesh cycles of a turn".to_owned(), f64::from(every)));
     }
     // Ways are run side by side.
-    let bytes_each = (ways.max(1) * LADDER_COLUMNS * (NUMBER + TEXT)) as f64;
+    let bytes_each = (ways.max(1) * LUMPED_COLUMNS * (NUMBER + TEXT)) as f64;
     let along = vec![("--points".to_owned(), values as f64), cycles, ("ways".to_owned(), ways as f64)];
     let sections = Demand { what: "points of sections", factors: along, bytes_each: (NUMBER + 3 * TEXT) as f64 };
     each(scene, &[Demand { what: "rows", factors: rows, bytes_each }, sections])
@@ -90,8 +91,8 @@ fn demands(scene: &Scene) -> Vec<Demand> {
         Some(words) => {
             let mut factors =
                 vec![cycles(scene, words), count("motion.steps_per_mesh_cycle", words.steps_per_mesh_cycle)];
-            let on_ladder = ladder::has(scene);
-            let columns = if on_ladder { LADDER_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
+            let on_ladder = is_lumped(scene);
+            let columns = if on_ladder { LUMPED_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
             let mut bytes_each = columns * (NUMBER + TEXT);
             if let Some(sweep) = &words.sweep {
                 if on_ladder {

@@ -6,7 +6,7 @@ use analysis::{SinkResult, StaticAnalysis, StaticResult, StaticSink};
 use ltca::{StaticError, StaticModel, StaticPosition};
 use report::{paraview::FieldWriter, view::ViewRecorder};
 
-pub(crate) use analysis::{foreseen_s, options, static_certificate as certificate, time_again};
+pub(crate) use analysis::{foreseen_s, options, static_certificate as certificate};
 
 use crate::{
     cache::Cache,
@@ -27,42 +27,17 @@ pub fn solve(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<Solved, CommandError> {
-    Ok(solve_scene(scene, phases, results, cache, true)?.0)
-}
-
-/// As [`solve`], without the gears in space; the model comes back too, its gears reduced: for more of the same. `None` for a
-/// model without meshes.
-///
-/// # Errors
-/// Those of [`solve`].
-pub(crate) fn solve_and_keep(
-    scene: &Scene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-) -> Result<(Solved, Option<StaticModel>), CommandError> {
-    solve_scene(scene, phases, results, cache, false)
-}
-
-fn solve_scene(
-    scene: &Scene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-    in_space: bool,
-) -> Result<(Solved, Option<StaticModel>), CommandError> {
     let mut sink = FileSink::new(scene, results, phases.start());
     let analysis = StaticAnalysis::new(scene).with_cache(cache);
     let StaticResult { mut history, mut facts, model, .. } = analysis.solve_into(phases, &mut sink)?;
-    let Some(model) = model else { return Ok((Solved { history, facts, view: None }, None)) };
+    let Some(model) = model else { return Ok(Solved { history, facts, view: None }) };
     facts.first_result_s = sink.first_result_s;
     let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
     let mut warnings: Vec<String> = root.into_iter().flat_map(output::root_stress_warnings).collect();
     let recorder = sink.recorder;
-    let view =
-        in_space.then(|| phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings))).flatten();
+    let view = phases.run("view", || recorder.view_or_warning(scene, &model, &mut warnings));
     history.warnings.extend(warnings);
-    Ok((Solved { history, facts, view }, Some(model)))
+    Ok(Solved { history, facts, view })
 }
 
 /// Writes fields and remembers the gears in space as positions come.

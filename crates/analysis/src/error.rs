@@ -1,8 +1,12 @@
 //! Why a scene has no answer.
 
+use std::sync::Arc;
+
 use ltca::StaticError;
+use lumped::LumpedError;
 use mesh::MeshError;
-use scene::SceneError;
+use scene::{Scene, SceneError};
+use study::calculix::CalculixError;
 
 use crate::motion::UnstableSteps;
 
@@ -145,6 +149,60 @@ pub enum AnalysisError {
         /// What to do.
         way_out: &'static str,
     },
+    /// A cheaper model cannot be made of the scene, or finds no motion.
+    #[error("{file}: {source}")]
+    Lumped {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<LumpedError>,
+    },
+    /// A motion has left all bounds.
+    #[error("history.csv: holds what is no number")]
+    OutOfBounds,
+    /// A sweep without values.
+    #[error("a sweep over no values")]
+    NoValues,
+    /// What happened at a value of a key.
+    #[error("{key} = {value}: {source}")]
+    AtValue {
+        /// The key.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// What happened.
+        source: Box<AnalysisError>,
+    },
+    /// What keeps every value of a sweep from a result.
+    #[error("{0}")]
+    Shared(Arc<AnalysisError>),
+    /// The loaded pair of a cheaper model finds nothing to rest on.
+    #[error("{file}: nothing holds the loaded pair")]
+    NothingHolds {
+        /// The scene.
+        file: String,
+    },
+    /// A window has more teeth than a gear.
+    #[error(transparent)]
+    Window(#[from] ale::AleError),
+    /// CalculiX is not there, or has no result.
+    #[error(transparent)]
+    Calculix(#[from] CalculixError),
+    /// Something of a scene that decks for CalculiX do not carry.
+    #[error("the deck for CalculiX has no {what}")]
+    BeyondCalculix {
+        /// What.
+        what: &'static str,
+    },
+    /// CalculiX has nowhere to write to.
+    #[error("no folder for the files of CalculiX")]
+    NoScratch,
+    /// A chart has nothing to compare with.
+    #[error("no reference: {why}")]
+    NoReference {
+        /// Why, on the coarsest mesh.
+        why: String,
+    },
     /// The caller's sink has ended the analysis.
     #[error("{0}")]
     Sink(Box<dyn std::error::Error + Send + Sync>),
@@ -186,10 +244,32 @@ fn with_place(place: &str, source: &MeshError) -> String {
 }
 
 impl AnalysisError {
+    /// That a scene does not ask for what is wanted of it.
+    pub(crate) fn other_analysis(scene: &Scene, wanted: &'static str) -> Self {
+        Self::OtherAnalysis { file: scene.file.display().to_string(), wanted }
+    }
+
+    /// What a cheaper model says of a scene.
+    pub(crate) fn lumped(scene: &Scene, source: LumpedError) -> Self {
+        Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
+    }
+
     /// Whether the input is fine and yet no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::MadeMesh { .. } | Self::Certificate { .. } | Self::Sink(_) | Self::UnstableSteps(_) => true,
+            Self::MadeMesh { .. }
+            | Self::Certificate { .. }
+            | Self::Sink(_)
+            | Self::UnstableSteps(_)
+            | Self::OutOfBounds
+            | Self::NothingHolds { .. }
+            | Self::Calculix(_)
+            | Self::BeyondCalculix { .. }
+            | Self::NoScratch
+            | Self::NoReference { .. } => true,
+            Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
+            Self::AtValue { source, .. } => source.is_without_result(),
+            Self::Shared(source) => source.is_without_result(),
             Self::Motion { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
             Self::Modes { source, .. } => !matches!(**source, reduction::ReductionError::LargeBoundary { .. }),
             Self::Solver(failure) => {
@@ -209,6 +289,13 @@ impl AnalysisError {
             Self::Reduction { source, .. } => source.hint(),
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
+            Self::Iso { source, .. } | Self::Lumped { source, .. } => source.hint(),
+            Self::OutOfBounds => {
+                Some("the motion has left all bounds: take smaller steps, or look at supports and damping".to_owned())
+            }
+            Self::NoValues => Some("give `--points 2` or more".to_owned()),
+            Self::AtValue { source, .. } => source.hint(),
+            Self::Shared(source) => source.hint(),
             Self::Motion { source, .. } => Some(source.hint()),
             Self::Modes { source, .. } => source.hint(),
             Self::NoSpeed { way_out, .. } => Some((*way_out).to_owned()),
@@ -217,10 +304,15 @@ impl AnalysisError {
                 Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
             }
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
-            Self::Iso { source, .. } => source.hint(),
             Self::Solver(failure) => failure.source.hint(),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
-            Self::Sink(_) => None,
+            Self::Calculix(e) => e.hint(),
+            Self::NothingHolds { .. }
+            | Self::Window(_)
+            | Self::BeyondCalculix { .. }
+            | Self::NoScratch
+            | Self::NoReference { .. }
+            | Self::Sink(_) => None,
         }
     }
 
@@ -231,6 +323,8 @@ impl AnalysisError {
             Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
             Self::Solver(failure) => failure.excerpt.as_deref(),
             Self::UnstableSteps(steps) => steps.excerpt.as_deref(),
+            Self::AtValue { source, .. } => source.excerpt(),
+            Self::Shared(source) => source.excerpt(),
             _ => None,
         }
     }

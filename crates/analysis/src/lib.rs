@@ -23,6 +23,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod accuracy_chart;
 mod cache;
 pub mod certificate;
 mod coarse;
@@ -35,10 +36,12 @@ pub mod gears;
 mod inputs;
 pub mod iso_model;
 pub mod iso_root;
+pub mod lumped;
 pub mod meshes;
 pub mod motion;
 mod observer;
 mod options;
+pub mod parameter_study;
 pub mod resolution;
 pub mod results;
 mod static_certificate;

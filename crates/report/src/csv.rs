@@ -15,7 +15,12 @@ pub fn push_row(csv: &mut String, row: impl IntoIterator<Item = f64>) {
 
 /// A text as one field of a file with commas: in quotes where it has to be.
 pub fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    if text.contains([',', '"', '\n']) { always_quoted(text) } else { text.to_owned() }
+}
+
+/// A text as one field of a file with commas, in quotes.
+pub fn always_quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 /// The shortest text that reads back to the same number.

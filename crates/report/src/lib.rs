@@ -9,13 +9,17 @@
 //! | [`page`] | pages that need nothing beside themselves |
 //! | [`view`] | both gears in space, for the page |
 //! | [`contact_files`] | contact lines and contact pattern |
+//! | [`accuracy_chart`] | table and picture of accuracy against cost |
+//! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
+//! | [`study_files`] | the same figures of several scenes, side by side |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
 //! | [`Cost`], [`write_summary`] | what a run cost; everything about it but its rows |
 //! | [`ResultFiles`] | where files go |
 
+pub mod accuracy_chart;
 pub mod charts;
 mod columnar;
 pub mod columns;
@@ -25,10 +29,12 @@ mod cost;
 pub mod csv;
 mod error;
 mod files;
+pub mod lumped_files;
 pub mod motion_files;
 pub mod page;
 pub mod paraview;
 mod rows;
+pub mod study_files;
 mod summary;
 pub mod tables;
 pub mod view;

@@ -31,6 +31,7 @@ mod schema;
 mod setting;
 mod source;
 mod starter;
+pub mod study;
 mod written;
 
 use std::f64::consts::PI;

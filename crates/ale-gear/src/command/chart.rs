@@ -2,16 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use analysis::accuracy_chart::ChartOptions;
 use analysis::motion::motion_precision;
+use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
 
 use super::overrides::Overrides;
 use crate::{
-    chart::{ChartOptions, chart, point_count},
+    chart::chart,
     error::CommandError,
-    output::{
-        ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
-        work_precision_svg, write_chart_csv,
-    },
+    output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
     partial::Partial,
     phases::Phases,
     room,
@@ -84,18 +83,13 @@ impl ChartArgs {
             let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
             return self.of_methods(&scene, &mut phases, results, &command);
         }
-        let points = phases.run_steps("chart", point_count(&options) as u64, |progress| {
-            chart(&scene, &options, &results, |what| {
-                progress.say(what.to_owned());
-                progress.tick();
-            })
-        })?;
+        let points = chart(&scene, &options, &mut phases)?;
         let motion = if self.motion { " --motion" } else { "" };
         let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
         let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
-        results.write("chart.csv", write_chart_csv(&points).as_bytes())?;
+        results.write("chart.csv", chart_csv(&points).as_bytes())?;
         results.write("work_precision.svg", svg.as_bytes())?;
         results.write("work_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
         results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use analysis::lumped::is_lumped;
+
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use crate::{
     cache::Cache,
@@ -96,7 +98,7 @@ impl RunArgs {
         let refuse = |what: &str, hint: &str| {
             Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
         };
-        let full = !crate::ladder::has(scene);
+        let full = !is_lumped(scene);
         let checkpoints =
             full && scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
@@ -160,7 +162,7 @@ impl RunArgs {
         let mut phases = Phases::with_bars();
         let scene = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
-        if let (Some(words), false) = (&scene.motion, crate::ladder::has(&scene)) {
+        if let (Some(words), false) = (&scene.motion, is_lumped(&scene)) {
             return self.move_pair(&scene, words, phases, results, quiet);
         }
         let written = write_result(&scene, &mut phases, &results, &self.cache.open())?;
@@ -180,7 +182,7 @@ pub(super) fn write_result(
     cache: &Cache,
 ) -> Result<Written, CommandError> {
     match &scene.motion {
-        Some(words) if crate::ladder::has(scene) => crate::ladder::solve(scene, words, phases, results, cache),
+        Some(words) if is_lumped(scene) => crate::lumped::solve(scene, words, phases, results, cache),
         Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
             motion::Outcome::Finished(written) => Ok(written),
             // Nobody asked it to.

@@ -2,16 +2,41 @@
 
 use std::path::PathBuf;
 
+use analysis::{
+    accuracy_chart::{SpeedUp, speed_up},
+    lumped::is_lumped,
+    parameter_study::{Findings, findings},
+    resolution::with_slices,
+};
+use report::{
+    columns::history_columns,
+    study_files::{
+        CaseResult, STUDY_FILE, StudyResult, study_csv, study_table, with_result, write_study_report,
+        write_study_summary,
+    },
+};
+use scene::study::Study;
+
 use super::{cache_args::CacheArgs, run::write_result};
 use crate::{
-    chart::{SpeedUp, speed_up},
+    chart::ProcessMemory,
     error::CommandError,
-    output::{ResultDirectory, StudyResult, study_csv, study_table, write_study_report, write_study_summary},
-    parameter_study::{CaseOutcome, Findings, Study, findings, run_cases},
+    motion,
+    output::ResultDirectory,
     phases::Phases,
     room,
-    scene::SceneError,
+    scene::{Scene, SceneError},
+    study_cases::run_cases,
 };
+
+/// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
+fn columns_of(scene: &Scene) -> Option<Vec<String>> {
+    match &scene.motion {
+        Some(_) if is_lumped(scene) => None,
+        Some(_) => Some(motion::column_names(scene)),
+        None => Some(history_columns(scene, &[])),
+    }
+}
 
 /// Words of `ale-gear study`.
 #[derive(Debug, clap::Args)]
@@ -28,13 +53,16 @@ pub(super) struct StudyArgs {
 impl StudyArgs {
     /// Every complaint about the words and about all files is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Study, CommandError> {
-        let study = Study::read(&self.study).map_err(|e| match &e {
+        let mut study = Study::read(&self.study, &columns_of).map_err(|e| match &e {
             SceneError::Read { .. } => CommandError::input(
                 &e,
                 Some("`ale-gear study STUDY.toml --out DIR` wants the path of a study file".into()),
             ),
             _ => e.into(),
         })?;
+        for case in &mut study.cases {
+            case.scene = with_slices(case.scene.clone());
+        }
         study.cases.iter().try_for_each(|case| room::for_scene(&case.scene))?;
         Ok(study)
     }
@@ -56,13 +84,14 @@ impl StudyArgs {
                 progress.tick();
             })
         });
-        let findings = findings(&study, &runs)?;
+        let records: Vec<_> = runs.iter().map(|r| r.as_ref().map(|r| &r.record).map_err(|m| &m.failure)).collect();
+        let findings = findings(&study, &records)?;
         let mut warnings = warnings(&study, &runs, &findings);
-        let speed_up = against_full(&study, &findings, &mut phases, &results).unwrap_or_else(|said| {
+        let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
             warnings.push(said);
             None
         });
-        results.write("study.csv", study_csv(&study, &findings).as_bytes())?;
+        results.write(STUDY_FILE, study_csv(&study, &findings).as_bytes())?;
         let cost = phases.cost();
         let of = StudyResult {
             study: &study,
@@ -83,30 +112,24 @@ impl StudyArgs {
 }
 
 /// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says why there is none.
-fn against_full(
-    study: &Study,
-    findings: &Findings,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-) -> Result<Option<SpeedUp>, String> {
+fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Result<Option<SpeedUp>, String> {
     let Some(full) = study.full else { return Ok(None) };
     let label = &study.cases[full.case].label;
     let none = |why: &str| format!("nothing to compare every degree of freedom with: {label}: {why}");
     if let Some(reason) = findings.reason(full.case) {
         return Err(none(reason));
     }
-    let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, results));
-    solved.map(Some).map_err(|e| none(&e.message))
+    let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, &ProcessMemory));
+    solved.map(Some).map_err(|e| none(&e.to_string()))
 }
 
 /// Cases without a result first; then what the others warn of, each once, with their names.
-fn warnings(study: &Study, runs: &[CaseOutcome], findings: &Findings) -> Vec<String> {
+fn warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<String> {
     let failed = (0..study.cases.len()).filter_map(|i| {
         let reason = findings.reason(i)?;
         Some(format!("{}: no result: {reason}; tables, charts and correlations are without it", study.cases[i].label))
     });
-    let of_runs = findings
-        .with_result(study, runs)
+    let of_runs = with_result(study, runs, findings)
         .flat_map(|(case, run, _)| run.warnings.iter().map(|w| format!("{}: {w}", case.label)).collect::<Vec<_>>());
     failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
 }

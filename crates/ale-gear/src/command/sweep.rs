@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
+
 use super::{cache_args::CacheArgs, overrides::Overrides};
 use crate::{
     error::CommandError,
-    ladder::{self, Once, SweepRequest},
+    lumped,
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
@@ -81,6 +83,27 @@ impl Way {
     }
 }
 
+/// How often the section has a point.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Once {
+    /// Once a mesh cycle.
+    MeshCycle,
+    /// Once a turn of the pinion.
+    PinionTurn,
+    /// Once a turn of the wheel.
+    WheelTurn,
+}
+
+impl Once {
+    fn every(self) -> SectionEvery {
+        match self {
+            Self::MeshCycle => SectionEvery::MeshCycle,
+            Self::PinionTurn => SectionEvery::PinionTurn,
+            Self::WheelTurn => SectionEvery::WheelTurn,
+        }
+    }
+}
+
 /// A choice as it is written on the command line.
 fn word_of(choice: &impl clap::ValueEnum) -> String {
     choice.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default()
@@ -121,7 +144,7 @@ impl SweepArgs {
     }
 
     /// Every complaint about words and scenes is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepRequest), CommandError> {
+    fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
         let (values, settings) = (self.values()?, self.overrides.settings()?);
         // As it stands first: what is wrong with the scene is not wrong with the key.
         self.fits(&with_slices(Scene::read_with(&self.scene, &settings)?))?;
@@ -147,19 +170,22 @@ impl SweepArgs {
                 ways.push(way);
             }
         }
-        let request = SweepRequest {
+        let first = scenes.first().map(|(_, scene)| scene);
+        let quantity = first.map(|scene| lumped::quantity(scene, &self.of)).transpose()?;
+        let Some(quantity) = quantity else { return Err(analysis::AnalysisError::NoValues.into()) };
+        let options = SweepOptions {
             key: self.key.clone(),
             ways,
-            once: self.once,
-            of: self.of.clone(),
+            every: self.once.every(),
+            quantity,
             points: self.cycles,
             stretches: self.lyapunov.unwrap_or(if impact { 0 } else { STRETCHES }),
-            again: Some(self.again()),
         };
         for (_, scene) in &scenes {
-            room::for_sweep(scene, (scenes.len(), request.ways.len()), (request.points, request.every(scene)))?;
+            let every = options.every.cycles(scene);
+            room::for_sweep(scene, (scenes.len(), options.ways.len()), (options.points, every))?;
         }
-        Ok((scenes, request))
+        Ok((scenes, options))
     }
 
     /// The words behind the scene and the folder that make this sweep again.
@@ -187,7 +213,7 @@ impl SweepArgs {
 
     /// Refuses scenes that have no motion of a model of the ladder.
     fn fits(&self, scene: &Scene) -> Result<(), CommandError> {
-        if scene.analysis.kind == Kind::Dynamic && ladder::has(scene) {
+        if scene.analysis.kind == Kind::Dynamic && is_lumped(scene) {
             return Ok(());
         }
         let hint = "other models sweep their speed by `[motion] run = \"sweep\"`; any other key: one `ale-gear run --set KEY=VALUE` a value";
@@ -198,10 +224,11 @@ impl SweepArgs {
     /// Runs all values; the text is the closing table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
-        let (scenes, request) = self.plan()?;
+        let (scenes, options) = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
-        let table = ladder::sweep_key(&scenes, &request, &mut phases, &results, &cache)?;
+        let again = self.again();
+        let table = lumped::sweep_key(&scenes, &options, Some(&again), &mut phases, &results, &cache)?;
         results.finish()?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }

@@ -23,13 +23,8 @@ use inputs::InputDigests;
 use sink::FileSink;
 use store::{CheckpointFolder, Checkpoints, Stored};
 
-pub(crate) use analysis::motion::{
-    NO_BACKLASH_UM, RPM, Steps, bearing, drive, energy_check, pulling_check, refuse_unstable, scheme, speed,
-    stated_body, torque,
-};
-pub(crate) use report::{columns::GEARS, read_columns};
-pub(crate) use rows::{ENERGY_FILE, HISTORY, TURNING, WRENCH, column_names};
-pub(crate) use study::Columns;
+pub(crate) use report::read_columns;
+pub(crate) use rows::{ENERGY_FILE, HISTORY, column_names};
 
 use crate::{
     cache::Cache,

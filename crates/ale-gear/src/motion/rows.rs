@@ -7,14 +7,9 @@ use std::{
 };
 
 use analysis::motion::{MotionLayout, MotionRow};
-use dynamics::COORDINATES;
 use report::{
     ReportError,
-    columns::{
-        ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet,
-        motion_history::{DTE, MESH_PHASE, PINION_ANGLE, PINION_SPEED, TIME, WHEEL_SPEED},
-        motion_rows,
-    },
+    columns::{ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows},
     csv::push_row,
     parse_columns,
 };
@@ -22,13 +17,6 @@ use serde::{Deserialize, Serialize};
 use study::Columns;
 
 use crate::{error::CommandError, scene::Scene};
-
-/// What a row of turning gears with flanks begins with.
-pub(crate) const TURNING: [&str; 6] =
-    [TIME.name, PINION_ANGLE.name, MESH_PHASE.name, PINION_SPEED.name, WHEEL_SPEED.name, DTE.name];
-/// Names of a wrench's components.
-pub(crate) const WRENCH: [&str; COORDINATES] =
-    ["force_x_n", "force_y_n", "force_z_n", "moment_x_nmm", "moment_y_nmm", "moment_z_nmm"];
 
 /// Names of the files.
 pub(crate) const HISTORY: &str = "history.csv";

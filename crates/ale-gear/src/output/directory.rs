@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use report::{ReportError, ResultFiles};
+use report::{ReportError, ResultFiles, study_files::CASES};
 
 use crate::{
     error::CommandError,
@@ -126,9 +126,6 @@ fn behind_links(wanted: &Path) -> std::io::Result<PathBuf> {
         _ => Ok(plain),
     }
 }
-
-/// Folder of the cases of a study, each a result of its own.
-pub(crate) const CASES: &str = "cases";
 
 /// Names of the entries of a folder, ascending.
 fn names(folder: &Path) -> std::io::Result<Vec<String>> {

@@ -1,6 +1,7 @@
 //! `energy.csv`: the ledger of a motion, row for row with its history.
 
 use analysis::motion::EnergyRow;
+use study::Columns;
 
 use super::{Group, Over, Rows, Table, columns};
 
@@ -26,3 +27,8 @@ columns!(EnergyRows, ALL, |(), _| true, {
 
 /// All columns of a ledger.
 pub const ENERGY: Table<EnergyRows> = Table { groups: &[Group { over: Over::File, columns: ALL }] };
+
+/// The ledger of a motion as columns by name.
+pub fn energy_columns<'a>(rows: impl IntoIterator<Item = &'a EnergyRow>) -> Columns {
+    ENERGY.sheet(&(), &[]).columns(&(), rows)
+}

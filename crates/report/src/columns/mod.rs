@@ -5,12 +5,14 @@
 //! A new column is one entry of a table, and its line in the document.
 
 pub mod energy;
+pub mod lumped_history;
 pub mod motion_history;
 mod motion_rows;
 pub mod static_history;
 mod table;
 
-pub use energy::{ENERGY, EnergyRows};
+pub use energy::{ENERGY, EnergyRows, energy_columns};
+pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_quantity};
 pub use motion_history::{MOTION_HISTORY, MotionRows};
 pub use motion_rows::motion_rows;
 pub use static_history::{STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, write_history};

@@ -19,6 +19,11 @@ pub trait Rows: 'static {
     type Layout;
     /// What one row is made of.
     type Record;
+
+    /// The gears in the order of their coordinates.
+    fn gear_order(_: &Self::Layout) -> [usize; 2] {
+        [0, 1]
+    }
 }
 
 /// Which gear and which tooth pair a column is of, where its name has `<gear>` or `<k>`.
@@ -72,6 +77,8 @@ pub enum Over {
     File,
     /// Pinion, then wheel.
     Gears,
+    /// The gears in the order of their coordinates, [`Rows::gear_order`].
+    GearsInOrder,
     /// Tooth pairs, ascending.
     Pairs,
     /// All pairs of the pinion, then all of the wheel.
@@ -79,11 +86,12 @@ pub enum Over {
 }
 
 impl Over {
-    fn places(self, pairs: &[i64]) -> Vec<At> {
+    fn places(self, order: [usize; 2], pairs: &[i64]) -> Vec<At> {
         let gears = 0..GEARS.len();
         match self {
             Self::File => vec![At::default()],
             Self::Gears => gears.map(|gear| At { gear, pair: 0 }).collect(),
+            Self::GearsInOrder => order.iter().map(|&gear| At { gear, pair: 0 }).collect(),
             Self::Pairs => pairs.iter().map(|&pair| At { gear: 0, pair }).collect(),
             Self::GearsAndPairs => gears.flat_map(|gear| pairs.iter().map(move |&pair| At { gear, pair })).collect(),
         }
@@ -111,7 +119,7 @@ impl<R: Rows> Table<R> {
     pub fn sheet(&self, layout: &R::Layout, pairs: &[i64]) -> Sheet<R> {
         let mut columns = Vec::new();
         for group in self.groups {
-            for at in group.over.places(pairs) {
+            for at in group.over.places(R::gear_order(layout), pairs) {
                 columns.extend(group.columns.iter().filter(|c| (c.present)(layout, at)).map(|&c| (c, at)));
             }
         }
@@ -140,6 +148,11 @@ impl<R: Rows> Sheet<R> {
     /// Names, in the order of the file.
     pub fn names(&self) -> Vec<String> {
         self.columns.iter().map(|(column, at)| column.name_at(*at)).collect()
+    }
+
+    /// The column of that name, and of which gear and pair it is.
+    pub fn find(&self, name: &str) -> Option<(Column<R>, At)> {
+        self.columns.iter().find(|(column, at)| column.name_at(*at) == name).copied()
     }
 
     /// The first line of the file.

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, fs, path::Path};
 
-use report::columns::{ENERGY, MOTION_HISTORY, Rows, STATIC_HISTORY, Table};
+use report::columns::{ENERGY, LUMPED_HISTORY, MOTION_HISTORY, Rows, STATIC_HISTORY, Table};
 
 /// How a unit ends a name; nothing for a plain number.
 fn ending(unit: &str) -> &'static str {
@@ -20,6 +20,7 @@ fn ending(unit: &str) -> &'static str {
         "1/min" => "_rpm",
         "um/s" => "_um_per_s",
         "urad" => "_urad",
+        "urad/s" => "_urad_per_s",
         "N m" => "_nm",
         "mJ" => "_mj",
         "%" => "_percent",
@@ -49,5 +50,6 @@ fn holds<R: Rows>(table: &Table<R>, what: &str) {
 fn columns_are_named_by_their_units_and_documented() {
     holds(&STATIC_HISTORY, "history.csv at rest");
     holds(&MOTION_HISTORY, "history.csv of a motion");
+    holds(&LUMPED_HISTORY, "history.csv of a cheaper model");
     holds(&ENERGY, "energy.csv");
 }

@@ -1,0 +1,76 @@
+//! Runs of cheaper models, and their files.
+
+use analysis::lumped::{BifurcationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
+use report::{
+    columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
+    lumped_files::{SweepPage, lumped_sweep_table, lumped_table, write_key_sweep, write_lumped},
+};
+
+use crate::{
+    cache::Cache,
+    certificate::Written,
+    error::CommandError,
+    output::{ResultDirectory, close, write_summary},
+    phases::Phases,
+    scene::{MotionScene, Scene},
+};
+
+/// Runs the model of a scene and writes all files of the result.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out.
+pub(crate) fn solve(
+    scene: &Scene,
+    motion: &MotionScene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<Written, CommandError> {
+    if let Some(speeds) = &motion.sweep {
+        let (scenes, options) = SweepOptions::over_speed(scene, speeds, quantity(scene, DTE.name)?);
+        let table = sweep_key(&scenes, &options, None, phases, results, cache)?;
+        return Ok(Written { table, verdict: Ok(()) });
+    }
+    let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
+    let cost = phases.cost();
+    write_lumped(scene, &result, &cost, results)?;
+    close(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
+    let table = lumped_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
+    Ok(Written { table, verdict: result.certificate().verdict(scene).map_err(CommandError::from) })
+}
+
+/// The column of that name of a scene's rows.
+///
+/// # Errors
+/// Exit status 2 for a column that the model does not write.
+pub(crate) fn quantity(scene: &Scene, name: &str) -> Result<LumpedQuantity, CommandError> {
+    lumped_quantity(scene, name).ok_or_else(|| {
+        let whose = format!("{}: the model writes no column `{name}`", scene.file.display());
+        let names = LumpedLayout::of(scene).sheet().names();
+        CommandError::input(whose, Some(format!("it writes {}", names.join(", "))))
+    })
+}
+
+/// Runs the model of a scene at each value, way by way; writes all files of the result, the text is the closing table.
+///
+/// `scenes` in ascending order of the value; `again`: words of `ale-gear sweep` that make it again.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out at any value: one value without a motion has its reason in its row.
+pub(crate) fn sweep_key(
+    scenes: &[(f64, Scene)],
+    options: &SweepOptions,
+    again: Option<&str>,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    let found = KeySweep::new(scenes, options).with_cache(cache).solve_with(phases)?;
+    let cost = phases.cost();
+    let BifurcationAnalysis { scene, facts, headline, warnings, .. } = &found;
+    let page = SweepPage { headline, again };
+    write_key_sweep(options, &found, &page, &cost, results)?;
+    let summary = write_summary(scene, facts, &cost, &page, warnings, &results.files()?);
+    results.write("summary.json", summary.as_bytes())?;
+    Ok(lumped_sweep_table(scene, facts, &cost, headline, warnings))
+}

@@ -1,0 +1,103 @@
+//! Runs the scenes of a study, each into a folder of its own, side by side.
+
+use std::{
+    path::Path,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
+
+use analysis::parameter_study::{CaseFailure, CaseRecord};
+use rayon::ThreadPoolBuilder;
+use report::study_files::{CaseMiss, CaseResult, CaseRun};
+use scene::study::{Study, StudyCase};
+
+use crate::{
+    error::CommandError,
+    facts::Cost,
+    gears,
+    motion::{HISTORY, read_columns},
+    output::{CASES, ResultDirectory},
+    scene::Scene,
+};
+
+/// Runs a scene and writes every file of its result; inside, whether it holds.
+pub(crate) type Solve<'a> =
+    &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<Cost, CommandError>, CommandError> + Sync);
+
+/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution takes nothing from the others; one whose result does not hold leaves its
+/// files, marked as such, as a run by itself does.
+///
+/// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The threads of
+/// a case are its own, so that no case waits for, or is timed with, the work of another. Results do not depend on their number.
+pub(crate) fn run_cases(
+    study: &Study,
+    results: &ResultDirectory,
+    solve: Solve<'_>,
+    done: &(dyn Fn(&StudyCase) + Sync),
+) -> Vec<CaseResult> {
+    let count = study.cases.len();
+    let threads = rayon::current_num_threads();
+    let workers = threads.min(count).max(1);
+    let next = AtomicUsize::new(0);
+    let slots: Vec<Mutex<Option<CaseResult>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    let work = || {
+        let pool = ThreadPoolBuilder::new().num_threads((threads / workers).max(1)).build();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(slot) = slots.get(i) else { break };
+            let run = || one(study, i, results, solve).unwrap_or_else(|e| Err(miss(e, false)));
+            let ran = match &pool {
+                Ok(pool) => pool.install(run),
+                // No threads to be had: the process's own serve as well.
+                Err(_) => run(),
+            };
+            done(&study.cases[i]);
+            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(ran);
+        }
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
+        work();
+        drop(others);
+    });
+    slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+}
+
+/// Why a case has no result, and whether its files are there to be looked at.
+fn miss(error: CommandError, has_folder: bool) -> CaseMiss {
+    let CommandError { status, message, excerpt, hint } = error;
+    CaseMiss { failure: CaseFailure { message, excerpt, hint, is_without_result: status == 1 }, has_folder }
+}
+
+fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> Result<CaseResult, CommandError> {
+    let case = &study.cases[i];
+    let folder = results.path(CASES).join(study.folder(i));
+    let own = ResultDirectory::create(&folder)?;
+    let solved = solve(&case.scene, &own)?;
+    own.finish()?;
+    let cost = match solved {
+        Ok(cost) => cost,
+        Err(error) => return Ok(Err(miss(error, true))),
+    };
+    let rows = read_columns(&folder.join(HISTORY))?;
+    let summary = summary(&folder)?;
+    let warnings = summary["warnings"].as_array().map_or(&[][..], |list| list);
+    Ok(Ok(CaseRun {
+        record: CaseRecord { rows, geometry: gears::geometry_facts(&case.scene.gear_pair()?) },
+        cost,
+        steps: summary["headline"]["certificate"]["steps"].as_u64(),
+        warnings: warnings.iter().filter_map(|w| Some(w.as_str()?.to_owned())).collect(),
+    }))
+}
+
+/// The summary that the case has just written.
+fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
+    let path = folder.join("summary.json");
+    let text = std::fs::read_to_string(&path).map_err(|e| CommandError::write(&path, &e))?;
+    serde_json::from_str(&text).map_err(|e| {
+        let hint = Some("does another program write into the folder?".into());
+        CommandError::failed(format_args!("{}: {e}", path.display()), hint)
+    })
+}

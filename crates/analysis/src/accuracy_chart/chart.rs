@@ -1,0 +1,245 @@
+//! All points of a chart, with the one reference that they are judged by.
+
+use std::path::Path;
+
+use scene::Scene;
+use study::{Answer, AnswerError, Work};
+
+use super::{
+    Density, MemoryGauge, MotionRow, NoGauge, Point, Way, guard,
+    measure::{ChartTools, Measured, degrees_of_freedom, measure},
+    motion,
+    plan::{Engine, Range, Share, densities, reference},
+    ways,
+};
+use crate::{AnalysisError, Observer, PhaseWork, run_phase};
+
+/// How much is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChartOptions {
+    /// Mesh densities, coarse to fine; the last one serves the reference.
+    pub densities: Vec<Density>,
+    /// Positions, at most, of ways that take minutes for each.
+    pub part: u32,
+    /// A point that would take longer than this, by what the one before it took, is left out, s.
+    pub limit_s: f64,
+    /// Whether the models are run in motion too.
+    pub motion: bool,
+}
+
+impl ChartOptions {
+    /// Four densities.
+    pub fn whole(limit_s: f64) -> Self {
+        Self { densities: Density::ALL.to_vec(), part: 2, limit_s, motion: false }
+    }
+
+    /// A look in less than a minute.
+    pub fn quick(limit_s: f64) -> Self {
+        Self { densities: Density::QUICK.to_vec(), part: 1, limit_s, motion: false }
+    }
+}
+
+/// What became of a point.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It was run.
+    Measured {
+        /// What it took.
+        work: Work,
+        /// What it gave.
+        answer: Answer,
+        /// How far that is off the reference.
+        error: AnswerError,
+        /// What a reader should know.
+        note: String,
+    },
+    /// It was not, and why.
+    Skipped(String),
+}
+
+/// One row of the chart's table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointRow {
+    /// Name of its way.
+    pub way: &'static str,
+    /// Its mesh; `None` without one.
+    pub density: Option<Density>,
+    /// What became of it.
+    pub outcome: Outcome,
+}
+
+/// Every point of a scene's chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WorkPrecision {
+    /// Mesh of the reference.
+    pub reference_density: Density,
+    /// What the reference took.
+    pub reference_work: Work,
+    /// What it gave.
+    pub reference: Answer,
+    /// Why it was not taken on a finer mesh; empty when it is on the finest.
+    pub reference_note: String,
+    /// The points, way by way, coarse to fine.
+    pub rows: Vec<PointRow>,
+    /// The models in motion; empty where they were not asked for.
+    pub motion: Vec<MotionRow>,
+}
+
+/// A point as it was measured, not yet compared.
+struct MeasuredPoint {
+    way: Way,
+    density: Option<Density>,
+    measured: Result<Measured, String>,
+}
+
+/// Number of points that [`AccuracyChart::run`] tells its observer of.
+fn point_count(options: &ChartOptions) -> usize {
+    let in_motion = if options.motion { motion::WAYS } else { 0 };
+    1 + in_motion + ways().iter().map(|w| densities(w, &options.densities).len()).sum::<usize>()
+}
+
+/// Accuracy against cost of every model of a scene.
+#[derive(Clone, Copy)]
+pub struct AccuracyChart<'a> {
+    scene: &'a Scene,
+    options: &'a ChartOptions,
+    tools: ChartTools<'a>,
+}
+
+impl std::fmt::Debug for AccuracyChart<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("AccuracyChart").field("scene", &self.scene.name).field("options", self.options).finish()
+    }
+}
+
+impl<'a> AccuracyChart<'a> {
+    /// Of a scene, without memory readings and CalculiX.
+    pub fn new(scene: &'a Scene, options: &'a ChartOptions) -> Self {
+        Self { scene, options, tools: ChartTools { memory: &NoGauge, scratch: None } }
+    }
+
+    /// With peak and free memory of the process: a point that does not fit is left out.
+    #[must_use]
+    pub fn with_memory(mut self, memory: &'a dyn MemoryGauge) -> Self {
+        self.tools.memory = memory;
+        self
+    }
+
+    /// With a folder for the files of CalculiX, which is run where it is installed.
+    #[must_use]
+    pub fn with_scratch(mut self, folder: &'a Path) -> Self {
+        self.tools.scratch = Some(folder);
+        self
+    }
+
+    /// Runs every point.
+    ///
+    /// A point that fails, or would take too much, is a row that says why; only without a reference there is no chart.
+    ///
+    /// # Errors
+    /// [`AnalysisError::NoReference`].
+    pub fn run(&self, observer: &mut dyn Observer) -> Result<WorkPrecision, AnalysisError> {
+        let steps = PhaseWork::Steps(point_count(self.options) as u64);
+        run_phase(observer, "chart", steps, |progress| {
+            self.points(|what| {
+                progress.say(what.to_owned());
+                progress.tick();
+            })
+        })
+    }
+
+    fn points(&self, mut seen: impl FnMut(&str)) -> Result<WorkPrecision, AnalysisError> {
+        let Self { scene, options, tools } = *self;
+        let mut raw: Vec<MeasuredPoint> = Vec::new();
+        for way in ways() {
+            self.series(way, &mut raw, &mut seen);
+        }
+        seen("reference");
+        let (reference_density, reference_note, reference) = self.refined(&raw)?;
+        let rows = raw.into_iter().map(|point| point.against(&reference.answer)).collect();
+        let Measured { work: reference_work, answer: reference, .. } = reference;
+        // The finest mesh that is not the reference's own.
+        let density = options.densities.iter().rev().nth(1).or(options.densities.first());
+        let motion = match density.filter(|_| options.motion) {
+            Some(density) => motion::rows(scene, *density, tools, seen),
+            None => Vec::new(),
+        };
+        Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows, motion })
+    }
+
+    /// The points of one way, coarse to fine.
+    fn series(&self, way: Way, raw: &mut Vec<MeasuredPoint>, seen: &mut impl FnMut(&str)) {
+        let mut last: Option<Work> = None;
+        let mut given_up: Option<String> = None;
+        for density in densities(&way, &self.options.densities) {
+            seen(&label(way.name, density));
+            let point = Point::new(self.scene, way, density, self.options.part);
+            let measured = match &given_up {
+                Some(why) => Err(why.clone()),
+                None => self.guarded(&point, last.as_ref()),
+            };
+            match &measured {
+                Ok(m) => last = Some(m.work),
+                // What fails on a mesh would fail on a finer one.
+                Err(why) => given_up = Some(why.clone()),
+            }
+            raw.push(MeasuredPoint { way, density, measured });
+        }
+    }
+
+    fn guarded(&self, point: &Point, smaller: Option<&Work>) -> Result<Measured, String> {
+        let one_line = |e: AnalysisError| e.to_string().replace('\n', " ");
+        if let Some(smaller) = smaller {
+            let dof = degrees_of_freedom(&point.scene).map_err(one_line)?;
+            let free_mb = self.tools.memory.available_mb();
+            if let Some(why) = guard::refusal(smaller, dof, self.options.limit_s, free_mb) {
+                return Err(why);
+            }
+        }
+        measure(point, self.tools).map_err(one_line)
+    }
+
+    /// The reference on the finest mesh that can be run: slices, twice as many as the scene's.
+    fn refined(&self, raw: &[MeasuredPoint]) -> Result<(Density, String, Measured), AnalysisError> {
+        let way = Way { name: "reference", engine: Engine::Own(reference), range: Range::All, share: Share::Whole };
+        // What slices took on coarser meshes tells what the reference will.
+        let before: Vec<(Density, Work)> = raw
+            .iter()
+            .filter(|r| r.way.range == Range::BelowReference)
+            .filter_map(|r| Some((r.density?, r.measured.as_ref().ok()?.work)))
+            .collect();
+        let mut coarser = String::new();
+        for &density in self.options.densities.iter().rev() {
+            let smaller = before.iter().filter(|(d, _)| *d <= density).max_by_key(|(d, _)| *d).map(|(_, work)| work);
+            let point = Point::new(self.scene, way, Some(density), self.options.part);
+            match self.guarded(&point, smaller) {
+                Ok(measured) => return Ok((density, coarser, measured)),
+                Err(message) => coarser = format!("not on {} elements along the profile: {message}", density.profile),
+            }
+        }
+        Err(AnalysisError::NoReference { why: coarser })
+    }
+}
+
+impl MeasuredPoint {
+    /// The row of the chart.
+    fn against(self, reference: &Answer) -> PointRow {
+        let Self { way, density, measured } = self;
+        let outcome = match measured {
+            Err(why) => Outcome::Skipped(why),
+            Ok(Measured { work, answer, note }) => match answer.error_against(reference) {
+                Ok(error) => Outcome::Measured { work, answer, error, note },
+                Err(e) => Outcome::Skipped(e.to_string()),
+            },
+        };
+        PointRow { way: way.name, density, outcome }
+    }
+}
+
+/// A point in a few words.
+fn label(way: &str, density: Option<Density>) -> String {
+    match density {
+        Some(d) => format!("{way}, {} elements along the profile", d.profile),
+        None => way.to_owned(),
+    }
+}

@@ -1,0 +1,30 @@
+//! Accuracy against cost of every model of a scene: which points there are, and how each is measured.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `plan` | the list of ways to compute the scene and of mesh densities |
+//! | `measure` | runs one point, twice: with everything before it, and once more |
+//! | `lumped_scene`, `lumped_point` | the scene as one of a cheaper model, and a point of it |
+//! | `calculix_point` | the same by CalculiX |
+//! | `motion` | the models in motion at the scene's torque and speed |
+//! | `guard`, `memory`, `phase_times` | what memory or patience would not stand; what a point took |
+//! | `speed_up` | one scene, reduced and not |
+//! | `chart` | all points with the refined reference |
+
+mod calculix_point;
+mod chart;
+mod guard;
+mod lumped_point;
+mod lumped_scene;
+mod measure;
+mod memory;
+mod motion;
+mod phase_times;
+mod plan;
+mod speed_up;
+
+pub use chart::{AccuracyChart, ChartOptions, Outcome, PointRow, WorkPrecision};
+pub use memory::{MemoryGauge, NoGauge};
+pub use motion::{MotionPoint, MotionRow, REDUCED};
+pub use plan::{CALCULIX, Density, FED, FULL, Point, Way, ways};
+pub use speed_up::{SpeedUp, speed_up};

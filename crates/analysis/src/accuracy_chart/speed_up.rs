@@ -1,0 +1,65 @@
+//! One scene at rest with every degree of freedom and reduced, on the same meshes: what the reduction saves.
+
+use scene::{Flanks, Kind, Scene};
+use serde::Serialize;
+
+use super::{
+    MemoryGauge, Point,
+    measure::{ChartTools, Measured, measure},
+    plan::{FULL_WAY, SLICE_WAY},
+};
+use crate::AnalysisError;
+
+/// Times of both models; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are measured
+pub struct SpeedUp {
+    pub dof: usize,
+    pub dof_kept: usize,
+    pub positions_of_cycle: usize,
+    pub full_positions_run: usize,
+    pub full_offline_s: f64,
+    pub full_position_s: f64,
+    pub reduced_offline_s: f64,
+    pub reduced_position_s: f64,
+    pub times_faster_position: f64,
+    pub times_faster_first_cycle: f64,
+    pub relative_difference_of_ste: f64,
+}
+
+/// Runs `positions` positions (at the most; a divisor of those of the cycle) of the scene with every degree of freedom, and its whole
+/// quasi-static cycle reduced; both from cold, without the cache, one after the other.
+///
+/// # Errors
+/// Those of the runs, and where the two cannot be compared.
+pub fn speed_up(scene: &Scene, positions: u32, memory: &dyn MemoryGauge) -> Result<SpeedUp, AnalysisError> {
+    let still = at_rest(scene);
+    let run = |way| -> Result<Measured, AnalysisError> {
+        measure(&Point::new(&still, way, None, positions), ChartTools { memory, scratch: None })
+    };
+    let (reduced, full) = (run(SLICE_WAY)?, run(FULL_WAY)?);
+    let error = full.answer.error_against(&reduced.answer)?;
+    let (f, r) = (&full.work, &reduced.work);
+    Ok(SpeedUp {
+        dof: f.dof_before,
+        dof_kept: r.dof_after,
+        positions_of_cycle: f.positions_asked,
+        full_positions_run: f.positions_run,
+        full_offline_s: f.offline_s,
+        full_position_s: f.position_s(),
+        reduced_offline_s: r.offline_s,
+        reduced_position_s: r.position_s(),
+        times_faster_position: f.position_s() / r.position_s(),
+        times_faster_first_cycle: f.first_cycle_s() / r.first_cycle_s(),
+        relative_difference_of_ste: error.mean_ste,
+    })
+}
+
+/// The same pair under the same load, without motion; only the flanks that the torque presses.
+fn at_rest(scene: &Scene) -> Scene {
+    let mut own = scene.clone();
+    own.analysis.kind = Kind::Static;
+    own.contact.flanks = Flanks::Driving;
+    (own.motion, own.drive, own.load, own.modes) = (None, None, None, None);
+    own
+}

@@ -1,0 +1,323 @@
+//! A motion of a model with few coordinates.
+
+use std::f64::consts::TAU;
+
+use integrate::State;
+use scene::{Driver, Model, MotionScene, Scene};
+use study::Window;
+
+use super::{
+    LumpedRow, StaticPoint,
+    campbell::{LumpedCampbell, campbell},
+    excitation::ExcitationSource,
+    headline::{HeadlineInputs, LumpedHeadline, headline},
+    inputs::{LumpedInputs, LumpedSystem},
+    mechanism::BoxedMechanism,
+    run_loop::{LumpedRun, MeshFrequencies, NoRunObserver, RunObserver, RunPlan, stable_step},
+    warnings::{certificate_warnings, no_backlash},
+};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
+    certificate::Certificate,
+    facts::{Facts, Resolution},
+    gears,
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
+    options,
+    resolution::{resolution, with_slices},
+    run_phase,
+};
+
+/// Whether a scene's model is one with few coordinates.
+pub fn is_lumped(scene: &Scene) -> bool {
+    matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact)
+}
+
+/// Gets the rows of a cheaper model as they come.
+pub trait LumpedSink {
+    /// A row, in order.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
+    fn row(&mut self, row: &LumpedRow) -> SinkResult;
+}
+
+/// Takes nothing: the result holds all rows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoLumpedSink;
+
+impl LumpedSink for NoLumpedSink {
+    fn row(&mut self, _: &LumpedRow) -> SinkResult {
+        Ok(())
+    }
+}
+
+/// The answer to a scene of a cheaper model.
+#[derive(Debug)]
+pub struct LumpedResult {
+    /// What it was made of, and what must hold of it.
+    pub facts: Facts,
+    /// Row by row, equally many in each mesh cycle.
+    pub rows: Vec<LumpedRow>,
+    /// Energy since the start, row by row and at the end.
+    pub energy: Vec<EnergyRow>,
+    /// Where it ends: another run may go on from there.
+    pub end: State,
+    /// The pair under the mean load as speed goes to zero; `None` where it finds nothing to rest on.
+    pub static_cycle: Option<Vec<StaticPoint>>,
+    /// Lines of the mesh cycles that are judged.
+    pub spectrum: MotionSpectrum,
+    /// What is largest over speed, of a ramp.
+    pub passage: Option<Passage>,
+    /// Frequencies over speed, of a linear model.
+    pub campbell: Option<LumpedCampbell>,
+    /// The few numbers that it is made for.
+    pub headline: LumpedHeadline,
+    /// What a user should hear.
+    pub warnings: Vec<String>,
+}
+
+impl LumpedResult {
+    /// One row a mesh cycle, at its beginning: a stroboscopic (Poincare) section at constant speed.
+    pub fn section(&self) -> impl Iterator<Item = &LumpedRow> {
+        self.rows.iter().step_by(self.headline.rows_per_cycle as usize)
+    }
+
+    /// What must hold of it.
+    pub fn certificate(&self) -> &Certificate {
+        &self.facts.certificate
+    }
+}
+
+/// A scene of a cheaper model, to be run in time.
+#[derive(Clone, Copy)]
+pub struct LumpedAnalysis<'a> {
+    scene: &'a Scene,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for LumpedAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("LumpedAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+impl<'a> LumpedAnalysis<'a> {
+    /// Of a scene with the model `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, cache: &NoCache }
+    }
+
+    /// With reduced gears from a cache, where the reduced model feeds the mesh.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Runs it, telling nobody.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve(&self) -> Result<LumpedResult, AnalysisError> {
+        self.solve_into(&mut NoObserver, &mut NoLumpedSink)
+    }
+
+    /// Runs it; rows go into `sink` as they come. A result whose certificate does not hold is a result all the same:
+    /// [`Certificate::verdict`] says so.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve_into(
+        &self,
+        observer: &mut dyn Observer,
+        sink: &mut dyn LumpedSink,
+    ) -> Result<LumpedResult, AnalysisError> {
+        let scene = with_slices(self.scene.clone());
+        let motion = motion_of(&scene)?;
+        if motion.sweep.is_some() {
+            return Err(AnalysisError::other_analysis(&scene, "motion at one speed or over a ramp"));
+        }
+        let inputs = LumpedInputs::gather(&scene, &mut ExcitationSource::new(observer, self.cache))?;
+        let mut system = inputs.build()?;
+        let (mut facts, mut warnings) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.warnings));
+        warnings.extend(gears::warnings(&inputs.pair));
+        warnings.extend(no_backlash(&inputs));
+        if let Some((resolution, said)) = slice_resolution(&inputs) {
+            facts.resolution = Some(resolution);
+            warnings.extend(said);
+        }
+        let frequencies = inputs.frequencies(motion, system.resonance_hz);
+        refuse_unstable(&scene, motion, &mut system.model, frequencies)?;
+        let campbell = run_phase(observer, "modes", PhaseWork::Unknown, |_| campbell(&inputs, &system))?;
+        facts.model.extend(campbell.iter().flat_map(LumpedCampbell::facts));
+        let positions = scene.analysis.positions_per_cycle as usize;
+        let static_cycle = run_phase(observer, "quasi-static", PhaseWork::Unknown, |_| system.static_cycle(positions));
+        let steps = PhaseWork::Steps(u64::from(scene.analysis.cycles));
+        let run = run_phase(observer, "motion", steps, |progress| {
+            let plan = RunPlan { scene: &scene, motion, frequencies, from: None };
+            plan.run(&mut system.model, &mut RowsOnward { progress, sink })
+        });
+        let run = run.map_err(|e| e.of(&scene))?;
+        within_bounds(&run.rows)?;
+        facts.certificate = certificate(&scene, &run);
+        result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, warnings })
+    }
+}
+
+/// What is known of a model beside its run.
+struct RunResults {
+    facts: Facts,
+    static_cycle: Option<Vec<StaticPoint>>,
+    campbell: Option<LumpedCampbell>,
+    warnings: Vec<String>,
+}
+
+/// Reads headline and spectra off a run.
+fn result(
+    inputs: &LumpedInputs,
+    system: &LumpedSystem,
+    run: LumpedRun,
+    known: RunResults,
+) -> Result<LumpedResult, AnalysisError> {
+    let RunResults { facts, static_cycle, campbell, mut warnings } = known;
+    let scene = &inputs.scene;
+    let motion = motion_of(scene)?;
+    let frequencies = inputs.frequencies(motion, system.resonance_hz);
+    let static_errors: Option<Vec<f64>> = static_cycle.as_ref().map(|all| all.iter().map(|p| p.error).collect());
+    let static_normal_force = inputs.static_normal_force();
+    let passage = motion.ramp.map(|_| {
+        let driver = (motion::speed(scene), scene.driver_teeth());
+        Passage::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &[])
+    });
+    let passage = passage.transpose()?;
+    let beside = HeadlineInputs {
+        coordinates: system.coordinates(),
+        mesh_frequency_hz: frequencies.mesh_hz,
+        resonance_hz: (system.resonance_hz > 0.0).then_some(system.resonance_hz),
+        static_normal_force,
+        static_errors: static_errors.as_deref(),
+    };
+    let mut headline = headline(scene, motion, &run, &beside)?;
+    headline.ramp = passage.as_ref().and_then(Passage::headline);
+    warnings.extend(certificate_warnings(motion, &headline));
+    let judged = motion_series(run.judged_rows());
+    let spectrum = MotionSpectrum::of(&judged, run.judged, frequencies.mesh_hz, window(motion, &run))?;
+    let LumpedRun { rows, energy, end, .. } = run;
+    Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, passage, campbell, headline, warnings })
+}
+
+/// Passes rows on, and counts mesh cycles.
+struct RowsOnward<'a> {
+    progress: &'a dyn Progress,
+    sink: &'a mut dyn LumpedSink,
+}
+
+impl RunObserver for RowsOnward<'_> {
+    fn row(&mut self, row: &LumpedRow, begins_cycle: bool) -> SinkResult {
+        if begins_cycle {
+            self.progress.tick();
+        }
+        self.sink.row(row)
+    }
+}
+
+/// The motion that a scene asks for.
+pub(super) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
+    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
+}
+
+/// Rows of a run to the steady state alone, and the mesh cycles that it took in all: for comparing models.
+///
+/// # Errors
+/// [`AnalysisError`], also where the certificate does not hold.
+pub(crate) fn steady_rows(inputs: &LumpedInputs, system: LumpedSystem) -> Result<(Vec<LumpedRow>, u64), AnalysisError> {
+    let mut model = system.model;
+    let run = checked_run(inputs, &mut model, system.resonance_hz, None)?;
+    Ok((run.rows, run.warm_up + run.cycles))
+}
+
+/// A run whose certificate holds.
+///
+/// # Errors
+/// [`AnalysisError`].
+pub(super) fn checked_run(
+    inputs: &LumpedInputs,
+    model: &mut BoxedMechanism,
+    resonance_hz: f64,
+    from: Option<&State>,
+) -> Result<LumpedRun, AnalysisError> {
+    let scene = &inputs.scene;
+    let motion = motion_of(scene)?;
+    let frequencies = inputs.frequencies(motion, resonance_hz);
+    refuse_unstable(scene, motion, model, frequencies)?;
+    let plan = RunPlan { scene, motion, frequencies, from };
+    let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
+    within_bounds(&run.rows)?;
+    certificate(scene, &run).verdict(scene)?;
+    Ok(run)
+}
+
+/// Refuses steps of given length that are too long for an explicit method.
+fn refuse_unstable(
+    scene: &Scene,
+    motion: &MotionScene,
+    model: &mut BoxedMechanism,
+    frequencies: MeshFrequencies,
+) -> Result<(), AnalysisError> {
+    let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
+    let limit = stable_step(model, motion, mesh_hz).map_err(|e| AnalysisError::lumped(scene, e))?;
+    let Some(limit) = limit else { return Ok(()) };
+    motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
+}
+
+/// Rows that hold numbers only.
+fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
+    if rows.iter().all(LumpedRow::is_finite) { Ok(()) } else { Err(AnalysisError::OutOfBounds) }
+}
+
+/// What must hold of a run: energy closes, no flank of a slice pulls.
+fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
+    let driven = [scene.wheel.teeth, scene.pinion.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
+    let turned = TAU * (run.warm_up + run.cycles) as f64 / f64::from(driven);
+    let through = scene.operation.torque().abs() * turned;
+    let mut all = vec![motion::energy_check(run.ledger.residual(), through, run.ledger.relative_residual())];
+    if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
+        let forces = run.rows.iter().flat_map(|r| [Some(r.normal_force), r.coast_normal_force]).flatten();
+        all.push(motion::pulling_check(least, forces.fold(f64::NEG_INFINITY, f64::max)));
+    }
+    Certificate::new(all)
+}
+
+/// Geometry, and coordinates as degrees of freedom.
+pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
+    let dof_after = [coordinates.div_ceil(2), coordinates / 2];
+    Facts { geometry: gears::geometry_facts(&inputs.pair), dof_after, ..Facts::default() }
+}
+
+/// How rigid gears are cut into slices, with what a user should hear of it; other models are not.
+fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<String>)> {
+    let LumpedInputs { scene, pair, .. } = inputs;
+    (scene.analysis.model == Model::Impact).then(|| resolution(scene, pair, &options(scene, pair)))
+}
+
+/// None for a record of whole periods, where every line stands in one bin.
+fn window(motion: &MotionScene, run: &LumpedRun) -> Window {
+    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
+    let whole =
+        |p: &integrate::Periodicity| p.residual <= 10.0 * tolerance && run.cycles.is_multiple_of(p.period as u64);
+    if run.periodicity.as_ref().is_some_and(whole) { Window::Rectangular } else { Window::Hann }
+}
+
+/// Series of rows, for spectra and ramps.
+fn motion_series(rows: &[LumpedRow]) -> MotionSeries {
+    let of = |value: fn(&LumpedRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
+    MotionSeries {
+        time_s: of(|r| r.time),
+        pinion_speed_rpm: rows.iter().filter_map(|r| Some(r.speeds?[0] * 60.0 / TAU)).collect(),
+        dte_um: of(|r| r.transmission_error_um),
+        normal_force_n: of(|r| r.normal_force),
+        coast_normal_force_n: rows.iter().filter_map(|r| r.coast_normal_force).collect(),
+        pair_normal_force_n: None,
+        wheel_force_z_n: of(|r| r.wrench[1][2]),
+        moment_y_nmm: [of(|r| r.wrench[0][4]), of(|r| r.wrench[1][4])],
+    }
+}

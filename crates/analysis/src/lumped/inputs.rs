@@ -1,0 +1,112 @@
+//! All that a model of a scene is made of: gathered once, built as often as wanted.
+
+use std::f64::consts::TAU;
+
+use ::lumped::{
+    LumpedError,
+    shaft18::{ShaftMechanism, ShaftSystem},
+};
+use geometry::GearPair;
+use integrate::Mechanism;
+use scene::{Driver, Model, MotionScene, Scene};
+
+use super::{
+    excitation::{ExcitationSource, MeshExcitation},
+    impact, lumped_pair,
+    mechanism::{BoxedMechanism, StaticPoint},
+    run_loop::MeshFrequencies,
+    shafts,
+};
+use crate::AnalysisError;
+
+/// A scene with its pair and, where its model has a mesh stiffness, that stiffness over the cycle.
+pub(crate) struct LumpedInputs {
+    pub scene: Scene,
+    pub pair: GearPair,
+    excitation: Option<MeshExcitation>,
+}
+
+/// A model, ready to run.
+pub(crate) struct LumpedSystem {
+    pub model: BoxedMechanism,
+    /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
+    pub resonance_hz: f64,
+    pub warnings: Vec<String>,
+    /// The system of shafts, where it is one: for the continuum beside it.
+    pub shafts: Option<ShaftSystem>,
+}
+
+impl LumpedSystem {
+    /// Number of coordinates.
+    pub fn coordinates(&self) -> usize {
+        self.model.mass().nrows()
+    }
+
+    /// The loaded pair as speed goes to zero, at evenly spaced phases; `None` where it finds nothing to rest on.
+    pub fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
+        self.model.static_cycle(phases)
+    }
+}
+
+impl LumpedInputs {
+    /// Of a scene with a model of few coordinates.
+    ///
+    /// # Errors
+    /// Those of a pair that is none, and of the reduced model where it feeds the mesh.
+    pub fn gather(scene: &Scene, source: &mut ExcitationSource<'_>) -> Result<Self, AnalysisError> {
+        let pair = scene.gear_pair()?;
+        let plane = match scene.analysis.model {
+            Model::Shaft18 => shafts::plane(scene, &pair),
+            _ => lumped_pair::plane(scene, &pair),
+        };
+        let excitation = scene.mesh.as_ref().map(|mesh| source.of(scene, mesh, &pair, &plane)).transpose()?;
+        Ok(Self { scene: scene.clone(), pair, excitation })
+    }
+
+    /// The model; every one that is built is the same.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Lumped`] for what has no meaning to it.
+    pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
+        let Self { scene, pair, excitation } = self;
+        let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
+        let none = || AnalysisError::other_analysis(scene, "model of the ladder");
+        if let Some(own) = &scene.impact {
+            let (model, warnings) = impact::impact(scene, own, pair).map_err(complain)?;
+            return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz: 0.0, warnings, shafts: None });
+        }
+        // The scene's checks let no other model come here.
+        let (Some(mesh), Some(excitation)) = (&scene.mesh, excitation) else { return Err(none()) };
+        let warnings = excitation.warnings.clone();
+        if let Some(own) = &scene.shaft18 {
+            let (system, resonance) = shafts::system(scene, own, mesh, pair, excitation).map_err(complain)?;
+            let model = BoxedMechanism::new(ShaftMechanism::new(&system).map_err(complain)?);
+            return Ok(LumpedSystem { model, resonance_hz: resonance / TAU, warnings, shafts: Some(system) });
+        }
+        let (lumped, bodies) = lumped_pair::lumped_pair(scene, mesh, pair, excitation).map_err(complain)?;
+        let resonance_hz = lumped.natural_frequency() / TAU;
+        let model = if let Some(own) = &scene.lumped8 {
+            lumped_pair::eight(scene, own, mesh, pair, lumped, &bodies).map(BoxedMechanism::new)
+        } else if let Some(own) = &scene.lumped12 {
+            lumped_pair::twelve(scene, own, lumped).map(BoxedMechanism::new)
+        } else {
+            return Err(none());
+        };
+        Ok(LumpedSystem { model: model.map_err(complain)?, resonance_hz, warnings, shafts: None })
+    }
+
+    /// Mesh frequency at the scene's speed, of a ramp at its last, and the resonance of a model.
+    pub fn frequencies(&self, motion: &MotionScene, resonance_hz: f64) -> MeshFrequencies {
+        let speed = motion.ramp.map_or(self.scene.operation.speed_rpm, |r| r.to_rpm);
+        MeshFrequencies { mesh_hz: speed / 60.0 * f64::from(self.scene.driver_teeth()), resonance_hz }
+    }
+
+    /// F_bn = T / (r_b cos b_b) of the mean load on the driven gear, N.
+    pub fn static_normal_force(&self) -> f64 {
+        let driven = match self.scene.operation.driver {
+            Driver::Pinion => &self.pair.wheel,
+            Driver::Wheel => &self.pair.pinion,
+        };
+        self.scene.operation.torque() / (driven.base_radius() * self.pair.base_helix_angle().cos())
+    }
+}

@@ -1,0 +1,138 @@
+//! A cheaper model at an instant.
+
+use scene::{Driver, Model, Scene};
+
+/// A row of a run: what every model of a pair with few coordinates tells of an instant, and `None` for what only others know.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LumpedRow {
+    /// Time, s.
+    pub time: f64,
+    /// Mesh cycles since the start; of shafts.
+    pub mesh_cycles: Option<f64>,
+    /// Angle of the pinion, rad, 0 where pair 0 is in the middle of its path of contact; not of shafts.
+    pub pinion_angle: Option<f64>,
+    /// Mesh phase, 0 .. 1.
+    pub mesh_phase: f64,
+    /// Speed of pinion and wheel about +z, rad/s; of rigid gears.
+    pub speeds: Option<[f64; 2]>,
+    /// Dynamic transmission error on the transverse line of action, um; positive when the driven gear lags.
+    pub transmission_error_um: f64,
+    /// Relative displacement of the flanks along the transverse line of action, mm; of lumped gears.
+    pub mesh_deflection: Option<f64>,
+    /// Mesh stiffness on the transverse line of action, N/mm; of lumped gears.
+    pub mesh_stiffness: Option<f64>,
+    /// Compression of the mesh along the normal, mm, and its rate, mm/s; of shafts.
+    pub compression: Option<[f64; 2]>,
+    /// Mesh stiffness along the normal, N/mm; of shafts.
+    pub normal_mesh_stiffness: Option<f64>,
+    /// Length of the contact lines, mm, 0 where the flanks are apart; not of shafts.
+    pub contact_line_length: Option<f64>,
+    /// Pairs in contact on the driving side; of rigid gears.
+    pub pairs_in_contact: Option<usize>,
+    /// Normal force, N; of a lumped mesh below zero on the coast flanks, and where a linear mesh pulls.
+    pub normal_force: f64,
+    /// Friction force on the driver across the line of action, N; of lumped gears.
+    pub friction_force: Option<f64>,
+    /// Sum of the normal forces on the coast flanks, N; of rigid gears, as all below.
+    pub coast_normal_force: Option<f64>,
+    /// Smallest normal force of a slice in contact, N; 0 without contact.
+    pub least_slice_force: Option<f64>,
+    /// Deepest overlap of driving and coast flanks, mm; below zero where they are apart, 0 where nothing is near.
+    pub overlap: Option<[f64; 2]>,
+    /// Largest normal force of a pair, N.
+    pub largest_pair_force: Option<f64>,
+    /// Forces x, y, z (N) and moments about x, y, z (N mm) of the mesh on pinion and wheel, about their own centres.
+    pub wrench: [[f64; 6]; 2],
+    /// The part of them that is friction.
+    pub friction_wrench: Option<[[f64; 6]; 2]>,
+    /// Coordinates of the gears, mm and rad, in the order of [`gear_coordinates`].
+    pub displacement: Vec<f64>,
+    /// Their rates, mm/s and rad/s.
+    pub velocity: Vec<f64>,
+}
+
+impl LumpedRow {
+    /// Whether every value is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let plain = [self.time, self.mesh_phase, self.transmission_error_um, self.normal_force];
+        let known = [
+            self.mesh_cycles,
+            self.pinion_angle,
+            self.mesh_deflection,
+            self.mesh_stiffness,
+            self.normal_mesh_stiffness,
+            self.contact_line_length,
+            self.friction_force,
+            self.coast_normal_force,
+            self.least_slice_force,
+            self.largest_pair_force,
+        ];
+        let pairs = [self.speeds, self.compression, self.overlap];
+        let wrenches = self.wrench.iter().chain(self.friction_wrench.iter().flatten()).flatten();
+        let mut all = (plain.iter().chain(known.iter().flatten()))
+            .chain(pairs.iter().flatten().flatten())
+            .chain(wrenches)
+            .chain(&self.displacement)
+            .chain(&self.velocity);
+        all.all(|x| x.is_finite())
+    }
+}
+
+/// A direction in which a gear moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CoordinateAxis {
+    /// Across the transverse line of action.
+    Across,
+    /// Along it.
+    Along,
+    /// Along global x.
+    X,
+    /// Along global y.
+    Y,
+    /// Along the axis.
+    Z,
+    /// About global x.
+    TiltX,
+    /// About global y.
+    TiltY,
+    /// About the axis, beyond the nominal turn.
+    Turn,
+}
+
+/// A coordinate of a gear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GearCoordinate {
+    /// 0 pinion, 1 wheel.
+    pub gear: usize,
+    /// Its direction.
+    pub axis: CoordinateAxis,
+}
+
+/// Of a gear with four coordinates.
+const FOUR: [CoordinateAxis; 4] =
+    [CoordinateAxis::Across, CoordinateAxis::Along, CoordinateAxis::Z, CoordinateAxis::Turn];
+/// Of one with six.
+pub(super) const SIX: [CoordinateAxis; 6] = [
+    CoordinateAxis::X,
+    CoordinateAxis::Y,
+    CoordinateAxis::Z,
+    CoordinateAxis::TiltX,
+    CoordinateAxis::TiltY,
+    CoordinateAxis::Turn,
+];
+
+/// Coordinates of the gears in rows of a scene's model, in their order: of lumped gears the driver's first, of shafts the pinion's;
+/// rigid gears have none in their rows.
+pub fn gear_coordinates(scene: &Scene) -> Vec<GearCoordinate> {
+    let by_role = match scene.operation.driver {
+        Driver::Pinion => [0, 1],
+        Driver::Wheel => [1, 0],
+    };
+    let (gears, axes): ([usize; 2], &[CoordinateAxis]) = match scene.analysis.model {
+        Model::Lumped8 => (by_role, &FOUR),
+        Model::Lumped12 => (by_role, &SIX),
+        Model::Shaft18 => ([0, 1], &SIX),
+        _ => return Vec::new(),
+    };
+    gears.iter().flat_map(|&gear| axes.iter().map(move |&axis| GearCoordinate { gear, axis })).collect()
+}

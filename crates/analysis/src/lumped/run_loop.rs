@@ -1,0 +1,262 @@
+//! A run of a model: settle, tell rows, keep the ledger.
+
+use ::lumped::LumpedError;
+use integrate::{Forces, Integrator, Ledger, Mechanism, Periodicity, State, StepControl, StepLimit, Stiffest};
+use scene::{Analysis, MotionScene, Run, Scene};
+
+use super::{LumpedRow, mechanism::BoxedMechanism, periodicity::PeriodicityMonitor};
+use crate::{
+    AnalysisError, SinkResult,
+    motion::{EnergyRow, scheme},
+};
+
+/// Phases of a mesh cycle at which the longest stable step is looked for.
+const PHASES: u32 = 32;
+
+/// Frequencies by which steps are chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MeshFrequencies {
+    /// Of the mesh, Hz.
+    pub mesh_hz: f64,
+    /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: none.
+    pub resonance_hz: f64,
+}
+
+impl MeshFrequencies {
+    /// Steps between rows that show the mesh resonance with as many steps as asked.
+    fn steps_per_row(self, motion: &MotionScene) -> u32 {
+        let per_cycle = f64::from(motion.steps_per_resonance) * self.resonance_hz / self.mesh_hz;
+        let needed = (per_cycle / f64::from(motion.steps_per_mesh_cycle)).ceil();
+        if needed.is_finite() { needed.clamp(1.0, 1e6) as u32 } else { 1 }
+    }
+
+    /// Length of a step, s.
+    pub fn step(self, motion: &MotionScene) -> f64 {
+        let rows = f64::from(motion.steps_per_mesh_cycle) * self.mesh_hz;
+        1.0 / rows / f64::from(self.steps_per_row(motion))
+    }
+}
+
+/// Rows of a run and what it took.
+#[derive(Debug)]
+pub(crate) struct LumpedRun {
+    /// Row by row.
+    pub rows: Vec<LumpedRow>,
+    /// Energy since the start of the run, row by row and at its end.
+    pub energy: Vec<EnergyRow>,
+    /// Where it ends.
+    pub end: State,
+    /// Rows in a mesh cycle.
+    pub per_cycle: usize,
+    /// Mesh cycles with rows.
+    pub cycles: u64,
+    /// The last of these, which the headline and the spectra are of.
+    pub judged: u64,
+    /// Mesh cycles before them.
+    pub warm_up: u64,
+    /// How nearly the motion repeated itself at last.
+    pub periodicity: Option<Periodicity>,
+    /// Energy from the start of the run on.
+    pub ledger: Ledger,
+    /// Steps taken, and taken back.
+    pub steps: [u64; 2],
+    /// Steps from row to row.
+    pub steps_per_row: u32,
+}
+
+impl LumpedRun {
+    /// Rows of the mesh cycles that are judged.
+    pub fn judged_rows(&self) -> &[LumpedRow] {
+        &self.rows[self.rows.len().saturating_sub(self.judged as usize * self.per_cycle)..]
+    }
+
+    /// One row a mesh cycle, at its beginning: a stroboscopic section.
+    pub fn section(&self) -> impl Iterator<Item = &LumpedRow> {
+        self.rows.iter().step_by(self.per_cycle)
+    }
+}
+
+/// What is told of a run on its way.
+pub(super) trait RunObserver {
+    /// A row, at the beginning of a mesh cycle or within it.
+    fn row(&mut self, row: &LumpedRow, begins_cycle: bool) -> SinkResult;
+}
+
+/// Tells nobody.
+pub(super) struct NoRunObserver;
+
+impl RunObserver for NoRunObserver {
+    fn row(&mut self, _: &LumpedRow, _: bool) -> SinkResult {
+        Ok(())
+    }
+}
+
+/// What keeps a run from its end.
+pub(super) enum RunFailure {
+    /// The model or a step.
+    Lumped(LumpedError),
+    /// Whoever gets the rows.
+    Sink(Box<dyn std::error::Error + Send + Sync>),
+}
+
+impl RunFailure {
+    /// With the scene that it is about.
+    pub fn of(self, scene: &Scene) -> AnalysisError {
+        match self {
+            Self::Lumped(e) => AnalysisError::lumped(scene, e),
+            Self::Sink(e) => AnalysisError::Sink(e),
+        }
+    }
+}
+
+impl From<LumpedError> for RunFailure {
+    fn from(e: LumpedError) -> Self {
+        Self::Lumped(e)
+    }
+}
+
+/// Mesh cycles that are written.
+fn cycles(scene: &Scene, motion: &MotionScene, mesh_frequency_hz: f64) -> u64 {
+    let Analysis { cycles, .. } = scene.analysis;
+    let ramp = motion.ramp.map(|r| r.before_s + r.duration_s + r.after_s);
+    // A float beyond the range becomes its end.
+    motion.duration_s.or(ramp).map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
+}
+
+/// The integrator that a scene asks for, steps as long as this at the most.
+pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64) -> Integrator {
+    let control = match motion.error_tolerance {
+        None => StepControl::Fixed(step),
+        Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * step, least: 1e-7 * step, largest: step },
+    };
+    Integrator::new(scheme(motion), control, model.scale()).stopping_at_events(motion.stop_at_events).keeping_stable()
+}
+
+/// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the start on, its coordinates held. `None` where any step is stable.
+///
+/// # Errors
+/// [`LumpedError`] where there is nothing to start from.
+pub(super) fn stable_step(
+    model: &mut BoxedMechanism,
+    motion: &MotionScene,
+    mesh_hz: f64,
+) -> Result<Option<StepLimit>, LumpedError> {
+    let stiffest = Stiffest::new(scheme(motion), model.mass()).filter(|_| motion.error_tolerance.is_none());
+    let Some(mut stiffest) = stiffest else { return Ok(None) };
+    let start = model.start()?;
+    let mut forces = Forces::zeros(start.q.len());
+    for phase in 0..PHASES {
+        forces.clear();
+        let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
+        let Ok(()) = model.forces(time, &start.q, &start.v, &mut forces);
+        stiffest.include(&forces);
+    }
+    Ok(stiffest.limit())
+}
+
+/// A run of a model, from a state at the beginning of a mesh cycle, else from rest under the load.
+pub(super) struct RunPlan<'a> {
+    pub scene: &'a Scene,
+    pub motion: &'a MotionScene,
+    pub frequencies: MeshFrequencies,
+    pub from: Option<&'a State>,
+}
+
+impl RunPlan<'_> {
+    /// Time at which row `row`, counted from the start, stands, s.
+    fn time(&self, row: u64) -> f64 {
+        let (period, per_cycle) = (1.0 / self.frequencies.mesh_hz, f64::from(self.motion.steps_per_mesh_cycle));
+        row as f64 * period / per_cycle
+    }
+
+    /// Runs it; the clock begins at 0 whatever the state's own says.
+    ///
+    /// # Errors
+    /// [`LumpedError`] where there is nothing to start from, or a step does not settle; that of the observer.
+    pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, RunFailure> {
+        let Self { scene, motion, frequencies, from } = *self;
+        let per_cycle = u64::from(motion.steps_per_mesh_cycle);
+        let mut state = match from {
+            Some(from) => State::new(0.0, from.q.clone(), from.v.clone()),
+            None => model.start()?,
+        };
+        let mut integrator = integrator(model, motion, frequencies.step(motion));
+        let (warm_up, periodicity) = self.settle(model, &mut integrator, &mut state)?;
+        let cycles = cycles(scene, motion, frequencies.mesh_hz);
+        let (mut rows, mut energy) = (Vec::new(), Vec::new());
+        for k in 0..cycles * per_cycle {
+            let row = model.row(&state);
+            observer.row(&row, k % per_cycle == 0).map_err(RunFailure::Sink)?;
+            rows.push(row);
+            energy.push(EnergyRow::of(state.time, &ledger(model, &integrator, &state)));
+            advance(model, &mut integrator, &mut state, self.time(warm_up * per_cycle + k + 1))?;
+        }
+        let ledger = ledger(model, &integrator, &state);
+        energy.push(EnergyRow::of(state.time, &ledger));
+        // Of a ramp the last speed is judged.
+        let judged = match motion.ramp {
+            Some(ramp) => ((ramp.after_s * frequencies.mesh_hz).floor() as u64).clamp(1, cycles),
+            None => cycles,
+        };
+        Ok(LumpedRun {
+            rows,
+            energy,
+            end: state,
+            per_cycle: per_cycle as usize,
+            cycles,
+            judged,
+            warm_up,
+            periodicity,
+            ledger,
+            steps: integrator.steps(),
+            steps_per_row: frequencies.steps_per_row(motion),
+        })
+    }
+
+    /// Mesh cycles until the motion repeats itself, at most as many as the scene has for that, and how nearly it does.
+    fn settle(
+        &self,
+        model: &mut BoxedMechanism,
+        integrator: &mut Integrator,
+        state: &mut State,
+    ) -> Result<(u64, Option<Periodicity>), LumpedError> {
+        let motion = self.motion;
+        let (per_cycle, most) = (u64::from(motion.steps_per_mesh_cycle), u64::from(motion.warm_up_cycles.unwrap_or(0)));
+        let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
+        let (mut monitor, mut periodicity, mut warm_up) = (PeriodicityMonitor::default(), None, 0);
+        while motion.run == Run::Steady && warm_up < most {
+            let mut errors = Vec::with_capacity(per_cycle as usize);
+            for k in 0..per_cycle {
+                errors.push(model.row(state).transmission_error_um);
+                advance(model, integrator, state, self.time(warm_up * per_cycle + k + 1))?;
+            }
+            warm_up += 1;
+            let found = monitor.judge(errors, tolerance);
+            periodicity = Some(found);
+            if found.residual <= tolerance {
+                break;
+            }
+        }
+        Ok((warm_up, periodicity))
+    }
+}
+
+/// Energy so far; before the first step what the start holds.
+fn ledger(model: &mut BoxedMechanism, integrator: &Integrator, state: &State) -> Ledger {
+    match integrator.ledger() {
+        Some(ledger) => *ledger,
+        None => {
+            let Ok(potential) = model.potential(state.time, &state.q);
+            Ledger::open(model.mass(), &state.v, potential)
+        }
+    }
+}
+
+fn advance(
+    model: &mut BoxedMechanism,
+    integrator: &mut Integrator,
+    state: &mut State,
+    until: f64,
+) -> Result<(), LumpedError> {
+    Ok(integrator.advance(model, state, until, |_, _| ())?)
+}

@@ -1,0 +1,122 @@
+//! What is read off the points of a sweep.
+
+use scene::{Scene, SweepWay};
+use serde::Serialize;
+use study::{Bifurcation, Branch};
+
+use super::{SectionEvery, SweepOptions, SweepPoint};
+
+/// Answers of both ways are two when their extents differ by this share of the largest peak to peak.
+const APART: f64 = 0.02;
+
+/// What a sweep is made for.
+#[derive(Debug, Clone, Serialize)]
+pub struct SweepHeadline {
+    /// The key that changes.
+    pub key: String,
+    /// First and last value.
+    pub range: [f64; 2],
+    /// Values.
+    pub values: usize,
+    /// The column whose section is taken.
+    pub section_of: String,
+    /// How often.
+    pub once: SectionEvery,
+    /// The largest peak to peak of each way.
+    pub largest: Vec<SweepPoint>,
+    /// Points, and among them those with a section that comes back at once.
+    pub points: usize,
+    /// Section of one point.
+    pub period_one: usize,
+    /// Section of a few points: a subharmonic answer. Way, value and period.
+    pub subharmonic: Vec<(SweepWay, f64, usize)>,
+    /// No period found, way and value.
+    pub not_periodic: Vec<(SweepWay, f64)>,
+    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and value; `None` where no exponent was asked for.
+    pub chaotic: Option<Vec<(SweepWay, f64)>>,
+    /// Ranges of the key in which upwards and downwards give other answers.
+    pub hysteresis: Option<Vec<[f64; 2]>>,
+    /// Values at which flanks part at times, of all ways.
+    pub parting: usize,
+    /// Values without a motion, way, value and reason.
+    pub failed: Vec<(SweepWay, f64, String)>,
+    /// Tolerance of the periodic state.
+    pub periodic_tolerance: f64,
+}
+
+/// Reads it off the points.
+pub(super) fn headline(scene: &Scene, options: &SweepOptions, points: &[SweepPoint]) -> SweepHeadline {
+    let largest = options.ways.iter().filter_map(|way| {
+        let own = points.iter().filter(|p| p.way == *way && p.failed.is_none());
+        own.max_by(|a, b| a.peak_to_peak().total_cmp(&b.peak_to_peak())).cloned()
+    });
+    let which = |keep: &dyn Fn(&SweepPoint) -> bool| -> Vec<(SweepWay, f64)> {
+        points.iter().filter(|p| keep(p)).map(|p| (p.way, p.value)).collect()
+    };
+    let range = points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.value), b.max(p.value)]);
+    SweepHeadline {
+        key: options.key.clone(),
+        range,
+        values: points.len() / options.ways.len().max(1),
+        section_of: options.quantity.name.clone(),
+        once: options.every,
+        largest: largest.collect(),
+        points: points.len(),
+        period_one: points.iter().filter(|p| p.period == Some(1)).count(),
+        subharmonic: points.iter().filter_map(|p| Some((p.way, p.value, p.period.filter(|n| *n > 1)?))).collect(),
+        // A section of a point or two tells no period.
+        not_periodic: which(&|p| p.period.is_none() && p.points.len() > 2),
+        failed: points.iter().filter_map(|p| p.failed.as_ref().map(|e| (p.way, p.value, e.to_string()))).collect(),
+        chaotic: (options.stretches > 0).then(|| which(&SweepPoint::is_chaotic)),
+        hysteresis: hysteresis(options, points),
+        parting: points.iter().filter(|p| p.rows_apart > 0).count(),
+        periodic_tolerance: scene.motion.as_ref().and_then(|m| m.periodic_tolerance).unwrap_or(1e-6),
+    }
+}
+
+/// Where both ways differ by more than a share of the largest peak to peak. Motions that never come back differ at all times, and say nothing of two answers.
+fn hysteresis(options: &SweepOptions, points: &[SweepPoint]) -> Option<Vec<[f64; 2]>> {
+    let both = [SweepWay::Up, SweepWay::Down];
+    if !both.iter().all(|way| options.ways.contains(way)) {
+        return None;
+    }
+    let largest = points.iter().map(SweepPoint::peak_to_peak).filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let [up, down] = both.map(|way| points.iter().filter(|p| p.way == way).collect::<Vec<_>>());
+    let branch = |p: &SweepPoint, other: &SweepPoint| Branch {
+        value: p.value,
+        points: if p.period.is_none() && other.period.is_none() || [p, other].iter().any(|p| p.failed.is_some()) {
+            Vec::new()
+        } else {
+            p.extent.to_vec()
+        },
+    };
+    let of =
+        |a: &[&SweepPoint], b: &[&SweepPoint]| -> Vec<Branch> { a.iter().zip(b).map(|(p, o)| branch(p, o)).collect() };
+    Some(Bifurcation { forward: of(&up, &down), backward: of(&down, &up) }.hysteresis(APART * largest))
+}
+
+impl SweepHeadline {
+    /// What a user should hear.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let silent = self.chaotic.is_none();
+        let failed = self.failed.first().map(|(_, _, reason)| {
+            format!(
+                "{} of {} points have no solution; their rows in sweep.csv say why, the first: {reason}",
+                self.failed.len(),
+                self.points
+            )
+        });
+        (silent && !self.not_periodic.is_empty())
+            .then(|| {
+                format!(
+                    "at {} of {} points the section does not come back: chaotic, quasi-periodic, or `warm_up_cycles` are too few; a Lyapunov exponent \
+                     (`ale-gear sweep --lyapunov 200`) tells which",
+                    self.not_periodic.len(),
+                    self.points
+                )
+            })
+            .into_iter()
+            .chain(failed)
+            .collect()
+    }
+}

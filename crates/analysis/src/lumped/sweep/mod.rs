@@ -1,0 +1,143 @@
+//! A run at each value of a key: bifurcation diagrams and resonance curves.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `options` | what is asked for |
+//! | `point`, `free_turn` | one value: settle, section, exponent, and what the exponent leaves out |
+//! | `ways` | value after value, upwards, downwards or each by itself |
+//! | `headline` | what is read off the points |
+
+mod free_turn;
+mod headline;
+mod options;
+mod point;
+mod ways;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use scene::Scene;
+
+pub use headline::SweepHeadline;
+pub use options::{LumpedQuantity, SectionEvery, SweepOptions};
+pub use point::SweepPoint;
+
+use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, resolution::with_slices,
+    run_phase,
+};
+use ways::{SweepValue, one_way};
+
+/// A scene of a cheaper model at many values of one of its keys.
+#[derive(Clone, Copy)]
+pub struct KeySweep<'a> {
+    scenes: &'a [(f64, Scene)],
+    options: &'a SweepOptions,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for KeySweep<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("KeySweep").field("values", &self.scenes.len()).field("options", self.options).finish()
+    }
+}
+
+/// The answer to a sweep.
+#[derive(Debug)]
+pub struct BifurcationAnalysis {
+    /// The scene of the first value with a model: it stands for what they have in common.
+    pub scene: Scene,
+    /// What that was made of.
+    pub facts: Facts,
+    /// Way by way, in ascending order of the value.
+    pub points: Vec<SweepPoint>,
+    /// What is read off them.
+    pub headline: SweepHeadline,
+    /// What a user should hear.
+    pub warnings: Vec<String>,
+}
+
+impl<'a> KeySweep<'a> {
+    /// Of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever its `run`.
+    pub fn new(scenes: &'a [(f64, Scene)], options: &'a SweepOptions) -> Self {
+        Self { scenes, options, cache: &NoCache }
+    }
+
+    /// With reduced gears from a cache, where the reduced model feeds the mesh.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Runs all values, telling nobody.
+    ///
+    /// # Errors
+    /// As [`KeySweep::solve_with`].
+    pub fn solve(&self) -> Result<BifurcationAnalysis, AnalysisError> {
+        self.solve_with(&mut NoObserver)
+    }
+
+    /// Runs the model of a scene at each value, way by way, ways and the values of `apart` in parallel.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] when no motion comes out at any value: one value without a motion has its reason in its point.
+    pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<BifurcationAnalysis, AnalysisError> {
+        let options = self.options;
+        let values = self.gather(observer);
+        let (first, system) = first_of(&values)?;
+        let (facts, mut warnings) = (analysis::facts(first, system.coordinates()), system.warnings);
+        let count = (values.len() * options.ways.len()) as u64;
+        let points: Vec<SweepPoint> = run_phase(observer, "sweep", PhaseWork::Steps(count), |progress| {
+            let at = |value: &SweepValue, from: Option<&_>| match &value.inputs {
+                Ok(inputs) => point::run(inputs, value.value, options, from).map_err(Arc::new),
+                Err(e) => Err(Arc::clone(e)),
+            };
+            let of_way = |&way| one_way(way, &values, at, &|| progress.tick());
+            let points: Vec<Vec<SweepPoint>> = options.ways.par_iter().map(of_way).collect();
+            points.into_iter().flatten().collect()
+        });
+        let failed = points.first().and_then(|p| p.failed.clone());
+        if let (Some(error), true) = (failed, points.iter().all(|p| p.failed.is_some())) {
+            return Err(AnalysisError::Shared(error));
+        }
+        let headline = headline::headline(&first.scene, options, &points);
+        warnings.extend(headline.warnings());
+        // Who sweeps the backlash knows.
+        let swept = options.key.contains("backlash") || options.key.contains("thickness");
+        warnings.extend(no_backlash(first).filter(|_| !swept));
+        Ok(BifurcationAnalysis { scene: first.scene.clone(), facts, points, headline, warnings })
+    }
+
+    /// All values with what their models are made of.
+    fn gather(&self, observer: &mut dyn Observer) -> Vec<SweepValue> {
+        let mut source = ExcitationSource::new(observer, self.cache);
+        let mut of = |scene: &Scene| {
+            let settled = self.options.settled(&with_slices(scene.clone()))?;
+            LumpedInputs::gather(&settled, &mut source)
+        };
+        self.scenes
+            .iter()
+            .map(|(value, scene)| SweepValue { value: *value, inputs: of(scene).map_err(Arc::new) })
+            .collect()
+    }
+}
+
+/// The first value with a model.
+///
+/// # Errors
+/// That of the first value where none has a model.
+fn first_of(values: &[SweepValue]) -> Result<(&LumpedInputs, LumpedSystem), AnalysisError> {
+    let mut error = None;
+    for value in values {
+        let built = match &value.inputs {
+            Ok(inputs) => inputs.build().map(|system| (inputs, system)).map_err(Arc::new),
+            Err(e) => Err(Arc::clone(e)),
+        };
+        match built {
+            Ok(first) => return Ok(first),
+            Err(e) => error = error.or(Some(e)),
+        }
+    }
+    Err(error.map_or(AnalysisError::NoValues, AnalysisError::Shared))
+}

@@ -1,0 +1,104 @@
+//! What a sweep is asked for.
+
+use std::{fmt, sync::Arc};
+
+use scene::{MotionScene, Run, Scene, SweepScene, SweepWay};
+use serde::Serialize;
+
+use super::super::{LumpedRow, analysis::motion_of};
+use crate::AnalysisError;
+
+/// A number of a row with its name.
+#[derive(Clone)]
+pub struct LumpedQuantity {
+    /// Name with unit.
+    pub name: String,
+    value: Arc<dyn Fn(&LumpedRow) -> f64 + Send + Sync>,
+}
+
+impl fmt::Debug for LumpedQuantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("LumpedQuantity").field(&self.name).finish()
+    }
+}
+
+impl LumpedQuantity {
+    /// Of a name and what it stands for.
+    pub fn new(name: impl Into<String>, value: impl Fn(&LumpedRow) -> f64 + Send + Sync + 'static) -> Self {
+        Self { name: name.into(), value: Arc::new(value) }
+    }
+
+    /// Its number in a row.
+    pub fn of(&self, row: &LumpedRow) -> f64 {
+        (self.value)(row)
+    }
+}
+
+/// How often a section has a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SectionEvery {
+    /// Once a mesh cycle.
+    MeshCycle,
+    /// Once a turn of the pinion.
+    PinionTurn,
+    /// Once a turn of the wheel.
+    WheelTurn,
+}
+
+impl SectionEvery {
+    /// Mesh cycles from one point of a section to the next.
+    pub fn cycles(self, scene: &Scene) -> u32 {
+        match self {
+            Self::MeshCycle => 1,
+            Self::PinionTurn => scene.pinion.teeth,
+            Self::WheelTurn => scene.wheel.teeth,
+        }
+    }
+}
+
+/// What a sweep is asked for.
+#[derive(Debug, Clone)]
+pub struct SweepOptions {
+    /// The key that changes, with dots.
+    pub key: String,
+    /// Which way its values are gone through.
+    pub ways: Vec<SweepWay>,
+    /// How often a section has a point.
+    pub every: SectionEvery,
+    /// The quantity whose section is taken.
+    pub quantity: LumpedQuantity,
+    /// Points of a section, >= 1.
+    pub points: u32,
+    /// Stretches of a mesh cycle over which the Lyapunov exponent is found; 0: it is not.
+    pub stretches: u32,
+}
+
+impl SweepOptions {
+    /// The sweep over speed that a scene with `run = "sweep"` asks for, with its scenes.
+    pub fn over_speed(scene: &Scene, speeds: &SweepScene, quantity: LumpedQuantity) -> (Vec<(f64, Scene)>, Self) {
+        let at = |speed_rpm: f64| {
+            let mut own = scene.clone();
+            own.operation.speed_rpm = speed_rpm;
+            (speed_rpm, own)
+        };
+        let options = Self {
+            key: "operation.speed_rpm".into(),
+            ways: speeds.ways.clone(),
+            every: SectionEvery::MeshCycle,
+            quantity,
+            points: scene.analysis.cycles.max(1),
+            stretches: 0,
+        };
+        (speeds.all_rpm().into_iter().map(at).collect(), options)
+    }
+
+    /// The scene of one value as it is run: to the periodic state, then as many cycles as the section takes.
+    pub(super) fn settled(&self, scene: &Scene) -> Result<Scene, AnalysisError> {
+        let motion = motion_of(scene)?.clone();
+        let mut own = scene.clone();
+        own.analysis.cycles = self.points.saturating_mul(self.every.cycles(scene));
+        own.motion = Some(MotionScene { run: Run::Steady, duration_s: None, ramp: None, sweep: None, ..motion });
+        Ok(own)
+    }
+}

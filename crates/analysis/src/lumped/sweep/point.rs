@@ -1,0 +1,176 @@
+//! One value of a sweep.
+
+use std::{f64::consts::TAU, sync::Arc};
+
+use ::lumped::LumpedError;
+use integrate::State;
+use scene::{MotionScene, SweepWay};
+use serde::Serialize;
+use study::{Lyapunov, LyapunovPlan, extent, largest_lyapunov, mean, section_period};
+
+use super::{
+    super::{
+        LumpedInputs,
+        analysis::{checked_run, motion_of},
+        mechanism::BoxedMechanism,
+        run_loop::{self, MeshFrequencies},
+    },
+    SweepOptions,
+    free_turn::FreeTurn,
+};
+use crate::AnalysisError;
+
+/// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
+const SAME: f64 = 1e-3;
+/// Distance of the neighbour over the scales of the motion.
+const DISTANCE: f64 = 1e-7;
+/// Stretches before counting begins, over those that count.
+const SETTLING: u32 = 5;
+
+/// What the motion settled to at one value; units are in the names, those of the section's column in its own.
+#[derive(Debug, Clone, Serialize)]
+pub struct SweepPoint {
+    /// Which way it was come from.
+    pub way: SweepWay,
+    /// Value of the key.
+    pub value: f64,
+    /// Points of the section, in their order in time.
+    #[serde(skip)]
+    pub points: Vec<f64>,
+    /// Of the column over the cycles that are written.
+    pub mean: f64,
+    /// Its smallest and largest.
+    pub extent: [f64; 2],
+    /// Points after which the section comes back; `None`: after none up to a third of them.
+    pub period: Option<usize>,
+    /// Difference after the best period of a few mesh cycles, over the peak to peak.
+    pub periodicity: Option<f64>,
+    /// Mesh cycles before the section.
+    pub warm_up_cycles: u64,
+    /// Largest Lyapunov exponent, 1/s.
+    pub lyapunov: Option<Lyapunov>,
+    /// Smallest and largest normal force, N.
+    pub normal_force_n: [f64; 2],
+    /// Rows in which the driving flanks do not press.
+    pub rows_apart: usize,
+    /// Why there is no motion at this value; `None` where there is one.
+    #[serde(skip)]
+    pub failed: Option<Arc<AnalysisError>>,
+}
+
+impl SweepPoint {
+    /// A value without a motion: nothing is known of it but why.
+    pub(super) fn missing(way: SweepWay, value: f64, error: Arc<AnalysisError>) -> Self {
+        let none = f64::NAN;
+        Self {
+            way,
+            value,
+            points: Vec::new(),
+            mean: none,
+            extent: [none; 2],
+            period: None,
+            periodicity: None,
+            warm_up_cycles: 0,
+            lyapunov: None,
+            normal_force_n: [none; 2],
+            rows_apart: 0,
+            failed: Some(error),
+        }
+    }
+
+    /// Exponent above zero beyond three standard errors, and a section that does not come back.
+    pub fn is_chaotic(&self) -> bool {
+        self.period.is_none() && self.lyapunov.is_some_and(|l| l.is_chaotic())
+    }
+
+    /// Largest minus smallest of the column.
+    pub fn peak_to_peak(&self) -> f64 {
+        self.extent[1] - self.extent[0]
+    }
+}
+
+/// A point, and where its motion ends.
+pub(super) struct SettledPoint {
+    pub point: SweepPoint,
+    pub end: State,
+}
+
+/// Settles and takes the section; from a state of another value where there is one of as many coordinates.
+pub(super) fn run(
+    inputs: &LumpedInputs,
+    value: f64,
+    options: &SweepOptions,
+    from: Option<&State>,
+) -> Result<SettledPoint, AnalysisError> {
+    let scene = &inputs.scene;
+    let motion = motion_of(scene)?;
+    let system = inputs.build()?;
+    let count = system.coordinates();
+    let (mut model, resonance_hz) = (system.model, system.resonance_hz);
+    let frequencies = inputs.frequencies(motion, resonance_hz);
+    let from = from.filter(|s| s.q.len() == count);
+    let located = |e: AnalysisError| AnalysisError::AtValue { key: options.key.clone(), value, source: Box::new(e) };
+    let run = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
+    let every = options.every.cycles(scene) as usize;
+    let points: Vec<f64> = run.section().map(|row| options.quantity.of(row)).step_by(every).collect();
+    let of_rows: Vec<f64> = run.rows.iter().map(|row| options.quantity.of(row)).collect();
+    let force: Vec<f64> = run.rows.iter().map(|row| row.normal_force).collect();
+    let range = extent(&of_rows);
+    let lyapunov = match options.stretches {
+        0 => None,
+        n => {
+            let found = exponent(&mut model, motion, &run.end, frequencies, n);
+            Some(found.map_err(|e| located(AnalysisError::lumped(scene, e)))?)
+        }
+    };
+    let as_rows: Vec<Vec<f64>> = points.iter().map(|p| vec![*p]).collect();
+    let point = SweepPoint {
+        way: SweepWay::Apart,
+        value,
+        period: section_period(&as_rows, SAME, &[range[1] - range[0]]),
+        points,
+        mean: mean(&of_rows),
+        extent: range,
+        periodicity: run.periodicity.map(|p| p.residual),
+        warm_up_cycles: run.warm_up,
+        lyapunov,
+        normal_force_n: extent(&force),
+        rows_apart: force.iter().filter(|f| **f <= 0.0).count(),
+        failed: None,
+    };
+    Ok(SettledPoint { point, end: run.end })
+}
+
+/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle; of the gears' free turn, which nothing holds, it says nothing.
+fn exponent(
+    model: &mut BoxedMechanism,
+    motion: &MotionScene,
+    end: &State,
+    frequencies: MeshFrequencies,
+    stretches: u32,
+) -> Result<Lyapunov, LumpedError> {
+    let (n, period) = (end.q.len(), 1.0 / frequencies.mesh_hz);
+    let fastest = TAU * frequencies.mesh_hz.max(frequencies.resonance_hz);
+    let lengths = model.scale();
+    let scale: Vec<f64> = lengths.iter().copied().chain(lengths.iter().map(|s| fastest * s)).collect();
+    let start: Vec<f64> = end.q.iter().chain(end.v.iter()).copied().collect();
+    let plan = LyapunovPlan {
+        stretch: period,
+        settling: (stretches / SETTLING) as usize,
+        stretches: stretches as usize,
+        distance: DISTANCE,
+    };
+    let step = frequencies.step(motion);
+    let free = FreeTurn::of(model)?;
+    largest_lyapunov(&start, &scale, &plan, |x, k| {
+        let (q, v) = x.split_at(n);
+        let mut state = State::new(end.time + k as f64 * period, q.to_vec().into(), v.to_vec().into());
+        let until = end.time + (k + 1) as f64 * period;
+        run_loop::integrator(model, motion, step).advance(model, &mut state, until, |_, _| ())?;
+        if let Some(free) = &free {
+            free.remove(&mut state.q);
+            free.remove(&mut state.v);
+        }
+        Ok(state.q.iter().chain(state.v.iter()).copied().collect())
+    })
+}

@@ -1,0 +1,51 @@
+//! What a user of a cheaper model should hear.
+
+use scene::{Model, MotionScene, Run};
+
+use super::{headline::LumpedHeadline, inputs::LumpedInputs};
+use crate::motion::NO_BACKLASH_UM;
+
+/// Residual of the ledger over the turnover from which on a user should hear of it.
+const OPEN_ENERGY: f64 = 1e-3;
+
+/// A mesh without backlash where the model has one: its flanks do not part.
+pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
+    let LumpedInputs { scene, pair, .. } = inputs;
+    let of_pair = 1e3 * pair.backlash();
+    let backlash_um = match (scene.analysis.model, &scene.mesh) {
+        (Model::Lumped8 | Model::Shaft18, Some(mesh)) => mesh.half_backlash_um.map_or(of_pair, |half| 2.0 * half),
+        (Model::Impact, _) => of_pair,
+        _ => return None,
+    };
+    let own = if scene.mesh.is_some() { "`half_backlash_um` in [mesh], or " } else { "" };
+    (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
+        format!(
+            "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance; give {own}`thickness_allowance_mm` \
+             in [pinion] and [wheel]"
+        )
+    })
+}
+
+/// What the certificate says that a user should hear.
+pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let c = &headline.certificate;
+    if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {
+        if found > asked {
+            warnings.push(format!(
+                "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); it may be chaotic, or \
+                 need more `warm_up_cycles`",
+                c.warm_up_cycles
+            ));
+        } else if let Some(period) = c.period_cycles.filter(|p| *p > 1) {
+            warnings.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
+        }
+    }
+    if c.ledger_residual_over_turnover.abs() > OPEN_ENERGY {
+        warnings.push(format!(
+            "energy closes to {:.1e} of the work done only (asked: {OPEN_ENERGY:.0e}): take smaller steps or `method = \"energy\"`",
+            c.ledger_residual_over_turnover.abs()
+        ));
+    }
+    warnings
+}

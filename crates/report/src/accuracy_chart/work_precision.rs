@@ -1,0 +1,90 @@
+//! The work-precision chart: errors against wall times, one panel a quantity and a kind of work.
+
+use plotters::prelude::*;
+use study::{AnswerError, Work};
+
+use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use analysis::accuracy_chart::{Outcome, WorkPrecision};
+
+const WIDTH: u32 = 1040;
+/// Height of a row of panels.
+const PANEL: i32 = 290;
+/// Height of title and legend.
+const HEAD: u32 = 136;
+/// Errors below this are drawn on the axis: round-off and luck are no accuracy.
+const LEAST: f64 = 1e-5;
+
+/// One error of an answer, where it is known.
+struct Quantity {
+    name: &'static str,
+    of: fn(&AnswerError) -> Option<f64>,
+}
+
+/// One wall time.
+struct Effort {
+    name: &'static str,
+    of: fn(&Work) -> f64,
+}
+
+const QUANTITIES: [Quantity; 3] = [
+    Quantity { name: "mean STE", of: |e| Some(e.mean_ste) },
+    Quantity { name: "peak-to-peak STE", of: |e| e.peak_to_peak_ste },
+    Quantity { name: "mean contact-line length", of: |e| e.mean_line_length },
+];
+const EFFORTS: [Effort; 2] = [
+    Effort { name: "first cycle, everything before it included [s]", of: Work::first_cycle_s },
+    Effort { name: "one more position [s]", of: Work::position_s },
+];
+
+/// The chart as SVG.
+///
+/// # Errors
+/// What the drawing library complains of.
+pub fn work_precision_svg(title: &str, chart: &WorkPrecision) -> Result<String, String> {
+    let mut svg = String::new();
+    draw(&mut svg, title, chart).map_err(|e| e.to_string())?;
+    Ok(svg)
+}
+
+/// Names of the ways that have a point, in the order of the table.
+fn series(chart: &WorkPrecision) -> Vec<&'static str> {
+    let mut names: Vec<&'static str> = Vec::new();
+    for row in &chart.rows {
+        if matches!(row.outcome, Outcome::Measured { .. }) && !names.contains(&row.way) {
+            names.push(row.way);
+        }
+    }
+    names
+}
+
+/// Points (s, error in %) of a way in one panel, with the elements along the profile.
+fn points(chart: &WorkPrecision, way: &str, q: &Quantity, e: &Effort) -> Vec<Labelled> {
+    let rows = chart.rows.iter().filter(|r| r.way == way);
+    rows.filter_map(|r| match &r.outcome {
+        Outcome::Measured { work, error, .. } => {
+            let (x, y) = ((e.of)(work), (q.of)(error)?.abs().max(LEAST));
+            let label = r.density.filter(|d| d.profile > 0).map(|d| d.profile.to_string());
+            (x > 0.0 && x.is_finite() && y.is_finite()).then_some(Labelled { at: (x, 100.0 * y), label })
+        }
+        Outcome::Skipped(_) => None,
+    })
+    .collect()
+}
+
+fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Failure> {
+    let height = HEAD + (PANEL as u32) * QUANTITIES.len() as u32;
+    let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (head, body) = root.split_vertically(HEAD);
+    let names = series(chart);
+    legend(&head, title, &names)?;
+    let panels = body.split_evenly((QUANTITIES.len(), EFFORTS.len()));
+    for (i, panel) in panels.iter().enumerate() {
+        let (q, e) = (&QUANTITIES[i / EFFORTS.len()], &EFFORTS[i % EFFORTS.len()]);
+        let all: Vec<_> = names.iter().map(|n| points(chart, n, q, e)).collect();
+        let title = format!("Error of {}", q.name);
+        log_panel(panel, Captions { title: &title, x: e.name, y: "error [%]" }, &all)?;
+    }
+    root.present()?;
+    Ok(())
+}

@@ -1,0 +1,18 @@
+//! Files of a cheaper model and of sweeps over a key: frequencies, points, charts, pages.
+
+mod campbell;
+mod report;
+mod sweep;
+mod sweep_report;
+mod table;
+mod write;
+
+pub use campbell::lumped_campbell_csv;
+pub use report::{LumpedPictures, write_lumped_report};
+pub use sweep::{BIFURCATION_FILE, SWEEP_FILE, SweepPage, bifurcation_csv, sweep_csv};
+pub use sweep_report::{bifurcation_picture, lumped_sweep_table, write_lumped_sweep_report};
+pub use table::lumped_table;
+pub use write::{write_key_sweep, write_lumped};
+
+/// One row a mesh cycle.
+pub const SECTION_FILE: &str = "section.csv";

@@ -1,0 +1,13 @@
+//! Files of a study: the same figures of several scenes, side by side.
+
+mod charts;
+mod outcome;
+mod report;
+mod tables;
+
+pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
+pub use report::{write_study_report, write_study_summary};
+pub use tables::{STUDY_FILE, study_csv, study_table};
+
+/// Folder of the cases of a study, each a result of its own.
+pub const CASES: &str = "cases";

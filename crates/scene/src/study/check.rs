@@ -1,0 +1,152 @@
+//! From the words of a study file to a study. Every complaint is made here, before any work starts.
+
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::columns::{self, ColumnsOf};
+use super::file::{Follow, FullRun, OverTime, Study, StudyCase, StudyQuantity, Take};
+use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use crate::{Run, Scene, SceneError, Setting, Source, Whole, Word};
+
+type Checked<T> = Result<T, SceneError>;
+/// The cases so far, and which columns their rows will have.
+type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
+
+/// Mesh cycles of a figure at the most.
+const CYCLES: u32 = 100_000_000;
+
+pub(super) fn check(s: &Source<'_>, raw: RawStudy, columns: ColumnsOf<'_>) -> Checked<Study> {
+    let mut cases: Vec<StudyCase> = Vec::new();
+    for table in &raw.case {
+        let new = case(s, table)?;
+        if cases.iter().any(|c| c.label == new.label) {
+            let what = format!("there are two cases with the label \"{}\"", new.label);
+            return Err(s.conflict(&table.span(), what, "give each a `label` of its own"));
+        }
+        cases.push(new);
+    }
+    let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
+    if cases.is_empty() {
+        return nothing("a study without cases", "list scenes, each as [[case]] with `scene` and `value`");
+    }
+    if raw.quantity.is_empty() && raw.over_time.is_empty() && raw.follow.is_empty() {
+        return nothing("a study that asks for nothing", "say what to draw: [[quantity]], [[over_time]], [[follow]]");
+    }
+    let known = (&cases[..], columns);
+    let quantities = raw.quantity.iter().map(|t| quantity(s, t, known)).collect::<Checked<_>>()?;
+    let over_time = raw.over_time.iter().map(|t| {
+        let column = column(s, t, &t.get_ref().column, known)?;
+        Ok(OverTime { column, cycles: cycles(s, &t.get_ref().cycles)? })
+    });
+    let over_time = over_time.collect::<Checked<_>>()?;
+    let follow = raw.follow.iter().map(|t| follow(s, t, known)).collect::<Checked<_>>()?;
+    let full = raw.full.as_ref().map(|t| full(s, t, &cases)).transpose()?.flatten();
+    let name = raw.name.unwrap_or_else(|| {
+        s.file.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned())
+    });
+    let parameter = raw.parameter.unwrap_or_else(|| "value".into());
+    Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
+}
+
+fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
+    let raw = table.get_ref();
+    let word = raw.scene.as_ref().ok_or_else(|| missing(s, table, "[[case]]", "scene", "the path of a scene file"))?;
+    if raw.value.is_none() {
+        return Err(missing(s, table, "[[case]]", "value", "its place on the axis of the parameter"));
+    }
+    let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
+    let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
+    let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
+        SceneError::Read { file, source } => {
+            let what = format!("{} cannot be read: {source}", file.display());
+            s.conflict(&word.span(), what, "paths are relative to the study file")
+        }
+        other => other,
+    })?;
+    if let Some(motion) = &scene.motion {
+        if motion.run == Run::Sweep {
+            let what = format!("{} is a sweep, which has no rows over time", path.display());
+            return Err(s.conflict(
+                &word.span(),
+                what,
+                "use a scene at one speed, or a ramp; a sweep draws its own figures",
+            ));
+        }
+        if motion.checkpoint_every_cycles.is_some_and(|every| every > 0) {
+            let what = format!("{} asks for checkpoints, which a study has none of", path.display());
+            return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
+        }
+    }
+    Ok(StudyCase { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene })
+}
+
+/// A key of the scene that a case sets otherwise; messages name it by its place in the study file.
+fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
+    let place = s.place(&word.span());
+    match Setting::parse(word.get_ref()) {
+        Ok(setting) => Ok(setting.clone().called(&format!("{place}: set {}", setting.key()))),
+        Err(SceneError::Setting { what, .. }) => Err(SceneError::Setting { label: format!("{place}: set"), what }),
+        Err(other) => Err(other),
+    }
+}
+
+fn quantity(s: &Source<'_>, table: &Spanned<RawQuantity>, known: Known<'_>) -> Checked<StudyQuantity> {
+    let take = s.choice("take", &table.get_ref().take, &Take::ALL.map(|t| (t.word(), t)))?;
+    Ok(StudyQuantity { column: column(s, table, &table.get_ref().column, known)?, take })
+}
+
+fn follow(s: &Source<'_>, table: &Spanned<RawFollow>, known: Known<'_>) -> Checked<Follow> {
+    let raw = table.get_ref();
+    let own = column(s, table, &raw.column, known)?;
+    let Some(words) = raw.beside.as_ref().filter(|list| !list.is_empty()) else {
+        return Err(missing(s, table, "[[follow]]", "beside", "a list of columns that it may follow"));
+    };
+    let beside = words.iter().map(|word| columns::known(s, "beside", word, known));
+    Ok(Follow {
+        case: case_number(s, &raw.case, known.0)?,
+        column: own,
+        beside: beside.collect::<Checked<_>>()?,
+        cycles: cycles(s, &raw.cycles)?,
+    })
+}
+
+fn full(s: &Source<'_>, table: &Spanned<RawFull>, cases: &[StudyCase]) -> Checked<Option<FullRun>> {
+    let raw = table.get_ref();
+    let case = case_number(s, &raw.case, cases)?;
+    let positions = s.whole("positions", &raw.positions, 1, 0, 100_000)?;
+    let scene = &cases[case].scene;
+    let slices = scene.analysis.model.is_reduced() && scene.contact.slices.is_some();
+    if positions > 0 && !slices {
+        let what = format!("the case \"{}\" has no gears with slices to reduce", cases[case].label);
+        return Err(s.conflict(
+            &table.span(),
+            what,
+            "name a `case` with the model \"reduced\" and the method \"slice\", or leave [full] out",
+        ));
+    }
+    Ok((positions > 0).then_some(FullRun { case, positions }))
+}
+
+/// Number of the case with that label; the first one where none is named.
+fn case_number(s: &Source<'_>, word: &Word, cases: &[StudyCase]) -> Checked<usize> {
+    let Some(word) = word else { return Ok(0) };
+    let labels: Vec<(&str, usize)> = cases.iter().enumerate().map(|(i, c)| (c.label.as_str(), i)).collect();
+    s.one_of("case", word, &labels)
+}
+
+fn cycles(s: &Source<'_>, value: &Whole) -> Checked<Option<u32>> {
+    value.as_ref().map(|_| s.whole("cycles", value, 1, 1, CYCLES)).transpose()
+}
+
+fn column<T>(s: &Source<'_>, table: &Spanned<T>, word: &Word, known: Known<'_>) -> Checked<String> {
+    match word {
+        Some(word) => columns::known(s, "column", word, known),
+        None => Err(missing(s, table, "this table", "column", "the name of a column of history.csv")),
+    }
+}
+
+fn missing<T>(s: &Source<'_>, table: &Spanned<T>, name: &str, key: &str, what: &str) -> SceneError {
+    s.conflict(&table.span(), format!("{name} has no `{key}`"), format!("give {what}"))
+}

@@ -1,0 +1,15 @@
+//! The study file: which scenes, and what to draw of them.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `file` | a checked study |
+//! | `raw`, `check` | its words, and what they mean: every complaint is made here |
+//! | `columns` | which columns a scene's rows will have, told before anything is run |
+
+mod check;
+mod columns;
+mod file;
+mod raw;
+
+pub use columns::{ColumnsOf, column_advice};
+pub use file::{Follow, FullRun, OverTime, Study, StudyCase, StudyQuantity, Take};
