@@ -33,10 +33,8 @@ pub use ::scene;
 pub mod talk;
 
 mod ladder;
-mod partial;
 pub mod reduce;
 mod room;
-mod work_folder;
 
 pub(crate) use analysis::{elastic_gears, gears, iso_model};
 pub use analysis::{iso_root, meshes, resolution};

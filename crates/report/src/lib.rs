@@ -25,6 +25,7 @@ mod cost;
 pub mod csv;
 mod error;
 mod files;
+pub mod folder;
 pub mod motion_files;
 pub mod page;
 pub mod paraview;

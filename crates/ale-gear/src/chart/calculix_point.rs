@@ -11,10 +11,11 @@ use super::{
     measure::{Measured, point_meshes},
     plan::PENALTY,
 };
+use report::folder::Partial;
+
 use crate::{
     elastic_gears::material,
     error::CommandError,
-    partial::Partial,
     run,
     scene::{MisalignmentScene, ModificationScene, Rotation, Scene},
 };

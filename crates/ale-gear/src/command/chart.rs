@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use analysis::motion::motion_precision;
 
 use super::overrides::Overrides;
+use report::folder::Partial;
+
 use crate::{
     chart::{ChartOptions, chart, point_count},
     error::CommandError,
@@ -12,10 +14,10 @@ use crate::{
         ResultDirectory, chart_tables, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png,
         work_precision_svg, write_chart_csv,
     },
-    partial::Partial,
     phases::Phases,
     room,
     scene::Scene,
+    talk,
 };
 
 /// Words of `ale-gear chart`.
@@ -99,7 +101,7 @@ impl ChartArgs {
         results.write("work_precision.svg", svg.as_bytes())?;
         results.write("work_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
         results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         if let Some(file) = &self.into {
             put_into(file, &scene.name, &tables)?;
         }
@@ -132,7 +134,7 @@ impl ChartArgs {
         results.write("motion_precision.svg", svg.as_bytes())?;
         results.write("motion_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
         results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         if let Some(file) = &self.into {
             put_into(file, &scene.name, &table)?;
         }

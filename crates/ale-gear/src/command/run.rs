@@ -135,7 +135,7 @@ impl RunArgs {
             )
             .into()),
             motion::Outcome::Finished(written) => {
-                results.finish()?;
+                results.finish(talk::note)?;
                 progression.done()?;
                 self.answer(written, quiet)
             }
@@ -164,7 +164,7 @@ impl RunArgs {
             return self.move_pair(&scene, words, phases, results, quiet);
         }
         let written = write_result(&scene, &mut phases, &results, &self.cache.open())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         self.answer(written, quiet)
     }
 }

@@ -11,6 +11,7 @@ use crate::{
     phases::Phases,
     room,
     scene::SceneError,
+    talk,
 };
 
 /// Words of `ale-gear study`.
@@ -77,7 +78,7 @@ impl StudyArgs {
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
         results.write("summary.json", write_study_summary(of, &files).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }

@@ -11,6 +11,7 @@ use crate::{
     resolution::with_slices,
     room,
     scene::{Kind, Scene, Setting, SweepWay},
+    talk,
 };
 
 /// Words of `ale-gear sweep`.
@@ -202,7 +203,7 @@ impl SweepArgs {
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let table = ladder::sweep_key(&scenes, &request, &mut phases, &results, &cache)?;
-        results.finish()?;
+        results.finish(talk::note)?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }

@@ -4,7 +4,6 @@
 mod chart_csv;
 mod chart_tables;
 mod columnar;
-mod directory;
 mod error;
 mod ladder_report;
 mod ladder_sweep;
@@ -14,14 +13,13 @@ mod study_report;
 mod study_tables;
 mod work_precision_chart;
 
+pub use ::report::folder::{CASES, ResultDirectory};
 pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
 pub use chart_csv::write_chart_csv;
 pub use chart_tables::chart_tables;
 pub(crate) use columnar::{close, write_columnar};
-pub(crate) use directory::CASES;
-pub use directory::ResultDirectory;
 pub(crate) use ladder_report::{LadderPictures, write_ladder_report};
 pub(crate) use ladder_sweep::{bifurcation_picture, ladder_sweep_table, write_ladder_sweep_report};
 pub(crate) use ladder_table::ladder_table;

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use report::page::Rendered;
 
 use super::{
-    directory::CASES,
+    CASES,
     study_charts::figures,
     study_tables::{speed_up_text, step_s},
 };

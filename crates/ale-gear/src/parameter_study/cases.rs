@@ -19,6 +19,7 @@ use crate::{
     motion::{Columns, HISTORY, read_columns},
     output::{CASES, ResultDirectory},
     scene::Scene,
+    talk,
 };
 
 /// Phases of a motion that take steps.
@@ -118,9 +119,9 @@ pub(crate) fn run_cases(
 fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> CaseOutcome {
     let case = &study.cases[i];
     let folder = results.path(CASES).join(study.folder(i));
-    let own = ResultDirectory::create(&folder)?;
+    let own = ResultDirectory::create(&folder).map_err(CommandError::from)?;
     let solved = solve(&case.scene, &own)?;
-    own.finish()?;
+    own.finish(talk::note).map_err(CommandError::from)?;
     let cost = solved.map_err(|error| CaseMiss { error, has_folder: true })?;
     let rows = read_columns(&folder.join(HISTORY)).map_err(CommandError::from)?;
     let summary = summary(&folder)?;
