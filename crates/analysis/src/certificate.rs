@@ -1,6 +1,7 @@
 //! What must hold of a result before its numbers count.
 //!
-//! Every analysis measures how well it has solved its own equations. Each of these measures has a bound; one beyond it, or one that is no number, makes the result a failed one: its files are
+//! Every analysis measures how well it has solved its own equations. Each of these measures has a bound; one beyond it,
+//! or one that is no number, makes the result a failed one: its files are
 //! written all the same, so that they can be looked at, marked as failed, and the command ends with status 1.
 
 use std::collections::BTreeMap;
@@ -63,7 +64,8 @@ impl Certificate {
     /// Whether every check holds.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`]: the first check that is missed with its value and its bound, and how many there are beside it.
+    /// [`AnalysisError::Certificate`]: the first check that is missed with its value and its bound, and how many there
+    /// are beside it.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         let Some(first) = self.missed().next() else { return Ok(()) };
         let others = self.missed().count() - 1;
@@ -76,7 +78,8 @@ impl Certificate {
     }
 }
 
-/// `certificate` with the verdict in a word, `certificate_checks` with all checks by name, `certificate_missed` with those that do not hold in words; nothing where nothing was checked.
+/// `certificate` with the verdict in a word, `certificate_checks` with all checks by name, `certificate_missed` with
+/// those that do not hold in words; nothing where nothing was checked.
 impl Serialize for Certificate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;

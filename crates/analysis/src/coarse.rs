@@ -1,4 +1,5 @@
-//! How much softer a pair would be with other bodies: the same pair on coarse meshes of solid gears, run both ways. Only ratios are read off.
+//! How much softer a pair would be with other bodies: the same pair on coarse meshes of solid gears, run both ways.
+//! Only ratios are read off.
 
 use contact::Method;
 use fem::{ElementOptions, Material};
@@ -49,7 +50,8 @@ impl<'a> Coarse<'a> {
             .map(|gear| Body { bore_diameter: gear.data().bore_diameter, extent: Extent::Periodic })
     }
 
-    /// Mean transmission error with bodies `b` over that with bodies `a`; `None` where one of them cannot be made or run.
+    /// Mean transmission error with bodies `b` over that with bodies `a`; `None` where one of them cannot be made or
+    /// run.
     pub fn ratio(&self, a: [Body; 2], b: [Body; 2]) -> Option<f64> {
         let ratio = self.mean_error(b)? / self.mean_error(a)?;
         ratio.is_finite().then_some(ratio)

@@ -4,7 +4,8 @@ use scene::{Reduction, Scene};
 
 use crate::meshes::SceneMesh;
 
-/// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector of 8 000 degrees of
+/// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector
+/// of 8 000 degrees of
 /// freedom 0.4 s, a whole gear of 86 000 degrees of freedom 4 s and of 338 000 35 s.
 pub fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
     let of = |m: &SceneMesh| {

@@ -10,7 +10,8 @@ use crate::{
     resolution::with_slices,
 };
 
-/// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes in
+/// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes
+/// in
 /// memory.
 pub(crate) fn settled_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
     let mut scene = with_slices(scene.clone());

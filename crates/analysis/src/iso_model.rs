@@ -64,7 +64,8 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
 
 /// Transverse contact ratio below which ISO 6336-1 wants less stiffness than its formula and gives no figure.
 const LEAST_CONTACT_RATIO: f64 = 1.2;
-/// Bending of the bodies over ISO's transmission error from which on the bodies are what counts. Up to 0.8 was held against finite elements of solid discs.
+/// Bending of the bodies over ISO's transmission error from which on the bodies are what counts. Up to 0.8 was held
+/// against finite elements of solid discs.
 const MUCH_BENDING: f64 = 0.5;
 
 /// Where the formulas are used outside of what they were held against.

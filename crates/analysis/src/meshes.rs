@@ -34,7 +34,8 @@ pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], Ana
 /// The mesh of one gear: `whose` is `pinion` or `wheel`, `exact` its geometry.
 ///
 /// # Errors
-/// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh of
+/// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh
+/// of
 /// another gear; when the built-in mesher cannot make the one asked for.
 pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
     match &gear.mesh {
@@ -64,7 +65,8 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
     }
 }
 
-/// A mesh that the caller brings, checked against its gear; `names` are those of its file in messages and in the summary.
+/// A mesh that the caller brings, checked against its gear; `names` are those of its file in messages and in the
+/// summary.
 ///
 /// # Errors
 /// As [`gear_mesh`].
@@ -189,7 +191,8 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, Analy
 /// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.
 const BORE_AGREES: f64 = 1e-3;
 
-/// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia where no mesh is needed.
+/// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia
+/// where no mesh is needed.
 fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
     let stated = exact.data().bore_diameter;
     let [low, high] = found.mesh().radii(found.bore_nodes()).map(|r| 2.0 * r);
@@ -265,7 +268,8 @@ fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Resu
     Ok(())
 }
 
-/// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough, else it is
+/// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough,
+/// else it is
 /// repeated to the whole gear.
 fn to_compute(scene: &Scene, found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
     let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };

@@ -25,7 +25,8 @@ pub struct Resolution {
     pub slices_chosen: bool,
     /// Slices that the program would choose.
     pub slices_that_would_do: Option<usize>,
-    /// What a row of springs over the same gaps loses with these slices, per cent: of its mean approach, of the peak to peak, of the largest line load.
+    /// What a row of springs over the same gaps loses with these slices, per cent: of its mean approach, of the peak to
+    /// peak, of the largest line load.
     pub slice_error_percent: Option<[f64; 3]>,
     /// Elements along the face of pinion and wheel; `None` for a mesh that was read, and for rigid gears.
     pub face_elements: [Option<u32>; 2],

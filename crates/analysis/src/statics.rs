@@ -95,7 +95,8 @@ impl<'a> StaticAnalysis<'a> {
         Self { scene, meshes: None, cache: &NoCache }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files are.
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
+    /// are.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
@@ -195,7 +196,8 @@ pub fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, Analysis
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the teeth.
+/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the
+/// teeth.
 pub fn wider_window(
     scene: &Scene,
     pair: &GearPair,

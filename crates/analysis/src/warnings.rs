@@ -8,7 +8,8 @@ use crate::{coarse::Coarse, reduced};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
-/// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth stiffen.
+/// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth
+/// stiffen.
 pub fn body_warnings(model: &StaticModel) -> Vec<String> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
@@ -42,12 +43,14 @@ fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<
 
 /// Bore over reference diameter of the solid gear that a thin rim is held against: the default of scenes.
 const SOLID: f64 = 0.55;
-/// Bore over reference diameter below which the mean transmission error is within a tenth of the solid gear's, an eighth where it is narrow and helical (`docs/validation.md`, Thin rims): no model is made there.
+/// Bore over reference diameter below which the mean transmission error is within a tenth of the solid gear's, an
+/// eighth where it is narrow and helical (`docs/validation.md`, Thin rims): no model is made there.
 const THIN: f64 = 0.64;
 /// Change of the mean transmission error that is worth a word.
 const HELD: f64 = 0.1;
 
-/// A bore close to the teeth holds them: what the answer would be were the gear solid further in, two coarse models say.
+/// A bore close to the teeth holds them: what the answer would be were the gear solid further in, two coarse models
+/// say.
 fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
     let gear = [&model.pair().pinion, &model.pair().wheel][i];
     let (bore, reference) = (gear.data().bore_diameter, 2.0 * gear.reference_radius());

@@ -44,7 +44,8 @@ impl<'a> FileSink<'a> {
         Self { scene, folder, checkpoints, from, meshes: Vec::new(), recorder, rows: None, view: None }
     }
 
-    /// That nobody has written to a file of the scene while it was read, and that the meshes are those of the checkpoint.
+    /// That nobody has written to a file of the scene while it was read, and that the meshes are those of the
+    /// checkpoint.
     fn check_inputs(&self) -> Result<(), CommandError> {
         let Some(Checkpoints { inputs, .. }) = self.checkpoints else { return Ok(()) };
         if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.scene)?) {

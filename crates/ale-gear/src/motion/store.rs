@@ -150,7 +150,8 @@ impl CheckpointFolder {
         &self.0
     }
 
-    /// Makes it where it is not there, and keeps other runs out as long as the file lives: two would write into each other's rows.
+    /// Makes it where it is not there, and keeps other runs out as long as the file lives: two would write into each
+    /// other's rows.
     ///
     /// # Errors
     /// Exit status 2 when another run uses it, 1 when the system refuses.

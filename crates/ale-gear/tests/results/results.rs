@@ -120,6 +120,31 @@ fn line_length_averages_to_the_closed_form() {
     assert!((mean / want - 1.0).abs() < 1e-6, "{mean} mm, not {want} mm");
 }
 
+/// A mesh cycle holds the tooth change that closes it; summary, table and page say where it is, and that it changes nothing.
+#[test]
+fn the_cycle_that_is_shown_holds_a_tooth_change() {
+    let mesher =
+        "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }";
+    let reduced = ISO_SCENE
+        .replace("model = \"iso\"", "model = \"reduced\"\npositions_per_cycle = 8")
+        .replace("thickness_allowance_mm = 0.05", &format!("thickness_allowance_mm = 0.05\n{mesher}"));
+    for cycles in [1, 3] {
+        let (scratch, _, summary) = run(&reduced.replace("[analysis]", &format!("[analysis]\ncycles = {cycles}")));
+        let h = &summary["headline"];
+        let of = |key: &str| h["tooth_change"][key].as_f64().unwrap();
+        assert_eq!((h["tooth_changes"].as_u64(), of("mesh_cycles")), (Some(cycles), 1.0), "{h}");
+        assert!((of("pinion_angle_deg") - 6.0).abs() < 1e-9, "half a pitch of 12 deg past the middle: {h}");
+        let teeth = ["outgoing_pinion_tooth", "oncoming_pinion_tooth"].map(of);
+        assert!(
+            (teeth[0] - teeth[1]).rem_euclid(30.0) == 27.0 || (teeth[1] - teeth[0]).rem_euclid(30.0) == 27.0,
+            "{h}"
+        );
+        assert!(of("max_ste_jump_um") < 1e-9 && of("max_normal_force_jump_n") < 1e-6, "{h}");
+        let page = scratch.read("deep/er/o/report.html");
+        assert!(page.contains("the first at mesh cycle 1.000, pinion at 6.00 deg"), "{cycles} cycles: not on the page");
+    }
+}
+
 /// Columns of pairs mean the same in every mesh cycle, so three cycles repeat the first one.
 #[test]
 fn every_cycle_repeats_the_first() {

@@ -93,7 +93,8 @@ impl<'a> MotionAnalysis<'a> {
         Self { scene, meshes: None, cache: &NoCache, from: None, stop_after: None }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files are.
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
+    /// are.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
@@ -230,8 +231,8 @@ fn result(
     let driver_rpm: Vec<f64> = done.rows.iter().map(|r| r.speed_rpm[driver]).collect();
     let mesh_hz = mesh_range_hz(scene, motion, Some(&driver_rpm));
     let mut ramp = None;
-    if let Some(words) = motion.ramp {
-        let waterfall = waterfall(&series, per_cycle, words.waterfall_cycles as usize, scene.pinion.teeth)?;
+    if let Some(asked) = motion.ramp {
+        let waterfall = waterfall(&series, per_cycle, asked.waterfall_cycles as usize, scene.pinion.teeth)?;
         let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
         let passage = Passage::of(&series, per_cycle, (law, teeth), force, &waterfall)?;
         ramp = Some(RampResult { passage, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });

@@ -55,7 +55,8 @@ mod tests {
         }
     }
 
-    /// Each measure of a speed alone makes it a failed one: energy out of nothing, a flank that pulls, a change that drops a force, and what is no number.
+    /// Each measure of a speed alone makes it a failed one: energy out of nothing, a flank that pulls, a change that
+    /// drops a force, and what is no number.
     #[test]
     fn a_speed_is_held_to_what_a_motion_is_held_to() {
         let missed = |change: fn(&mut SweepPoint)| {

@@ -14,7 +14,8 @@ const CONTACT: f64 = 1e-6;
 const JUMP: f64 = 1e-4;
 const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
 
-/// Energy that does not close (mJ), over the work that goes through the pair (mJ) or over all work that changed the motion,
+/// Energy that does not close (mJ), over the work that goes through the pair (mJ) or over all work that changed the
+/// motion,
 /// whichever is more.
 pub fn energy_check(residual_mj: f64, through_mj: f64, over_turnover: f64) -> Check {
     let both = [over(residual_mj, through_mj), over_turnover].map(f64::abs);

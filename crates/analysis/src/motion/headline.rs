@@ -91,7 +91,8 @@ pub struct MotionCertificate {
     pub refused_steps: u64,
 }
 
-/// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of its `passage`.
+/// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of
+/// its `passage`.
 ///
 /// # Errors
 /// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.

@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `analysis` | [`MotionAnalysis`]: one motion of a scene |
-//! | `setup` | words of the scene in the solvers' units, gears, quasi-static cycle, mechanism |
+//! | `setup` | the scene in the solvers' units, gears, quasi-static cycle, mechanism |
 //! | `course` | settle, then rows; checkpoints on the way |
 //! | `row`, `sink` | what a row is, and who gets it |
 //! | `orders` | spectra, waterfall, what is largest over speed, Campbell diagram |

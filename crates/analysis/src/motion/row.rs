@@ -9,7 +9,8 @@ use scene::{Axis, Scene};
 
 use crate::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, PressureSpot, VON_MISES, base_radius_mm, error_percent};
 
-/// One row of a motion, in the units of the result files; a field's name ends in its unit, and `docs/outputs.md` says of each what it is.
+/// One row of a motion, in the units of the result files; a field's name ends in its unit, and `docs/outputs.md` says
+/// of each what it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionRow {
     /// Since the quasi-static start.
@@ -32,7 +33,8 @@ pub struct MotionRow {
     pub force_n: [[f64; 3]; 2],
     /// The same about the displaced centres.
     pub moment_nmm: [[f64; 3]; 2],
-    /// Normal force of each pair by its number within the mesh cycle, from the least number on (see [`MotionLayout::pairs`]);
+    /// Normal force of each pair by its number within the mesh cycle, from the least number on (see
+    /// [`MotionLayout::pairs`]);
     /// 0 outside of the window.
     pub pair_normal_force_n: Box<[f64]>,
     /// Bearings and displacements of pinion and wheel; `None` for a gear without free coordinates.

@@ -35,7 +35,8 @@ pub struct MotionCourse {
     pub periodicity: Option<Periodicity>,
 }
 
-/// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis and comes back as
+/// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis
+/// and comes back as
 /// [`crate::AnalysisError::Sink`].
 pub trait MotionSink {
     /// The meshes are read.
@@ -49,7 +50,8 @@ pub trait MotionSink {
     /// The analysis begins, again where a wider window is needed: what came before does not count.
     fn begin(&mut self) {}
 
-    /// A position of the quasi-static mesh cycle that the motion starts from, in order; the model is where it was found.
+    /// A position of the quasi-static mesh cycle that the motion starts from, in order; the model is where it was
+    /// found.
     fn position(&mut self, _index: usize, _position: &StaticPosition, _model: &StaticModel) {}
 
     /// The quasi-static mesh cycle is solved. What comes back are warnings.
@@ -81,7 +83,8 @@ pub trait MotionSink {
         Ok(())
     }
 
-    /// A state to go on from with all rows so far, as often as the scene asks for one, and where the analysis stops before its end.
+    /// A state to go on from with all rows so far, as often as the scene asks for one, and where the analysis stops
+    /// before its end.
     ///
     /// # Errors
     /// Whatever ends the analysis.

@@ -57,7 +57,8 @@ impl StepDemand {
         }
     }
 
-    /// With modes of both gears up to `below_hz`, the lowest at `lowest_hz`: steps have to show the highest, and the lowest has to die out. `already`: this run has modes.
+    /// With modes of both gears up to `below_hz`, the lowest at `lowest_hz`: steps have to show the highest, and the
+    /// lowest has to die out. `already`: this run has modes.
     pub fn with_modes(&self, below_hz: f64, lowest_hz: f64, already: bool) -> StepEstimate {
         let settling = self.decay.map_or(0.0, |d| d / (TAU * self.mode_damping) * self.mesh_hz / lowest_hz);
         let cycles = self.cycles.max(settling) * self.runs;
@@ -88,7 +89,7 @@ impl StepEstimate {
     }
 
     /// In motion.
-    pub fn said(&self, pace: Pace) -> String {
+    pub fn describe(&self, pace: Pace) -> String {
         let steps = format!("some {} steps", grouped(self.steps));
         match pace.step_s.map(|s| s * self.cost * self.steps) {
             Some(s) if s.is_finite() => format!("{steps}, {} at the pace of this run", duration(s)),
@@ -125,8 +126,8 @@ mod tests {
         assert_eq!([12_345.0, 999_999.0, 7.0].map(grouped), ["12,000", "1,000,000", "7"]);
         assert_eq!([0.2, 89.0, 600.0, 33_900.0].map(duration), ["1 s", "89 s", "10 min", "9.4 h"]);
         let estimate = StepEstimate { steps: 1e5, cost: 2.0 };
-        assert_eq!(estimate.said(Pace { step_s: Some(1e-3) }), "some 100,000 steps, 3 min at the pace of this run");
-        assert_eq!(estimate.said(Pace { step_s: None }), "some 100,000 steps");
+        assert_eq!(estimate.describe(Pace { step_s: Some(1e-3) }), "some 100,000 steps, 3 min at the pace of this run");
+        assert_eq!(estimate.describe(Pace { step_s: None }), "some 100,000 steps");
     }
 
     /// Light damping of a mode decides how long it takes to settle, its frequency how long the steps are.

@@ -93,7 +93,8 @@ pub(super) fn slow(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
     })
 }
 
-/// How many steps a motion with normal modes is going to take, if they are many: the highest mode says how long they are, the lowest how long it takes to settle.
+/// How many steps a motion with normal modes is going to take, if they are many: the highest mode says how long they
+/// are, the lowest how long it takes to settle.
 pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
     scene.modes?;
     let mesh_hz = mesh_range_hz(scene, motion, None);
@@ -106,7 +107,7 @@ pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
         format!(
             "with its normal modes this motion takes {}: the highest kept mode, {:.0} Hz, says how long they are, and the lowest settles slowly; fewer modes (`below_hz` in [modes]), more \
              damping of them or a larger `periodic_tolerance` make it shorter",
-            estimate.said(Pace { step_s: None }),
+            estimate.describe(Pace { step_s: None }),
             fastest_hz(&prepared.system)
         )
     })

@@ -1,4 +1,5 @@
-//! Numbers that are taken from a solved history before it is written: pairs by their place in the mesh cycle, contact patterns, the place of
+//! Numbers that are taken from a solved history before it is written: pairs by their place in the mesh cycle, contact
+//! patterns, the place of
 //! the largest pressure, the largest root stresses, the few numbers that a run at rest is made for. No files here.
 
 pub mod pairs;
@@ -6,6 +7,7 @@ mod pattern;
 mod pressure_place;
 mod root_stress;
 mod static_headline;
+mod tooth_change;
 
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
@@ -14,3 +16,4 @@ pub use root_stress::{
     root_stress_headline, root_stress_warnings,
 };
 pub use static_headline::{StaticHeadline, static_headline};
+pub use tooth_change::ToothChangeHeadline;

@@ -46,8 +46,10 @@ pub fn diameter(base_radius: f64, roll: f64) -> f64 {
 
 /// Patterns of pinion and wheel.
 ///
-/// All pairs of a mesh cycle together are one whole engagement of one tooth: pair k at phase s is where a tooth gets to k + s
-/// cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest values count.
+/// All pairs of a mesh cycle together are one whole engagement of one tooth: pair k at phase s is where a tooth gets to
+/// k + s
+/// cycles after pair 0 began. Over several cycles, and so over teeth with different pitch errors, the largest values
+/// count.
 ///
 /// # Errors
 /// [`StudyError`] when the flank has no height, or a result is no number.

@@ -66,7 +66,7 @@ impl PressurePlace {
     }
 
     /// In words, for tables and reports.
-    pub fn said(&self) -> String {
+    pub fn describe(&self) -> String {
         let diameter = self.pinion_diameter_mm;
         format!("{}, z {:.2} mm, d1 {diameter:.2} mm", words(self.place), self.z_mm)
     }
@@ -112,7 +112,8 @@ impl PressureSpot {
     }
 }
 
-/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row, the place by [`PressureSpot::site_number`]; 0 and `NaN` without any.
+/// Place, height (mm) and diameter on the pinion (mm) of the largest pressure of the loaded slices of a row, the place
+/// by [`PressureSpot::site_number`]; 0 and `NaN` without any.
 pub fn place_values<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> [f64; 3] {
     let Some(spot) = PressureSpot::of(base_radius_mm, slices) else { return [0.0, f64::NAN, f64::NAN] };
     [spot.site_number() as f64, spot.z_mm, spot.pinion_diameter_mm]

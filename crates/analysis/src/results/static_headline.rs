@@ -5,7 +5,7 @@ use scene::{Driver, Scene};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{PressurePlace, RootStressHeadline, root_stress_headline};
+use super::{PressurePlace, RootStressHeadline, ToothChangeHeadline, root_stress_headline};
 use crate::worse;
 
 /// Mesh harmonics of the transmission error that are listed.
@@ -36,7 +36,8 @@ pub struct StaticHeadline {
     pub max_pressure_mpa: f64,
     pub max_pressure_at: Option<PressurePlace>,
     pub root_stress: Option<RootStressHeadline>,
-    pub tooth_changes: u64,
+    pub tooth_changes: usize,
+    pub tooth_change: Option<ToothChangeHeadline>,
     pub worst_torque_residual: f64,
     pub worst_complementarity_residual: f64,
     pub worst_action_reaction_residual: f64,
@@ -79,7 +80,8 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         max_pressure_mpa: worst(&|p| p.max_pressure),
         max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),
-        tooth_changes: positions.last().map_or(0, |p| p.tooth_changes),
+        tooth_changes: history.tooth_changes.len(),
+        tooth_change: ToothChangeHeadline::of(history),
         worst_torque_residual: worst(&|p| p.certificate.torque_residual),
         worst_complementarity_residual: worst(&|p| p.certificate.complementarity_residual),
         worst_action_reaction_residual: worst(&|p| p.certificate.action_reaction_residual),

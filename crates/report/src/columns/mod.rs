@@ -1,4 +1,5 @@
-//! Columns of files of rows: one table a kind of rows, from which header, rows, charts and `docs/outputs.md` come or against which they
+//! Columns of files of rows: one table a kind of rows, from which header, rows, charts and `docs/outputs.md` come or
+//! against which they
 //! are held.
 //!
 //! A new column is one entry of a table, and its line in the document.

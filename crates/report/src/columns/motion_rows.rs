@@ -85,7 +85,8 @@ fn energy_row(reader: &Reader<'_>, row: usize) -> Result<EnergyRow, StudyError> 
     })
 }
 
-/// The rows of a motion from the columns of `history.csv` and `energy.csv`, row by row. Displacements along coordinates that are not free
+/// The rows of a motion from the columns of `history.csv` and `energy.csv`, row by row. Displacements along coordinates
+/// that are not free
 /// have no column, and are 0.
 ///
 /// # Errors

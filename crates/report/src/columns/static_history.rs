@@ -121,7 +121,7 @@ columns!(StaticRows, TRAILING, |_, _| true, {
     STRAIN_ENERGY = "strain_energy_nmm" ["N mm"] "of both gears", |_, p, _| p.strain_energy;
     FRICTION_LOSS = "friction_power_loss_w" ["W"]
         "power that friction takes at the scene's speed; 0 without friction", |l, p, _| 1e-3 * p.friction_work * l.speed;
-    TOOTH_CHANGES = "tooth_changes" [""] "slides of the window since the start; a single cycle may need none",
+    TOOTH_CHANGES = "tooth_changes" [""] "slides of the window since the start",
         |_, p, _| p.tooth_changes as f64;
     TORQUE_RESIDUAL = "torque_residual" [""] "contact torque against applied torque, relative",
         |_, p, _| p.certificate.torque_residual;

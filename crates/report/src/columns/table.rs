@@ -180,9 +180,11 @@ impl<R: Rows> Sheet<R> {
     }
 }
 
-/// Columns of a kind, each a constant, and the list of them all: so a column is written once, and a misspelt one does not compile.
+/// Columns of a kind, each a constant, and the list of them all: so a column is written once, and a misspelt one does
+/// not compile.
 ///
-/// `NAME = "name" [unit] "meaning", value;`, where `value` takes layout, record and [`At`]; `present` is for the columns that do not say
+/// `NAME = "name" [unit] "meaning", value;`, where `value` takes layout, record and [`At`]; `present` is for the
+/// columns that do not say
 /// `@ condition` themselves.
 macro_rules! columns {
     ($kind:ty, $list:ident, $present:expr, {

@@ -43,11 +43,15 @@ fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failu
         };
         methods.iter().map(of_method).collect()
     };
-    let words = |title, x| Captions { title, x, y: "largest error of DTE [um]" };
+    let captions = |title, x| Captions { title, x, y: "largest error of DTE [um]" };
     let by_steps = curves(|p| f64::from(p.steps), false);
-    log_panel(&panels[0], words("Error against step", "steps a mesh cycle"), &by_steps)?;
+    log_panel(&panels[0], captions("Error against step", "steps a mesh cycle"), &by_steps)?;
     let by_time = curves(|p| p.cycle_s, true);
-    log_panel(&panels[1], words("Error against time (steps a mesh cycle)", "wall time of a mesh cycle [s]"), &by_time)?;
+    log_panel(
+        &panels[1],
+        captions("Error against time (steps a mesh cycle)", "wall time of a mesh cycle [s]"),
+        &by_time,
+    )?;
     root.present()?;
     Ok(())
 }

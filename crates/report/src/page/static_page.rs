@@ -18,7 +18,8 @@ use crate::{
     view::View,
 };
 
-/// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the gears in space, where
+/// The report as HTML with all that it shows inside; `pattern` is the contact pattern as a part of the page, `view` the
+/// gears in space, where
 /// there are such.
 ///
 /// # Errors

@@ -4,7 +4,8 @@ use minijinja::{Environment, Value};
 
 use crate::ReportError;
 
-/// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where the page has work for them.
+/// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where
+/// the page has work for them.
 ///
 /// # Errors
 /// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.

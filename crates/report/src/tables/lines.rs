@@ -39,7 +39,7 @@ impl Lines {
 
     /// The largest pressure, and where it is.
     pub fn pressure(&mut self, pressure_mpa: f64, at: Option<&PressurePlace>) {
-        let unit = at.map_or_else(|| "MPa".to_owned(), |at| format!("MPa ({})", at.said()));
+        let unit = at.map_or_else(|| "MPa".to_owned(), |at| format!("MPa ({})", at.describe()));
         self.number("maximum pressure", pressure_mpa, 0, &unit);
     }
 

@@ -72,7 +72,7 @@ fn inertia_line(t: &mut Lines, inertia: &InertiaHeadline) {
         "  of an inertia on the base circle of",
         inertia.equivalent_mass_kg,
         4,
-        &format!("kg ({})", inertia.words()),
+        &format!("kg ({})", inertia.describe()),
     );
 }
 

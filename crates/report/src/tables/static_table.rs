@@ -42,7 +42,8 @@ pub fn closing_table(
         }
     }
     t.iso_root_stress(facts);
-    t.text("tooth changes", h.tooth_changes, "");
+    let first = h.tooth_change.as_ref().map_or(String::new(), |change| change.words());
+    t.text("tooth changes", h.tooth_changes, &first);
     t.resolution(scene, facts);
     t.science("worst torque residual", h.worst_torque_residual, "");
     t.text("DOF before reduction, pinion + wheel", sum(facts.dof_before), "");

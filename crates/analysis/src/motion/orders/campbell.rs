@@ -32,7 +32,8 @@ pub struct CriticalSpeed {
 }
 
 impl CampbellDiagram {
-    /// Of frequencies (Hz) with their names, of a pair whose driver has so many teeth, up to its highest mesh frequency, Hz.
+    /// Of frequencies (Hz) with their names, of a pair whose driver has so many teeth, up to its highest mesh
+    /// frequency, Hz.
     ///
     /// Frequencies that are not finite are left out.
     ///

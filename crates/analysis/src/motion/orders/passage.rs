@@ -77,7 +77,8 @@ pub struct PassageHeadline {
 }
 
 impl Passage {
-    /// Of the series of a ramp, `per_cycle` values to each mesh cycle; `law`: speed of the driver over time, `teeth`: its own, `static_force`: what the dynamic factor refers to, N.
+    /// Of the series of a ramp, `per_cycle` values to each mesh cycle; `law`: speed of the driver over time, `teeth`:
+    /// its own, `static_force`: what the dynamic factor refers to, N.
     ///
     /// # Errors
     /// [`StudyError`] for series that hold what is no number, and for series of different lengths.
@@ -161,7 +162,8 @@ mod tests {
     use super::*;
     use crate::motion::orders::waterfall;
 
-    /// Series of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude, 3 um, at 2000/min, order 2 is 0.5 um everywhere.
+    /// Series of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude,
+    /// 3 um, at 2000/min, order 2 is 0.5 um everywhere.
     fn series() -> (MotionSeries, Speed) {
         let law = Speed::Ramp { from: 1000.0 * RPM, to: 3000.0 * RPM, start: 0.0, duration: 1.0 };
         let mut series = MotionSeries { pair_normal_force_n: Some(Vec::new()), ..MotionSeries::default() };

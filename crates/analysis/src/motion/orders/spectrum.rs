@@ -64,9 +64,11 @@ pub struct WaterfallLine {
     pub amplitudes: Vec<f64>,
 }
 
-/// Order spectra of the DTE over stretches of `stretch` mesh cycles, each half over the one before, with a window of Hann.
+/// Order spectra of the DTE over stretches of `stretch` mesh cycles, each half over the one before, with a window of
+/// Hann.
 ///
-/// Values are evenly spaced in time within each mesh cycle, `per_cycle` in all of them, so orders stay in their bins as the speed changes.
+/// Values are evenly spaced in time within each mesh cycle, `per_cycle` in all of them, so orders stay in their bins as
+/// the speed changes.
 ///
 /// # Errors
 /// [`StudyError`] for a record that holds what is no number, and for series of different lengths.

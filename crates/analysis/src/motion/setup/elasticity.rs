@@ -48,7 +48,8 @@ pub(crate) struct Elasticity {
 }
 
 impl Elasticity {
-    /// Lowest frequencies of both gears, the modes that the scene keeps, and the harmonics of the static transmission error.
+    /// Lowest frequencies of both gears, the modes that the scene keeps, and the harmonics of the static transmission
+    /// error.
     ///
     /// # Errors
     /// [`AnalysisError::Modes`] when the modes are not found, or the mesh cannot have them.
@@ -81,7 +82,8 @@ impl Elasticity {
         self.kept.clone()
     }
 
-    /// Frequencies of the gears with their bores held, Hz, and what they are called: the kept modes, else the lowest of either gear.
+    /// Frequencies of the gears with their bores held, Hz, and what they are called: the kept modes, else the lowest of
+    /// either gear.
     pub fn frequencies_hz(&self) -> Vec<(f64, String)> {
         let gears = ["pinion", "wheel"];
         match &self.kept {
@@ -124,7 +126,8 @@ impl Elasticity {
         }
     }
 
-    /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its highest kept mode. The remedy has its price, at the pace of this run.
+    /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its
+    /// highest kept mode. The remedy has its price, at the pace of this run.
     pub fn warning(&self, found: &Vibration, demand: &StepDemand, pace: Pace) -> Option<String> {
         let change = self.beside(found);
         if !change.matters() {
@@ -152,7 +155,7 @@ impl Elasticity {
             change.share * found.peak_to_peak_um,
             100.0 * change.share,
             100.0 * CHANGE_LIMIT,
-            demand.with_modes(below_hz, lowest, self.kept.is_some()).said(pace),
+            demand.with_modes(below_hz, lowest, self.kept.is_some()).describe(pace),
         ))
     }
 }
@@ -204,7 +207,8 @@ fn failed_modes(scene: &Scene, i: usize, source: ReductionError) -> AnalysisErro
     AnalysisError::Modes { file, gear: ["pinion", "wheel"][i], source: Box::new(source) }
 }
 
-/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those that
+/// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those
+/// that
 /// came of it as well, 1/min.
 pub(crate) fn mesh_range_hz(scene: &Scene, motion: &MotionScene, driver_rpm: Option<&[f64]>) -> [f64; 2] {
     let teeth = scene.driver_teeth();

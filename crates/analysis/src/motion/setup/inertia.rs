@@ -36,7 +36,7 @@ impl InertiaHeadline {
     }
 
     /// One line: whose inertia it is, and what the other choice would be.
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         match self.moving_gears.as_slice() {
             [one] => format!("the {one} alone, both free {:.1} Hz", self.mesh_resonance_both_free_hz),
             _ => format!("both gears, driver held {:.1} Hz", self.mesh_resonance_driver_held_hz),

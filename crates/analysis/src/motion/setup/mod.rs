@@ -1,4 +1,5 @@
-//! Everything before the first step: what the scene asks for in the solvers' units, gears, the quasi-static cycle, the mechanism.
+//! Everything before the first step: what the scene asks for in the solvers' units, gears, the quasi-static cycle, the
+//! mechanism.
 
 mod elasticity;
 mod inertia;

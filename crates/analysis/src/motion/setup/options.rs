@@ -1,4 +1,4 @@
-//! What a scene asks of motion, in the solvers' words and units.
+//! What a scene asks of motion, in the solvers' types and units.
 
 use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque};
 use geometry::GearPair;
@@ -24,14 +24,14 @@ pub fn motion_options(
     meshes: &[SceneMesh; 2],
     contact: ltca::StaticOptions,
 ) -> Result<MotionOptions, AnalysisError> {
-    let words = [0, 1].map(|i| scene.gears()[i].body.clone().unwrap_or_default());
-    let bodies = [body(scene, meshes, &words[0], 0)?, body(scene, meshes, &words[1], 1)?];
+    let stated = [0, 1].map(|i| scene.gears()[i].body.clone().unwrap_or_default());
+    let bodies = [body(scene, meshes, &stated[0], 0)?, body(scene, meshes, &stated[1], 1)?];
     let free = [0, 1].map(|i| {
         let mut free = [false; COORDINATES];
-        words[i].free.iter().for_each(|axis| free[axis.number()] = true);
+        stated[i].free.iter().for_each(|axis| free[axis.number()] = true);
         free
     });
-    let bearings = [0, 1].map(|i| bearing(&scene.gears()[i].bearing, &words[i].free, &bodies[i]));
+    let bearings = [0, 1].map(|i| bearing(&scene.gears()[i].bearing, &stated[i].free, &bodies[i]));
     let damping = match scene.motion.as_ref() {
         Some(MotionScene { mesh_damping_ns_per_mm2: Some(c), .. }) => MeshDamping::PerLength(*c),
         Some(MotionScene { mesh_damping_ratio: Some(zeta), .. }) => MeshDamping::Ratio(*zeta),
@@ -42,7 +42,8 @@ pub fn motion_options(
     Ok(MotionOptions { statics: contact, bodies, bearings, free, drive, load, damping, start_cycles: 0.0 })
 }
 
-/// What drives a pair of elastic gears: as below, but a torque that the scene does not state balances the load at every instant, so that the mean speed is the given one.
+/// What drives a pair of elastic gears: as below, but a torque that the scene does not state balances the load at every
+/// instant, so that the mean speed is the given one.
 fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
     let balances = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && d.torque.is_none());
     if balances { Drive::Balanced(speed(scene)) } else { drive(scene, pair) }
@@ -76,15 +77,15 @@ pub fn speed(scene: &Scene) -> Speed {
 }
 
 /// N m in N mm; `mean` where the scene states none.
-pub fn torque(words: &TorqueScene, mean: f64) -> Torque {
-    let mean = words.torque_nm.map_or(mean, |t| 1e3 * t);
-    match (&words.table_s_nm, words.amplitude_nm, words.frequency_hz) {
+pub fn torque(stated: &TorqueScene, mean: f64) -> Torque {
+    let mean = stated.torque_nm.map_or(mean, |t| 1e3 * t);
+    match (&stated.table_s_nm, stated.amplitude_nm, stated.frequency_hz) {
         (Some(table), ..) => Torque::Table {
             times: table.iter().map(|row| row[0]).collect(),
             values: table.iter().map(|row| 1e3 * row[1]).collect(),
         },
         (None, Some(amplitude), Some(frequency_hz)) => {
-            let phase = words.phase_deg.unwrap_or(0.0).to_radians();
+            let phase = stated.phase_deg.unwrap_or(0.0).to_radians();
             Torque::Harmonic { mean, amplitude: 1e3 * amplitude, frequency_hz, phase }
         }
         _ => Torque::Constant(mean),
@@ -92,7 +93,7 @@ pub fn torque(words: &TorqueScene, mean: f64) -> Torque {
 }
 
 /// Mass and inertia of the mesh (of the whole gear, where it has a part of the teeth), unless the scene states others.
-fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> Result<RigidBody, AnalysisError> {
+fn body(scene: &Scene, meshes: &[SceneMesh; 2], stated: &BodyScene, i: usize) -> Result<RigidBody, AnalysisError> {
     let gear = &meshes[i].gear;
     let own = fem::mass_properties(gear.mesh(), &material(scene, i)?)
         .map_err(|e| AnalysisError::Body { place: meshes[i].facts.source.clone(), source: Box::new(e) })?;
@@ -104,34 +105,34 @@ fn body(scene: &Scene, meshes: &[SceneMesh; 2], words: &BodyScene, i: usize) -> 
         transverse_inertia: copies * of_mesh.transverse_inertia,
         polar_inertia: copies * of_mesh.polar_inertia,
     };
-    Ok(stated_body(words, whole))
+    Ok(stated_body(stated, whole))
 }
 
 /// What the scene states of a body, and `own` where it says nothing.
-pub fn stated_body(words: &BodyScene, own: RigidBody) -> RigidBody {
+pub fn stated_body(stated: &BodyScene, own: RigidBody) -> RigidBody {
     let or = |stated: Option<f64>, unit: f64, own: f64| stated.map_or(own, |value| unit * value);
     RigidBody {
-        mass: or(words.mass_kg, KILOGRAM, own.mass),
-        transverse_inertia: or(words.transverse_inertia_kg_m2, KILOGRAM_METRE2, own.transverse_inertia),
-        polar_inertia: or(words.polar_inertia_kg_m2, KILOGRAM_METRE2, own.polar_inertia),
+        mass: or(stated.mass_kg, KILOGRAM, own.mass),
+        transverse_inertia: or(stated.transverse_inertia_kg_m2, KILOGRAM_METRE2, own.transverse_inertia),
+        polar_inertia: or(stated.polar_inertia_kg_m2, KILOGRAM_METRE2, own.polar_inertia),
     }
-    .with_polar(KILOGRAM_METRE2 * words.added_inertia_kg_m2)
+    .with_polar(KILOGRAM_METRE2 * stated.added_inertia_kg_m2)
 }
 
 /// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).
-pub fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
+pub fn bearing(stated: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing {
     let whole = |m: &[[f64; 5]; 5]| Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[i][j] } else { 0.0 });
     let diagonal = |values: [f64; 5]| Matrix6::from_fn(|i, j| if i == j && i < 5 { values[i] } else { 0.0 });
-    let stiffness = match &words.stiffness_matrix_n_mm_rad {
+    let stiffness = match &stated.stiffness_matrix_n_mm_rad {
         Some(matrix) => whole(matrix),
-        None => diagonal(words.stiffnesses().map(|k| k.unwrap_or(0.0))),
+        None => diagonal(stated.stiffnesses().map(|k| k.unwrap_or(0.0))),
     };
-    let damping = match &words.damping_matrix_ns_mm_rad {
+    let damping = match &stated.damping_matrix_ns_mm_rad {
         Some(matrix) => whole(matrix),
         None => {
             let mass = body.matrix();
-            let ratio = words.damping_ratio.unwrap_or(0.0);
-            let own = words.dampings();
+            let ratio = stated.damping_ratio.unwrap_or(0.0);
+            let own = stated.dampings();
             let of = |axis: Axis| {
                 let i = axis.number();
                 let by_ratio = 2.0 * ratio * (stiffness[(i, i)] * mass[(i, i)]).sqrt();
@@ -144,13 +145,13 @@ pub fn bearing(words: &BearingScene, free: &[Axis], body: &RigidBody) -> Bearing
 }
 
 /// Method of integration.
-pub fn scheme(words: &MotionScene) -> Scheme {
-    words.scheme()
+pub fn scheme(motion: &MotionScene) -> Scheme {
+    motion.scheme()
 }
 
 /// How steady states are found.
-pub fn steady_by(word: SteadyWord) -> SteadyBy {
-    match word {
+pub fn steady_by(by: SteadyWord) -> SteadyBy {
+    match by {
         SteadyWord::Running => SteadyBy::Running,
         SteadyWord::Shooting => SteadyBy::Shooting,
     }

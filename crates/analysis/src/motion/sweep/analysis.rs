@@ -69,7 +69,8 @@ impl<'a> SweepAnalysis<'a> {
         Self { scene, meshes: None, cache: &NoCache }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files are.
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
+    /// are.
     #[must_use]
     pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }

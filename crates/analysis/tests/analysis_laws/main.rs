@@ -1,0 +1,3 @@
+//! Laws of the crate `analysis`.
+
+mod motion_in_memory;
