@@ -141,9 +141,9 @@ impl<'a> LumpedAnalysis<'a> {
         let (mut facts, mut warnings) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.warnings));
         warnings.extend(gears::warnings(&inputs.pair));
         warnings.extend(no_backlash(&inputs));
-        if let Some((resolution, said)) = slice_resolution(&inputs) {
+        if let Some((resolution, remarks)) = slice_resolution(&inputs) {
             facts.resolution = Some(resolution);
-            warnings.extend(said);
+            warnings.extend(remarks);
         }
         let frequencies = inputs.frequencies(motion, system.resonance_hz);
         refuse_unstable(&scene, motion, &mut system.model, frequencies)?;
