@@ -81,6 +81,7 @@ pub struct StaticAnalysis<'a> {
     scene: &'a Scene,
     meshes: Option<[&'a Mesh; 2]>,
     cache: &'a dyn GearCache,
+    slices_stand: bool,
 }
 
 impl std::fmt::Debug for StaticAnalysis<'_> {
@@ -92,7 +93,7 @@ impl std::fmt::Debug for StaticAnalysis<'_> {
 impl<'a> StaticAnalysis<'a> {
     /// Of a scene, its meshes read or made as it says.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, meshes: None, cache: &NoCache }
+        Self { scene, meshes: None, cache: &NoCache, slices_stand: false }
     }
 
     /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
@@ -106,6 +107,17 @@ impl<'a> StaticAnalysis<'a> {
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
+    }
+
+    /// With the number of slices that the scene has, though no file states it: that of a point of a chart.
+    #[must_use]
+    pub(crate) fn with_slices_of_scene(self) -> Self {
+        Self { slices_stand: true, ..self }
+    }
+
+    /// The scene as it is solved.
+    fn settled(&self) -> Scene {
+        if self.slices_stand { self.scene.clone() } else { settled_scene(self.scene, self.meshes.is_some()) }
     }
 
     /// Solves it, telling nobody.
@@ -125,7 +137,7 @@ impl<'a> StaticAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
-        let (scene, cache) = (&settled_scene(self.scene, self.meshes.is_some()), self.cache);
+        let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
@@ -312,6 +324,16 @@ pub fn solver_error(scene: &Scene, source: StaticError) -> AnalysisError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a caller within this crate has settled is not chosen anew: the reference of a chart has twice the slices.
+    #[test]
+    fn slices_that_stand_are_not_chosen_anew() {
+        let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0);
+        let mut scene = base.torque_nm(300.0).build().unwrap();
+        let chosen = StaticAnalysis::new(&scene).settled().contact.slices.unwrap();
+        scene.contact.slices = Some(2 * chosen);
+        assert_eq!(StaticAnalysis::new(&scene).with_slices_of_scene().settled().contact.slices, Some(2 * chosen));
+    }
 
     /// A scene built in code gets the slices that its width asks for, as one from a file does; a stated number stays.
     #[test]

@@ -57,7 +57,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
 
 fn own(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
-    let solved = StaticAnalysis::new(&point.scene).solve_into(&mut phases, &mut NoSink)?;
+    let solved = StaticAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
     let StaticResult { history, facts, model, .. } = solved;
     static_certificate(&history.positions).verdict(&point.scene)?;
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
@@ -89,7 +89,7 @@ fn own(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> 
 fn time_closed_form(scene: &Scene, tools: ChartTools<'_>) -> Result<f64, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
     for _ in 0..REPEATS {
-        StaticAnalysis::new(scene).solve_into(&mut phases, &mut NoSink)?;
+        StaticAnalysis::new(scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
     }
     Ok(phases.wall_s(|name| name == SOLVE) / f64::from(REPEATS))
 }

@@ -77,7 +77,10 @@ impl<'a> ExcitationSource<'a> {
         if let Some((_, excitation)) = self.last.as_ref().filter(|(known, _)| *known == at_rest) {
             return Ok(excitation.clone());
         }
-        let solved = StaticAnalysis::new(&at_rest).with_cache(self.cache).solve_into(self.observer, &mut NoSink)?;
+        let solved = StaticAnalysis::new(&at_rest)
+            .with_slices_of_scene()
+            .with_cache(self.cache)
+            .solve_into(self.observer, &mut NoSink)?;
         // Nothing is fed by what does not hold.
         static_certificate(&solved.history.positions).verdict(scene)?;
         let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
