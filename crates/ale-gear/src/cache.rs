@@ -9,7 +9,7 @@ use std::{
 use analysis::GearCache;
 use reduction::{RecordKey, ReductionRecord};
 
-use crate::partial::Partial;
+use report::folder::Partial;
 
 /// A folder of reduced gears, or none.
 ///

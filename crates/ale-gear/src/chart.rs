@@ -2,7 +2,9 @@
 
 use analysis::accuracy_chart::{AccuracyChart, ChartOptions, MemoryGauge, WorkPrecision};
 
-use crate::{error::CommandError, memory, partial::Partial, phases::Phases, scene::Scene};
+use report::folder::Partial;
+
+use crate::{error::CommandError, memory, phases::Phases, scene::Scene};
 
 /// Memory of this process.
 pub(crate) struct ProcessMemory;

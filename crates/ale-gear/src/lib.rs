@@ -32,11 +32,9 @@ pub use ::scene;
 pub mod talk;
 
 mod lumped;
-mod partial;
 pub mod reduce;
 mod room;
 mod study_cases;
-mod work_folder;
 
 pub(crate) use analysis::{elastic_gears, gears};
 pub use analysis::{iso_root, meshes, resolution};

@@ -20,6 +20,7 @@ use crate::{
     motion::{HISTORY, read_columns},
     output::{CASES, ResultDirectory},
     scene::Scene,
+    talk,
 };
 
 /// Runs a scene and writes every file of its result; inside, whether it holds.
@@ -76,7 +77,7 @@ fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> 
     let folder = results.path(CASES).join(study.folder(i));
     let own = ResultDirectory::create(&folder)?;
     let solved = solve(&case.scene, &own)?;
-    own.finish()?;
+    own.finish(talk::note)?;
     let cost = match solved {
         Ok(cost) => cost,
         Err(error) => return Ok(Err(miss(error, true))),

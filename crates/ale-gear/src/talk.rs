@@ -70,6 +70,11 @@ pub(crate) fn say<D: Display>(from: Loudness, line: impl FnOnce() -> D) {
     }
 }
 
+/// Says what the user should know however little is to be said.
+pub(crate) fn note(message: String) {
+    say(Loudness::Quiet, || format!("ale-gear: {message}"));
+}
+
 /// Whether stderr takes colours: it is a terminal that can, and nobody has set `NO_COLOR`.
 pub fn colours_on_stderr() -> bool {
     let said_no = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());

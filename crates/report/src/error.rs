@@ -27,6 +27,16 @@ pub enum ReportError {
         /// What the system says.
         cause: io::Error,
     },
+    /// A folder that results cannot go into.
+    #[error("{}: {what}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong with it.
+        what: String,
+        /// What to do next.
+        hint: &'static str,
+    },
     /// A file of rows holds what is no number.
     #[error("{}: holds what is no number", file.display())]
     NoNumber {
@@ -84,7 +94,7 @@ impl ReportError {
                 Some("is the disk full, or the folder write-protected?".to_owned())
             }
             Self::Read { .. } | Self::NoNumber { .. } => Some("does another program write into the folder?".to_owned()),
-            Self::NoResult { hint, .. } => Some((*hint).to_owned()),
+            Self::NoResult { hint, .. } | Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Page { .. } | Self::NoWindow => None,
             Self::Scene(e) => e.hint(),
             Self::Study(e) => e.hint(),

@@ -29,6 +29,7 @@ mod cost;
 pub mod csv;
 mod error;
 mod files;
+pub mod folder;
 pub mod lumped_files;
 pub mod motion_files;
 pub mod page;

@@ -7,14 +7,16 @@ use analysis::motion::motion_precision;
 use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
 
 use super::overrides::Overrides;
+use report::folder::Partial;
+
 use crate::{
     chart::chart,
     error::CommandError,
     output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
-    partial::Partial,
     phases::Phases,
     room,
     scene::Scene,
+    talk,
 };
 
 /// Words of `ale-gear chart`.
@@ -93,7 +95,7 @@ impl ChartArgs {
         results.write("work_precision.svg", svg.as_bytes())?;
         results.write("work_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
         results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         if let Some(file) = &self.into {
             put_into(file, &scene.name, &tables)?;
         }
@@ -126,7 +128,7 @@ impl ChartArgs {
         results.write("motion_precision.svg", svg.as_bytes())?;
         results.write("motion_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
         results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         if let Some(file) = &self.into {
             put_into(file, &scene.name, &table)?;
         }

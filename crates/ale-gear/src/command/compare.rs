@@ -10,7 +10,7 @@ use report::compare::{
     write_compare_report, write_curves_csv,
 };
 
-use crate::{error::CommandError, output::ResultDirectory};
+use crate::{error::CommandError, output::ResultDirectory, talk};
 
 /// Words of `ale-gear compare`.
 #[derive(Debug, clap::Args)]
@@ -75,7 +75,7 @@ impl CompareArgs {
             results.write(&format!("compare_{}.svg", chart.name), chart.svg.as_bytes())?;
         }
         results.write("compare.html", write_compare_report(&runs, &numbers, &inputs, &charts)?.as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         if !self.json {
             text.push_str(&format!("\ncharts: {}\n", out.join("compare.html").display()));
         }

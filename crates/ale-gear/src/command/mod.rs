@@ -119,6 +119,7 @@ impl Cli {
             _ => Loudness::Details,
         });
         read_progress_after()?;
+        on_stop();
         if let Some(n) = threads.filter(|n| !(1..=MOST_THREADS).contains(n)) {
             let hint = "leave it out to use all cores".to_owned();
             let message = format_args!("`--threads` is {n}, allowed is 1 .. {MOST_THREADS}");
@@ -166,4 +167,16 @@ fn use_threads(threads: Option<usize>) {
         // Fails only when a pool is there already, which nobody has made before this line.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
+}
+
+/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
+const STOPPED: i32 = 130;
+
+/// Takes away what is half written when the user stops the program.
+fn on_stop() {
+    // A host that has a handler of its own keeps it; then the names of such paths still say what they are.
+    let _ = ctrlc::set_handler(|| {
+        ::report::folder::remove_partial_paths();
+        std::process::exit(STOPPED);
+    });
 }

@@ -137,7 +137,7 @@ impl RunArgs {
             )
             .into()),
             motion::Outcome::Finished(written) => {
-                results.finish()?;
+                results.finish(talk::note)?;
                 progression.done()?;
                 self.answer(written, quiet)
             }
@@ -166,7 +166,7 @@ impl RunArgs {
             return self.move_pair(&scene, words, phases, results, quiet);
         }
         let written = write_result(&scene, &mut phases, &results, &self.cache.open())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         self.answer(written, quiet)
     }
 }

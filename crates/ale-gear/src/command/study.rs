@@ -27,6 +27,7 @@ use crate::{
     room,
     scene::{Scene, SceneError},
     study_cases::run_cases,
+    talk,
 };
 
 /// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
@@ -106,7 +107,7 @@ impl StudyArgs {
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
         results.write("summary.json", write_study_summary(of, &files).as_bytes())?;
-        results.finish()?;
+        results.finish(talk::note)?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }

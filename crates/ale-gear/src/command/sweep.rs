@@ -13,6 +13,7 @@ use crate::{
     resolution::with_slices,
     room,
     scene::{Kind, Scene, Setting, SweepWay},
+    talk,
 };
 
 /// Words of `ale-gear sweep`.
@@ -229,7 +230,7 @@ impl SweepArgs {
         let cache = self.cache.open();
         let again = self.again();
         let table = lumped::sweep_key(&scenes, &options, Some(&again), &mut phases, &results, &cache)?;
-        results.finish()?;
+        results.finish(talk::note)?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }
 }

@@ -34,5 +34,5 @@ pub(crate) fn close<H: Serialize>(
 ) -> Result<(), CommandError> {
     write_columnar(scene, results)?;
     let summary = write_summary(scene, facts, cost, headline, warnings, &results.files()?);
-    results.write("summary.json", summary.as_bytes())
+    Ok(results.write("summary.json", summary.as_bytes())?)
 }

@@ -2,14 +2,13 @@
 //! for the modules that write it.
 
 mod columnar;
-mod directory;
 mod error;
 
+pub use ::report::folder::ResultDirectory;
 pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
 pub(crate) use columnar::close;
-pub use directory::ResultDirectory;
 
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},

@@ -4,12 +4,8 @@ use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use report::{ReportError, ResultFiles, study_files::CASES};
-
-use crate::{
-    error::CommandError,
-    work_folder::{self, WorkFolder},
-};
+use super::work_folder::{self, WorkFolder};
+use crate::{ReportError, ResultFiles, study_files::CASES};
 
 /// Files are written into a work folder beside the wanted one; [`ResultDirectory::finish`] puts them in its place.
 /// Dropped before that, it takes its files with it.
@@ -27,12 +23,10 @@ impl ResultDirectory {
     /// A link to a folder stays one: the folder that it leads to is replaced.
     ///
     /// # Errors
-    /// Exit status 2 when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier result: nothing
-    /// that this program did not write is ever replaced.
-    pub fn create(wanted: &Path) -> Result<Self, CommandError> {
-        let complaint = |what: String, hint: &str| {
-            CommandError::input(format_args!("--out {}: {what}", wanted.display()), Some(hint.into()))
-        };
+    /// [`ReportError::Folder`] when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier
+    /// result: nothing that this program did not write is ever replaced.
+    pub fn create(wanted: &Path) -> Result<Self, ReportError> {
+        let complaint = |what: String, hint| ReportError::Folder { folder: wanted.to_owned(), what, hint };
         if wanted.file_name().is_none() {
             return Err(complaint("is no name of a folder".into(), "give the name of a new folder"));
         }
@@ -68,35 +62,42 @@ impl ResultDirectory {
     /// Writes one file.
     ///
     /// # Errors
-    /// Exit status 1 when the system refuses.
-    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), CommandError> {
-        Ok(ResultFiles::write(self, name, content)?)
+    /// When the system refuses.
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError> {
+        ResultFiles::write(self, name, content)
     }
 
     /// Folder of the files while the result is being written.
-    pub(crate) fn folder(&self) -> &Path {
+    pub fn folder(&self) -> &Path {
         &self.growing
     }
 
     /// Takes over a file from elsewhere, as it is.
-    pub(crate) fn copy(&self, from: &Path, name: &str) -> Result<(), CommandError> {
-        fs::copy(from, self.path(name)).map(|_| ()).map_err(|e| CommandError::write(&self.wanted.join(name), &e))
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn copy(&self, from: &Path, name: &str) -> Result<(), ReportError> {
+        fs::copy(from, self.path(name))
+            .map(|_| ())
+            .map_err(|cause| ReportError::Write { file: self.wanted.join(name), cause })
     }
 
     /// Names of the files written so far, ascending.
     ///
     /// # Errors
-    /// Exit status 1 when the system refuses.
-    pub fn files(&self) -> Result<Vec<String>, CommandError> {
-        names(&self.growing).map_err(|e| CommandError::write(&self.wanted, &e))
+    /// When the system refuses.
+    pub fn files(&self) -> Result<Vec<String>, ReportError> {
+        names(&self.growing).map_err(|cause| ReportError::Write { file: self.wanted.clone(), cause })
     }
 
-    /// Puts the result where it was wanted, in place of an earlier one.
+    /// Puts the result where it was wanted, in place of an earlier one; `note` hears where a file went that somebody
+    /// put there during the run.
     ///
     /// # Errors
-    /// Exit status 1 when the system refuses; an earlier result is then still there.
-    pub fn finish(self) -> Result<(), CommandError> {
-        self.work.put_in_place().map_err(|e| CommandError::write(&self.wanted, &e))
+    /// When the system refuses; an earlier result is then still there.
+    pub fn finish(self, mut note: impl FnMut(String)) -> Result<(), ReportError> {
+        let Self { wanted, work, .. } = self;
+        work.put_in_place(&mut note).map_err(|cause| ReportError::Write { file: wanted, cause })
     }
 }
 
@@ -226,7 +227,7 @@ mod tests {
         for content in [b"first", b"later"] {
             let whole = ResultDirectory::create(&wanted).unwrap();
             whole.write("summary.json", content).unwrap();
-            whole.finish().unwrap();
+            whole.finish(|said| panic!("{said}")).unwrap();
             assert_eq!(fs::read(wanted.join("summary.json")).unwrap(), content);
         }
         assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 1);
@@ -241,7 +242,9 @@ mod tests {
         let whole = ResultDirectory::create(&wanted).unwrap();
         whole.write("summary.json", b"later").unwrap();
         fs::write(wanted.join("thesis.tex"), "years of work").unwrap();
-        whole.finish().unwrap();
+        let mut told = Vec::new();
+        whole.finish(|said| told.push(said)).unwrap();
+        assert!(told.len() == 1 && told[0].starts_with("`thesis.tex`"), "{told:?}");
         assert_eq!(names(&wanted).unwrap(), ["summary.json"]);
         let aside = scratch.path().join(format!("out.replaced-{}", std::process::id()));
         assert_eq!(fs::read_to_string(aside.join("thesis.tex")).unwrap(), "years of work");
@@ -252,7 +255,6 @@ mod tests {
         let scratch = tempfile::tempdir().unwrap();
         fs::write(scratch.path().join("thesis.tex"), "years of work").unwrap();
         let error = ResultDirectory::create(scratch.path()).unwrap_err();
-        assert_eq!(error.status, 2);
-        assert!(error.message.ends_with("holds `thesis.tex`, which is no result file"), "{}", error.message);
+        assert!(error.to_string().ends_with("holds `thesis.tex`, which is no result file"), "{error}");
     }
 }

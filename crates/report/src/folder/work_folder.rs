@@ -1,4 +1,5 @@
-//! The folder beside a result in which it is written; what a killed process has left there is taken away by the next one.
+//! The folder beside a result in which it is written; what a killed process has left there is taken away by the next
+//! one.
 //!
 //! ```text
 //! .NAME.partial-PID/
@@ -7,8 +8,9 @@
 //!     old/               the earlier result, while the new one takes its place
 //! ```
 //!
-//! A process that dies drops its lock, whatever kills it, and a number that another process has by now says nothing. Only a folder with
-//! that file, of this machine (locks need not reach further), not locked and without anything that this program does not write is removed.
+//! A process that dies drops its lock, whatever kills it, and a number that another process has by now says nothing.
+//! Only a folder with that file, of this machine (locks need not reach further), not locked and without anything that
+//! this program does not write is removed.
 
 use std::{
     ffi::OsString,
@@ -18,10 +20,7 @@ use std::{
     process::Command,
 };
 
-use crate::{
-    partial::{self, Partial},
-    talk::{self, Loudness},
-};
+use super::partial::{self, Partial};
 
 const MARK: &str = ".ale-gear-work";
 const NEW: &str = "new";
@@ -44,8 +43,8 @@ pub(crate) struct WorkFolder {
 impl WorkFolder {
     /// Makes one beside `target`, a path that ends in a name.
     ///
-    /// `ours` says what there is in a folder of results that this program does not write, if anything; only by its leave are folders of
-    /// killed processes removed.
+    /// `ours` says what there is in a folder of results that this program does not write, if anything; only by its
+    /// leave are folders of killed processes removed.
     ///
     /// # Errors
     /// When the system refuses.
@@ -76,13 +75,13 @@ impl WorkFolder {
         self.partial.path().join(NEW)
     }
 
-    /// Puts the result in its place, and what was there away.
+    /// Puts the result in its place, and what was there away; `note` hears where a file went that came in meanwhile.
     ///
     /// # Errors
     /// When the system refuses; what was there is then still there.
-    pub fn put_in_place(self) -> io::Result<()> {
+    pub fn put_in_place(self, note: &mut dyn FnMut(String)) -> io::Result<()> {
         let old = match (self.ours)(&self.target) {
-            Ok(Some(name)) => aside(&self.target, &name),
+            Ok(Some(name)) => aside(&self.target, &name, note),
             _ => self.partial.path().join(OLD),
         };
         {
@@ -111,14 +110,12 @@ fn swap(new: &Path, target: &Path, old: &Path) -> io::Result<()> {
 }
 
 /// Where an earlier result goes into which somebody has put a file of theirs during the run: beside, and told.
-fn aside(target: &Path, name: &str) -> PathBuf {
+fn aside(target: &Path, name: &str, note: &mut dyn FnMut(String)) -> PathBuf {
     let mut path = target.as_os_str().to_owned();
     path.push(format!(".replaced-{}", std::process::id()));
     let path = PathBuf::from(path);
-    talk::say(Loudness::Quiet, || {
-        let (into, now) = (target.display(), path.display());
-        format!("ale-gear: `{name}`, which is no result file, came into {into} during the run: it goes to {now}")
-    });
+    let (into, now) = (target.display(), path.display());
+    note(format!("`{name}`, which is no result file, came into {into} during the run: it goes to {now}"));
     path
 }
 
@@ -178,7 +175,8 @@ fn dead(folder: &Path) -> Option<File> {
     }
 }
 
-/// Removes work folders of this target whose processes have died. What cannot be removed, or must not be, stays, and is no error.
+/// Removes work folders of this target whose processes have died. What cannot be removed, or must not be, stays, and is
+/// no error.
 fn take_away_left_over(target: &Path, ours: Judge, own: Option<&Path>) {
     let beginning = beginning(target);
     let Some(beginning) = beginning.to_str() else { return };

@@ -1,42 +1,32 @@
-//! Files and folders that are being written: gone when they do not become whole, also when the user stops the program.
+//! Files and folders that are being written: gone when they do not become whole.
 
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::{Mutex, Once, PoisonError},
+    sync::{Mutex, PoisonError},
 };
 
 /// A path that is taken away with the value, unless [`Partial::keep`] says that it has become something.
 #[derive(Debug)]
-pub(crate) struct Partial(PathBuf);
+pub struct Partial(PathBuf);
 
 /// Paths of this process, for the case that the user stops it.
 static PARTIAL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-static HANDLER: Once = Once::new();
-/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
-const STOPPED: i32 = 130;
 
 impl Partial {
     /// Watches a path from before anything is there.
-    pub(crate) fn new(path: PathBuf) -> Self {
-        HANDLER.call_once(|| {
-            // A host that has a handler of its own keeps it; then the path's name still says what it is.
-            let _ = ctrlc::set_handler(|| {
-                paths().iter().for_each(|path| remove(path));
-                std::process::exit(STOPPED);
-            });
-        });
+    pub fn new(path: PathBuf) -> Self {
         paths().push(path.clone());
         Self(path)
     }
 
     /// Where it is.
-    pub(crate) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.0
     }
 
     /// It is whole and stands elsewhere: there is nothing to take away.
-    pub(crate) fn keep(self) {
+    pub fn keep(self) {
         paths().retain(|p| *p != self.0);
     }
 }
@@ -52,7 +42,13 @@ impl Drop for Partial {
     }
 }
 
-/// As long as the value lives nobody stops the program by its handler, nor takes a path away: for changes that must be whole.
+/// Takes away all paths of this process that have not become whole: for whoever stops it.
+pub fn remove_partial_paths() {
+    paths().iter().for_each(|path| remove(path));
+}
+
+/// As long as the value lives nobody stops the program by [`remove_partial_paths`], nor takes a path away: for changes
+/// that must be whole.
 pub(crate) fn in_one_piece() -> impl Sized {
     paths()
 }
