@@ -10,6 +10,7 @@ use std::{
 
 use analysis::parameter_study::{CaseFailure, CaseRecord};
 use rayon::ThreadPoolBuilder;
+use report::{checkpoint::HISTORY, read_columns};
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
 use scene::study::{Study, StudyCase};
 
@@ -17,7 +18,6 @@ use crate::{
     error::CommandError,
     facts::Cost,
     gears,
-    motion::{HISTORY, read_columns},
     output::{CASES, ResultDirectory},
     scene::Scene,
     talk,

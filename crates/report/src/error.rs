@@ -8,6 +8,8 @@ use reduction::ReductionError;
 use scene::SceneError;
 use study::StudyError;
 
+use crate::checkpoint::CheckpointError;
+
 /// Which file, and why.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
@@ -75,6 +77,9 @@ pub enum ReportError {
     /// No running pair can be made of the scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A run that cannot go on from a checkpoint.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A record that no statistics can be made of.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -96,6 +101,7 @@ impl ReportError {
             Self::Read { .. } | Self::NoNumber { .. } => Some("does another program write into the folder?".to_owned()),
             Self::NoResult { hint, .. } | Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Page { .. } | Self::NoWindow => None,
+            Self::Checkpoint(e) => e.hint(),
             Self::Scene(e) => e.hint(),
             Self::Study(e) => e.hint(),
             Self::Reduction(e) => e.hint(),

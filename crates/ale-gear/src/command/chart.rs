@@ -9,12 +9,14 @@ use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
 use super::overrides::Overrides;
 use report::folder::Partial;
 
+use report::check_memory;
+
 use crate::{
     chart::chart,
     error::CommandError,
     output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
     phases::Phases,
-    room,
+    memory,
     scene::Scene,
     talk,
 };
@@ -70,7 +72,7 @@ impl ChartArgs {
             ChartOptions::whole(self.limit_s)
         };
         options.motion = self.motion;
-        room::for_scene(&scene)?;
+        check_memory(&scene, memory::available_bytes())?;
         Ok((scene, options))
     }
 

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use analysis::lumped::is_lumped;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
+use report::check_memory;
+
 use crate::{
     cache::Cache,
     certificate::Written,
@@ -14,7 +16,7 @@ use crate::{
     output::{ResultDirectory, close, closing_table, static_headline, write_contact, write_history, write_report},
     phases::Phases,
     resolution::with_slices,
-    room, run,
+    memory, run,
     scene::{Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
@@ -89,7 +91,7 @@ impl RunArgs {
             ));
         }
         self.plan_motion(&scene)?;
-        room::for_scene(&scene)?;
+        check_memory(&scene, memory::available_bytes())?;
         Ok(scene)
     }
 

@@ -19,7 +19,6 @@ pub use ::report::{
     write_summary,
 };
 pub(crate) use ::report::{
-    columns::history_columns,
     motion_files::{motion_precision_csv, motion_precision_svg, motion_precision_table},
     study_files::CASES,
 };

@@ -6,6 +6,7 @@ mod passage;
 mod precision;
 mod resonance;
 mod series;
+mod sink;
 mod spectrum;
 mod write;
 
@@ -15,6 +16,7 @@ pub use passage::{cycles_csv, order_cuts_csv};
 pub use precision::{motion_precision_csv, motion_precision_svg, motion_precision_table};
 pub use resonance::resonance_csv;
 pub use series::motion_series;
+pub use sink::MotionFileSink;
 pub use spectrum::{SPECTRA, spectra, spectrum_csv, waterfall_csv};
 pub use write::{write_motion, write_sweep};
 
