@@ -14,7 +14,7 @@ use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::{ResultDirectory, close},
+    output::ResultDirectory,
     phases::Phases,
     scene::{MotionScene, Scene},
     talk::{self, Loudness},
@@ -141,7 +141,7 @@ fn one_motion(
             let cost = phases.cost();
             write_motion(scene, &result, &cost, view.as_ref(), results)?;
             let MotionResult { facts, headline, warnings, .. } = &*result;
-            close(scene, (facts, &cost), headline, warnings, results)?;
+            report::close_result(scene, (facts, &cost), headline, warnings, results)?;
             let table = motion_table(scene, facts, &cost, headline, warnings);
             let verdict = facts.certificate.verdict(scene).map_err(CommandError::from);
             Ok(Outcome::Finished(Written { table, verdict }))
@@ -160,7 +160,7 @@ fn sweep(
     let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
     let cost = phases.cost();
     write_sweep(scene, &result, &cost, sink.view.as_ref(), results)?;
-    close(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
+    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
     let table = sweep_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
     Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

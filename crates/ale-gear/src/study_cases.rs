@@ -10,8 +10,8 @@ use std::{
 
 use analysis::parameter_study::{CaseFailure, CaseRecord};
 use rayon::ThreadPoolBuilder;
-use report::{checkpoint::HISTORY, read_columns};
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
+use report::{checkpoint::HISTORY, read_columns};
 use scene::study::{Study, StudyCase};
 
 use crate::{

@@ -39,6 +39,16 @@ pub enum ReportError {
         /// What to do next.
         hint: &'static str,
     },
+    /// A document that tables are to go into has no place for them.
+    #[error("--into {}: {what}", file.display())]
+    NoMarks {
+        /// The document.
+        file: PathBuf,
+        /// What is wrong with it.
+        what: String,
+        /// The two lines that should be there.
+        marks: String,
+    },
     /// A file of rows holds what is no number.
     #[error("{}: holds what is no number", file.display())]
     NoNumber {
@@ -99,6 +109,7 @@ impl ReportError {
                 Some("is the disk full, or the folder write-protected?".to_owned())
             }
             Self::Read { .. } | Self::NoNumber { .. } => Some("does another program write into the folder?".to_owned()),
+            Self::NoMarks { marks, .. } => Some(format!("put the two lines {marks} where the tables shall stand")),
             Self::NoResult { hint, .. } | Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Page { .. } | Self::NoWindow => None,
             Self::Checkpoint(e) => e.hint(),

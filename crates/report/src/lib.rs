@@ -34,6 +34,7 @@ mod error;
 mod files;
 pub mod folder;
 pub mod lumped_files;
+mod marked_place;
 mod memory_demand;
 pub mod motion_files;
 pub mod page;
@@ -49,10 +50,11 @@ pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::ReportError;
 pub use files::ResultFiles;
+pub use marked_place::MarkedPlace;
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
 pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;
-pub use summary::write_summary;
+pub use summary::{close_result, write_summary};
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
 pub const SUMMARY_SCHEMA: u32 = 1;

@@ -61,7 +61,7 @@ impl MemoryDemandError {
 ///
 /// # Errors
 /// [`MemoryDemandError`] with rows, bytes and keys.
-pub fn check_memory(scene: &Scene, free_bytes: f64) -> Result<(), MemoryDemandError> {
+pub fn check_memory(scene: &Scene, free_bytes: f64) -> Result<(), Box<MemoryDemandError>> {
     demands(scene).iter().try_for_each(|demand| demand.within(scene, free_bytes))
 }
 
@@ -74,7 +74,7 @@ pub fn check_sweep_memory(
     (values, ways): (usize, usize),
     (points, every): (u32, u32),
     free_bytes: f64,
-) -> Result<(), MemoryDemandError> {
+) -> Result<(), Box<MemoryDemandError>> {
     let cycles = ("--cycles".to_owned(), f64::from(points));
     let steps = scene.motion.as_ref().map_or(1.0, |m| f64::from(m.steps_per_mesh_cycle));
     let mut rows = vec![cycles.clone(), ("motion.steps_per_mesh_cycle".to_owned(), steps)];
@@ -167,7 +167,7 @@ impl Demand {
         self.factors.iter().map(|(_, n)| n).product()
     }
 
-    fn within(&self, scene: &Scene, free: f64) -> Result<(), MemoryDemandError> {
+    fn within(&self, scene: &Scene, free: f64) -> Result<(), Box<MemoryDemandError>> {
         let bytes = self.count() * self.bytes_each;
         if bytes <= free {
             return Ok(());
@@ -182,7 +182,7 @@ impl Demand {
         let product: Vec<String> =
             self.factors.iter().map(|(key, n)| format!("`{}` {}", short(key), plain(*n))).collect();
         let names: Vec<String> = keys.iter().map(|key| format!("`{}`", short(key))).collect();
-        Err(MemoryDemandError {
+        Err(Box::new(MemoryDemandError {
             at,
             what: self.what,
             count: self.count(),
@@ -191,7 +191,7 @@ impl Demand {
             free,
             keys: names.join(" or "),
             excerpt: place.as_ref().and_then(Place::excerpt).map(str::to_owned),
-        })
+        }))
     }
 }
 

@@ -121,11 +121,7 @@ impl MeshArgs {
 }
 
 /// Both gears of a scene, with the files of their records; warnings come second.
-fn reduced(
-    scene: &Scene,
-    phases: &mut Phases,
-    cache: &Cache,
-) -> Result<(Vec<ReducedRow>, Vec<String>), CommandError> {
+fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<ReducedRow>, Vec<String>), CommandError> {
     let ReducedScene { mut rows, keys, warnings } = reduce_scene(scene, phases, cache)?;
     for (row, key) in rows.iter_mut().zip(keys.keys()) {
         let file = key.as_ref().and_then(|key| cache.file(key)).filter(|f| f.is_file());

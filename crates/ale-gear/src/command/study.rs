@@ -24,9 +24,9 @@ use report::check_memory;
 use crate::{
     chart::ProcessMemory,
     error::CommandError,
+    memory,
     output::ResultDirectory,
     phases::Phases,
-    memory,
     scene::{Scene, SceneError},
     study_cases::run_cases,
     talk,

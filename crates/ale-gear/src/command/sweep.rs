@@ -9,11 +9,10 @@ use report::check_sweep_memory;
 
 use crate::{
     error::CommandError,
-    lumped,
+    lumped, memory,
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    memory,
     scene::{Kind, Scene, Setting, SweepWay},
     talk,
 };

@@ -9,7 +9,9 @@ impl From<ReportError> for CommandError {
         match error {
             ReportError::Scene(e) => e.into(),
             ReportError::Folder { .. } => Self::input(format_args!("--out {error}"), error.hint()),
-            ReportError::NoResult { .. } | ReportError::Checkpoint(_) => Self::input(&error, error.hint()),
+            ReportError::NoResult { .. } | ReportError::NoMarks { .. } | ReportError::Checkpoint(_) => {
+                Self::input(&error, error.hint())
+            }
             _ => Self::failed(&error, error.hint()),
         }
     }
@@ -21,8 +23,8 @@ impl From<CheckpointError> for CommandError {
     }
 }
 
-impl From<MemoryDemandError> for CommandError {
-    fn from(error: MemoryDemandError) -> Self {
+impl From<Box<MemoryDemandError>> for CommandError {
+    fn from(error: Box<MemoryDemandError>) -> Self {
         let hint = error.hint();
         Self::input(&error, Some(hint)).about(error.excerpt.as_deref())
     }

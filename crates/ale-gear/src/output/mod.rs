@@ -1,14 +1,12 @@
 //! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`], and is named here
 //! for the modules that write it.
 
-mod columnar;
 mod error;
 
 pub use ::report::folder::ResultDirectory;
 pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
-pub(crate) use columnar::close;
 
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},

@@ -14,6 +14,6 @@ mod store;
 pub use error::CheckpointError;
 pub(crate) use inputs::Change;
 pub use inputs::InputDigests;
-pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, read_rows};
 pub(crate) use rows::Rows;
+pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, read_rows};
 pub use store::{CheckpointFolder, Checkpoints, Stored};

@@ -201,8 +201,7 @@ impl CheckpointFolder {
         if writer != Writer::this() {
             return Err(foreign(scene, "another version of this program"));
         }
-        let stored: Stored =
-            serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
+        let stored: Stored = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
         Rows::check(&self.0, &stored.rows)?;
         Ok(stored)
     }
