@@ -3,6 +3,7 @@
 use std::{fmt::Display, path::Path};
 
 use analysis::{AnalysisError, parameter_study::CaseFailure};
+use report::ReportError;
 use study::StudyError;
 
 use crate::scene::SceneError;
@@ -58,8 +59,8 @@ impl From<AnalysisError> for CommandError {
     fn from(error: AnalysisError) -> Self {
         let error = match error {
             // What a sink of this program says is a message already.
-            AnalysisError::Sink(inner) => match inner.downcast::<Self>() {
-                Ok(own) => return *own,
+            AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
+                Ok(own) => return (*own).into(),
                 Err(other) => AnalysisError::Sink(other),
             },
             other => other,

@@ -32,9 +32,7 @@ pub use ::scene;
 pub mod talk;
 
 mod lumped;
-pub mod reduce;
-mod room;
 mod study_cases;
 
-pub(crate) use analysis::{elastic_gears, gears};
+pub(crate) use analysis::gears;
 pub use analysis::{iso_root, meshes, resolution};

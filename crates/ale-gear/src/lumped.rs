@@ -10,7 +10,7 @@ use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::{ResultDirectory, close, write_summary},
+    output::{ResultDirectory, write_summary},
     phases::Phases,
     scene::{MotionScene, Scene},
 };
@@ -34,7 +34,7 @@ pub(crate) fn solve(
     let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
     let cost = phases.cost();
     write_lumped(scene, &result, &cost, results)?;
-    close(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
+    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
     let table = lumped_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
     Ok(Written { table, verdict: result.certificate().verdict(scene).map_err(CommandError::from) })
 }

@@ -16,6 +16,11 @@ pub fn peak_mb() -> Option<f64> {
     Some(kib * 1024.0 / 1e6)
 }
 
+/// The same, bytes; 10^12 where the system does not tell.
+pub fn available_bytes() -> f64 {
+    1e6 * available_mb().unwrap_or(1e6)
+}
+
 /// Memory that a new program could have without swapping, MB; `None` where the system does not tell.
 pub fn available_mb() -> Option<f64> {
     let info = fs::read_to_string("/proc/meminfo").ok()?;

@@ -11,13 +11,13 @@ use std::{
 use analysis::parameter_study::{CaseFailure, CaseRecord};
 use rayon::ThreadPoolBuilder;
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
+use report::{checkpoint::HISTORY, read_columns};
 use scene::study::{Study, StudyCase};
 
 use crate::{
     error::CommandError,
     facts::Cost,
     gears,
-    motion::{HISTORY, read_columns},
     output::{CASES, ResultDirectory},
     scene::Scene,
     talk,

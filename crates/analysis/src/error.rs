@@ -66,6 +66,32 @@ pub enum AnalysisError {
         /// What happened.
         source: Box<fem::FemError>,
     },
+    /// A model without reduced gears is to be reduced.
+    #[error("{at}: this model reduces nothing")]
+    NothingToReduce {
+        /// The scene, with the line of the model where it is known.
+        at: String,
+        /// That line, with a mark below what is meant.
+        excerpt: Option<String>,
+    },
+    /// A window that a mesh has not the teeth for.
+    #[error("{mesh}: a window of {window} teeth of {teeth}")]
+    WindowOfMesh {
+        /// The mesh.
+        mesh: String,
+        /// Teeth asked for.
+        window: usize,
+        /// Teeth of the mesh.
+        teeth: usize,
+    },
+    /// The gear of a mesh cannot be reduced.
+    #[error("{mesh}: {source}")]
+    ReductionOfMesh {
+        /// The mesh.
+        mesh: String,
+        /// What happened.
+        source: Box<reduction::ReductionError>,
+    },
     /// A gear as a rigid body has no mass or inertia.
     #[error("{place}: {source}")]
     Body {
@@ -286,7 +312,11 @@ impl AnalysisError {
             Self::Mesh { source, .. } | Self::MadeMesh { source, .. } => source.hint(),
             Self::Mesher { source, .. } => source.hint(),
             Self::Mismatch(mismatch) => Some(mismatch.hint.clone()),
-            Self::Reduction { source, .. } => source.hint(),
+            Self::Reduction { source, .. } | Self::ReductionOfMesh { source, .. } => source.hint(),
+            Self::NothingToReduce { .. } => {
+                Some("use `model = \"reduced\"` in [analysis], or `--set analysis.model=reduced`".to_owned())
+            }
+            Self::WindowOfMesh { .. } => Some("give `--window-teeth` up to the number of teeth of the mesh".to_owned()),
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
             Self::Iso { source, .. } | Self::Lumped { source, .. } => source.hint(),
@@ -323,6 +353,7 @@ impl AnalysisError {
             Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
             Self::Solver(failure) => failure.excerpt.as_deref(),
             Self::UnstableSteps(steps) => steps.excerpt.as_deref(),
+            Self::NothingToReduce { excerpt, .. } => excerpt.as_deref(),
             Self::AtValue { source, .. } => source.excerpt(),
             Self::Shared(source) => source.excerpt(),
             _ => None,

@@ -45,6 +45,7 @@ pub mod motion;
 mod observer;
 mod options;
 pub mod parameter_study;
+pub mod reduction_alone;
 pub mod resolution;
 pub mod results;
 mod static_certificate;

@@ -8,6 +8,8 @@ use reduction::ReductionError;
 use scene::SceneError;
 use study::StudyError;
 
+use crate::checkpoint::CheckpointError;
+
 /// Which file, and why.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
@@ -36,6 +38,16 @@ pub enum ReportError {
         what: String,
         /// What to do next.
         hint: &'static str,
+    },
+    /// A document that tables are to go into has no place for them.
+    #[error("--into {}: {what}", file.display())]
+    NoMarks {
+        /// The document.
+        file: PathBuf,
+        /// What is wrong with it.
+        what: String,
+        /// The two lines that should be there.
+        marks: String,
     },
     /// A file of rows holds what is no number.
     #[error("{}: holds what is no number", file.display())]
@@ -75,6 +87,9 @@ pub enum ReportError {
     /// No running pair can be made of the scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A run that cannot go on from a checkpoint.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// A record that no statistics can be made of.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -94,8 +109,10 @@ impl ReportError {
                 Some("is the disk full, or the folder write-protected?".to_owned())
             }
             Self::Read { .. } | Self::NoNumber { .. } => Some("does another program write into the folder?".to_owned()),
+            Self::NoMarks { marks, .. } => Some(format!("put the two lines {marks} where the tables shall stand")),
             Self::NoResult { hint, .. } | Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Page { .. } | Self::NoWindow => None,
+            Self::Checkpoint(e) => e.hint(),
             Self::Scene(e) => e.hint(),
             Self::Study(e) => e.hint(),
             Self::Reduction(e) => e.hint(),

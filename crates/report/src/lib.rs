@@ -13,6 +13,8 @@
 //! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`study_files`] | the same figures of several scenes, side by side |
+//! | [`checkpoint`] | rows and state of a motion that can be gone on from |
+//! | [`folder`] | a result folder that is there as a whole or not at all |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
@@ -21,6 +23,7 @@
 
 pub mod accuracy_chart;
 pub mod charts;
+pub mod checkpoint;
 mod columnar;
 pub mod columns;
 pub mod compare;
@@ -31,10 +34,13 @@ mod error;
 mod files;
 pub mod folder;
 pub mod lumped_files;
+mod marked_place;
+mod memory_demand;
 pub mod motion_files;
 pub mod page;
 pub mod paraview;
 mod rows;
+mod static_sink;
 pub mod study_files;
 mod summary;
 pub mod tables;
@@ -44,8 +50,11 @@ pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::ReportError;
 pub use files::ResultFiles;
+pub use marked_place::MarkedPlace;
+pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
 pub use rows::{columns_to_csv, parse_columns, read_columns};
-pub use summary::write_summary;
+pub use static_sink::StaticFileSink;
+pub use summary::{close_result, write_summary};
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
 pub const SUMMARY_SCHEMA: u32 = 1;

@@ -4,7 +4,7 @@ use analysis::facts::Facts;
 use scene::Scene;
 use serde::Serialize;
 
-use crate::{Cost, SUMMARY_SCHEMA};
+use crate::{Cost, ReportError, ResultFiles, SUMMARY_SCHEMA, folder::ResultDirectory, write_parquet};
 
 #[derive(Serialize)]
 struct Summary<'a, H> {
@@ -48,4 +48,23 @@ pub fn write_summary<H: Serialize>(
     let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
     text.push('\n');
     text
+}
+
+/// What is made of a result's files, last of all: `history.parquet`, where the scene asks for it, and `summary.json`, so
+/// that where it is everything is there.
+///
+/// # Errors
+/// [`ReportError`] when a file cannot be read or written.
+pub fn close_result<H: Serialize>(
+    scene: &Scene,
+    (facts, cost): (&Facts, &Cost),
+    headline: &H,
+    warnings: &[String],
+    results: &ResultDirectory,
+) -> Result<(), ReportError> {
+    if scene.output.parquet {
+        write_parquet(results.folder())?;
+    }
+    let summary = write_summary(scene, facts, cost, headline, warnings, &results.files()?);
+    ResultFiles::write(results, "summary.json", summary.as_bytes())
 }

@@ -1,20 +1,22 @@
 //! `ale-gear chart`: a scene in, accuracy against cost of every model out.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use analysis::accuracy_chart::ChartOptions;
 use analysis::motion::motion_precision;
 use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
 
 use super::overrides::Overrides;
-use report::folder::Partial;
+use report::MarkedPlace;
+
+use report::check_memory;
 
 use crate::{
     chart::chart,
     error::CommandError,
+    memory,
     output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
     phases::Phases,
-    room,
     scene::Scene,
     talk,
 };
@@ -58,7 +60,7 @@ impl ChartArgs {
             return Err(CommandError::input(message, Some("give seconds, such as `--limit-s 240`".into())));
         }
         if let Some(file) = &self.into {
-            between(file, &scene.name)?;
+            MarkedPlace::find(file, &scene.name)?;
         }
         if self.methods && scene.motion.is_none() {
             return Err(self.not_in_time());
@@ -70,7 +72,7 @@ impl ChartArgs {
             ChartOptions::whole(self.limit_s)
         };
         options.motion = self.motion;
-        room::for_scene(&scene)?;
+        check_memory(&scene, memory::available_bytes())?;
         Ok((scene, options))
     }
 
@@ -97,7 +99,7 @@ impl ChartArgs {
         results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
-            put_into(file, &scene.name, &tables)?;
+            MarkedPlace::find(file, &scene.name)?.replace(&tables)?;
         }
         Ok(format!("{tables}\nresults: {}\n", self.out.display()))
     }
@@ -130,79 +132,8 @@ impl ChartArgs {
         results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
-            put_into(file, &scene.name, &table)?;
+            MarkedPlace::find(file, &scene.name)?.replace(&table)?;
         }
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
-    }
-}
-
-/// A file and the bytes of it that the tables replace.
-struct Place {
-    text: String,
-    start: usize,
-    end: usize,
-}
-
-/// The place of a scene's tables.
-///
-/// # Errors
-/// Exit status 2 when the file or its marks are not there.
-fn between(file: &Path, name: &str) -> Result<Place, CommandError> {
-    let (open, close) = (format!("<!-- chart {name} -->\n"), "<!-- end -->");
-    let hint = || Some(format!("put the two lines `{}` and `{close}` where the tables shall stand", open.trim()));
-    let complain = |what: String| CommandError::input(format_args!("--into {}: {what}", file.display()), hint());
-    let text = std::fs::read_to_string(file).map_err(|e| complain(e.to_string()))?;
-    let start = text.find(&open).map(|at| at + open.len()).ok_or_else(|| complain(format!("no `{}`", open.trim())))?;
-    let end = text[start..].find(close).map(|at| start + at).ok_or_else(|| complain(format!("no `{close}`")))?;
-    Ok(Place { text, start, end })
-}
-
-fn put_into(file: &Path, name: &str, tables: &str) -> Result<(), CommandError> {
-    let Place { text, start, end } = between(file, name)?;
-    let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
-    replace(file, whole.as_bytes()).map_err(|e| CommandError::write(file, &e))
-}
-
-/// Writes a file beside it first: one that is half written would be lost. A link stays, and what it leads to is replaced, with the permissions it had.
-fn replace(file: &Path, content: &[u8]) -> std::io::Result<()> {
-    let target = std::fs::canonicalize(file)?;
-    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let new = Partial::new(target.with_file_name(format!(".{name}.partial-{}", std::process::id())));
-    std::fs::write(new.path(), content)?;
-    std::fs::set_permissions(new.path(), std::fs::metadata(&target)?.permissions())?;
-    std::fs::rename(new.path(), &target)?;
-    new.keep();
-    Ok(())
-}
-
-#[cfg(all(test, unix))]
-mod tests {
-    use std::os::unix::fs::{PermissionsExt, symlink};
-
-    use super::*;
-
-    /// Through a link to a file, and through one to its folder; a file that stands beside it under a like name is nobody's.
-    #[test]
-    fn tables_go_where_a_link_leads_to() {
-        let scratch = tempfile::tempdir().unwrap();
-        let (book, page) = (scratch.path().join("book"), scratch.path().join("book/page.md"));
-        std::fs::create_dir(&book).unwrap();
-        std::fs::write(&page, "# A\n<!-- chart a -->\nold\n<!-- end -->\nrest\n").unwrap();
-        std::fs::set_permissions(&page, std::fs::Permissions::from_mode(0o640)).unwrap();
-        std::fs::write(book.join("page.new"), "mine").unwrap();
-        let (link, folder) = (scratch.path().join("link.md"), scratch.path().join("docs"));
-        symlink("book/page.md", &link).unwrap();
-        symlink("book", &folder).unwrap();
-        for (file, table) in [(link.clone(), "first"), (folder.join("page.md"), "second")] {
-            put_into(&file, "a", table).unwrap();
-            let wanted = format!("# A\n<!-- chart a -->\n\n{table}\n<!-- end -->\nrest\n");
-            assert_eq!(std::fs::read_to_string(&page).unwrap(), wanted);
-        }
-        for path in [&link, &folder] {
-            assert!(std::fs::symlink_metadata(path).unwrap().is_symlink(), "{} is a link no more", path.display());
-        }
-        assert_eq!(std::fs::metadata(&page).unwrap().permissions().mode() & 0o777, 0o640);
-        assert_eq!(std::fs::read_to_string(book.join("page.new")).unwrap(), "mine");
-        assert_eq!(std::fs::read_dir(&book).unwrap().count(), 2);
     }
 }

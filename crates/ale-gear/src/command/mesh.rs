@@ -1,13 +1,11 @@
 //! `ale-gear mesh`: look at, check or make meshes.
 
 use mesh::MshFormat;
-use std::{
-    fmt::Write,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use clap::{Subcommand, ValueEnum};
-use mesh::{Finding, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Numbered, Severity};
+use mesh::{GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
+use report::tables::{mesh_findings, mesh_findings_json, mesh_info_table};
 
 use crate::{error::CommandError, meshes, scene::Scene};
 
@@ -115,7 +113,7 @@ impl MeshCommand {
         match self {
             Self::Info { file, json } => {
                 let found = MeshInfo::new(&read(&file)?);
-                Ok(if json { format!("{:#}\n", serde_json::json!(found)) } else { info(&file, &found) })
+                Ok(if json { format!("{:#}\n", serde_json::json!(found)) } else { mesh_info_table(&file, &found) })
             }
             Self::Check { file, teeth, groups, json } => check(&file, teeth, &groups.names()?, json),
             Self::Generate { scene, gear, output, format, ascii } => {
@@ -139,68 +137,9 @@ pub(super) fn complaint(e: MeshError) -> CommandError {
     CommandError::input(&e, hint)
 }
 
-/// A short table of what is in a mesh.
-fn info(file: &Path, mesh: &MeshInfo) -> String {
-    let mut t = format!("{}\n", file.display());
-    let mut line = |label: &str, value: String| {
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "  {label:<16} {value}");
-    };
-    line("nodes", format!("{} ({} DOF)", mesh.nodes, 3 * mesh.nodes));
-    for (kind, count) in &mesh.elements {
-        line("elements", format!("{count} {kind}"));
-    }
-    line("volume", format!("{:.3} mm^3", mesh.volume));
-    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        line(name, format!("{:.4} .. {:.4} mm", mesh.low[axis], mesh.high[axis]));
-    }
-    line("radius", format!("{:.4} .. {:.4} mm", mesh.radius_range[0], mesh.radius_range[1]));
-    line("angle", format!("{:.2} deg", mesh.gear.angle_deg));
-    let unknown = || "not known".to_owned();
-    line("bore radius", mesh.gear.bore_radius.map_or_else(unknown, |r| format!("{r:.4} mm")));
-    line("teeth", mesh.gear.teeth.map_or_else(unknown, |z| z.to_string()));
-    line("teeth with flanks", mesh.gear.named_teeth.to_string());
-    line("volumes", mesh.volumes.join(", "));
-    line("surfaces", format!("{} groups", mesh.surfaces.len()));
-    let mut surfaces: Vec<_> = mesh.surfaces.iter().collect();
-    // Tooth 2 before tooth 10.
-    surfaces.sort_by_cached_key(|g| Numbered::of(&g.name).map_or((g.name.clone(), 0), |n| (n.pattern, n.number)));
-    for g in surfaces {
-        let _ = writeln!(t, "    {:<20} {:>7} faces {:>7} nodes {:>12.3} mm^2", g.name, g.faces, g.nodes, g.area);
-    }
-    t
-}
-
-fn severity(finding: &Finding) -> &'static str {
-    match finding.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    }
-}
-
-fn as_json(report: &MeshReport) -> String {
-    let one = |f: &Finding| {
-        serde_json::json!({
-            "severity": severity(f), "text": f.text, "count": f.count, "elements": f.elements, "nodes": f.nodes
-        })
-    };
-    format!("{:#}\n", serde_json::Value::from(report.findings.iter().map(one).collect::<Vec<_>>()))
-}
-
 fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Result<String, CommandError> {
     let report = MeshReport::of_gear(&read(file)?, names, teeth);
-    let mut t = String::new();
-    for finding in &report.findings {
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "{}: {}", severity(finding), finding.text);
-        for (what, tags) in [("elements", &finding.elements), ("nodes", &finding.nodes)] {
-            if !tags.is_empty() {
-                let shown: Vec<String> = tags.iter().map(u64::to_string).collect();
-                let _ = writeln!(t, "  {what} {}", shown.join(" "));
-            }
-        }
-    }
+    let t = mesh_findings(&report);
     let errors = report.findings.iter().filter(|f| f.severity == Severity::Error).count();
     if errors > 0 {
         let list = t.trim_end().replace('\n', "\n  ");
@@ -210,7 +149,7 @@ fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Res
         ));
     }
     if json {
-        return Ok(as_json(&report));
+        return Ok(mesh_findings_json(&report));
     }
     let verdict = if report.findings.is_empty() { "nothing wrong found" } else { "can be used" };
     Ok(format!("{}: {verdict}\n{t}", file.display()))

@@ -5,6 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use analysis::reduction_alone::{ReducedRow, ReducedScene, reduce_mesh, reduce_scene};
 use fem::Material;
 use mesh::{GearMesh, Mesh};
 use serde_json::json;
@@ -14,11 +15,7 @@ use super::{
     mesh::{GroupArgs, complaint},
     overrides::Overrides,
 };
-use crate::{
-    error::CommandError,
-    phases::Phases,
-    reduce::{ReducedRow, reduce_mesh, reduce_scene},
-};
+use crate::{cache::Cache, error::CommandError, phases::Phases, scene::Scene};
 
 /// Words of `ale-gear reduce`.
 #[derive(Debug, clap::Args)]
@@ -70,7 +67,7 @@ impl ReduceArgs {
         } else {
             self.of_mesh.refuse(&self.file)?;
             let scene = self.overrides.read(&self.file)?;
-            reduce_scene(&scene, &mut phases, &self.cache.open())?
+            reduced(&scene, &mut phases, &self.cache.open())?
         };
         Ok(if json {
             format!("{:#}\n", json!({ "gears": rows, "phases": phases.rows(), "warnings": warnings }))
@@ -119,8 +116,18 @@ impl MeshArgs {
         let gear = GearMesh::from_groups(mesh, &names, teeth).map_err(of_file)?;
         let material = Material::new(self.young_mpa.unwrap_or(2.06e5), self.poisson.unwrap_or(0.3), STEEL)
             .map_err(|e| CommandError::input(&e, e.hint()))?;
-        reduce_mesh(&file.display().to_string(), gear, material, self.window_teeth.unwrap_or(3), phases)
+        Ok(reduce_mesh(&file.display().to_string(), gear, material, self.window_teeth.unwrap_or(3), phases)?)
     }
+}
+
+/// Both gears of a scene, with the files of their records; warnings come second.
+fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<ReducedRow>, Vec<String>), CommandError> {
+    let ReducedScene { mut rows, keys, warnings } = reduce_scene(scene, phases, cache)?;
+    for (row, key) in rows.iter_mut().zip(keys.keys()) {
+        let file = key.as_ref().and_then(|key| cache.file(key)).filter(|f| f.is_file());
+        row.file = file.map(|f| f.display().to_string());
+    }
+    Ok((rows, warnings))
 }
 
 fn table(rows: &[ReducedRow], phases: &Phases, warnings: &[String]) -> String {

@@ -5,16 +5,19 @@ use std::path::PathBuf;
 use analysis::lumped::is_lumped;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
+use report::check_memory;
+
 use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
     facts::Solved,
+    memory,
     motion::{self, Progression},
-    output::{ResultDirectory, close, closing_table, static_headline, write_contact, write_history, write_report},
+    output::{ResultDirectory, closing_table, static_headline, write_contact, write_history, write_report},
     phases::Phases,
     resolution::with_slices,
-    room, run,
+    run,
     scene::{Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
@@ -89,7 +92,7 @@ impl RunArgs {
             ));
         }
         self.plan_motion(&scene)?;
-        room::for_scene(&scene)?;
+        check_memory(&scene, memory::available_bytes())?;
         Ok(scene)
     }
 
@@ -212,7 +215,7 @@ fn write_static(
     let cost = phases.cost();
     let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
     report.write(results)?;
-    close(scene, (&facts, &cost), &headline, &history.warnings, results)?;
+    report::close_result(scene, (&facts, &cost), &headline, &history.warnings, results)?;
     let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
     Ok(Written { table, verdict: facts.certificate.verdict(scene).map_err(CommandError::from) })
 }

@@ -9,6 +9,7 @@ use analysis::{
     resolution::with_slices,
 };
 use report::{
+    checkpoint::motion_column_names,
     columns::history_columns,
     study_files::{
         CaseResult, STUDY_FILE, StudyResult, study_csv, study_table, with_result, write_study_report,
@@ -18,13 +19,14 @@ use report::{
 use scene::study::Study;
 
 use super::{cache_args::CacheArgs, run::write_result};
+use report::check_memory;
+
 use crate::{
     chart::ProcessMemory,
     error::CommandError,
-    motion,
+    memory,
     output::ResultDirectory,
     phases::Phases,
-    room,
     scene::{Scene, SceneError},
     study_cases::run_cases,
     talk,
@@ -34,7 +36,7 @@ use crate::{
 fn columns_of(scene: &Scene) -> Option<Vec<String>> {
     match &scene.motion {
         Some(_) if is_lumped(scene) => None,
-        Some(_) => Some(motion::column_names(scene)),
+        Some(_) => Some(motion_column_names(scene)),
         None => Some(history_columns(scene, &[])),
     }
 }
@@ -64,7 +66,8 @@ impl StudyArgs {
         for case in &mut study.cases {
             case.scene = with_slices(case.scene.clone());
         }
-        study.cases.iter().try_for_each(|case| room::for_scene(&case.scene))?;
+        let free = memory::available_bytes();
+        study.cases.iter().try_for_each(|case| check_memory(&case.scene, free))?;
         Ok(study)
     }
 

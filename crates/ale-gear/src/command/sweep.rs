@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
 
 use super::{cache_args::CacheArgs, overrides::Overrides};
+use report::check_sweep_memory;
+
 use crate::{
     error::CommandError,
-    lumped,
+    lumped, memory,
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    room,
     scene::{Kind, Scene, Setting, SweepWay},
     talk,
 };
@@ -184,7 +185,12 @@ impl SweepArgs {
         };
         for (_, scene) in &scenes {
             let every = options.every.cycles(scene);
-            room::for_sweep(scene, (scenes.len(), options.ways.len()), (options.points, every))?;
+            check_sweep_memory(
+                scene,
+                (scenes.len(), options.ways.len()),
+                (options.points, every),
+                memory::available_bytes(),
+            )?;
         }
         Ok((scenes, options))
     }

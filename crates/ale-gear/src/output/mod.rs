@@ -1,14 +1,12 @@
 //! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`], and is named here
 //! for the modules that write it.
 
-mod columnar;
 mod error;
 
 pub use ::report::folder::ResultDirectory;
 pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
-pub(crate) use columnar::close;
 
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},
@@ -19,7 +17,6 @@ pub use ::report::{
     write_summary,
 };
 pub(crate) use ::report::{
-    columns::history_columns,
     motion_files::{motion_precision_csv, motion_precision_svg, motion_precision_table},
     study_files::CASES,
 };

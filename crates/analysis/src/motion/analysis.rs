@@ -118,17 +118,12 @@ impl<'a> MotionAnalysis<'a> {
         Self { stop_after: cycles, ..self }
     }
 
-    /// Solves it to its end, telling nobody.
+    /// Solves it to its end, telling nobody; where to stop before that is left aside.
     ///
     /// # Errors
     /// [`AnalysisError`].
     pub fn solve(self) -> Result<MotionResult, AnalysisError> {
-        let scene = self.scene;
-        match self.stop_after(None).solve_into(&mut NoObserver, &mut NoMotionSink)? {
-            MotionOutcome::Finished(result) => Ok(*result),
-            // Nobody asked it to stop.
-            MotionOutcome::Stopped { .. } => Err(other_analysis(scene)),
-        }
+        result(self.stop_after(None).follow(&mut NoObserver, &mut NoMotionSink)?)
     }
 
     /// Solves it; rows go into `sink` as they come.
@@ -140,12 +135,21 @@ impl<'a> MotionAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn MotionSink,
     ) -> Result<MotionOutcome, AnalysisError> {
+        let followed = self.follow(observer, sink)?;
+        if followed.done.stopped {
+            return Ok(MotionOutcome::Stopped { cycles: followed.done.motion.cycle() });
+        }
+        Ok(MotionOutcome::Finished(Box::new(result(followed)?)))
+    }
+
+    /// Follows the motion to its end, or to where it is to stop, with window after window until one suffices.
+    fn follow(self, observer: &mut dyn Observer, sink: &mut dyn MotionSink) -> Result<FollowedMotion, AnalysisError> {
         let Self { meshes, cache, mut from, stop_after, .. } = self;
-        let scene = &settled_scene(self.scene, meshes.is_some());
+        let scene = settled_scene(self.scene, meshes.is_some());
         let one_motion = |m: &&MotionScene| m.sweep.is_none() && scene.analysis.model.is_reduced();
-        let motion = scene.motion.as_ref().filter(one_motion).ok_or_else(|| other_analysis(scene))?;
-        from.as_ref().map_or(Ok(()), |from| check_rows(scene, motion, from))?;
-        let inputs = MotionInputs::new((scene, motion), meshes, cache, observer)?;
+        let motion = scene.motion.as_ref().filter(one_motion).ok_or_else(|| other_analysis(&scene))?;
+        from.as_ref().map_or(Ok(()), |from| check_rows(&scene, motion, from))?;
+        let inputs = MotionInputs::new((&scene, motion), meshes, cache, observer)?;
         let facts: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
         sink.meshes(&facts).map_err(AnalysisError::Sink)?;
         let mut widened = Vec::new();
@@ -154,7 +158,7 @@ impl<'a> MotionAnalysis<'a> {
             |window| {
                 let prepared = ready(&inputs, observer, sink, window)?;
                 let span = Span { from: from.take(), stop_after };
-                let done = course::run((scene, motion), &prepared, observer, sink, span)?;
+                let done = course::run((&scene, motion), &prepared, observer, sink, span)?;
                 Ok((prepared, done))
             },
             |window, failure| {
@@ -164,14 +168,20 @@ impl<'a> MotionAnalysis<'a> {
                 Some(teeth)
             },
         );
-        let (mut prepared, done) = solved.map_err(|e: Failure| e.into_error(scene))?;
-        if done.stopped {
-            return Ok(MotionOutcome::Stopped { cycles: done.motion.cycle() });
-        }
+        let (mut prepared, done) = solved.map_err(|e: Failure| e.into_error(&scene))?;
         prepared.warnings.extend(widened);
-        let result = result((scene, motion), inputs.pair, prepared, done)?;
-        Ok(MotionOutcome::Finished(Box::new(result)))
+        let (pair, motion) = (inputs.pair, motion.clone());
+        Ok(FollowedMotion { scene, motion, pair, prepared, done })
     }
+}
+
+/// A motion as far as it was followed, and what it was made of.
+struct FollowedMotion {
+    scene: Scene,
+    motion: MotionScene,
+    pair: GearPair,
+    prepared: PreparedMotion,
+    done: FinishedMotion,
 }
 
 fn other_analysis(scene: &Scene) -> AnalysisError {
@@ -218,12 +228,9 @@ pub(super) fn campbell_diagram(
     Ok(CampbellDiagram::of(all, teeth, highest_mesh_hz)?)
 }
 
-fn result(
-    (scene, motion): (&Scene, &MotionScene),
-    pair: GearPair,
-    prepared: PreparedMotion,
-    done: FinishedMotion,
-) -> Result<MotionResult, AnalysisError> {
+fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
+    let FollowedMotion { scene, motion, pair, prepared, done } = followed;
+    let (scene, motion) = (&scene, &motion);
     let per_cycle = motion.steps_per_mesh_cycle as usize;
     let teeth = scene.driver_teeth();
     let series = MotionSeries::of(&done.rows);

@@ -5,7 +5,7 @@ mod charts;
 mod passage;
 mod precision;
 mod resonance;
-mod series;
+mod sink;
 mod spectrum;
 mod write;
 
@@ -14,7 +14,7 @@ pub use charts::{MotionPictures, SHOWN_CYCLES, SweepPictures, motion_charts, swe
 pub use passage::{cycles_csv, order_cuts_csv};
 pub use precision::{motion_precision_csv, motion_precision_svg, motion_precision_table};
 pub use resonance::resonance_csv;
-pub use series::motion_series;
+pub use sink::MotionFileSink;
 pub use spectrum::{SPECTRA, spectra, spectrum_csv, waterfall_csv};
 pub use write::{write_motion, write_sweep};
 

@@ -7,16 +7,10 @@ use std::mem::size_of;
 use analysis::lumped::{LumpedRow, is_lumped};
 use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
+use scene::{MotionScene, Place, Scene};
 
-use crate::{
-    error::CommandError,
-    memory, motion,
-    output::history_columns,
-    scene::{MotionScene, Scene},
-};
+use crate::{checkpoint::motion_column_names, columns::history_columns};
 
-/// Taken for free where the system does not tell, MB.
-const UNKNOWN_MB: f64 = 1e6;
 /// A number in memory, and as text.
 const NUMBER: usize = size_of::<f64>();
 const TEXT: usize = 20;
@@ -39,23 +33,50 @@ struct Demand {
     bytes_each: f64,
 }
 
-/// Refuses a scene whose rows memory cannot hold.
+/// A scene that asks for more rows than memory holds.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{at}: {} {what} ({product}) take about {} GB; {:.1} GB of memory are free",
+    plain(*count), plain((1e-9 * count * bytes_each).ceil()), 1e-9 * free
+)]
+pub struct MemoryDemandError {
+    at: String,
+    what: &'static str,
+    count: f64,
+    product: String,
+    bytes_each: f64,
+    free: f64,
+    keys: String,
+    /// The line of the scene that is meant, with a mark below it.
+    pub excerpt: Option<String>,
+}
+
+impl MemoryDemandError {
+    /// What to do next.
+    pub fn hint(&self) -> String {
+        let fit = (self.free / self.bytes_each).floor();
+        format!("lower {}: about {} {} fit", self.keys, plain(fit), self.what)
+    }
+}
+
+/// Refuses a scene whose rows memory cannot hold, of which `free_bytes` are free.
 ///
 /// # Errors
-/// Exit status 2 with rows, bytes and keys.
-pub(crate) fn for_scene(scene: &Scene) -> Result<(), CommandError> {
-    each(scene, &demands(scene))
+/// [`MemoryDemandError`] with rows, bytes and keys.
+pub fn check_memory(scene: &Scene, free_bytes: f64) -> Result<(), Box<MemoryDemandError>> {
+    demands(scene).iter().try_for_each(|demand| demand.within(scene, free_bytes))
 }
 
 /// The same of a scene that is run at many values of a key: `points` of a section each, with a point `every` so many mesh cycles.
 ///
 /// # Errors
-/// As [`for_scene`].
-pub(crate) fn for_sweep(
+/// As [`check_memory`].
+pub fn check_sweep_memory(
     scene: &Scene,
     (values, ways): (usize, usize),
     (points, every): (u32, u32),
-) -> Result<(), CommandError> {
+    free_bytes: f64,
+) -> Result<(), Box<MemoryDemandError>> {
     let cycles = ("--cycles".to_owned(), f64::from(points));
     let steps = scene.motion.as_ref().map_or(1.0, |m| f64::from(m.steps_per_mesh_cycle));
     let mut rows = vec![cycles.clone(), ("motion.steps_per_mesh_cycle".to_owned(), steps)];
@@ -66,12 +87,8 @@ pub(crate) fn for_sweep(
     let bytes_each = (ways.max(1) * LUMPED_ROW) as f64;
     let along = vec![("--points".to_owned(), values as f64), cycles, ("ways".to_owned(), ways as f64)];
     let sections = Demand { what: "points of sections", factors: along, bytes_each: (NUMBER + 3 * TEXT) as f64 };
-    each(scene, &[Demand { what: "rows", factors: rows, bytes_each }, sections])
-}
-
-fn each(scene: &Scene, demands: &[Demand]) -> Result<(), CommandError> {
-    let free = 1e6 * memory::available_mb().unwrap_or(UNKNOWN_MB);
-    demands.iter().try_for_each(|demand| demand.within(scene, free))
+    let both = [Demand { what: "rows", factors: rows, bytes_each }, sections];
+    both.iter().try_for_each(|demand| demand.within(scene, free_bytes))
 }
 
 /// What a scene asks for.
@@ -94,7 +111,7 @@ fn demands(scene: &Scene) -> Vec<Demand> {
             let mut factors =
                 vec![cycles(scene, words), count("motion.steps_per_mesh_cycle", words.steps_per_mesh_cycle)];
             let is_cheaper = is_lumped(scene);
-            let columns = if is_cheaper { LUMPED_COLUMNS } else { motion::column_names(scene).len() + WINDOW };
+            let columns = if is_cheaper { LUMPED_COLUMNS } else { motion_column_names(scene).len() + WINDOW };
             let mut bytes_each = columns * (NUMBER + TEXT) + if is_cheaper { LUMPED_ROW } else { 0 };
             if let Some(sweep) = &words.sweep {
                 if is_cheaper {
@@ -152,7 +169,7 @@ impl Demand {
         self.factors.iter().map(|(_, n)| n).product()
     }
 
-    fn within(&self, scene: &Scene, free: f64) -> Result<(), CommandError> {
+    fn within(&self, scene: &Scene, free: f64) -> Result<(), Box<MemoryDemandError>> {
         let bytes = self.count() * self.bytes_each;
         if bytes <= free {
             return Ok(());
@@ -166,22 +183,17 @@ impl Demand {
         let short = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
         let product: Vec<String> =
             self.factors.iter().map(|(key, n)| format!("`{}` {}", short(key), plain(*n))).collect();
-        let said = format!(
-            "{at}: {} {} ({}) take about {} GB; {:.1} GB of memory are free",
-            plain(self.count()),
-            self.what,
-            product.join(" x "),
-            plain((1e-9 * bytes).ceil()),
-            1e-9 * free
-        );
         let names: Vec<String> = keys.iter().map(|key| format!("`{}`", short(key))).collect();
-        let hint = format!(
-            "lower {}: about {} {} fit",
-            names.join(" or "),
-            plain((free / self.bytes_each).floor()),
-            self.what
-        );
-        Err(CommandError::input(said, Some(hint)).about(place.as_ref().and_then(|p| p.excerpt())))
+        Err(Box::new(MemoryDemandError {
+            at,
+            what: self.what,
+            count: self.count(),
+            product: product.join(" x "),
+            bytes_each: self.bytes_each,
+            free,
+            keys: names.join(" or "),
+            excerpt: place.as_ref().and_then(Place::excerpt).map(str::to_owned),
+        }))
     }
 }
 
@@ -197,16 +209,15 @@ mod tests {
     /// What fits is let through, and one row more is not: the law is the product of counts times what a row takes.
     #[test]
     fn a_demand_is_refused_where_it_begins_to_be_too_large() {
-        let scene = crate::resolution::with_slices(Scene::default_scene().unwrap());
+        let scene = analysis::resolution::with_slices(Scene::default_scene().unwrap());
         let factors = vec![("analysis.cycles".to_owned(), 10.0), ("analysis.positions_per_cycle".to_owned(), 32.0)];
         let demand = Demand { what: "positions", factors, bytes_each: 1e6 };
         assert!(demand.within(&scene, 320e6).is_ok());
         let refused = demand.within(&scene, 319e6).unwrap_err();
-        assert_eq!(refused.status, 2);
         assert_eq!(
-            refused.message,
+            refused.to_string(),
             "default scene:32: 320 positions (`cycles` 10 x `positions_per_cycle` 32) take about 1 GB; 0.3 GB of memory are free"
         );
-        assert_eq!(refused.hint.as_deref(), Some("lower `positions_per_cycle` or `cycles`: about 319 positions fit"));
+        assert_eq!(refused.hint(), "lower `positions_per_cycle` or `cycles`: about 319 positions fit");
     }
 }

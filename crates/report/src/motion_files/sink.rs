@@ -9,17 +9,16 @@ use analysis::{
     run_phase,
 };
 use ltca::{StaticModel, StaticPosition};
-use report::view::{View, ViewRecorder};
+use scene::Scene;
 
-use super::{
-    inputs::{Change, InputDigests},
-    rows::Rows,
-    store::{Checkpoints, Stored},
+use crate::{
+    ReportError,
+    checkpoint::{Change, CheckpointError, Checkpoints, InputDigests, Rows, Stored},
+    view::{View, ViewRecorder},
 };
-use crate::{error::CommandError, scene::Scene};
 
 /// Where rows and checkpoints of a motion go.
-pub(super) struct FileSink<'a> {
+pub struct MotionFileSink<'a> {
     scene: &'a Scene,
     /// Folder of the rows.
     folder: &'a Path,
@@ -33,7 +32,8 @@ pub(super) struct FileSink<'a> {
     pub view: Option<View>,
 }
 
-impl<'a> FileSink<'a> {
+impl<'a> MotionFileSink<'a> {
+    /// Of a scene. Rows go into `folder`, with checkpoints where there are some; `from` is what the run goes on from.
     pub fn new(
         scene: &'a Scene,
         folder: &'a Path,
@@ -46,17 +46,15 @@ impl<'a> FileSink<'a> {
 
     /// That nobody has written to a file of the scene while it was read, and that the meshes are those of the
     /// checkpoint.
-    fn check_inputs(&self) -> Result<(), CommandError> {
+    fn check_inputs(&self) -> Result<(), CheckpointError> {
         let Some(Checkpoints { inputs, .. }) = self.checkpoints else { return Ok(()) };
         if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.scene)?) {
-            let file = self.scene.resolve(Path::new(&file));
-            let message = format_args!("{}: has changed while it was read", file.display());
-            return Err(CommandError::input(message, Some("run again when nobody writes to it".into())));
+            return Err(CheckpointError::Changing { file: self.scene.resolve(Path::new(&file)) });
         }
         self.from.map_or(Ok(()), |stored| stored.check_meshes(self.scene, &self.meshes))
     }
 
-    fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, CommandError> {
+    fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, ReportError> {
         if let (true, Some(stored)) = (resumes, self.from) {
             return Rows::resume(layout, self.folder, &stored.rows);
         }
@@ -67,10 +65,10 @@ impl<'a> FileSink<'a> {
     }
 }
 
-impl MotionSink for FileSink<'_> {
+impl MotionSink for MotionFileSink<'_> {
     fn meshes(&mut self, meshes: &[MeshFacts]) -> SinkResult {
         meshes.clone_into(&mut self.meshes);
-        Ok(self.check_inputs()?)
+        Ok(self.check_inputs().map_err(ReportError::from)?)
     }
 
     fn begin(&mut self) {

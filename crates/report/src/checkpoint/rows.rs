@@ -7,29 +7,31 @@ use std::{
 };
 
 use analysis::motion::{MotionLayout, MotionRow};
-use report::{
+use scene::Scene;
+use serde::{Deserialize, Serialize};
+use study::Columns;
+
+use super::CheckpointError;
+use crate::{
     ReportError,
     columns::{ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows},
     csv::push_row,
     parse_columns,
 };
-use serde::{Deserialize, Serialize};
-use study::Columns;
 
-use crate::{error::CommandError, scene::Scene};
-
-/// Names of the files.
-pub(crate) const HISTORY: &str = "history.csv";
-pub(crate) const ENERGY_FILE: &str = "energy.csv";
+/// Rows of a motion.
+pub const HISTORY: &str = "history.csv";
+/// Its ledger of energy, row by row.
+pub const ENERGY_FILE: &str = "energy.csv";
 
 /// Columns that `history.csv` of a scene's motion will have, but for those of single pairs, which go with the window.
-pub(crate) fn column_names(scene: &Scene) -> Vec<String> {
+pub fn motion_column_names(scene: &Scene) -> Vec<String> {
     MOTION_HISTORY.sheet(&MotionLayout::of(scene, 0), &[]).names()
 }
 
 /// What a checkpoint keeps of a file of rows.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Kept {
+pub struct Kept {
     /// Length.
     bytes: u64,
     /// BLAKE3 of so many bytes, hexadecimal.
@@ -39,8 +41,8 @@ pub(super) struct Kept {
 /// The digest so far of a file of rows, when it begins with what was kept of it.
 ///
 /// # Errors
-/// Exit status 2 when it does not.
-fn digested(path: &Path, kept: &Kept) -> Result<blake3::Hasher, CommandError> {
+/// [`CheckpointError::Damaged`] when it does not.
+fn digested(path: &Path, kept: &Kept) -> Result<blake3::Hasher, CheckpointError> {
     let mut digest = blake3::Hasher::new();
     let read = File::open(path).and_then(|file| digest.update_reader(file.take(kept.bytes)).map(|_| ()));
     let what = match read {
@@ -51,8 +53,7 @@ fn digested(path: &Path, kept: &Kept) -> Result<blake3::Hasher, CommandError> {
         }
         Ok(()) => return Ok(digest),
     };
-    let hint = "run without `--resume` to start from the beginning".to_owned();
-    Err(CommandError::input(format_args!("{}: {what}", path.display()), Some(hint)))
+    Err(CheckpointError::Damaged { file: path.to_owned(), what })
 }
 
 /// A file that grows and can be taken up again.
@@ -66,22 +67,22 @@ struct Growing {
 }
 
 impl Growing {
-    fn new(path: PathBuf, header: &str) -> Result<Self, CommandError> {
-        let file = File::create(&path).map_err(|e| CommandError::write(&path, &e))?;
+    fn new(path: PathBuf, header: &str) -> Result<Self, ReportError> {
+        let file = File::create(&path).map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
         let mut new = Self { file: BufWriter::new(file), path, bytes: 0, digest: blake3::Hasher::new(), failed: None };
         new.push(header);
         Ok(new)
     }
 
     /// Cut to what its digest is of, what came after a checkpoint being written anew.
-    fn resume(path: PathBuf, digest: blake3::Hasher) -> Result<Self, CommandError> {
+    fn resume(path: PathBuf, digest: blake3::Hasher) -> Result<Self, ReportError> {
         let bytes = digest.count();
         let open = || -> std::io::Result<File> {
             let file = OpenOptions::new().append(true).open(&path)?;
             file.set_len(bytes)?;
             Ok(file)
         };
-        let file = open().map_err(|e| CommandError::write(&path, &e))?;
+        let file = open().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
         Ok(Self { file: BufWriter::new(file), path, bytes, digest, failed: None })
     }
 
@@ -94,10 +95,10 @@ impl Growing {
         }
     }
 
-    fn flush(&mut self) -> Result<Kept, CommandError> {
+    fn flush(&mut self) -> Result<Kept, ReportError> {
         match self.failed.take().or_else(|| self.file.flush().err()) {
             None => Ok(Kept { bytes: self.bytes, blake3: self.digest.finalize().to_hex().to_string() }),
-            Some(e) => Err(CommandError::write(&self.path, &e)),
+            Some(cause) => Err(ReportError::Write { file: self.path.clone(), cause }),
         }
     }
 }
@@ -116,11 +117,14 @@ fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, ReportError> {
 }
 
 /// The rows of a run so far, from both files as far as a checkpoint kept them.
-pub(super) fn read(
+///
+/// # Errors
+/// When a file cannot be read or holds what is no row.
+pub fn read_rows(
     layout: &MotionLayout,
     folder: &Path,
     [history, energy]: &[Kept; 2],
-) -> Result<Vec<MotionRow>, CommandError> {
+) -> Result<Vec<MotionRow>, ReportError> {
     let history = columns_kept(&folder.join(HISTORY), history)?;
     let energy = columns_kept(&folder.join(ENERGY_FILE), energy)?;
     Ok(motion_rows(layout, &history, &energy)?)
@@ -128,7 +132,7 @@ pub(super) fn read(
 
 /// Both files of rows.
 #[derive(Debug)]
-pub(super) struct Rows {
+pub(crate) struct Rows {
     layout: MotionLayout,
     sheets: (Sheet<MotionRows>, Sheet<EnergyRows>),
     history: Growing,
@@ -138,7 +142,7 @@ pub(super) struct Rows {
 
 impl Rows {
     /// Fresh files in a folder.
-    pub fn new(layout: &MotionLayout, folder: &Path) -> Result<Self, CommandError> {
+    pub fn new(layout: &MotionLayout, folder: &Path) -> Result<Self, ReportError> {
         let sheets = sheets(layout);
         let history = Growing::new(folder.join(HISTORY), &sheets.0.header())?;
         let energy = Growing::new(folder.join(ENERGY_FILE), &sheets.1.header())?;
@@ -148,14 +152,14 @@ impl Rows {
     /// Whether both files in a folder begin with what was kept of them.
     ///
     /// # Errors
-    /// Exit status 2, naming the file that does not.
-    pub fn check(folder: &Path, [history, energy]: &[Kept; 2]) -> Result<(), CommandError> {
+    /// [`CheckpointError::Damaged`], naming the file that does not.
+    pub fn check(folder: &Path, [history, energy]: &[Kept; 2]) -> Result<(), CheckpointError> {
         digested(&folder.join(HISTORY), history)?;
         digested(&folder.join(ENERGY_FILE), energy).map(|_| ())
     }
 
     /// Files of before, cut to what was kept of them.
-    pub fn resume(layout: &MotionLayout, folder: &Path, kept: &[Kept; 2]) -> Result<Self, CommandError> {
+    pub fn resume(layout: &MotionLayout, folder: &Path, kept: &[Kept; 2]) -> Result<Self, ReportError> {
         let [history, energy] = [folder.join(HISTORY), folder.join(ENERGY_FILE)];
         // Both are looked at before either is cut.
         let digests = (digested(&history, &kept[0])?, digested(&energy, &kept[1])?);
@@ -179,7 +183,7 @@ impl Rows {
     }
 
     /// Writes out what is held back; what a checkpoint keeps of both files.
-    pub fn flush(&mut self) -> Result<[Kept; 2], CommandError> {
+    pub fn flush(&mut self) -> Result<[Kept; 2], ReportError> {
         Ok([self.history.flush()?, self.energy.flush()?])
     }
 }

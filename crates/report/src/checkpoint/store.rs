@@ -6,16 +6,20 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use analysis::motion::{MotionCheckpoint, MotionCourse};
+use analysis::{
+    facts::MeshFacts,
+    motion::{MotionCheckpoint, MotionCourse},
+};
 use dynamics::Checkpoint;
+use scene::Scene;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
 
 use super::{
-    inputs::{Change, InputDigests},
+    Change, CheckpointError, InputDigests,
     rows::{self, Kept, Rows},
 };
-use crate::{error::CommandError, facts::MeshFacts, scene::Scene};
+use crate::ReportError;
 
 const STATE: &str = "state.json";
 const NEW_STATE: &str = "state.json.new";
@@ -31,7 +35,7 @@ const AFTER_STATE: &str = "}\n";
 
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Checkpoints<'a> {
+pub struct Checkpoints<'a> {
     /// The folder.
     pub folder: &'a CheckpointFolder,
     /// What the run is made of.
@@ -40,7 +44,7 @@ pub(super) struct Checkpoints<'a> {
 
 /// A folder beside the results' that keeps rows and state of a run under way.
 #[derive(Debug)]
-pub(crate) struct CheckpointFolder(PathBuf);
+pub struct CheckpointFolder(PathBuf);
 
 /// Which program wrote a checkpoint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,7 +67,7 @@ impl Writer {
 
 /// What is in it beside the rows.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Stored {
+pub struct Stored {
     writer: Writer,
     inputs: InputDigests,
     meshes: String,
@@ -99,37 +103,26 @@ impl Stored {
     /// Whether it belongs to a run of these inputs: else it must not go on.
     ///
     /// # Errors
-    /// Exit status 2, naming what is another.
-    pub fn check_inputs(&self, scene: &Scene, now: &InputDigests) -> Result<(), CommandError> {
+    /// [`CheckpointError::Foreign`], [`CheckpointError::OtherFile`].
+    pub fn check_inputs(&self, scene: &Scene, now: &InputDigests) -> Result<(), CheckpointError> {
         match self.inputs.change(now) {
             None => Ok(()),
             Some(Change::Scene) => Err(foreign(scene, "another scene")),
-            Some(Change::File(path)) => Err(CommandError::input(
-                format_args!(
-                    "{}: is not the file that the checkpoint was written with",
-                    scene.resolve(Path::new(&path)).display()
-                ),
-                Some("put that one back, or run without `--resume` to start from the beginning".into()),
-            )),
+            Some(Change::File(path)) => Err(CheckpointError::OtherFile { file: scene.resolve(Path::new(&path)) }),
         }
     }
 
     /// The same of the meshes that the program made of them.
     ///
     /// # Errors
-    /// Exit status 2.
-    pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CommandError> {
+    /// [`CheckpointError::Foreign`].
+    pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CheckpointError> {
         if self.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(scene, "other meshes")) }
     }
 }
 
-fn from_the_beginning() -> Option<String> {
-    Some("run without `--resume` to start from the beginning".into())
-}
-
-fn foreign(scene: &Scene, what: &str) -> CommandError {
-    let said = format_args!("{}: the checkpoint belongs to {what}", scene.file.display());
-    CommandError::input(said, from_the_beginning())
+fn foreign(scene: &Scene, what: &'static str) -> CheckpointError {
+    CheckpointError::Foreign { scene: scene.file.clone(), what }
 }
 
 fn text_of_meshes(meshes: &[MeshFacts]) -> String {
@@ -154,19 +147,16 @@ impl CheckpointFolder {
     /// other's rows.
     ///
     /// # Errors
-    /// Exit status 2 when another run uses it, 1 when the system refuses.
-    pub fn hold(&self) -> Result<File, CommandError> {
+    /// [`CheckpointError::InUse`], [`ReportError::Write`].
+    pub fn hold(&self) -> Result<File, ReportError> {
         let path = self.0.join(IN_USE);
         let open = || {
             fs::create_dir_all(&self.0)?;
             File::options().create(true).truncate(false).write(true).open(&path)
         };
-        let file = open().map_err(|e| CommandError::write(&path, &e))?;
+        let file = open().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
         match file.try_lock() {
-            Err(TryLockError::WouldBlock) => Err(CommandError::input(
-                format_args!("{}: another run writes its checkpoints there", self.0.display()),
-                Some("wait for its end, or give another `--out`".into()),
-            )),
+            Err(TryLockError::WouldBlock) => Err(CheckpointError::InUse { folder: self.0.clone() }.into()),
             // Not every file system has locks.
             Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
         }
@@ -178,14 +168,19 @@ impl CheckpointFolder {
     }
 
     /// Empties it.
-    pub fn start(&self) -> Result<(), CommandError> {
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn start(&self) -> Result<(), ReportError> {
         self.without(&[STATE, NEW_STATE, rows::HISTORY, rows::ENERGY_FILE])
     }
 
-    fn without(&self, files: &[&str]) -> Result<(), CommandError> {
+    fn without(&self, files: &[&str]) -> Result<(), ReportError> {
         for file in files {
             match fs::remove_file(self.0.join(file)) {
-                Err(e) if e.kind() != ErrorKind::NotFound => return Err(CommandError::write(&self.0, &e)),
+                Err(cause) if cause.kind() != ErrorKind::NotFound => {
+                    return Err(ReportError::Write { file: self.0.clone(), cause });
+                }
                 _ => {}
             }
         }
@@ -195,34 +190,30 @@ impl CheckpointFolder {
     /// The state that is there, as it was written and with the rows that belong to it.
     ///
     /// # Errors
-    /// Exit status 2 when there is none, when it or its rows are damaged, and when another version wrote it.
-    pub fn read(&self, scene: &Scene) -> Result<Stored, CommandError> {
+    /// [`CheckpointError::None`], [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote it.
+    pub fn read(&self, scene: &Scene) -> Result<Stored, CheckpointError> {
         let path = self.0.join(STATE);
-        let refuse = |what: &dyn std::fmt::Display, hint: Option<String>| {
-            CommandError::input(format_args!("{}: {what}", path.display()), hint)
-        };
-        let text = fs::read_to_string(&path).map_err(|e| {
-            let hint = "`--resume` goes on from a run with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder";
-            refuse(&format_args!("cannot be read: {e}"), Some(hint.into()))
-        })?;
-        let damaged =
-            || refuse(&"is not as it was written: changed, damaged or of another version", from_the_beginning());
+        let text = fs::read_to_string(&path).map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;
+        let refuse = |what: String| CheckpointError::Damaged { file: path.clone(), what };
+        let damaged = || refuse("is not as it was written: changed, damaged or of another version".to_owned());
         let state = unwrapped(&text).ok_or_else(damaged)?;
         let Head { writer } = serde_json::from_str(state).map_err(|_| damaged())?;
         if writer != Writer::this() {
             return Err(foreign(scene, "another version of this program"));
         }
-        let stored: Stored = serde_json::from_str(state)
-            .map_err(|e| refuse(&format_args!("is no checkpoint: {e}"), from_the_beginning()))?;
+        let stored: Stored = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
         Rows::check(&self.0, &stored.rows)?;
         Ok(stored)
     }
 
     /// Replaces the state: beside its place first, then renamed, so that a whole one is always there.
-    pub fn write(&self, stored: &Stored) -> Result<(), CommandError> {
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn write(&self, stored: &Stored) -> Result<(), ReportError> {
         let path = self.0.join(STATE);
-        let state = serde_json::to_string(stored)
-            .map_err(|e| CommandError::failed(format_args!("{}: {e}", path.display()), None))?;
+        let unwritten = |cause| ReportError::Write { file: path.clone(), cause };
+        let state = serde_json::to_string(stored).map_err(|e| unwritten(e.into()))?;
         let digest = blake3::hash(state.as_bytes()).to_hex();
         let text = format!("{BEFORE_DIGEST}{digest}{BEFORE_STATE}{state}{AFTER_STATE}");
         let new = self.0.join(NEW_STATE);
@@ -230,11 +221,14 @@ impl CheckpointFolder {
             fs::write(&new, &text)?;
             fs::rename(&new, &path)
         };
-        write().map_err(|e| CommandError::write(&path, &e))
+        write().map_err(unwritten)
     }
 
     /// Takes it away once the results are whole; what this program did not put there stays, and the folder with it.
-    pub fn remove(&self) -> Result<(), CommandError> {
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn remove(&self) -> Result<(), ReportError> {
         self.start()?;
         self.remove_if_empty();
         Ok(())

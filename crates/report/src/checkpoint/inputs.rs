@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{error::CommandError, scene::Scene};
+use scene::Scene;
+
+use super::CheckpointError;
 
 /// The scene as it was checked, and the files that it names.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct InputDigests {
+pub struct InputDigests {
     scene: String,
     files: Vec<FileDigest>,
 }
@@ -22,7 +24,7 @@ struct FileDigest {
 
 /// What became of the inputs.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Change {
+pub(crate) enum Change {
     /// The scene says something else.
     Scene,
     /// A file has other content, as the scene names it.
@@ -33,20 +35,18 @@ impl InputDigests {
     /// Of a scene as everything is now.
     ///
     /// # Errors
-    /// Exit status 2 when a file cannot be read.
-    pub fn of(scene: &Scene) -> Result<Self, CommandError> {
-        let digest = |path: &std::path::Path| -> Result<FileDigest, CommandError> {
-            let content = scene.content(path).map_err(|e| {
-                let hint = Some("paths are relative to the scene file".to_owned());
-                CommandError::input(format_args!("{}: cannot be read: {e}", scene.resolve(path).display()), hint)
-            })?;
+    /// [`CheckpointError::Input`].
+    pub fn of(scene: &Scene) -> Result<Self, CheckpointError> {
+        let digest = |path: &std::path::Path| -> Result<FileDigest, CheckpointError> {
+            let unreadable = |cause| CheckpointError::Input { file: scene.resolve(path), cause };
+            let content = scene.content(path).map_err(unreadable)?;
             Ok(FileDigest { path: path.display().to_string(), blake3: blake3::hash(&content).to_hex().to_string() })
         };
         Ok(Self { scene: text_of(scene), files: scene.files().into_iter().map(digest).collect::<Result<_, _>>()? })
     }
 
     /// What is another now, if anything.
-    pub fn change(&self, now: &Self) -> Option<Change> {
+    pub(crate) fn change(&self, now: &Self) -> Option<Change> {
         if self.scene != now.scene {
             return Some(Change::Scene);
         }

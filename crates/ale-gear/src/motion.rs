@@ -1,36 +1,20 @@
-//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`].
-//!
-//! | module | what it does |
-//! |---|---|
-//! | `sink` | rows, checkpoints and the gears in space, as they come |
-//! | `rows` | files of rows, which a later run takes up again |
-//! | `store`, `inputs` | checkpoints on disk, and what they may be gone on from with |
-
-mod inputs;
-mod rows;
-mod sink;
-mod store;
+//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`], what is
+//! written in [`report::motion_files`] and [`report::checkpoint`].
 
 use std::path::Path;
 
 use analysis::motion::{MotionAnalysis, MotionLayout, MotionOutcome, MotionResult, SweepAnalysis};
 use report::{
-    motion_files::{write_motion, write_sweep},
+    checkpoint::{CheckpointFolder, Checkpoints, ENERGY_FILE, HISTORY, InputDigests, Stored, read_rows},
+    motion_files::{MotionFileSink, write_motion, write_sweep},
     tables::{motion_table, sweep_table},
 };
-
-use inputs::InputDigests;
-use sink::FileSink;
-use store::{CheckpointFolder, Checkpoints, Stored};
-
-pub(crate) use report::read_columns;
-pub(crate) use rows::{ENERGY_FILE, HISTORY, column_names};
 
 use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::{ResultDirectory, close},
+    output::ResultDirectory,
     phases::Phases,
     scene::{MotionScene, Scene},
     talk::{self, Loudness},
@@ -58,7 +42,7 @@ impl Progression {
 
     /// The results are whole: nothing is to be gone on from.
     pub fn done(&self) -> Result<(), CommandError> {
-        self.folder.as_ref().map_or(Ok(()), CheckpointFolder::remove)
+        Ok(self.folder.as_ref().map_or(Ok(()), CheckpointFolder::remove)?)
     }
 }
 
@@ -141,10 +125,10 @@ fn one_motion(
     if let Some(stored) = &from {
         let checkpoint = stored.checkpoint();
         let layout = MotionLayout::of(scene, checkpoint.window);
-        let rows = rows::read(&layout, folder, &stored.rows)?;
+        let rows = read_rows(&layout, folder, &stored.rows)?;
         analysis = analysis.resume(checkpoint, rows);
     }
-    let mut sink = FileSink::new(scene, folder, checkpoints, from.as_ref());
+    let mut sink = MotionFileSink::new(scene, folder, checkpoints, from.as_ref());
     match analysis.solve_into(phases, &mut sink)? {
         MotionOutcome::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
         MotionOutcome::Finished(result) => {
@@ -157,7 +141,7 @@ fn one_motion(
             let cost = phases.cost();
             write_motion(scene, &result, &cost, view.as_ref(), results)?;
             let MotionResult { facts, headline, warnings, .. } = &*result;
-            close(scene, (facts, &cost), headline, warnings, results)?;
+            report::close_result(scene, (facts, &cost), headline, warnings, results)?;
             let table = motion_table(scene, facts, &cost, headline, warnings);
             let verdict = facts.certificate.verdict(scene).map_err(CommandError::from);
             Ok(Outcome::Finished(Written { table, verdict }))
@@ -172,11 +156,11 @@ fn sweep(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<Written, CommandError> {
-    let mut sink = FileSink::new(scene, results.folder(), None, None);
+    let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
     let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
     let cost = phases.cost();
     write_sweep(scene, &result, &cost, sink.view.as_ref(), results)?;
-    close(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
+    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
     let table = sweep_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
     Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

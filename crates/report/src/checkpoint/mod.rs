@@ -1,0 +1,19 @@
+//! A motion on disk that can be gone on from: rows as they come, and the state that belongs to them.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `store` | the folder beside the results' and its state |
+//! | `rows` | files of rows, which a later run takes up again |
+//! | `inputs` | digests of what the run is made of |
+
+mod error;
+mod inputs;
+mod rows;
+mod store;
+
+pub use error::CheckpointError;
+pub(crate) use inputs::Change;
+pub use inputs::InputDigests;
+pub(crate) use rows::Rows;
+pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, read_rows};
+pub use store::{CheckpointFolder, Checkpoints, Stored};
