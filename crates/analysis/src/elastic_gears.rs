@@ -7,7 +7,7 @@ use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions,
 
 use scene::{Model, Reduction, Scene};
 
-use crate::{AnalysisError, GearCache, meshes::SceneMesh, statics::solver_error};
+use crate::{AnalysisError, GearCache, error::solver_error, meshes::SceneMesh};
 
 /// Both gears as the analysis takes them.
 #[derive(Debug)]

@@ -360,3 +360,16 @@ impl AnalysisError {
         }
     }
 }
+
+/// The solver's error with the place in the scene that it is about.
+pub fn solver_error(scene: &Scene, source: StaticError) -> AnalysisError {
+    let keys: &[&str] = match &source {
+        StaticError::Overloaded { .. } => &["operation.torque_nm"],
+        error if error.is_starved() => &["analysis.window_teeth"],
+        _ => &[],
+    };
+    let place = scene.place_of(keys);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
+    AnalysisError::Solver(Box::new(SolverFailure { at, excerpt, source }))
+}

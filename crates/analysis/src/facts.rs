@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::certificate::Certificate;
 pub use crate::resolution::Resolution;
-use crate::{certificate::Certificate, iso_root::IsoRootStress};
 
 /// What a run was made of and what it cost.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -77,4 +77,31 @@ pub struct GeometryFacts {
     pub mean_line_length_mm: f64,
     /// Backlash on the transverse line of action, mm.
     pub backlash_mm: f64,
+}
+
+/// Nominal root stresses of pinion and wheel; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IsoRootStress {
+    /// Standard and what is left out.
+    pub method: &'static str,
+    /// Gear 1.
+    pub pinion: IsoGearRoot,
+    /// Gear 2.
+    pub wheel: IsoGearRoot,
+}
+
+/// Nominal root stress of one gear and what it is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct IsoGearRoot {
+    pub nominal_root_stress_mpa: f64,
+    pub form_factor: f64,
+    pub stress_correction_factor: f64,
+    pub helix_factor: f64,
+    pub rim_thickness_factor: f64,
+    pub deep_tooth_factor: f64,
+    pub root_chord_mm: f64,
+    pub bending_lever_mm: f64,
+    pub fillet_radius_mm: f64,
+    pub rim_over_tooth_height: f64,
 }

@@ -24,7 +24,7 @@ use crate::{AnalysisError, facts::Facts, gears, iso_root};
 /// # Errors
 /// [`AnalysisError::Iso`] where ISO 6336-1 does not hold.
 pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
-    let base_force = base_force(scene, pair);
+    let base_force = iso_root::base_force(scene, pair);
     let fail =
         |source: LumpedError| AnalysisError::Iso { file: scene.file.display().to_string(), source: Box::new(source) };
     let iso = iso_stiffness(scene, pair).map_err(fail)?;
@@ -104,21 +104,12 @@ struct Mesh {
     bodies: f64,
 }
 
-/// F_bt, N: torque on the driven gear over its base radius.
-pub fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
-    let driven = match scene.operation.driver {
-        Driver::Pinion => &pair.wheel,
-        Driver::Wheel => &pair.pinion,
-    };
-    scene.operation.torque() / driven.base_radius()
-}
-
 /// Stiffness of the pair after ISO 6336-1.
 ///
 /// # Errors
 /// [`LumpedError`] where the standard does not hold.
 pub fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
-    let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
+    let tangential = iso_root::base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
     stiffness(&IsoPair {
         teeth: [scene.pinion.teeth, scene.wheel.teeth],
         profile_shift: [scene.pinion.profile_shift, scene.wheel.profile_shift],

@@ -5,41 +5,12 @@ use lumped::{
     LumpedError,
     iso::{IsoRoot, IsoRootPair},
 };
-use serde::Serialize;
+use scene::{Driver, Scene};
 
-use scene::Scene;
-
-use crate::{facts::Facts, iso_model::base_force};
+use crate::facts::{Facts, IsoGearRoot, IsoRootStress};
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
-
-/// Nominal root stresses of pinion and wheel; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct IsoRootStress {
-    /// Standard and what is left out.
-    pub method: &'static str,
-    /// Gear 1.
-    pub pinion: IsoGearRoot,
-    /// Gear 2.
-    pub wheel: IsoGearRoot,
-}
-
-/// Nominal root stress of one gear and what it is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct IsoGearRoot {
-    pub nominal_root_stress_mpa: f64,
-    pub form_factor: f64,
-    pub stress_correction_factor: f64,
-    pub helix_factor: f64,
-    pub rim_thickness_factor: f64,
-    pub deep_tooth_factor: f64,
-    pub root_chord_mm: f64,
-    pub bending_lever_mm: f64,
-    pub fillet_radius_mm: f64,
-    pub rim_over_tooth_height: f64,
-}
 
 /// Puts the nominal root stress among the facts of a run; what is returned says why there is none.
 pub fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<String> {
@@ -73,4 +44,13 @@ fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedEr
         })
     };
     Ok(IsoRootStress { method: METHOD, pinion: one(&pair.pinion)?, wheel: one(&pair.wheel)? })
+}
+
+/// F_bt, N: torque on the driven gear over its base radius.
+pub fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
+    let driven = match scene.operation.driver {
+        Driver::Pinion => &pair.wheel,
+        Driver::Wheel => &pair.pinion,
+    };
+    scene.operation.torque() / driven.base_radius()
 }

@@ -53,13 +53,13 @@ mod statics;
 mod warnings;
 
 pub use cache::{GearCache, NoCache};
-pub use error::{AnalysisError, MeshMismatch, SolverFailure};
+pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};
 pub use options::options;
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{
-    NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, solver_error,
-    time_again, wider_window,
+    NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, time_again,
+    wider_window,
 };
 pub use warnings::body_warnings;

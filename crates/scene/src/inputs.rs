@@ -8,17 +8,7 @@ use std::{
 
 use toml::Spanned;
 
-use super::{GearScene, Scene, SceneError, source::Source};
-
-/// Where a scene and the files that it names stand.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Origin {
-    /// In files.
-    #[default]
-    Disk,
-    /// In the program.
-    Program,
-}
+use super::{GearScene, Scene, SceneError, origin::Origin, source::Source};
 
 /// What messages call the default scene.
 const NAME: &str = "default scene";

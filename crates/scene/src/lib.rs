@@ -24,12 +24,14 @@ mod ladder;
 mod modification;
 mod motion;
 mod operation;
+mod origin;
 mod output;
 mod raw;
 mod rexs;
 mod schema;
 mod setting;
 mod source;
+mod spanned;
 mod starter;
 pub mod study;
 mod written;
@@ -46,7 +48,6 @@ pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use error::{Line, Place, SceneError};
 pub use gear::{GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
-use inputs::Origin;
 pub use keys::{Tables, nearest};
 pub use ladder::{
     DiscScene, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene, Sharing, StiffnessFrom,
@@ -57,14 +58,15 @@ pub use motion::{
     SweepScene, SweepWay, TorqueScene,
 };
 pub use operation::{Driver, Rotation};
+use origin::Origin;
 pub use output::{FieldName, OutputScene};
-pub use raw::{Number, Whole, Word};
 pub use rexs::{RexsError, read_pair};
 pub use schema::{
     ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use source::Source;
+pub use spanned::{Number, Whole, Word};
 pub use starter::Starter;
 pub use written::Written;
 

@@ -90,18 +90,18 @@ macro_rules! raw {
     (table ($of:ident: $raw:ident)) => { Option<toml::Spanned<$raw>> };
     (always ($of:ident: $raw:ident)) => { $raw };
     (list ($of:ident: $raw:ident)) => { Vec<toml::Spanned<$raw>> };
-    (word $args:tt) => { $crate::raw::Word };
-    (bare_word $args:tt) => { $crate::raw::Word };
-    (text $args:tt) => { $crate::raw::Word };
-    (shape $args:tt) => { $crate::raw::Word };
-    (path $args:tt) => { $crate::raw::Word };
-    (words $args:tt) => { $crate::raw::Words };
-    (whole $args:tt) => { $crate::raw::Whole };
-    (bare_whole $args:tt) => { $crate::raw::Whole };
-    (switch $args:tt) => { $crate::raw::Switch };
-    (numbers $args:tt) => { $crate::raw::Numbers };
-    (rows $args:tt) => { $crate::raw::Rows };
-    ($number:ident $args:tt) => { $crate::raw::Number };
+    (word $args:tt) => { $crate::spanned::Word };
+    (bare_word $args:tt) => { $crate::spanned::Word };
+    (text $args:tt) => { $crate::spanned::Word };
+    (shape $args:tt) => { $crate::spanned::Word };
+    (path $args:tt) => { $crate::spanned::Word };
+    (words $args:tt) => { $crate::spanned::Words };
+    (whole $args:tt) => { $crate::spanned::Whole };
+    (bare_whole $args:tt) => { $crate::spanned::Whole };
+    (switch $args:tt) => { $crate::spanned::Switch };
+    (numbers $args:tt) => { $crate::spanned::Numbers };
+    (rows $args:tt) => { $crate::spanned::Rows };
+    ($number:ident $args:tt) => { $crate::spanned::Number };
 }
 
 /// What a row is when it is checked.

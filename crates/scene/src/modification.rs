@@ -10,9 +10,9 @@ use geometry::modification::{DataFileError, EndRelief, ProfilePlace, Relief, Rel
 use serde::Serialize;
 
 use crate::inputs::named;
-use crate::raw::{Number, Word};
 use crate::schema::{INF, Key, Table, bare, table, text, word};
 use crate::source::Source;
+use crate::spanned::{Number, Word};
 use crate::{Scene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;

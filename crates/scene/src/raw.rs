@@ -8,22 +8,6 @@ use super::schema::RawScene;
 use super::setting;
 use super::source::Source;
 
-/// A number as written.
-pub type Number = Option<Spanned<f64>>;
-/// A whole number as written; signed, so that `-3` is out of range and not of a wrong type.
-pub type Whole = Option<Spanned<i64>>;
-/// A word as written.
-pub type Word = Option<Spanned<String>>;
-
-/// Words as written.
-pub(crate) type Words = Option<Vec<Spanned<String>>>;
-/// On or off as written.
-pub(crate) type Switch = Option<Spanned<bool>>;
-/// A list of numbers as written.
-pub(crate) type Numbers = Option<Spanned<Vec<Spanned<f64>>>>;
-/// Rows of numbers as written.
-pub(crate) type Rows = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
-
 /// The words of a scene file.
 ///
 /// # Errors

@@ -9,11 +9,11 @@ use toml::Spanned;
 use super::error::{Line, Place, SceneError};
 use super::excerpt::excerpt;
 use super::hints;
-use super::inputs::Origin;
 use super::keys::{self, Tables};
-use super::raw::{Number, Switch, Whole, Word, Words};
+use super::origin::Origin;
 use super::schema::{self, Choice, Table};
 use super::setting::Setting;
+use super::spanned::{Number, Switch, Whole, Word, Words};
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
 pub struct Source<'a> {

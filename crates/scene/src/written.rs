@@ -7,7 +7,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::{Place, Scene, Setting, inputs::Origin, raw, source::Source};
+use super::{Place, Scene, Setting, origin::Origin, raw, source::Source};
 
 /// The text of a scene with what was set beside it. Equal to any other: scenes are compared by what they mean.
 #[derive(Debug, Clone)]

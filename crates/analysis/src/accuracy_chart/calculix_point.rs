@@ -11,7 +11,7 @@ use study::{
 
 use super::{
     Point,
-    measure::{ChartTools, Measured, point_meshes},
+    measured::{ChartTools, Measured, point_meshes},
     plan::PENALTY,
 };
 use crate::{AnalysisError, elastic_gears::material, options};

@@ -7,7 +7,8 @@ use study::{Answer, AnswerError, Work};
 
 use super::{
     Density, MemoryGauge, MotionRow, NoGauge, Point, Way, guard,
-    measure::{ChartTools, Measured, degrees_of_freedom, measure},
+    measure::measure,
+    measured::{ChartTools, Measured, degrees_of_freedom},
     motion,
     plan::{Engine, Range, Share, densities, reference},
     ways,

@@ -6,7 +6,7 @@ use study::{Answer, Work};
 
 use super::{
     Point,
-    measure::{ChartTools, Measured, REPEATS, degrees_of_freedom},
+    measured::{ChartTools, Measured, REPEATS, degrees_of_freedom},
     phase_times::PhaseTimes,
 };
 use crate::{

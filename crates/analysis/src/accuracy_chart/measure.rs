@@ -1,37 +1,18 @@
 //! Runs one point and says what it took.
 
-use std::path::Path;
-
-use mesh::GearMesh;
-use scene::{Model, Scene, StiffnessFrom};
+use scene::Scene;
 use study::{Answer, Work};
 
-use super::{MemoryGauge, Point, calculix_point, lumped_point, phase_times::PhaseTimes, plan::Engine};
-use crate::{
-    AnalysisError, NoSink, StaticAnalysis, StaticResult, lumped::is_lumped, meshes, static_certificate, time_again,
+use super::{
+    Point, calculix_point, lumped_point,
+    measured::{ChartTools, Measured, REPEATS},
+    phase_times::PhaseTimes,
+    plan::Engine,
 };
-
-/// What a point may use of the machine.
-#[derive(Clone, Copy)]
-pub(super) struct ChartTools<'a> {
-    pub memory: &'a dyn MemoryGauge,
-    /// A folder for the files of CalculiX; `None`: it is not run.
-    pub scratch: Option<&'a Path>,
-}
-
-/// What one point gave and took.
-#[derive(Debug, Clone)]
-pub(super) struct Measured {
-    pub work: Work,
-    pub answer: Answer,
-    /// What a reader of the chart should know of it.
-    pub note: String,
-}
+use crate::{AnalysisError, NoSink, StaticAnalysis, StaticResult, static_certificate, time_again};
 
 /// Phase of the positions.
 const SOLVE: &str = "solve";
-/// Repeats of a cheap cycle, so that the clock's steps do not show.
-pub(super) const REPEATS: u32 = 200;
 /// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are alike.
 const LONG: f64 = 20.0;
 
@@ -92,30 +73,4 @@ fn time_closed_form(scene: &Scene, tools: ChartTools<'_>) -> Result<f64, Analysi
         StaticAnalysis::new(scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
     }
     Ok(phases.wall_s(|name| name == SOLVE) / f64::from(REPEATS))
-}
-
-/// The meshes of a point, as its analysis takes them.
-///
-/// # Errors
-/// As reading and meshing complain.
-pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], AnalysisError> {
-    let pair = scene.gear_pair()?;
-    let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-    let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-    Ok([pinion.gear, wheel.gear])
-}
-
-/// Degrees of freedom of both whole gears of a point, bores counted; 0 without meshes.
-///
-/// # Errors
-/// As meshing complains.
-pub(super) fn degrees_of_freedom(scene: &Scene) -> Result<usize, AnalysisError> {
-    let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
-    if scene.analysis.model == Model::Iso || (is_lumped(scene) && !fed) {
-        return Ok(0);
-    }
-    let pair = scene.gear_pair()?;
-    let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-    let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
-    Ok(3 * (pinion.facts.nodes + wheel.facts.nodes))
 }

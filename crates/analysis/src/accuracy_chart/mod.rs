@@ -17,6 +17,7 @@ mod guard;
 mod lumped_point;
 mod lumped_scene;
 mod measure;
+mod measured;
 mod memory;
 mod motion;
 mod phase_times;

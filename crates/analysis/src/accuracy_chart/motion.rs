@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use scene::Scene;
 
-use super::{Density, lumped_scene, measure::ChartTools, phase_times::PhaseTimes, plan};
+use super::{Density, lumped_scene, measured::ChartTools, phase_times::PhaseTimes, plan};
 use crate::{
     AnalysisError, NoCache,
     lumped::{ExcitationSource, LumpedInputs, steady_rows},

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use super::{
     MemoryGauge, Point,
-    measure::{ChartTools, Measured, measure},
+    measure::measure,
+    measured::{ChartTools, Measured},
     plan::{FULL_WAY, SLICE_WAY},
 };
 use crate::AnalysisError;

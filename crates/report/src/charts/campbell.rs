@@ -2,7 +2,7 @@
 
 use study::Campbell;
 
-use super::curves::{Curve, frequency_chart};
+use super::{curve::Curve, curves::frequency_chart};
 
 /// Lines of frequencies with names of their own at most; more are drawn alike.
 const NAMED: usize = 4;

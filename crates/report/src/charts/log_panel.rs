@@ -2,7 +2,7 @@
 
 use plotters::{coord::Shift, prelude::*};
 
-use super::curves::COLOURS;
+use super::curve::COLOURS;
 
 /// Where a panel is drawn.
 pub type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;

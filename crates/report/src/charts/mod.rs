@@ -1,6 +1,7 @@
 //! Charts: a picture that prints and needs no script, and beside it the numbers for the script of the page.
 
 mod campbell;
+mod curve;
 mod curves;
 mod field_map;
 mod heat_map;
@@ -9,7 +10,8 @@ mod plot_data;
 mod png;
 
 pub use campbell::campbell_chart;
-pub use curves::{Curve, dot_chart, dot_picture, figure, line_chart, line_picture, stick_chart};
+pub use curve::Curve;
+pub use curves::{dot_chart, dot_picture, figure, line_chart, line_picture, stick_chart};
 pub use field_map::{FieldMap, Side, share};
 pub use heat_map::{contact_pattern_figure, contact_pattern_svg};
 pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};

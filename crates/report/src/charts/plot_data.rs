@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
-use super::curves::{COLOURS, Curve, colour_of};
+use super::curve::{COLOURS, Curve, colour_of};
 
 /// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every curve.
 const PLACES: usize = 6000;

@@ -9,9 +9,9 @@ use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
     GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
-    raw::Word,
     schema::{MATERIAL, MESHER, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
     source::Source,
+    spanned::Word,
 };
 
 /// Default bore over reference diameter.

@@ -1,9 +1,9 @@
 //! From the words of the tables on the cheaper models to what they mean.
 
 use super::{Lumped8Scene, MeshScene, StiffnessFrom};
-use crate::raw::Numbers;
 use crate::schema::{RawLumped8, RawLumped12, RawMesh};
 use crate::source::Source;
+use crate::spanned::Numbers;
 use crate::{Axis, Lumped12Scene, Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;

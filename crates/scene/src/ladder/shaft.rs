@@ -4,9 +4,9 @@ use toml::Spanned;
 
 use super::check::list;
 use super::{DiscScene, Shaft18Scene, ShaftCoordinate, ShaftScene};
-use crate::raw::{Number, Rows};
 use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport};
 use crate::source::Source;
+use crate::spanned::{Number, Rows};
 use crate::{SceneError, SupportScene};
 
 type Checked<T> = Result<T, SceneError>;

@@ -2,9 +2,9 @@
 
 use super::{Axis, BearingScene, BodyScene};
 use crate::SceneError;
-use crate::raw::{Number, Rows};
 use crate::schema::{BEARING, RawBearing, RawBody};
 use crate::source::Source;
+use crate::spanned::{Number, Rows};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;

@@ -3,9 +3,9 @@
 use toml::Spanned;
 
 use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
-use crate::raw::{Number, Whole};
 use crate::schema::{RawMotion, RawRamp, RawSweep};
 use crate::source::Source;
+use crate::spanned::{Number, Whole};
 use crate::{RampScene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;

@@ -3,9 +3,9 @@
 use toml::Spanned;
 
 use super::{DriveBy, DriveScene, TorqueScene};
-use crate::raw::{Number, Rows};
 use crate::schema::{Choice, DRIVE, RawDrive, RawLoad};
 use crate::source::Source;
+use crate::spanned::{Number, Rows};
 use crate::{Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;

@@ -1,13 +1,10 @@
 //! The study file: which scenes, and what to draw of them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::check::check;
-use super::columns::ColumnsOf;
-use super::raw::{RawStudy, tables};
-use crate::{Scene, SceneError, Source, read_text};
+use crate::Scene;
 
 /// A checked study.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,25 +93,6 @@ pub struct FullRun {
 }
 
 impl Study {
-    /// Reads and checks a study file and the scenes that it names; `columns` tells which columns the rows of a scene will have.
-    ///
-    /// # Errors
-    /// [`SceneError`]: the first complaint, with its place in the study file or in a scene.
-    pub fn read(file: &Path, columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
-        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file, columns)
-    }
-
-    /// Checks the text of a study file; `file` is what messages name and what paths are relative to.
-    ///
-    /// # Errors
-    /// As [`Study::read`].
-    pub fn parse(text: &str, file: &Path, columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, tables);
-        let raw: RawStudy = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
-        check(&source, raw, columns)
-    }
-
     /// Name of the folder of a case's own results, below the study's: its number and its label, letters and digits.
     pub fn folder(&self, case: usize) -> String {
         let label: String = self.cases[case].label.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();

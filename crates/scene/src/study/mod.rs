@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `file` | a checked study |
+//! | `read` | from a file to that |
 //! | `raw`, `check` | its words, and what they mean: every complaint is made here |
 //! | `columns` | which columns a scene's rows will have, told before anything is run |
 
@@ -10,6 +11,7 @@ mod check;
 mod columns;
 mod file;
 mod raw;
+mod read;
 
 pub use columns::{ColumnsOf, column_advice};
 pub use file::{Follow, FullRun, OverTime, Study, StudyCase, StudyQuantity, Take};
