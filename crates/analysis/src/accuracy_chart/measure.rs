@@ -32,7 +32,8 @@ pub(super) struct Measured {
 const SOLVE: &str = "solve";
 /// Repeats of a cheap cycle, so that the clock's steps do not show.
 pub(super) const REPEATS: u32 = 200;
-/// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are alike.
+/// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are
+/// alike.
 const LONG: f64 = 20.0;
 
 /// Runs a point.
