@@ -56,7 +56,8 @@ pub(crate) fn quantity(scene: &Scene, name: &str) -> Result<LumpedQuantity, Comm
 /// `scenes` in ascending order of the value; `again`: words of `ale-gear sweep` that make it again.
 ///
 /// # Errors
-/// Exit status 2 when the input is wrong, 1 when no motion comes out at any value: one value without a motion has its reason in its row.
+/// Exit status 2 when the input is wrong, 1 when no motion comes out at any value: one value without a motion has its
+/// reason in its row.
 pub(crate) fn sweep_key(
     scenes: &[(f64, Scene)],
     options: &SweepOptions,

@@ -27,11 +27,13 @@ use crate::{
 pub(crate) type Solve<'a> =
     &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<Cost, CommandError>, CommandError> + Sync);
 
-/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution takes nothing from the others; one whose result does not hold leaves its
-/// files, marked as such, as a run by itself does.
+/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution
+/// takes nothing from the others; one whose result does not hold leaves its files, marked as such, as a run by itself
+/// does.
 ///
-/// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The threads of
-/// a case are its own, so that no case waits for, or is timed with, the work of another. Results do not depend on their number.
+/// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The
+/// threads of a case are its own, so that no case waits for, or is timed with, the work of another. Results do not
+/// depend on their number.
 pub(crate) fn run_cases(
     study: &Study,
     results: &ResultDirectory,

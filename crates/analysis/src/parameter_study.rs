@@ -61,7 +61,8 @@ pub struct Follower {
     pub column: String,
     /// The other.
     pub beside: String,
-    /// Pearson's coefficient over all rows, case by case; `None` where a column does not vary, and of a case without a result.
+    /// Pearson's coefficient over all rows, case by case; `None` where a column does not vary, and of a case without
+    /// a result.
     pub correlation: Vec<Option<f64>>,
 }
 
@@ -85,8 +86,8 @@ impl Findings {
     }
 }
 
-/// Reads all numbers of a study off the rows of its cases. A case that did not come to a result, or has not the columns, stands with its
-/// reason.
+/// Reads all numbers of a study off the rows of its cases. A case that did not come to a result, or has not the
+/// columns, stands with its reason.
 ///
 /// # Errors
 /// The first complaint, where no case has a result.

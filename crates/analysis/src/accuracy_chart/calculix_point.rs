@@ -16,7 +16,8 @@ use super::{
 };
 use crate::{AnalysisError, elastic_gears::material, options};
 
-/// The driven gear is turned into contact by about this much on the line of action, mm: a few um are what steel gears yield under load.
+/// The driven gear is turned into contact by about this much on the line of action, mm: a few um are what steel gears
+/// yield under load.
 const CLOSING: f64 = 5e-3;
 
 /// Runs the positions of a point by CalculiX.

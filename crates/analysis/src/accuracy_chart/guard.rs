@@ -1,4 +1,5 @@
-//! Leaves out a point that would take too long or too much memory, foretold from the point before it in the same series.
+//! Leaves out a point that would take too long or too much memory, foretold from the point before it in the same
+//! series.
 
 use study::Work;
 
@@ -8,7 +9,8 @@ const MEMORY_EXPONENT: f64 = 4.0 / 3.0;
 /// Share of the free memory that a point may take: the estimate is one, and others use the machine too.
 const SHARE: f64 = 0.8;
 
-/// Why a mesh of `dof` degrees of freedom should not be tried in this way, after what a smaller one took; `None` when it may be.
+/// Why a mesh of `dof` degrees of freedom should not be tried in this way, after what a smaller one took; `None` when
+/// it may be.
 pub(super) fn refusal(smaller: &Work, dof: usize, limit_s: f64, free_mb: Option<f64>) -> Option<String> {
     let ratio = dof as f64 / smaller.dof_before.max(1) as f64;
     if let (Some(used), Some(free)) = (smaller.peak_memory_mb, free_mb) {

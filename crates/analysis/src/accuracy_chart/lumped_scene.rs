@@ -1,4 +1,5 @@
-//! The scene of the chart as one of a cheaper model: the same pair, torque and speed, with what that model wants beside.
+//! The scene of the chart as one of a cheaper model: the same pair, torque and speed, with what that model wants
+//! beside.
 
 use scene::{
     Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Integration, Kind, Law, Lumped8Scene,

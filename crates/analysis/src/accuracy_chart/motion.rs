@@ -1,4 +1,5 @@
-//! The scene's models in motion at its torque and speed: what each says of the dynamic transmission error, against the reduced one, and what a mesh cycle costs.
+//! The scene's models in motion at its torque and speed: what each says of the dynamic transmission error, against
+//! the reduced one, and what a mesh cycle costs.
 
 use std::time::Instant;
 

@@ -28,8 +28,8 @@ pub struct SpeedUp {
     pub relative_difference_of_ste: f64,
 }
 
-/// Runs `positions` positions (at the most; a divisor of those of the cycle) of the scene with every degree of freedom, and its whole
-/// quasi-static cycle reduced; both from cold, without the cache, one after the other.
+/// Runs `positions` positions (at the most; a divisor of those of the cycle) of the scene with every degree of
+/// freedom, and its whole quasi-static cycle reduced; both from cold, without the cache, one after the other.
 ///
 /// # Errors
 /// Those of the runs, and where the two cannot be compared.

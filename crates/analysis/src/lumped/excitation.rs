@@ -1,7 +1,7 @@
 //! Stiffness and error over the mesh cycle: given, fed by the reduced model of the same scene, or ISO's.
 //!
-//! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2. Lumped pairs have it there at phase 0, so that their contact lines
-//! are half a cycle on.
+//! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2.
+//! Lumped pairs have it there at phase 0, so that their contact lines are half a cycle on.
 
 use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
 use geometry::GearPair;
@@ -24,7 +24,8 @@ pub(crate) struct MeshExcitation {
 pub(crate) struct ExcitationSource<'a> {
     observer: &'a mut dyn Observer,
     cache: &'a dyn GearCache,
-    /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share it.
+    /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share
+    /// it.
     last: Option<(Scene, MeshExcitation)>,
 }
 
@@ -98,7 +99,8 @@ impl<'a> ExcitationSource<'a> {
     }
 }
 
-/// k on the transverse line of action over K_n along the normal: cos^2 b_b, or cos b_b where a law projects the stiffness alone.
+/// k on the transverse line of action over K_n along the normal: cos^2 b_b, or cos b_b where a law projects the
+/// stiffness alone.
 fn projection(scene: &Scene, pair: &GearPair) -> f64 {
     let cos = pair.base_helix_angle().cos();
     match scene.lumped8 {

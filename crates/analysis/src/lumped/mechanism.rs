@@ -34,10 +34,12 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
     /// A row at a state.
     fn row(&mut self, state: &State) -> LumpedRow;
 
-    /// The pair under the mean load at `phases` evenly spaced phases as speed goes to zero; `None` where it finds nothing to rest on.
+    /// The pair under the mean load at `phases` evenly spaced phases as speed goes to zero; `None` where it finds
+    /// nothing to rest on.
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>>;
 
-    /// Undamped natural frequencies at `share` of the scene's speed, Hz, ascending, the free turn among them; nothing where the model is not linear.
+    /// Undamped natural frequencies at `share` of the scene's speed, Hz, ascending, the free turn among them; nothing
+    /// where the model is not linear.
     fn natural_frequencies_hz(&self, share: f64) -> Vec<f64>;
 }
 

@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use integrate::{LONGEST_PERIOD, Periodicity};
 
-/// Difference after one cycle, over the peak to peak, below which a motion dies out to period one rather than having a longer period.
+/// Difference after one cycle, over the peak to peak, below which a motion dies out to period one rather than having
+/// a longer period.
 const SUBHARMONIC: f64 = 0.01;
 
 /// Transmission errors of the last mesh cycles, row by row.
@@ -14,10 +15,11 @@ pub(super) struct PeriodicityMonitor {
 }
 
 impl PeriodicityMonitor {
-    /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly after one: what dies out slowly may look alike after a few cycles by chance.
+    /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly
+    /// after one: what dies out slowly may look alike after a few cycles by chance.
     ///
-    /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a millionth of its largest value where that is more:
-    /// what does not vibrate repeats itself.
+    /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a
+    /// millionth of its largest value where that is more: what does not vibrate repeats itself.
     pub fn judge(&mut self, rows: Vec<f64>, tolerance: f64) -> Periodicity {
         let (low, high) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
         let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);

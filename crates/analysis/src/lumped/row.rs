@@ -2,7 +2,8 @@
 
 use scene::{Driver, Model, Scene};
 
-/// A row of a run: what every model of a pair with few coordinates tells of an instant, and `None` for what only others know.
+/// A row of a run: what every model of a pair with few coordinates tells of an instant, and `None` for what only
+/// others know.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LumpedRow {
     /// Time, s.
@@ -121,8 +122,8 @@ pub(super) const SIX: [CoordinateAxis; 6] = [
     CoordinateAxis::Turn,
 ];
 
-/// Coordinates of the gears in rows of a scene's model, in their order: of lumped gears the driver's first, of shafts the pinion's;
-/// rigid gears have none in their rows.
+/// Coordinates of the gears in rows of a scene's model, in their order: of lumped gears the driver's first, of shafts
+/// the pinion's; rigid gears have none in their rows.
 pub fn gear_coordinates(scene: &Scene) -> Vec<GearCoordinate> {
     let by_role = match scene.operation.driver {
         Driver::Pinion => [0, 1],

@@ -132,7 +132,8 @@ pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64
     Integrator::new(scheme(motion), control, model.scale()).stopping_at_events(motion.stop_at_events).keeping_stable()
 }
 
-/// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the start on, its coordinates held. `None` where any step is stable.
+/// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the
+/// start on, its coordinates held. `None` where any step is stable.
 ///
 /// # Errors
 /// [`LumpedError`] where there is nothing to start from.

@@ -76,8 +76,8 @@ pub(super) fn system(
     Ok((system, resonance))
 }
 
-/// Torque on a gear's shaft about +z, N mm, for a pinion that turns counter-clockwise. The driver is pushed the way it turns, the driven gear held back; the gears turn against each other, so
-/// both torques have one sign.
+/// Torque on a gear's shaft about +z, N mm, for a pinion that turns counter-clockwise. The driver is pushed the way
+/// it turns, the driven gear held back; the gears turn against each other, so both torques have one sign.
 fn torque_about_z(scene: &Scene, gear: usize) -> f64 {
     let teeth = [scene.pinion.teeth, scene.wheel.teeth].map(f64::from);
     let (driven, sign) = match scene.operation.driver {

@@ -11,8 +11,8 @@ const FREE: f64 = 1e-11;
 
 /// A direction of the coordinates along which no force acts: r with K r = 0, r' M r = 1.
 ///
-/// Two motions that differ along it, by a turn of all gears or its speed, are one motion seen at two places: such a difference neither grows nor dies out as others do, and
-/// would hide the exponent of those.
+/// Two motions that differ along it, by a turn of all gears or its speed, are one motion seen at two places: such a
+/// difference neither grows nor dies out as others do, and would hide the exponent of those.
 pub(super) struct FreeTurn {
     direction: DVector<f64>,
     /// M r.

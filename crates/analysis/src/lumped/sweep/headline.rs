@@ -32,7 +32,8 @@ pub struct SweepHeadline {
     pub subharmonic: Vec<(SweepWay, f64, usize)>,
     /// No period found, way and value.
     pub not_periodic: Vec<(SweepWay, f64)>,
-    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and value; `None` where no exponent was asked for.
+    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and
+    /// value; `None` where no exponent was asked for.
     pub chaotic: Option<Vec<(SweepWay, f64)>>,
     /// Ranges of the key in which upwards and downwards give other answers.
     pub hysteresis: Option<Vec<[f64; 2]>>,
@@ -74,7 +75,8 @@ pub(super) fn headline(scene: &Scene, options: &SweepOptions, points: &[SweepPoi
     }
 }
 
-/// Where both ways differ by more than a share of the largest peak to peak. Motions that never come back differ at all times, and say nothing of two answers.
+/// Where both ways differ by more than a share of the largest peak to peak. Motions that never come back differ at
+/// all times, and say nothing of two answers.
 fn hysteresis(options: &SweepOptions, points: &[SweepPoint]) -> Option<Vec<[f64; 2]>> {
     let both = [SweepWay::Up, SweepWay::Down];
     if !both.iter().all(|way| options.ways.contains(way)) {

@@ -59,7 +59,8 @@ pub struct BifurcationAnalysis {
 }
 
 impl<'a> KeySweep<'a> {
-    /// Of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever its `run`.
+    /// Of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever its
+    /// `run`.
     pub fn new(scenes: &'a [(f64, Scene)], options: &'a SweepOptions) -> Self {
         Self { scenes, options, cache: &NoCache }
     }

@@ -141,7 +141,8 @@ pub(super) fn run(
     Ok(SettledPoint { point, end: run.end })
 }
 
-/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle; of the gears' free turn, which nothing holds, it says nothing.
+/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle; of the gears' free turn, which
+/// nothing holds, it says nothing.
 fn exponent(
     model: &mut BoxedMechanism,
     motion: &MotionScene,

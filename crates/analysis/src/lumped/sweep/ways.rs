@@ -15,8 +15,9 @@ pub(super) struct SweepValue {
     pub inputs: Result<LumpedInputs, Arc<AnalysisError>>,
 }
 
-/// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first value and goes on from the last state; a value that does not get through from
-/// there begins at rest again, and where that fails too it has its reason, and the next goes on from the last that has a motion.
+/// All values one way, in ascending order. Upwards and downwards each begins at rest under the load at its first
+/// value and goes on from the last state; a value that does not get through from there begins at rest again, and
+/// where that fails too it has its reason, and the next goes on from the last that has a motion.
 pub(super) fn one_way(
     way: SweepWay,
     values: &[SweepValue],
