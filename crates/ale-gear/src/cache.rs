@@ -13,8 +13,8 @@ use report::folder::Partial;
 
 /// A folder of reduced gears, or none.
 ///
-/// Losing the folder loses time, never a result: a file that is damaged, foreign or of another version is told of and made again, and
-/// one that cannot be written is left out.
+/// Losing the folder loses time, never a result: a file that is damaged, foreign or of another version is told of and
+/// made again, and one that cannot be written is left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cache {
     folder: Option<PathBuf>,
@@ -40,8 +40,8 @@ impl Cache {
         Self { folder: Some(folder) }
     }
 
-    /// The user's cache folder (`$XDG_CACHE_HOME/ale-gear`, `~/.cache/ale-gear`, or what the system has in its place); none where the
-    /// system names none.
+    /// The user's cache folder (`$XDG_CACHE_HOME/ale-gear`, `~/.cache/ale-gear`, or what the system has in its place);
+    /// none where the system names none.
     pub fn of_user() -> Self {
         Self { folder: directories::ProjectDirs::from("", "", "ale-gear").map(|p| p.cache_dir().to_owned()) }
     }

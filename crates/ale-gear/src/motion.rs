@@ -1,5 +1,5 @@
-//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`], what is
-//! written in [`report::motion_files`] and [`report::checkpoint`].
+//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`],
+//! what is written in [`report::motion_files`] and [`report::checkpoint`].
 
 use std::path::Path;
 

@@ -43,7 +43,8 @@ struct OpenPhase {
 #[derive(Debug, Clone)]
 pub struct BarProgress {
     bar: ProgressBar,
-    /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is wanted.
+    /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is
+    /// wanted.
     due: Option<Arc<AtomicU64>>,
 }
 

@@ -14,7 +14,8 @@ use crate::{
     scene::Scene,
 };
 
-/// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go there.
+/// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go
+/// there.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no solution is found.

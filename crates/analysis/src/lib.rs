@@ -23,8 +23,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] in time, [`lumped::LumpedAnalysis`] by a model with few
-//! coordinates, [`lumped::KeySweep`] such a model at many values of a key; [`accuracy_chart::AccuracyChart`] compares them all.
+//! [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] in time, [`lumped::LumpedAnalysis`] by a
+//! model with few coordinates, [`lumped::KeySweep`] such a model at many values of a key;
+//! [`accuracy_chart::AccuracyChart`] compares them all.
 
 pub mod accuracy_chart;
 mod cache;

@@ -91,12 +91,12 @@ fn row(gear: String, of: &GearReducer, window: &Window) -> ReducedRow {
     }
 }
 
-/// Reduces the gear of a mesh file, whose parts have names, to a window of `window` teeth with both flanks; nothing is kept: a record
-/// belongs to the data of a gear, which a scene has.
+/// Reduces the gear of a mesh file, whose parts have names, to a window of `window` teeth with both flanks; nothing is
+/// kept: a record belongs to the data of a gear, which a scene has.
 ///
 /// # Errors
-/// [`AnalysisError::WindowOfMesh`] when the mesh has not so many teeth, [`AnalysisError::ReductionOfMesh`] when it is not
-/// what a gear needs.
+/// [`AnalysisError::WindowOfMesh`] when the mesh has not so many teeth, [`AnalysisError::ReductionOfMesh`] when it is
+/// not what a gear needs.
 pub fn reduce_mesh(
     name: &str,
     gear: GearMesh,

@@ -1,4 +1,5 @@
-//! A mass on a spring with clearance, shaken: any mechanism goes through the same integrators, and its energy is booked.
+//! A mass on a spring with clearance, shaken: any mechanism goes through the same integrators, and its energy is
+//! booked.
 //!
 //! `cargo run --release -p integrate --example clearance`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -43,7 +43,8 @@ impl MarkedPlace {
     }
 }
 
-/// Writes a file beside it first: one that is half written would be lost. A link stays, and what it leads to is replaced, with the permissions it had.
+/// Writes a file beside it first: one that is half written would be lost. A link stays, and what it leads to is
+/// replaced, with the permissions it had.
 fn replace(file: &Path, content: &[u8]) -> std::io::Result<()> {
     let target = std::fs::canonicalize(file)?;
     let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -61,7 +62,8 @@ mod tests {
 
     use super::*;
 
-    /// Through a link to a file, and through one to its folder; a file that stands beside it under a like name is nobody's.
+    /// Through a link to a file, and through one to its folder; a file that stands beside it under a like name is
+    /// nobody's.
     #[test]
     fn tables_go_where_a_link_leads_to() {
         let scratch = tempfile::tempdir().unwrap();

@@ -1,6 +1,7 @@
 //! Whether memory holds the rows that a scene asks for: told before any work, with the keys that ask for them.
 //!
-//! Each count is within its range; products of counts need not be. Rows are kept until statistics, charts and files are made of them.
+//! Each count is within its range; products of counts need not be. Rows are kept until statistics, charts and files are
+//! made of them.
 
 use std::mem::size_of;
 
@@ -67,7 +68,8 @@ pub fn check_memory(scene: &Scene, free_bytes: f64) -> Result<(), Box<MemoryDema
     demands(scene).iter().try_for_each(|demand| demand.within(scene, free_bytes))
 }
 
-/// The same of a scene that is run at many values of a key: `points` of a section each, with a point `every` so many mesh cycles.
+/// The same of a scene that is run at many values of a key: `points` of a section each, with a point `every` so many
+/// mesh cycles.
 ///
 /// # Errors
 /// As [`check_memory`].

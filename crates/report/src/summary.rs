@@ -50,8 +50,8 @@ pub fn write_summary<H: Serialize>(
     text
 }
 
-/// What is made of a result's files, last of all: `history.parquet`, where the scene asks for it, and `summary.json`, so
-/// that where it is everything is there.
+/// What is made of a result's files, last of all: `history.parquet`, where the scene asks for it, and `summary.json`,
+/// so that where it is everything is there.
 ///
 /// # Errors
 /// [`ReportError`] when a file cannot be read or written.

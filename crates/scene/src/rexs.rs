@@ -1,7 +1,7 @@
 //! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and on; XML).
 //!
-//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks. What is missing there keeps its default, and
-//! what the file has beside it (shafts, bearings, load spectra, lubricants) is left alone.
+//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks. What is missing there
+//! keeps its default, and what the file has beside it (shafts, bearings, load spectra, lubricants) is left alone.
 
 use roxmltree::{Document, Node};
 

@@ -57,8 +57,8 @@ impl Default for Starter {
 const THINNING: f64 = 0.015;
 
 impl Starter {
-    /// The scene with a word on every line. A line that begins with `# ` and holds `key = value` may be taken in as it is, one of
-    /// two that exclude each other.
+    /// The scene with a word on every line. A line that begins with `# ` and holds `key = value` may be taken in as it
+    /// is, one of two that exclude each other.
     pub fn text(&self, file: &str) -> String {
         let name = if self.name.is_empty() {
             format!("{}-{}x{}", if self.helix_deg == 0.0 { "spur" } else { "helical" }, self.teeth[0], self.teeth[1])

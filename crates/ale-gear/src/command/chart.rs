@@ -43,7 +43,8 @@ pub(super) struct ChartArgs {
     /// Leave out what would take longer than this, by what the coarser mesh took
     #[arg(long, value_name = "S", default_value = "240")]
     limit_s: f64,
-    /// Replace the tables between `<!-- chart NAME -->` and `<!-- end -->` in this Markdown file, NAME being the scene's name
+    /// Replace the tables between `<!-- chart NAME -->` and `<!-- end -->` in this Markdown file, NAME being the
+    /// scene's name
     #[arg(long, value_name = "FILE")]
     into: Option<PathBuf>,
 }

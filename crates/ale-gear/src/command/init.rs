@@ -219,7 +219,8 @@ fn asked_until_it_can_be(shown: &str) -> Result<String, CommandError> {
     }
 }
 
-/// The questions; an empty answer takes what is shown in brackets. Every answer is held against the range of its key at once.
+/// The questions; an empty answer takes what is shown in brackets. Every answer is held against the range of its key at
+/// once.
 fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     let kinds = [("equilibrium at every position (static)", Kind::Static), ("motion in time (dynamic)", Kind::Dynamic)];
     // What is complained of is the answer: all before it have been through this.

@@ -20,7 +20,8 @@ use crate::{cache::Cache, error::CommandError, phases::Phases, scene::Scene};
 /// Words of `ale-gear reduce`.
 #[derive(Debug, clap::Args)]
 pub(super) struct ReduceArgs {
-    /// Scene file, whose gears go into the cache; or a Gmsh file (`.msh`), whose gear is reduced for its time and memory alone
+    /// Scene file, whose gears go into the cache; or a Gmsh file (`.msh`), whose gear is reduced for its time and
+    /// memory alone
     #[arg(value_name = "SCENE|MESH")]
     file: PathBuf,
     #[command(flatten)]

@@ -174,7 +174,8 @@ impl RunArgs {
     }
 }
 
-/// Runs a scene of any kind from its beginning to its end and writes every file of its result, also of one that does not hold.
+/// Runs a scene of any kind from its beginning to its end and writes every file of its result, also of one that does
+/// not hold.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no result comes out.

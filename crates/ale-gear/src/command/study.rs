@@ -115,7 +115,8 @@ impl StudyArgs {
     }
 }
 
-/// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says why there is none.
+/// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says
+/// why there is none.
 fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Result<Option<SpeedUp>, String> {
     let Some(full) = study.full else { return Ok(None) };
     let label = &study.cases[full.case].label;

@@ -1,5 +1,5 @@
-//! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`], and is named here
-//! for the modules that write it.
+//! Files and the closing table: what a user gets. What needs no type of this crate's results stands in [`::report`],
+//! and is named here for the modules that write it.
 
 mod error;
 

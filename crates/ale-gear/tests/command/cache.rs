@@ -156,7 +156,8 @@ fn a_stopped_run_leaves_no_broken_file() {
     }
 }
 
-/// What a killed process has left half written goes with the next record; what may still be written stays, and so does all else.
+/// What a killed process has left half written goes with the next record; what may still be written stays, and so does
+/// all else.
 #[test]
 fn half_written_records_of_killed_runs_go() {
     let cached = Cached::new("");

@@ -182,7 +182,8 @@ fn reduce_fills_the_cache_that_a_run_reads() {
     assert_eq!(both.code, Some(2), "{}", both.stdout);
 }
 
-/// Words that cannot be obeyed are one message and a hint, before any work; so are a folder where a file is wanted, and bytes that no terminal should see.
+/// Words that cannot be obeyed are one message and a hint, before any work; so are a folder where a file is wanted, and
+/// bytes that no terminal should see.
 #[test]
 fn wrong_words_are_told_with_a_way_out() {
     let scratch = Scratch::new().file("a.toml", ISO_SCENE).file("a.msh", b"\x1b[2Jabc\x07 1 2 3\n");

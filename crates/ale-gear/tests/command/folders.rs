@@ -1,4 +1,5 @@
-//! Where results go and what is read: work folders of killed runs, links, devices, the scene that is part of the program.
+//! Where results go and what is read: work folders of killed runs, links, devices, the scene that is part of the
+//! program.
 #![cfg(unix)]
 
 use std::{
@@ -64,7 +65,8 @@ fn fine(scratch: &Scratch, out: &str) {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
 }
 
-/// The next run into the same place takes away what a killed one has left there, and what belongs to a living one or to nobody it knows stays.
+/// The next run into the same place takes away what a killed one has left there, and what belongs to a living one or to
+/// nobody it knows stays.
 #[test]
 fn folders_of_killed_runs_go_and_all_others_stay() {
     let scratch = scratch();

@@ -100,7 +100,8 @@ fn physical_nonsense_names_its_line() {
     );
 }
 
-/// The default root radius is never larger than the rack has room for: 25 degrees leave 0.3178. One that is stated is taken at its word.
+/// The default root radius is never larger than the rack has room for: 25 degrees leave 0.3178. One that is stated is
+/// taken at its word.
 #[test]
 fn the_default_root_radius_fits_the_pressure_angle() {
     let steep = ISO_SCENE.replace("[pair]\n", "[pair]\nnormal_pressure_angle_deg = 25.0\n");
@@ -226,7 +227,8 @@ fn what_this_version_cannot_do_is_refused_and_not_ignored() {
     );
 }
 
-/// Every count is in its range, and their product is beyond any memory: told with rows, bytes and keys, by every kind of analysis.
+/// Every count is in its range, and their product is beyond any memory: told with rows, bytes and keys, by every kind
+/// of analysis.
 #[test]
 fn rows_beyond_any_memory_are_refused_before_the_work() {
     let refused = |scene: &str, words: &[&str], said: &[&str]| {

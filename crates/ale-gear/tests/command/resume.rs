@@ -41,7 +41,8 @@ fn resume(scratch: &Scratch) -> Run {
     scratch.ale_gear(["run", "a.toml", "--out", "o", "--resume", "--no-cache"])
 }
 
-/// Any file that the scene names, once it holds something else, is named, and nothing is touched; put back it is good again.
+/// Any file that the scene names, once it holds something else, is named, and nothing is touched; put back it is good
+/// again.
 #[test]
 fn a_run_is_not_gone_on_with_from_other_files() {
     let scratch = Scratch::new().file("plain.toml", plain(64.0));
@@ -105,7 +106,8 @@ fn a_checkpoint_bears_its_own_digest() {
     assert_eq!(scratch.names(), ["a.toml", "o"]);
 }
 
-/// A run that was killed before its first checkpoint has left its folder: it begins anew, with a remark, to the same bytes.
+/// A run that was killed before its first checkpoint has left its folder: it begins anew, with a remark, to the same
+/// bytes.
 #[test]
 fn a_run_without_a_checkpoint_yet_begins_anew() {
     let scratch = Scratch::new().file("a.toml", motion_scene(1, "run = \"span\"\n"));

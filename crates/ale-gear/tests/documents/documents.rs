@@ -120,7 +120,8 @@ fn cited(text: &str) -> BTreeSet<String> {
     numbers
 }
 
-/// Docstrings cite equations as `Theory (12).`; each is in the theory once, and each of the theory's is cited where it is computed.
+/// Docstrings cite equations as `Theory (12).`; each is in the theory once, and each of the theory's is cited where it
+/// is computed.
 #[test]
 fn theory_and_docstrings_number_equations_alike() {
     let theory = Page::read(repository().join("docs/theory.md"));

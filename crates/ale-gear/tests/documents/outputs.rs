@@ -1,4 +1,5 @@
-//! docs/outputs.md against what the program writes: every column and key of every kind of run is in it, and every column and key in it is written by one of them.
+//! docs/outputs.md against what the program writes: every column and key of every kind of run is in it, and every
+//! column and key in it is written by one of them.
 
 use std::collections::BTreeSet;
 
@@ -77,7 +78,8 @@ fn folders(scratch: &Scratch) -> impl Iterator<Item = std::path::PathBuf> + '_ {
     scratch.names().into_iter().filter(|n| n.starts_with("out-")).map(|n| scratch.path().join(n))
 }
 
-/// Sections and tables whose quantities no run above writes: a chart takes minutes, and so does `full` of a study; fields of ParaView files have a test of their own.
+/// Sections and tables whose quantities no run above writes: a chart takes minutes, and so does `full` of a study;
+/// fields of ParaView files have a test of their own.
 const NOT_TRIED: [&str; 3] = ["Files of ale-gear chart", "*.vtu, gears.pvd", "key of at_rest"];
 
 #[test]

@@ -10,8 +10,9 @@
 //! <!-- prints -->                       each line of the next block is in what the last run printed, in this order; `...` stands for anything
 //! <!-- value FILE KEY TOLERANCE -->     the number that follows is what the file says, within a relative tolerance
 //! ```
-//! KEY of a `.json` file: names joined by dots, numbers for places in a list. Of a `.csv` file: `max:COLUMN`, `min:COLUMN`, or
-//! `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER` behind it: among the rows that have this.
+//! KEY of a `.json` file: names joined by dots, numbers for places in a list. Of a `.csv` file: `max:COLUMN`,
+//! `min:COLUMN`, or `COLUMN@max:OTHER`, the value of a column in the row where another is largest; `,NAME=NUMBER`
+//! behind it: among the rows that have this.
 #![cfg(unix)] // the commands are a shell's
 
 use std::os::unix::fs::symlink;
@@ -172,7 +173,8 @@ fn tell_left_out(page: &Page, steps: Vec<(String, String)>) {
     testing::note(&testing::folder(), file!(), &name, &records).unwrap();
 }
 
-/// Does what a page says in a folder that looks like the top of the repository, and looks up every quantity that came out in the documents.
+/// Does what a page says in a folder that looks like the top of the repository, and looks up every quantity that came
+/// out in the documents.
 fn follow(page: &str) {
     let page = Page::read(repository().join("docs/tutorials").join(page));
     let scratch = Scratch::new();

@@ -104,7 +104,8 @@ impl Page {
         keys
     }
 
-    /// What may stand behind `#` in a link to this page: its headings, in the spelling that repository hosts and mdBook share.
+    /// What may stand behind `#` in a link to this page: its headings, in the spelling that repository hosts and mdBook
+    /// share.
     pub fn anchors(&self) -> Vec<String> {
         let (mut anchors, mut heading): (Vec<String>, Option<String>) = (Vec::new(), None);
         for (event, _) in self.events() {

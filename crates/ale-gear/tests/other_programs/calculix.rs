@@ -2,7 +2,8 @@
 
 use super::util::{Scratch, chart_rows, five_teeth};
 
-/// It is run on the same coarse meshes and computes the same gears, its faces as they are meshed: nothing is off by a unit, a sign or a factor.
+/// It is run on the same coarse meshes and computes the same gears, its faces as they are meshed: nothing is off by a
+/// unit, a sign or a factor.
 pub fn point_on_the_chart(_: ()) {
     let scratch = Scratch::new().file("a.toml", five_teeth());
     let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", "--quick", "--limit-s", "1e9"]);

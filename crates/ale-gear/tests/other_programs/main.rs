@@ -1,5 +1,5 @@
-//! Results in the programs of others: reports in a browser, files in their readers, a point of the chart by CalculiX. A test whose program is not
-//! installed is shown as ignored, and named again at the end of all tests.
+//! Results in the programs of others: reports in a browser, files in their readers, a point of the chart by CalculiX. A
+//! test whose program is not installed is shown as ignored, and named again at the end of all tests.
 
 mod browser;
 mod calculix;
@@ -34,8 +34,8 @@ fn main() -> ExitCode {
         .run()
 }
 
-/// This very program where nothing is installed: every test is ignored with its reason and counted in the result line, and the summary of all tests names
-/// each.
+/// This very program where nothing is installed: every test is ignored with its reason and counted in the result line,
+/// and the summary of all tests names each.
 fn left_out_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let run = Command::new(std::env::current_exe().unwrap())

@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use super::util::{ISO_SCENE, Scratch, repository};
 
-/// Angles, transmission error and centre distance from the nodes of the files are those of the run, and both readers see the same. The nodes
-/// of a whole gear mean its centre; doubles are written, so that what is left is round-off of sums over some thousand nodes.
+/// Angles, transmission error and centre distance from the nodes of the files are those of the run, and both readers
+/// see the same. The nodes of a whole gear mean its centre; doubles are written, so that what is left is round-off of
+/// sums over some thousand nodes.
 pub fn meshio_and_pyvista(_: ()) {
     let mesher =
         "mesher = { order = 2, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";

@@ -20,7 +20,8 @@ fn number_after(text: &str, word: &str) -> u32 {
     rest.chars().take_while(char::is_ascii_digit).collect::<String>().parse().unwrap()
 }
 
-/// Steps beyond the limit are refused before the run, with a number that would do; with this number the motion is bounded, with two thirds of it it is refused as well.
+/// Steps beyond the limit are refused before the run, with a number that would do; with this number the motion is
+/// bounded, with two thirds of it it is refused as well.
 #[test]
 fn steps_beyond_the_stability_limit_are_refused() {
     for method in ["rk4", "dormand-prince"] {
@@ -75,7 +76,8 @@ fn cheaper_models_know_their_limit() {
     assert_eq!(fine.code, Some(0), "{enough} steps: {}", fine.stderr);
 }
 
-/// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one looks.
+/// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one
+/// looks.
 #[test]
 fn a_result_that_does_not_hold_says_so_everywhere() {
     let failing = motion_scene(0, "")
@@ -108,7 +110,8 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 }
 
-/// Steps so long that teeth leap over each other end the run at once, with where it happened and a way out; in a sweep the speed has that for its reason, and where no speed is left the command fails.
+/// Steps so long that teeth leap over each other end the run at once, with where it happened and a way out; in a sweep
+/// the speed has that for its reason, and where no speed is left the command fails.
 #[test]
 fn teeth_that_pass_through_each_other_end_the_run_there() {
     let long = |run: &str, rpm: u32| {

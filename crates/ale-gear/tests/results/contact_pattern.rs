@@ -109,7 +109,8 @@ fn contact_lines_carry_the_load() {
     }
 }
 
-/// The pattern holds every contact: its largest value is the run's, bit for bit, and no slice was pressed harder than its place says.
+/// The pattern holds every contact: its largest value is the run's, bit for bit, and no slice was pressed harder than
+/// its place says.
 #[test]
 fn the_pattern_passes_through_every_contact() {
     let lines = rows("contact_lines.csv");
@@ -128,8 +129,8 @@ fn the_pattern_passes_through_every_contact() {
     }
 }
 
-/// Positions are farther apart than places, and yet there is no stripe: at every station the pattern is one piece without a
-/// hole, and zero beyond the contacts, which leave the foot of the flank free.
+/// Positions are farther apart than places, and yet there is no stripe: at every station the pattern is one piece
+/// without a hole, and zero beyond the contacts, which leave the foot of the flank free.
 #[test]
 fn the_pattern_is_one_piece_and_zero_off_it() {
     let lines = rows("contact_lines.csv");
@@ -155,9 +156,9 @@ fn the_pattern_is_one_piece_and_zero_off_it() {
     }
 }
 
-/// Equal gears seen from each other: turned by half a turn about z and mirrored at mid-face, the pinion is the wheel. The
-/// pinion is solved at given angles and the wheel lags by the transmission error, a shift of 0.03 of a place: enough to move
-/// a contact over the border of a place, so neighbours take part.
+/// Equal gears seen from each other: turned by half a turn about z and mirrored at mid-face, the pinion is the wheel.
+/// The pinion is solved at given angles and the wheel lags by the transmission error, a shift of 0.03 of a place:
+/// enough to move a contact over the border of a place, so neighbours take part.
 #[test]
 fn patterns_of_equal_gears_are_mirror_images() {
     let [pinion, wheel] = GEARS.map(pattern);
@@ -201,7 +202,8 @@ fn contact_lines_need_slices() {
     }
 }
 
-/// The largest pressure of the run is that of a row of the contact lines, and the summary and every row of the history say where: height, diameter, and an edge where an edge presses.
+/// The largest pressure of the run is that of a row of the contact lines, and the summary and every row of the history
+/// say where: height, diameter, and an edge where an edge presses.
 #[test]
 fn the_largest_pressure_says_where_it_is() {
     let summary: serde_json::Value = serde_json::from_str(&RUN.read("o/summary.json")).unwrap();
@@ -231,7 +233,8 @@ fn the_largest_pressure_says_where_it_is() {
     );
 }
 
-/// Ten slices are the scene's own, and the summary says so; too few of them are remarked on with the number that would do.
+/// Ten slices are the scene's own, and the summary says so; too few of them are remarked on with the number that would
+/// do.
 #[test]
 fn few_slices_are_remarked_on() {
     let summary: serde_json::Value = serde_json::from_str(&RUN.read("o/summary.json")).unwrap();

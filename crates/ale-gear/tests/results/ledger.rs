@@ -1,4 +1,5 @@
-//! Energy of every shipped scene in time: the ledger closes within a millionth of the work that is done, and no force pulls.
+//! Energy of every shipped scene in time: the ledger closes within a millionth of the work that is done, and no force
+//! pulls.
 
 use crate::util::{Scratch, repository};
 use serde_json::Value;

@@ -20,7 +20,8 @@ fn span(rpm: f64, motion: &str) -> String {
         .replace("torque_nm = 150.0\n", &format!("torque_nm = 150.0\nspeed_rpm = {rpm:?}\n"))
 }
 
-/// The ratio is harmonic times mesh frequency over the lowest elastic frequency; the warning comes where what is left out may change the answer, and names the remedy and its price.
+/// The ratio is harmonic times mesh frequency over the lowest elastic frequency; the warning comes where what is left
+/// out may change the answer, and names the remedy and its price.
 #[test]
 fn every_run_has_its_ratio_and_only_fast_ones_a_warning() {
     let number = |e: &serde_json::Value, key: &str| e[key].as_f64().unwrap_or_else(|| panic!("no {key}: {e}"));

@@ -13,7 +13,8 @@ fn run(scratch: &Scratch, out: &str, more: &[&str]) -> serde_json::Value {
 /// The defaults settle into a periodic motion whose certificate holds; rows, spectrum and ledger belong together.
 #[test]
 fn a_motion_settles_and_its_certificate_holds() {
-    // Three cycles: with both gears free this coarse pair comes back after so many, and the record must be whole periods.
+    // Three cycles: with both gears free this coarse pair comes back after so many, and the record must be whole
+    // periods.
     let scratch = Scratch::new().file("a.toml", scene(3, ""));
     let summary = run(&scratch, "o", &[]);
     let mut names: Vec<_> =
@@ -94,11 +95,13 @@ fn a_run_that_was_cut_goes_on_byte_for_byte() {
     assert!(!scratch.path().join("cut.checkpoint").exists(), "the checkpoint is left");
 }
 
-/// At a speed that goes to nothing a motion presses and bends its teeth as the pair at rest does, row by row and place by place.
+/// At a speed that goes to nothing a motion presses and bends its teeth as the pair at rest does, row by row and place
+/// by place.
 #[test]
 fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
     let slow = "run = \"span\"\nmethod = \"generalised-alpha\"\nspectral_radius = 0.0\nmesh_damping_ratio = 0.5\n";
-    // The driver is held: in a step of a second gears that are both free would be anywhere if the first one missed contact.
+    // The driver is held: in a step of a second gears that are both free would be anywhere if the first one missed
+    // contact.
     let motion = &format!("{slow}[output]\nroot_stress = true\n[drive]\nby = \"speed\"\n");
     let moving = scene(1, motion).replace("[operation]", "[operation]\nspeed_rpm = 0.1");
     let still = scene(1, "[output]\nroot_stress = true\n")
@@ -112,7 +115,8 @@ fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
         for measure in ["max_principal", "min_principal", "von_mises"] {
             let name = format!("{gear}_root_stress_{measure}_mpa");
             let (moving, still) = (column(&rows, &name), column(&positions, &name));
-            // The first row is one after the beginning of the cycle, the last one at its end, where the first position is.
+            // The first row is one after the beginning of the cycle, the last one at its end, where the first position
+            // is.
             for (k, found) in moving.iter().enumerate() {
                 let law = still[(k + 1) % still.len()];
                 assert!((found / law - 1.0).abs() < 0.01, "{name}, row {k}: {found} MPa, at rest {law}");
@@ -143,7 +147,8 @@ fn a_sweep_does_not_see_the_number_of_threads() {
     assert_eq!(summary["headline"]["largest"].as_array().unwrap().len(), 3);
 }
 
-/// A torque that presses the coast flanks from the beginning: the motion starts on them, beyond the backlash, and the driving flanks carry nothing.
+/// A torque that presses the coast flanks from the beginning: the motion starts on them, beyond the backlash, and the
+/// driving flanks carry nothing.
 #[test]
 fn a_motion_may_begin_on_the_coast_flanks() {
     let load = "[load]\ntable_s_nm = [[0.0, -150.0]]\n";
@@ -176,7 +181,8 @@ fn a_slow_motion_says_how_many_steps_it_takes() {
     assert!(said.starts_with("ale-gear: a mesh cycle lasts ") && said.contains(" steps; "), "{said}");
 }
 
-/// Torque that reverses lets the driven gear cross the backlash: the coast flanks then carry it, and nothing ever pulls.
+/// Torque that reverses lets the driven gear cross the backlash: the coast flanks then carry it, and nothing ever
+/// pulls.
 #[test]
 fn contact_passes_to_the_coast_flanks_when_the_torque_reverses() {
     let motion = "run = \"span\"\nmesh_damping_ratio = 0.3\n[load]\ntable_s_nm = [[0.002, 150.0], [0.004, -100.0]]\n";

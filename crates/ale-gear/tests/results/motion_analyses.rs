@@ -1,4 +1,5 @@
-//! Analyses in time beyond the plain one: normal modes in every one of them, steps by error, a driver by torque, gears on bearings, a start from standstill.
+//! Analyses in time beyond the plain one: normal modes in every one of them, steps by error, a driver by torque, gears
+//! on bearings, a start from standstill.
 
 use crate::util::{MOTION_LINES, Scratch, column, motion_scene as scene};
 use serde_json::Value;
@@ -64,7 +65,8 @@ fn a_sweep_with_modes_does_not_see_the_number_of_threads() {
     assert_eq!(summary["headline"]["not_periodic_rpm"], serde_json::json!([]), "{}", summary["headline"]);
 }
 
-/// Steps by error: a hundred times less error allowed brings the transmission error nearer to that of fine steps, and the count of steps up.
+/// Steps by error: a hundred times less error allowed brings the transmission error nearer to that of fine steps, and
+/// the count of steps up.
 #[test]
 fn a_tolerance_on_the_error_decides_the_steps() {
     let span = "run = \"span\"\nmesh_damping_ratio = 0.2\n";
@@ -82,7 +84,8 @@ fn a_tolerance_on_the_error_decides_the_steps() {
     assert!(off(&tight) < 0.5 * off(&loose) && off(&tight) < 0.02, "off by {} and {} um", off(&tight), off(&loose));
 }
 
-/// A driver by torque: with the torque that balances the load both gears keep their mean speed, with more they speed up by torque over inertia.
+/// A driver by torque: with the torque that balances the load both gears keep their mean speed, with more they speed up
+/// by torque over inertia.
 #[test]
 fn a_driver_by_torque_speeds_up_by_what_is_left_of_it() {
     let speeds = |torque: &str| {
@@ -108,7 +111,8 @@ fn a_driver_by_torque_speeds_up_by_what_is_left_of_it() {
     );
 }
 
-/// On bearings, all coordinates free: the bearings' forces balance those of the mesh in the mean, and the energy closes.
+/// On bearings, all coordinates free: the bearings' forces balance those of the mesh in the mean, and the energy
+/// closes.
 #[test]
 fn bearings_carry_the_forces_of_the_mesh() {
     let of_gear = |gear: &str| {
@@ -140,7 +144,8 @@ fn bearings_carry_the_forces_of_the_mesh() {
     assert!(open.abs() < 1e-6, "energy open by {open:e}");
 }
 
-/// A run-up may begin at rest: the first row of a pair that begins to turn is that of the pair at rest, and it reaches its speed.
+/// A run-up may begin at rest: the first row of a pair that begins to turn is that of the pair at rest, and it reaches
+/// its speed.
 #[test]
 fn a_run_up_may_begin_at_rest() {
     let ramp = "run = \"ramp\"\nmesh_damping_ratio = 0.3\nramp = { from_rpm = 0, to_rpm = 2000, duration_s = 0.01, waterfall_cycles = 4 }\n";

@@ -1,4 +1,5 @@
-//! Motions over speed as a user runs them: which inertias count, what a ramp is made for, speeds without a solution, a pair without backlash.
+//! Motions over speed as a user runs them: which inertias count, what a ramp is made for, speeds without a solution, a
+//! pair without backlash.
 
 use crate::util::{Scratch, column, motion_scene as scene, repository};
 use serde_json::Value;
@@ -24,8 +25,8 @@ fn sweep(from: f64, to: f64, speeds: u32, ways: &str) -> String {
     )
 }
 
-/// Two equal gears: with both free the equivalent mass is half of that with the driver held, and the resonance sqrt(2) times as high. A sweep finds its largest answer there with either drive,
-/// and the summary says which inertias count.
+/// Two equal gears: with both free the equivalent mass is half of that with the driver held, and the resonance sqrt(2)
+/// times as high. A sweep finds its largest answer there with either drive, and the summary says which inertias count.
 #[test]
 fn a_sweep_with_both_gears_free_has_its_resonance_where_both_inertias_say() {
     let drive = |by: &str| {
@@ -63,7 +64,8 @@ fn a_sweep_with_both_gears_free_has_its_resonance_where_both_inertias_say() {
     assert!((free[1] / held[0] - 1.0).abs() < 0.02, "{} and {} um", free[1], held[0]);
 }
 
-/// Both gears free is the default, of every run; a torque of its own still drives a span, and is refused where the run says the speed.
+/// Both gears free is the default, of every run; a torque of its own still drives a span, and is refused where the run
+/// says the speed.
 #[test]
 fn both_gears_are_free_unless_the_scene_holds_the_driver() {
     let by_default = Scratch::new().file("a.toml", scene(2, "run = \"span\"\n"));
@@ -88,7 +90,8 @@ fn both_gears_are_free_unless_the_scene_holds_the_driver() {
     assert!(refused.stderr.contains("leave the torque out: it then balances the load"), "{}", refused.stderr);
 }
 
-/// A run-up through the resonance: the headline is the largest mesh cycle with its speed, not the mean over all of them, and the files follow every cycle and order over speed.
+/// A run-up through the resonance: the headline is the largest mesh cycle with its speed, not the mean over all of
+/// them, and the files follow every cycle and order over speed.
 #[test]
 fn the_headline_of_a_run_up_is_its_largest_cycle_and_where() {
     let ramp = "run = \"ramp\"\nmesh_damping_ratio = 0.03\nramp = { from_rpm = 3000, to_rpm = 14000, duration_s = 0.03, waterfall_cycles = 8 }\n";
@@ -134,7 +137,8 @@ fn the_headline_of_a_run_up_is_its_largest_cycle_and_where() {
     assert!(!page.contains("time [ms], last mesh cycles"));
 }
 
-/// A motion of a pair without backlash is told what that means, and the key that gives it some; a pair with some is not.
+/// A motion of a pair without backlash is told what that means, and the key that gives it some; a pair with some is
+/// not.
 #[test]
 fn a_pair_without_backlash_is_told_in_motion() {
     let span = scene(1, "run = \"span\"\n");
@@ -147,7 +151,8 @@ fn a_pair_without_backlash_is_told_in_motion() {
     assert!(!warned(&summary, "no backlash"), "{}", summary["warnings"]);
 }
 
-/// One value of a sweep without a solution does not take the others with it: its row says why, and a warning says so; where none has one, the command fails.
+/// One value of a sweep without a solution does not take the others with it: its row says why, and a warning says so;
+/// where none has one, the command fails.
 #[test]
 fn a_value_without_a_solution_leaves_the_others_alone() {
     let seed = std::fs::read_to_string(repository().join("scenes/seeds/004.toml")).unwrap();

@@ -120,7 +120,8 @@ fn line_length_averages_to_the_closed_form() {
     assert!((mean / want - 1.0).abs() < 1e-6, "{mean} mm, not {want} mm");
 }
 
-/// A mesh cycle holds the tooth change that closes it; summary, table and page say where it is, and that it changes nothing.
+/// A mesh cycle holds the tooth change that closes it; summary, table and page say where it is, and that it changes
+/// nothing.
 #[test]
 fn the_cycle_that_is_shown_holds_a_tooth_change() {
     let mesher =
@@ -158,7 +159,8 @@ fn every_cycle_repeats_the_first() {
     }
 }
 
-/// The bending of the bodies stands beside ISO's own stiffness: the transmission error is their sum, and spur gears have none of it.
+/// The bending of the bodies stands beside ISO's own stiffness: the transmission error is their sum, and spur gears
+/// have none of it.
 #[test]
 fn bodies_bend_beside_the_stiffness_of_the_standard() {
     let parts = |scene: &str| {
@@ -179,7 +181,8 @@ fn bodies_bend_beside_the_stiffness_of_the_standard() {
     assert!(least < own && own < mean, "{least}, {own}, {mean}");
 }
 
-/// The nominal root stress of the standard is always there for `iso`, and for others where theirs is asked for: the same value, in summary, table and report.
+/// The nominal root stress of the standard is always there for `iso`, and for others where theirs is asked for: the
+/// same value, in summary, table and report.
 #[test]
 fn the_root_stress_of_the_standard_stands_beside() {
     let stress = |summary: &serde_json::Value| summary["iso_root_stress"]["pinion"]["nominal_root_stress_mpa"].as_f64();

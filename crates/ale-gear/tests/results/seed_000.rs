@@ -58,8 +58,8 @@ fn error_follows_the_contact_lines_and_moments_grow_with_the_helix_angle() {
         let [_, base_helix, base_radius, radius] = geometry(*degrees);
         let rows = scratch.read(&format!("o/cases/{:02}-{degrees}-deg/history.csv", i + 1));
         let of = |name: &str| column(&rows, name);
-        // Without friction force stays in the plane of action: at every instant F_a = F_bt tan(b_b), but for tips that meet early and
-        // press off that plane.
+        // Without friction force stays in the plane of action: at every instant F_a = F_bt tan(b_b), but for tips that
+        // meet early and press off that plane.
         let (axial, torque) = (of("wheel_force_z_n"), of("wheel_moment_z_nmm"));
         for (k, (f, t)) in axial.iter().zip(&torque).enumerate() {
             let law = t.abs() / base_radius * base_helix.tan();
@@ -69,13 +69,15 @@ fn error_follows_the_contact_lines_and_moments_grow_with_the_helix_angle() {
         let law = TORQUE / base_radius * base_helix.tan();
         let found = mean(&axial);
         assert!((found.abs() / law - 1.0).abs() < 1e-3, "{degrees} deg: mean axial force {found} N, not {law}");
-        // One force between two gears: its moments about either centre differ by that of F_a over the distance of the centres.
+        // One force between two gears: its moments about either centre differ by that of F_a over the distance of the
+        // centres.
         let (pinion, wheel) = (of("pinion_moment_y_nmm"), of("wheel_moment_y_nmm"));
         for (k, ((p, w), f)) in pinion.iter().zip(&wheel).zip(&axial).enumerate() {
             let law = 2.0 * radius * f;
             assert!((p + w - law).abs() < 1e-6 * law.abs(), "{degrees} deg, row {k}: {p} + {w} N mm, not {law}");
         }
-        // Equal teeth: the load comes and goes alike on either side of the pitch point, which leaves F_a r_w in the mean.
+        // Equal teeth: the load comes and goes alike on either side of the pitch point, which leaves F_a r_w in the
+        // mean.
         let law = found * radius;
         for (name, all) in [("pinion", &pinion), ("wheel", &wheel)] {
             let m = mean(all);
@@ -104,8 +106,8 @@ fn error_follows_the_contact_lines_and_moments_grow_with_the_helix_angle() {
     ascends("peak_to_peak_contact_line_length_mm", -1.0);
 }
 
-/// The tilting moment at every position is that of the forces of the slices where they act: M_y = z F_x - x F_z, which is F_a r_w
-/// when the load stands at the pitch point at mid-face, and F_bt times the centroid's height beside it.
+/// The tilting moment at every position is that of the forces of the slices where they act: M_y = z F_x - x F_z, which
+/// is F_a r_w when the load stands at the pitch point at mid-face, and F_bt times the centroid's height beside it.
 #[test]
 fn the_tilting_moment_is_that_of_the_contact_lines() {
     let degrees = 20;
@@ -135,8 +137,8 @@ fn the_tilting_moment_is_that_of_the_contact_lines() {
             height += f * z[i];
         }
         let (along, height) = (along / force, height / force);
-        // The force on the pinion points against the line of action's sense; x of the line of action falls with its arc at the
-        // left flanks of a pinion that drives counter-clockwise.
+        // The force on the pinion points against the line of action's sense; x of the line of action falls with its arc
+        // at the left flanks of a pinion that drives counter-clockwise.
         let x = radius + along * transverse.sin();
         let law = -x * axial + height * (-force * transverse.sin());
         let off = (moment - law).abs() / (axial.abs() * radius);

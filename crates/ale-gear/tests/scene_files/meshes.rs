@@ -116,7 +116,8 @@ fn own_names_of_groups_are_checked_by_flags() {
     assert_eq!(info["nodes"], named.nodes.len());
 }
 
-/// A flank that its group has in part only would carry load on that part only: it is refused, and so is a mesh narrower than the scene's gears.
+/// A flank that its group has in part only would carry load on that part only: it is refused, and so is a mesh narrower
+/// than the scene's gears.
 #[test]
 fn a_flank_in_part_is_refused() {
     let scratch = Scratch::new().file("a.toml", scene(1, 1));
@@ -175,7 +176,8 @@ fn summary(scratch: &Scratch, folder: &str) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(scratch.path().join(folder).join("summary.json")).unwrap()).unwrap()
 }
 
-/// A bore that contradicts the mesh is refused with both values; left out, it is the mesh's, also for a model that needs no mesh.
+/// A bore that contradicts the mesh is refused with both values; left out, it is the mesh's, also for a model that
+/// needs no mesh.
 #[test]
 fn the_bore_is_that_of_the_mesh() {
     let (_, wrong) = on_a_mesh("reduced", "bore_diameter_mm = 50.0\n");

@@ -1,4 +1,5 @@
-//! `[analysis] reduction`: which way gears go by themselves, that all ways end in the same results, and who may not ask.
+//! `[analysis] reduction`: which way gears go by themselves, that all ways end in the same results, and who may not
+//! ask.
 
 use crate::util::{ISO_SCENE, Scratch};
 
@@ -22,8 +23,8 @@ fn run(analysis: &str, output: &str) -> (serde_json::Value, String) {
     (serde_json::from_str(&scratch.read("o/summary.json")).unwrap(), scratch.read("o/history.csv"))
 }
 
-/// One sector, a whole mesh that is found to be cyclic (ParaView files show all of it), and one factor of the whole gear: the same
-/// degrees of freedom and the same history, root stress included.
+/// One sector, a whole mesh that is found to be cyclic (ParaView files show all of it), and one factor of the whole
+/// gear: the same degrees of freedom and the same history, root stress included.
 #[test]
 fn all_ways_end_in_the_same_results() {
     let (sector, by_sector) = run("model = \"reduced\"", "");

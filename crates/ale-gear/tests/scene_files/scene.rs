@@ -40,7 +40,8 @@ fn defaults_are_those_of_the_documentation() {
     assert_eq!(scene.wheel.material.young_mpa, 2.06e5);
 }
 
-/// Slices and face elements follow width, micro-geometry and load where the scene does not say them, stand in the written scene, and are kept where it does.
+/// Slices and face elements follow width, micro-geometry and load where the scene does not say them, stand in the
+/// written scene, and are kept where it does.
 #[test]
 fn slices_and_face_elements_follow_the_pair() {
     let text = |width: f64, crowning: f64, more: &str| {
@@ -80,7 +81,8 @@ fn driver_and_rotation_choose_the_flanks() {
     }
 }
 
-/// What stands in the table of one flank replaces what stands in that of both, key by key; a start is one key however it is given.
+/// What stands in the table of one flank replaces what stands in that of both, key by key; a start is one key however
+/// it is given.
 #[test]
 fn flanks_take_what_both_share_and_what_is_their_own() {
     let text = format!(

@@ -15,7 +15,8 @@ fn said(words: &[&str]) -> String {
     format!("{error}|{}", error.hint().unwrap_or_default())
 }
 
-/// What is set is what a file with that value says: keys that the file has, keys that it has not, tables that it has not, lists and words.
+/// What is set is what a file with that value says: keys that the file has, keys that it has not, tables that it has
+/// not, lists and words.
 #[test]
 fn a_setting_is_as_if_the_file_said_so() {
     let say = |old: &str, new: &str| {

@@ -6,7 +6,8 @@ use crate::util::{ISO_SCENE, Scratch, chart_rows, fields, five_teeth};
 fn every_point_is_a_run_or_says_why_not() {
     let page = "# Cost\n<!-- chart small -->\nold\n<!-- end -->\nrest\n";
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("page.md", page);
-    // Without a limit of time, which slow machines meet, and without CalculiX, which some have: `other_programs` asks for that.
+    // Without a limit of time, which slow machines meet, and without CalculiX, which some have: `other_programs` asks
+    // for that.
     let words = ["chart", "a.toml", "--out", "o", "--quick", "--into", "page.md", "--limit-s", "1e9"];
     let nothing = tempfile::tempdir().unwrap();
     let run = Scratch::done(scratch.program().args(words).env("PATH", nothing.path()));
@@ -66,7 +67,8 @@ fn words_of_the_chart_are_checked_before_any_work() {
     assert_eq!(scratch.names(), ["a.toml", "page.md"]);
 }
 
-/// Every method with every step has its row; those of second order come nearer to the reference with smaller steps, and a scene at rest has no methods.
+/// Every method with every step has its row; those of second order come nearer to the reference with smaller steps, and
+/// a scene at rest has no methods.
 #[test]
 fn methods_of_integration_have_their_chart() {
     let scratch = Scratch::new().file("a.toml", crate::util::motion_scene(1, "")).file("rest.toml", ISO_SCENE);

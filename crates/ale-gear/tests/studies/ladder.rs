@@ -32,7 +32,8 @@ fn certificate(summary: &Value, key: &str) -> f64 {
     summary["headline"]["certificate"][key].as_f64().unwrap_or_else(|| panic!("no {key}: {}", summary["headline"]))
 }
 
-/// Seed 004 without friction: mean normal force T / (r_b cos b_b) = 7094.5 N (validation notes; 1e-4: the settled motion repeats itself to 1e-6), all files, the ledger closes.
+/// Seed 004 without friction: mean normal force T / (r_b cos b_b) = 7094.5 N (validation notes; 1e-4: the settled
+/// motion repeats itself to 1e-6), all files, the ledger closes.
 #[test]
 fn seed_004_has_its_normal_force() {
     let changes = [("friction = 0.05", "friction = 0.0"), ("cycles = 30", "cycles = 4"), ("1.0e-5", "1.0e-6")];
@@ -69,7 +70,8 @@ fn seed_003_has_its_contact_lines() {
     }
 }
 
-/// Seed 001 shortened (constant speed, 9 slices): mean normal force within 1 % of 7.378e5 N and output 22.78 Hz (validation notes), and no flank pulls.
+/// Seed 001 shortened (constant speed, 9 slices): mean normal force within 1 % of 7.378e5 N and output 22.78 Hz
+/// (validation notes), and no flank pulls.
 #[test]
 fn seed_001_has_its_normal_force_and_speed() {
     let text = seed("001", &[("slices = 33", "slices = 9"), ("run = \"ramp\"", "run = \"span\"")]);
@@ -82,7 +84,8 @@ fn seed_001_has_its_normal_force_and_speed() {
     assert!(headline(&summary, "least_slice_force_n") >= 0.0, "a flank pulls");
 }
 
-/// Rigid gears without a number of slices have as many as their width asks for, and the summary says so; a number of the scene is kept.
+/// Rigid gears without a number of slices have as many as their width asks for, and the summary says so; a number of
+/// the scene is kept.
 #[test]
 fn slices_of_rigid_gears_follow_the_width() {
     let resolution = |slices: &str, width: &str| {
@@ -99,8 +102,9 @@ fn slices_of_rigid_gears_follow_the_width() {
     assert_eq!((stated["slices"].as_u64(), &stated["slices_chosen"]), (Some(33), &Value::Bool(false)), "{stated}");
 }
 
-/// Seed 002: torques balance, so the mean force on the line of action is the load's; 18 coordinates; the gears' turn against nothing is the one frequency at 0; twelve elastic ones within 8 % of the
-/// continuum's; critical speeds lie where an order meets a line of the Campbell diagram.
+/// Seed 002: torques balance, so the mean force on the line of action is the load's; 18 coordinates; the gears' turn
+/// against nothing is the one frequency at 0; twelve elastic ones within 8 % of the continuum's; critical speeds lie
+/// where an order meets a line of the Campbell diagram.
 #[test]
 fn seed_002_carries_its_load() {
     let (scratch, summary) = run(seed("002", &[("cycles = 30", "cycles = 4"), ("1.0e-5", "1.0e-4")]));
@@ -150,8 +154,9 @@ fn fed(model: &str, tables: &str) -> Value {
     run(scene + tables).1
 }
 
-/// Without a word on its stiffness a model is fed by the reduced one: run slowly (a thousandth of the resonance and less), its DTE is the STE of the reduced model of the same scene,
-/// within 1 % of the mean (gears held at their centres; shafts so thick that they do not bend).
+/// Without a word on its stiffness a model is fed by the reduced one: run slowly (a thousandth of the resonance and
+/// less), its DTE is the STE of the reduced model of the same scene, within 1 % of the mean (gears held at their
+/// centres; shafts so thick that they do not bend).
 #[test]
 fn fed_models_follow_the_reduced_one() {
     let (_, of_reduced) = run(meshed());
@@ -231,7 +236,8 @@ const REVERSED: [&str; 14] = [
     "wheel.shaft.supports.1.at_mm=0.0",
 ];
 
-/// The other hand mirrors the pair in z, the other sense in the plane of both axes: the same DTE, forces across the mirror turned round.
+/// The other hand mirrors the pair in z, the other sense in the plane of both axes: the same DTE, forces across the
+/// mirror turned round.
 #[test]
 fn mirrored_scenes_answer_mirrored() {
     let short: [(&str, &[&str], &str); 4] = [

@@ -81,7 +81,8 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     assert_eq!(refused.code, Some(2));
 }
 
-/// A case without a solution stands with its reason in its row, and takes nothing from the others; where none has one, nothing is left.
+/// A case without a solution stands with its reason in its row, and takes nothing from the others; where none has one,
+/// nothing is left.
 #[test]
 fn a_case_without_a_solution_stands_alone() {
     let failing = "set = [\"pair.centre_distance_mm=80\"]\n";

@@ -23,8 +23,8 @@ fn of_way(csv: &str, way: &str) -> String {
     header.strip_prefix("way,").unwrap().to_owned() + "\n" + &own.collect::<String>()
 }
 
-/// A mesh without clearance has one answer at every speed, whichever way it is come to, and every disturbance dies out: sections of one point, exponents below zero.
-/// Files hold the same bytes for one thread and for two.
+/// A mesh without clearance has one answer at every speed, whichever way it is come to, and every disturbance dies out:
+/// sections of one point, exponents below zero. Files hold the same bytes for one thread and for two.
 #[test]
 fn a_linear_mesh_has_one_answer_everywhere() {
     let words = [
@@ -70,7 +70,8 @@ fn a_linear_mesh_has_one_answer_everywhere() {
     assert_eq!(one.read("o/bifurcation.csv").lines().count(), 1 + 9 * 6);
 }
 
-/// Shafts that turn freely: the turn that nothing holds is no growth. Without clearance every disturbance dies out, at any speed.
+/// Shafts that turn freely: the turn that nothing holds is no growth. Without clearance every disturbance dies out, at
+/// any speed.
 #[test]
 fn a_free_turn_is_no_chaos() {
     let words = [
@@ -103,8 +104,9 @@ fn a_free_turn_is_no_chaos() {
     assert_eq!(summary["headline"]["chaotic"].as_array().map(Vec::len), Some(0));
 }
 
-/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of `crates/lumped/tests/lumped_laws/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600 rad/s with one
-/// above.
+/// Lightly loaded shafts with a backlash of 40 um and a transmission error of 5 um (the diagram of
+/// `crates/lumped/tests/lumped_laws/shaft18_backlash.rs`): order at 500 rad/s with an exponent below zero, chaos at 600
+/// rad/s with one above.
 #[test]
 fn backlash_brings_chaos_between_windows() {
     let words = [

@@ -50,7 +50,8 @@ impl Scratch {
         Self::done(self.program().args(words))
     }
 
-    /// The built program in this folder; what it says does not depend on how fast the machine is, nor on what the user has cached.
+    /// The built program in this folder; what it says does not depend on how fast the machine is, nor on what the user
+    /// has cached.
     pub fn program(&self) -> Command {
         self.here(Command::new(env!("CARGO_BIN_EXE_ale-gear")))
     }

@@ -13,7 +13,8 @@ use crate::{AnalysisError, NoSink, StaticAnalysis, StaticResult, static_certific
 
 /// Phase of the positions.
 const SOLVE: &str = "solve";
-/// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are alike.
+/// A cycle that takes longer than this (s) is not run a second time: two cycles of a model that keeps nothing are
+/// alike.
 const LONG: f64 = 20.0;
 
 /// Runs a point.

@@ -13,8 +13,8 @@ const STRETCHES: usize = 800;
 /// Height of a legend's line over the height of the chart.
 const LEGEND_ROOM: f64 = 0.09;
 
-/// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without points, or with
-/// nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
+/// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without
+/// points, or with nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
     let curves = with_points(curves);
     let svg = picture(title, [x, y], &curves, from_zero, Marks::Lines)?;

@@ -6,7 +6,8 @@ use serde::{Serialize, Serializer};
 
 use super::curve::{COLOURS, Curve, colour_of};
 
-/// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every curve.
+/// Places on the abscissa at most; of a longer record each stretch keeps the least and the largest value of every
+/// curve.
 const PLACES: usize = 6000;
 /// Digits of ordinates and of abscissae: a long record has close neighbours.
 const DIGITS: [usize; 2] = [6, 9];
@@ -25,7 +26,8 @@ pub enum Kind {
     Dots,
 }
 
-/// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates; of dots abscissa and ordinate in turn.
+/// A chart as the script takes it; `data` are the abscissa and, curve by curve, the ordinates; of dots abscissa and
+/// ordinate in turn.
 #[derive(Debug, Serialize)]
 pub struct Plot<'a> {
     kind: Kind,
@@ -39,8 +41,8 @@ pub struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    /// Curves over one pair of axes; the value axis begins at zero if `zero`. A single curve that goes to and fro along the abscissa is
-    /// a path.
+    /// Curves over one pair of axes; the value axis begins at zero if `zero`. A single curve that goes to and fro along
+    /// the abscissa is a path.
     pub fn new(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve], zero: bool) -> Self {
         let ascending: Option<Vec<Vec<(f64, f64)>>> = curves.iter().map(|c| ascending(&c.points)).collect();
         let (kind, columns) = match ascending {
@@ -148,7 +150,8 @@ fn shared(curves: &[Vec<(f64, f64)>]) -> Vec<Vec<f64>> {
     std::iter::once(all).chain(ordinates).collect()
 }
 
-/// Rows of a long record that keep its envelope: of each stretch those with the least and the largest value of every curve.
+/// Rows of a long record that keep its envelope: of each stretch those with the least and the largest value of every
+/// curve.
 fn thinned(columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let (rows, curves) = (columns.first().map_or(0, Vec::len), columns.len().saturating_sub(1));
     if rows <= PLACES || curves == 0 {

@@ -10,8 +10,8 @@ use resvg::{
 /// Pixels of the picture over those of the drawing: sharp on a dense screen and in print.
 const SCALE: f32 = 2.0;
 
-/// An SVG drawing as PNG. Letters come from a typeface inside the program: a machine may have none, and the picture is the
-/// same everywhere.
+/// An SVG drawing as PNG. Letters come from a typeface inside the program: a machine may have none, and the picture is
+/// the same everywhere.
 ///
 /// # Errors
 /// What the drawing or the encoder complains of.

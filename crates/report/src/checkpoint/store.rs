@@ -190,7 +190,8 @@ impl CheckpointFolder {
     /// The state that is there, as it was written and with the rows that belong to it.
     ///
     /// # Errors
-    /// [`CheckpointError::None`], [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote it.
+    /// [`CheckpointError::None`], [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote
+    /// it.
     pub fn read(&self, scene: &Scene) -> Result<Stored, CheckpointError> {
         let path = self.0.join(STATE);
         let text = fs::read_to_string(&path).map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;

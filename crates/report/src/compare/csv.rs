@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::{NumberRow, Overlay, ResultFolder, table::letter};
 use crate::csv::push_number;
 
-/// Numbers of all runs: key, value of each run, difference and per cent of each but the first. A field without a value is empty.
+/// Numbers of all runs: key, value of each run, difference and per cent of each but the first. A field without a value
+/// is empty.
 pub fn write_compare_csv(runs: &[ResultFolder], rows: &[NumberRow]) -> String {
     let mut csv = String::from("key");
     for i in 0..runs.len() {

@@ -6,7 +6,8 @@ use study::Columns;
 /// What curves are drawn over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
-    /// The last whole mesh cycle of every run, 0 .. 1: positions, steps and models of different speed fit on each other.
+    /// The last whole mesh cycle of every run, 0 .. 1: positions, steps and models of different speed fit on each
+    /// other.
     Phase,
     /// Time since the first row.
     Time,
@@ -99,8 +100,8 @@ fn plain(values: &[f64]) -> Vec<(f64, usize)> {
     values.iter().enumerate().map(|(i, &x)| (x, i)).collect()
 }
 
-/// Rows of the last whole cycle, ascending in phase. A cycle ends where the phase jumps by more than half; one that was cut short has fewer
-/// rows than the longest.
+/// Rows of the last whole cycle, ascending in phase. A cycle ends where the phase jumps by more than half; one that was
+/// cut short has fewer rows than the longest.
 fn last_cycle(phase: &[f64]) -> Vec<(f64, usize)> {
     // What falls short of a whole cycle by round-off begins the next one.
     let phase: Vec<f64> = phase.iter().map(|&p| if p > 1.0 - 1e-6 { 0.0 } else { p }).collect();

@@ -116,7 +116,8 @@ fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
     let Some(header) = header.strip_prefix("way,") else {
         return Some(vec![(String::new(), parse_columns(text)?)]);
     };
-    // Behind the numbers stand words: where a speed began, whether it has an answer, and why not. A speed without one has no numbers.
+    // Behind the numbers stand words: where a speed began, whether it has an answer, and why not. A speed without one
+    // has no numbers.
     let names: Vec<&str> = header.split(',').take_while(|name| *name != WORDS).collect();
     let header = names.join(",");
     let mut parts: Vec<(String, String)> = Vec::new();

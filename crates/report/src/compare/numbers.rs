@@ -21,7 +21,8 @@ pub struct NumberRow {
 pub struct Difference {
     /// This run's less the first one's, in the unit of the key.
     pub absolute: f64,
-    /// The same over the first one's, per cent, so that a load twice as large reads +100 on either side of 0; `None` where the first is 0.
+    /// The same over the first one's, per cent, so that a load twice as large reads +100 on either side of 0; `None`
+    /// where the first is 0.
     pub per_cent: Option<f64>,
 }
 
@@ -37,7 +38,8 @@ pub struct WordRow {
 /// Parts of the summary beside the headline that are worth a row.
 const BESIDE: [&str; 5] = ["/geometry/eps_gamma", "/dof_before", "/dof_after", "/cost/wall_s", "/cost/peak_memory_mb"];
 
-/// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that has them.
+/// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that
+/// has them.
 pub fn headline_rows(runs: &[ResultFolder]) -> Vec<NumberRow> {
     let found: Vec<Vec<(String, f64)>> = runs.iter().map(numbers).collect();
     let mut keys: Vec<&str> = Vec::new();

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use super::{Encoding, Field, vtu::write_surface};
 use analysis::results::GearPattern;
 
-/// A gear's pattern on its flank in space: quads between roll angles and stations. The gear stands at its centre with tooth 0 on +x
-/// at mid-face. The end faces have the values of the slices next to them.
+/// A gear's pattern on its flank in space: quads between roll angles and stations. The gear stands at its centre with
+/// tooth 0 on +x at mid-face. The end faces have the values of the slices next to them.
 ///
 /// # Errors
 /// What `out` reports.

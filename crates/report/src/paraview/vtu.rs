@@ -84,7 +84,8 @@ fn integers(name: &str, values: impl Iterator<Item = i64>) -> Array {
 /// as there are nodes, `cell_fields` as there are elements, in the order of the blocks.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] when a field has another number of values than the grid asks for; else what `out` reports.
+/// [`io::ErrorKind::InvalidInput`] when a field has another number of values than the grid asks for; else what `out`
+/// reports.
 pub fn write_vtu(
     out: &mut impl Write,
     nodes: &[[f64; 3]],

@@ -22,7 +22,8 @@ const LEAST: usize = 4;
 const FEW: usize = 8;
 /// Positions that go through a factor at a time.
 const AT_A_TIME: usize = 8;
-/// Free degrees of freedom of a gear from the cache up to which its sector is condensed once more for the sake of fields.
+/// Free degrees of freedom of a gear from the cache up to which its sector is condensed once more for the sake of
+/// fields.
 const CHEAP_AGAIN: usize = 300_000;
 
 impl ViewRecorder {
@@ -114,7 +115,8 @@ fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -
     })
 }
 
-/// The fields of all positions: displacement (um, three a point) and first principal stress (MPa, NaN above the fillets) at the points.
+/// The fields of all positions: displacement (um, three a point) and first principal stress (MPa, NaN above the
+/// fillets) at the points.
 fn all_fields(
     piece: &Piece,
     positions: &[&RecordedGear],

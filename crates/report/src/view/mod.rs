@@ -147,7 +147,8 @@ impl GearView {
     }
 }
 
-/// Angles of both gears when the pinion has turned by `turned` (rad, in the sense of rotation) from the middle position of pair 0.
+/// Angles of both gears when the pinion has turned by `turned` (rad, in the sense of rotation) from the middle position
+/// of pair 0.
 fn angles(scene: &Scene, pair: &GearPair, turned: f64) -> Numbers {
     let side = scene.side();
     let pinion = pair.middle_angle(side) + scene.operation.rotation.sign() * turned;

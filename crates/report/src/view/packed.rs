@@ -8,7 +8,8 @@ const STEPS: f64 = 32_767.0;
 /// Stands for a number that is none.
 const NOTHING: i16 = i16::MIN;
 
-/// Lists of numbers on one scale: value = `unit` times a whole number of two bytes, low byte first; -32768 is no number.
+/// Lists of numbers on one scale: value = `unit` times a whole number of two bytes, low byte first; -32768 is no
+/// number.
 ///
 /// Off by half a unit at most, 1/65534 of the largest value.
 #[derive(Debug, Clone, PartialEq, Serialize)]

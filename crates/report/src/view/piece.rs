@@ -82,7 +82,8 @@ fn tooth_of(mesh: &Mesh, element: &[u32], exact: &Gear) -> u32 {
     (pitches.round() as i64).rem_euclid(i64::from(exact.teeth())) as u32
 }
 
-/// Points and triangles with no more points than a page can hold: those that share a cell of a grid become one, as often as it takes.
+/// Points and triangles with no more points than a page can hold: those that share a cell of a grid become one, as
+/// often as it takes.
 fn coarse_enough(nodes: &[[f64; 3]], corners: Vec<[u32; 3]>) -> (Vec<u32>, Vec<[u32; 3]>) {
     let (mut points, mut triangles) = numbered(corners);
     let ends = |axis: usize, start: f64, pick: fn(f64, f64) -> f64| {

@@ -17,8 +17,8 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Tooth 0 of a gear with its share of the body, from the middle of one tooth space to that of the next: flanks, fillets, tip, root
-    /// land, end faces and bore, without micro-geometry.
+    /// Tooth 0 of a gear with its share of the body, from the middle of one tooth space to that of the next: flanks,
+    /// fillets, tip, root land, end faces and bore, without micro-geometry.
     pub(super) fn of_tooth(gear: &Gear) -> Self {
         let outline = outline(gear);
         let bore = 0.5 * gear.data().bore_diameter;
@@ -72,8 +72,8 @@ mod tests {
     use super::*;
     use geometry::GearData;
 
-    /// Volume inside of all teeth together, by the divergence theorem, is that of the body: the surface is closed but for the cuts, which
-    /// neighbours share, and its normals point outwards.
+    /// Volume inside of all teeth together, by the divergence theorem, is that of the body: the surface is closed but
+    /// for the cuts, which neighbours share, and its normals point outwards.
     #[test]
     fn teeth_close_to_a_body() {
         for helix_angle in [0.0, 0.35] {

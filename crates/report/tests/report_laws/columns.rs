@@ -45,7 +45,8 @@ fn holds<R: Rows>(table: &Table<R>, what: &str) {
     );
 }
 
-/// A column's name ends in its unit, no two columns share a name, and the document says word for word what the table says.
+/// A column's name ends in its unit, no two columns share a name, and the document says word for word what the table
+/// says.
 #[test]
 fn columns_are_named_by_their_units_and_documented() {
     holds(&STATIC_HISTORY, "history.csv at rest");

@@ -11,7 +11,8 @@ use super::{
 use crate::{SceneError, Source, read_text};
 
 impl Study {
-    /// Reads and checks a study file and the scenes that it names; `columns` tells which columns the rows of a scene will have.
+    /// Reads and checks a study file and the scenes that it names; `columns` tells which columns the rows of a scene
+    /// will have.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the study file or in a scene.

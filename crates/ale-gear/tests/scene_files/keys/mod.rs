@@ -33,7 +33,8 @@ fn shipped_scenes_fit_the_schema() {
     fits(&schema, &as_json(&starter)).unwrap();
 }
 
-/// What the program refuses does not fit: unknown keys, wrong types, values out of range, words that are none, missing keys.
+/// What the program refuses does not fit: unknown keys, wrong types, values out of range, words that are none, missing
+/// keys.
 #[test]
 fn wrong_scenes_do_not_fit_the_schema() {
     let schema = json_schema();

@@ -22,7 +22,8 @@ pub enum Base {
     Flanks,
 }
 
-/// Key, case, further keys that the case wants (`;` between them), the other value. `~` is the table that the key stands in, with its dot.
+/// Key, case, further keys that the case wants (`;` between them), the other value. `~` is the table that the key
+/// stands in, with its dot.
 pub type Row = (&'static str, Base, &'static str, &'static str);
 
 use Base::{Files, Flanks, Impact, Iso, Lumped8, Lumped12, Modes, Motion, Reduced, Shaft18};
