@@ -1,21 +1,18 @@
-//! The command line, the scene file, the output files and the report.
+//! The command: arguments, progress, messages, exit status. What is computed stands in `analysis`, what is written in
+//! `report`, what was asked in `scene`.
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`scene`] | reads and checks what the user wrote |
-//! | [`resolution`] | how many slices a scene's contact is cut into |
-//! | [`run`] | turns a checked scene into a call of the solvers |
-//! | `motion` | analyses in time: preparation, course, checkpoints, sweeps |
-//! | `lumped` | runs of cheaper models, and their files |
-//! | [`talk`] | how much is said on stderr |
-//! | [`phases`] | time and peak memory of each phase, progress bars |
-//! | [`output`] | `summary.json`, pages and the closing table, of this crate's types of results; the rest is in the crate `report` |
-//! | [`cache`] | reduced gears on disk |
-//! | [`certificate`] | what must hold of a result before its numbers count |
-//! | [`reduce`] | reduction of a scene's gears by itself |
+//! | [`command`] | the subcommands |
+//! | [`run`], `motion`, `lumped` | a scene at rest, in time, and of a cheaper model, into a result folder |
 //! | `study_cases` | runs the scenes of a study, each into a folder of its own |
 //! | `chart` | what a chart takes from this process |
-//! | [`command`] | the subcommands |
+//! | [`output`] | what of `analysis` and `report` the command names |
+//! | [`talk`] | how much is said on stderr |
+//! | [`phases`] | time and peak memory of each phase, progress bars |
+//! | [`cache`] | reduced gears on disk |
+//! | [`certificate`] | a result whose files stand, and whether it holds |
+//! | [`error`] | one message, one hint, one exit status |
 
 pub mod cache;
 pub mod certificate;
