@@ -1,6 +1,6 @@
 //! How many slices and face elements a scene has: chosen where it says nothing, judged where it does.
 
-use contact::Method;
+use contact::{ContactOptions, Method};
 use geometry::GearPair;
 use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
 use serde::Serialize;
@@ -41,11 +41,14 @@ fn is_sliced(scene: &Scene) -> bool {
     (model.is_reduced() || matches!(model, Model::Full | Model::Impact) || feeds) && scene.contact.slices.is_some()
 }
 
-/// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many.
+/// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many: in its text, or by
+/// a number in `contact.slices` that is not the default.
 pub fn with_slices(mut scene: Scene) -> Scene {
     if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
         // A pair that cannot be made is complained about where it is made.
-        if let Ok(pair) = scene.gear_pair() {
+        if let Ok(pair) = scene.gear_pair()
+            && scene.contact.slices == Some(ContactOptions::new(&pair).slices as u32)
+        {
             scene.contact.slices = Some(slices_needed(&pair, &options(&scene, &pair)).count as u32);
         }
     }

@@ -333,5 +333,8 @@ mod tests {
         let chosen = slices(wide().build().unwrap());
         assert!(chosen.is_some_and(|n| n > 32), "b/m_n = 40 with 30 um of crowning: {chosen:?} slices");
         assert_eq!(slices(wide().set("contact.slices", 32).build().unwrap()), Some(32), "stated");
+        let mut by_hand = wide().build().unwrap();
+        by_hand.contact.slices = Some(12);
+        assert_eq!(slices(by_hand), Some(12), "set in code");
     }
 }
