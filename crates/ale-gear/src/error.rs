@@ -12,7 +12,7 @@ use crate::scene::SceneError;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct CommandError {
-    /// 2: the input is wrong; 1: the input is fine but no result came out.
+    /// 2: the input is wrong; 1: the input is fine but no result came out; 3: the result is there, less exact than asked.
     pub status: u8,
     /// One line: what, where, what was expected.
     pub message: String,
@@ -31,6 +31,11 @@ impl CommandError {
     /// The input is fine, but no result came out: exit status 1.
     pub fn failed(message: impl Display, hint: Option<String>) -> Self {
         Self { status: 1, message: message.to_string(), excerpt: None, hint }
+    }
+
+    /// The result is there, but less exact than was asked: exit status 3.
+    pub fn inexact(message: impl Display, hint: Option<String>) -> Self {
+        Self { status: 3, message: message.to_string(), excerpt: None, hint }
     }
 
     /// A file of the result cannot be written.

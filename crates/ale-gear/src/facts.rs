@@ -2,6 +2,7 @@
 
 use ltca::StaticHistory;
 use report::view::View;
+use scene::Scene;
 
 pub use ::report::{Cost, Phase};
 pub use analysis::facts::*;
@@ -9,6 +10,8 @@ pub use analysis::facts::*;
 /// A solved scene.
 #[derive(Debug, Clone)]
 pub struct Solved {
+    /// The scene as it was solved.
+    pub scene: Scene,
     /// Position by position.
     pub history: StaticHistory,
     /// What it took.

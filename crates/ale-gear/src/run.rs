@@ -1,6 +1,9 @@
 //! A scene at rest, with what goes into files on the way: fields for ParaView and the gears in space.
 
-use analysis::{StaticAnalysis, StaticResult};
+use analysis::{
+    StaticAnalysis, StaticResult,
+    accuracy::{AccurateAnalysis, AccurateResult},
+};
 use report::StaticFileSink;
 
 pub(crate) use analysis::static_certificate as certificate;
@@ -26,13 +29,18 @@ pub fn solve(
     cache: &Cache,
 ) -> Result<Solved, CommandError> {
     let mut sink = StaticFileSink::new(scene, results, phases.start());
-    let analysis = StaticAnalysis::new(scene).with_cache(cache);
-    let StaticResult { mut history, mut facts, model, .. } = analysis.solve_into(phases, &mut sink)?;
-    let Some(model) = model else { return Ok(Solved { history, facts, view: None }) };
+    let AccurateResult { scene, result } = if scene.accuracy.is_none() {
+        let result = StaticAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
+        AccurateResult { scene: scene.clone(), result }
+    } else {
+        AccurateAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?
+    };
+    let StaticResult { mut history, mut facts, model, .. } = result;
+    let Some(model) = model else { return Ok(Solved { scene, history, facts, view: None }) };
     facts.first_result_s = sink.first_result_s;
     let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
     let mut warnings: Vec<String> = root.into_iter().flat_map(output::root_stress_warnings).collect();
     let view = phases.run("view", || sink.into_view(&model, &mut warnings));
     history.warnings.extend(warnings);
-    Ok(Solved { history, facts, view })
+    Ok(Solved { scene, history, facts, view })
 }

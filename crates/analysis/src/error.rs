@@ -144,6 +144,12 @@ pub enum AnalysisError {
         /// What it does not ask for.
         wanted: &'static str,
     },
+    /// The scene asks for bounds, which another analysis gives.
+    #[error("{file}: an accuracy is asked for")]
+    WithAccuracy {
+        /// The scene.
+        file: String,
+    },
     /// The rows that a motion is to be resumed with are not those before its checkpoint.
     #[error("{file}: {found} rows are given, {wanted} came before the checkpoint")]
     ResumedRows {
@@ -332,6 +338,9 @@ impl AnalysisError {
             Self::Statistics(e) => e.hint(),
             Self::OtherAnalysis { .. } => {
                 Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
+            }
+            Self::WithAccuracy { .. } => {
+                Some("`accuracy::AccurateAnalysis` solves it with bounds; without `[accuracy]` this one does".into())
             }
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::certificate::Certificate;
+use crate::{accuracy::Accuracy, certificate::Certificate};
 pub use crate::resolution::Resolution;
 
 /// What a run was made of and what it cost.
@@ -31,6 +31,9 @@ pub struct Facts {
     /// Nominal root stress after ISO 6336-3, beside that of finite elements where that is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iso_root_stress: Option<IsoRootStress>,
+    /// How exact the headline numbers are; `None` where nothing was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
     /// What must hold of the result.
     #[serde(flatten)]
     pub certificate: Certificate,

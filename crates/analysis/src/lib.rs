@@ -27,6 +27,7 @@
 //! model with few coordinates, [`lumped::KeySweep`] such a model at many values of a key;
 //! [`accuracy_chart::AccuracyChart`] compares them all.
 
+pub mod accuracy;
 pub mod accuracy_chart;
 mod cache;
 pub mod certificate;

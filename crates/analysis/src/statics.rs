@@ -27,8 +27,9 @@ use crate::{
 
 /// Gets the positions of a static analysis as they are solved.
 pub trait StaticSink {
-    /// The analysis begins, again where a wider window is needed: what came before does not count.
-    fn begin(&mut self);
+    /// The analysis of a scene as it is solved begins, again where a wider window or a finer rung is needed: what came
+    /// before does not count.
+    fn begin(&mut self, scene: &Scene);
 
     /// A position, in order; the model is where it was found.
     ///
@@ -51,7 +52,7 @@ pub type SinkResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 pub struct NoSink;
 
 impl StaticSink for NoSink {
-    fn begin(&mut self) {}
+    fn begin(&mut self, _: &Scene) {}
 
     fn position(&mut self, _: usize, _: &StaticPosition, _: &StaticModel) -> SinkResult {
         Ok(())
@@ -109,10 +110,16 @@ impl<'a> StaticAnalysis<'a> {
         Self { cache, ..self }
     }
 
-    /// With the number of slices that the scene has, though no file states it: that of a point of a chart.
+    /// With the number of slices that the scene has, though no file states it, and without bounds: a point of a chart, a
+    /// rung of the ladder.
     #[must_use]
     pub(crate) fn with_slices_of_scene(self) -> Self {
         Self { slices_stand: true, ..self }
+    }
+
+    /// Slices over the face width that it takes; `None` for a model without slices.
+    pub fn slices(&self) -> Option<u32> {
+        self.settled().contact.slices
     }
 
     /// The scene as it is solved.
@@ -137,6 +144,9 @@ impl<'a> StaticAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
+        if !(self.slices_stand || self.scene.accuracy.is_none()) {
+            return Err(AnalysisError::WithAccuracy { file: self.scene.file.display().to_string() });
+        }
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         if scene.analysis.model == Model::Iso {
@@ -250,7 +260,7 @@ fn attempt(
     let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let cycles = scene.analysis.cycles as usize;
-    sink.begin();
+    sink.begin(scene);
     let mut history = run_phase(observer, "solve", PhaseWork::Steps((per_cycle * cycles) as u64), |progress| {
         let mut refused = None;
         let history = model.run_while(per_cycle, cycles, |index, position, model| {

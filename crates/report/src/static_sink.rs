@@ -37,8 +37,9 @@ impl<'a> StaticFileSink<'a> {
 }
 
 impl StaticSink for StaticFileSink<'_> {
-    fn begin(&mut self) {
-        *self = Self::new(self.scene, self.results, self.start);
+    fn begin(&mut self, scene: &Scene) {
+        // As many positions as are solved; how time and teeth go is the same.
+        *self = Self { recorder: ViewRecorder::new(scene), ..Self::new(self.scene, self.results, self.start) };
     }
 
     fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult {

@@ -51,6 +51,8 @@ choices! {
     pub enum Model {
         /// Flanks of the tooth window.
         Reduced = "reduced",
+        /// The cheapest that is as exact as `[accuracy]` asks.
+        Auto = "auto",
         /// The same with normal modes of both gears, in time.
         ReducedModes = "reduced+modes",
         /// Every degree of freedom of both meshes.

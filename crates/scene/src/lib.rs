@@ -7,6 +7,7 @@
 #[macro_use]
 mod macros;
 
+mod accuracy;
 mod analysis;
 mod builder;
 mod check;
@@ -42,6 +43,7 @@ use std::path::{Path, PathBuf};
 use geometry::Side;
 use serde::Serialize;
 
+pub use accuracy::{AccuracyScene, Quantity, Tolerance, ToleranceError};
 pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use builder::{SceneBuilder, Value};
 pub use contact::{ContactScene, Flanks, Gap, Method};
@@ -102,6 +104,9 @@ pub struct Scene {
     pub load: Option<TorqueScene>,
     /// What is computed.
     pub analysis: Analysis,
+    /// How exact the headline numbers are to be.
+    #[serde(skip_serializing_if = "AccuracyScene::is_none")]
+    pub accuracy: AccuracyScene,
     /// Normal modes; set exactly with the model that keeps them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<ModesScene>,
@@ -206,7 +211,7 @@ impl Scene {
 
     /// Whether the scene's contact is made of slices of its own, which a contact pattern needs.
     pub fn has_slices(&self) -> bool {
-        matches!(self.analysis.model, Model::Reduced | Model::Full) && self.contact.method == Method::Slice
+        matches!(self.analysis.model, Model::Reduced | Model::Auto | Model::Full) && self.contact.method == Method::Slice
     }
 
     /// Elements along the face that a mesh of this order asks for; the default of `elements_face`.

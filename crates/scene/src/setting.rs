@@ -49,7 +49,7 @@ impl Setting {
     ///
     /// # Errors
     /// [`SceneError::NoKey`] where `key` is none.
-    pub(crate) fn of(key: &str, value: &toml::Value) -> Result<Self, SceneError> {
+    pub fn of(key: &str, value: &toml::Value) -> Result<Self, SceneError> {
         match path(key) {
             None => Err(SceneError::NoKey { key: key.to_owned() }),
             Some(_) => Ok(Self { label: key.to_owned(), key: key.to_owned(), value: value.to_string() }),

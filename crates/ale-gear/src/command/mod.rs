@@ -28,7 +28,7 @@ use crate::{
 /// Reduced finite-element contact of helical gears
 ///
 /// Without a subcommand it runs the default pair, which is in the program with its meshes, into out/default.
-/// Exit status: 0 solved, 1 no result or one that does not hold, 2 wrong input.
+/// Exit status: 0 solved, 1 no result or one that does not hold, 2 wrong input, 3 less exact than asked.
 #[derive(Debug, Parser)]
 #[command(name = "ale-gear", version)]
 pub struct Cli {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{
     resolution::with_slices,
-    scene::{Scene, SceneError, Setting},
+    scene::{Quantity, Scene, SceneError, Setting},
 };
 
 /// Keys of the scene, instead of the file's.
@@ -16,6 +16,9 @@ pub(super) struct Overrides {
     /// Torque on the driven gear: short for `--set operation.torque_nm=NM`
     #[arg(long, value_name = "NM", help_heading = "Overrides", allow_negative_numbers = true)]
     torque_nm: Option<f64>,
+    /// Take the cheapest model that is so exact, as `1%` of the mean STE or as `max_pressure=5%`; may be given again
+    #[arg(long, value_name = "[KEY=]AMOUNT", help_heading = "Overrides")]
+    accuracy: Vec<String>,
 }
 
 impl Overrides {
@@ -24,7 +27,16 @@ impl Overrides {
     /// # Errors
     /// Words that are no key with a value.
     pub fn settings(&self) -> Result<Vec<Setting>, SceneError> {
-        let mut all = self.set.iter().map(|word| Setting::parse(word)).collect::<Result<Vec<_>, _>>()?;
+        // First, so that `--set analysis.model=reduced` holds beside it: what is asked is then estimated, not chosen.
+        let mut all = Vec::new();
+        for word in &self.accuracy {
+            let (key, amount) = word.split_once('=').unwrap_or((Quantity::MeanSte.key(), word));
+            let setting = Setting::of(&format!("accuracy.{}", key.trim()), &amount.trim().into())?;
+            all.extend([setting.called("--accuracy"), Setting::of("analysis.model", &"auto".into())?.called("--accuracy")]);
+        }
+        for word in &self.set {
+            all.push(Setting::parse(word)?);
+        }
         if let Some(torque) = self.torque_nm {
             all.push(Setting::number("operation.torque_nm", torque)?.called("--torque-nm"));
         }

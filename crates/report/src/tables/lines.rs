@@ -43,6 +43,30 @@ impl Lines {
         self.number("maximum pressure", pressure_mpa, 0, &unit);
     }
 
+    /// Headline numbers with their bounds, and what was asked of them.
+    pub fn accuracy(&mut self, facts: &Facts) {
+        let Some(accuracy) = &facts.accuracy else { return };
+        for bound in &accuracy.bounds {
+            let asked = match (bound.asked, bound.met) {
+                (Some(asked), Some(true)) => format!("(within {asked:.3}, as asked)"),
+                (Some(asked), _) => format!("({asked:.3} WAS ASKED)"),
+                _ => String::new(),
+            };
+            let label = format!("  {}", bound.quantity.key().replace('_', " "));
+            push_line(&mut self.0, &label, &bound.words(), &asked);
+        }
+        for rung in &accuracy.rungs {
+            let mesh = rung.elements_profile.map_or("meshes of the scene".into(), |n| format!("{n} elements"));
+            let slices = rung.slices.map_or(String::new(), |n| format!(", {n} slices"));
+            let why = rung.left_because.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
+            let of = format!("{mesh}{slices}, {} positions", rung.positions_per_cycle);
+            self.text("tried", of, &why);
+        }
+        for what in &accuracy.not_covered {
+            self.text("not covered", "", what);
+        }
+    }
+
     /// Slices and elements along the face, and whether the program chose them.
     pub fn resolution(&mut self, scene: &Scene, facts: &Facts) {
         let Some(r) = &facts.resolution else { return };
@@ -123,6 +147,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 /// The model's name as in the scene.
 pub fn model_name(scene: &Scene) -> &'static str {
     match scene.analysis.model {
+        Model::Auto => "auto",
         Model::Iso => "iso",
         Model::Reduced => "reduced",
         Model::ReducedModes => "reduced+modes",

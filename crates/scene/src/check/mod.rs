@@ -9,7 +9,7 @@ mod together;
 use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, schema::RawScene, source::Source};
 use gear::{Hand, gear, material, pair, steel};
 use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
-use tables::{analysis, contact, operation, output};
+use tables::{accuracy, analysis, contact, operation, output};
 use together::together;
 
 type Checked<T> = Result<T, SceneError>;
@@ -24,7 +24,8 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared, face_elements)?;
     let hand = Hand::Against(pinion.helix_angle_deg);
     let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
-    let analysis = analysis(source, &raw.analysis)?;
+    let accuracy = accuracy(source, &raw)?;
+    let analysis = analysis(source, &raw.analysis, !accuracy.is_none())?;
     ladder::check_tables(source, &raw, analysis.model)?;
     let dynamic = analysis.kind == Kind::Dynamic;
     if dynamic {
@@ -52,6 +53,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         drive: dynamic.then(|| drive(source, &raw, analysis.model)).transpose()?,
         load: dynamic.then(|| load(source, &raw)).transpose()?,
         analysis: Analysis { cycles, ..analysis },
+        accuracy,
         modes,
         motion: in_time,
         mesh,

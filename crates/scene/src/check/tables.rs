@@ -2,8 +2,8 @@
 
 use super::Checked;
 use crate::{
-    Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
-    schema::{ANALYSIS, CONTACT, Choice, RawAnalysis, RawContact, RawOperation, RawOutput},
+    AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
+    schema::{ANALYSIS, CONTACT, Choice, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
     source::Source,
 };
 
@@ -38,9 +38,24 @@ pub(super) fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<C
     })
 }
 
-pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
-    let model: Model = choice!(s, raw.model)?;
-    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.is_reduced()) {
+pub(super) fn accuracy(s: &Source<'_>, raw: &RawScene) -> Checked<AccuracyScene> {
+    raw.accuracy.as_ref().map_or_else(|| Ok(AccuracyScene::default()), |table| AccuracyScene::read(s, table.get_ref()))
+}
+
+/// `accuracy` tells whether the scene asks for one.
+pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Checked<Analysis> {
+    let model: Model = match &raw.model {
+        None if accuracy => Model::Auto,
+        _ => choice!(s, raw.model)?,
+    };
+    if let (Some(word), Model::Auto, false) = (&raw.model, model, accuracy) {
+        return Err(s.conflict(
+            &word.span(),
+            "`model = \"auto\"` takes the cheapest model that is exact enough, and no accuracy is asked for",
+            "say how exact in [accuracy] (`mean_ste = \"1 %\"`), or by `--accuracy 1%`",
+        ));
+    }
+    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.is_reduced() && model != Model::Auto) {
         return Err(s.conflict(
             &word.span(),
             "`reduction` belongs to `model = \"reduced\"`",
@@ -70,7 +85,7 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis) -> Checked<Analysis> {
     Ok(Analysis {
         kind,
         model,
-        reduction: model.is_reduced().then_some(reduction),
+        reduction: (model.is_reduced() || model == Model::Auto).then_some(reduction),
         positions_per_cycle: value!(s, ANALYSIS, raw.positions_per_cycle)?,
         cycles: {
             let (low, high, _) = ANALYSIS.whole("cycles");

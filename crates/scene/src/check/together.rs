@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use super::Checked;
-use crate::{DriveBy, Kind, Method, Model, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
+use crate::{DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
 
 /// What can only be judged with the whole scene in view.
 pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
@@ -13,9 +13,63 @@ pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked
     if scene.analysis.kind == Kind::Dynamic {
         in_time(s, raw, scene)?;
     }
+    if !scene.accuracy.is_none() {
+        accuracy(s, raw, scene)?;
+    }
     window(s, raw, scene)?;
     of_method(s, raw, scene)?;
     of_model(s, raw, scene)
+}
+
+/// What goes together with `[accuracy]`.
+fn accuracy(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let table = raw.accuracy.as_ref().map_or(0..0, Spanned::span);
+    if scene.analysis.kind == Kind::Dynamic {
+        return Err(SceneError::NotYet {
+            place: s.place(&table),
+            key: "accuracy".into(),
+            what: "bounds of a motion".into(),
+            instead: "leave [accuracy] out, or use `kind = \"static\"`".into(),
+        });
+    }
+    let of_root = [Quantity::PinionRootStress, Quantity::WheelRootStress].into_iter();
+    if let Some(asked) = of_root.filter(|q| scene.accuracy.of(*q).is_some()).find(|_| !scene.output.root_stress) {
+        return Err(s.conflict(
+            &table,
+            format!("`{}` is asked for, but root stress is not computed", asked.key()),
+            "say `root_stress = true` in [output]",
+        ));
+    }
+    if !scene.is_auto() {
+        return Ok(());
+    }
+    if scene.contact.method == Method::Nodal {
+        let span = raw.contact.method.as_ref().map_or(table, Spanned::span);
+        return Err(s.conflict(
+            &span,
+            "`model = \"auto\"` chooses slices, and `method` is \"nodal\"",
+            "leave `method` out, or say `model = \"reduced\"`",
+        ));
+    }
+    for (whose, gear) in [("pinion", &raw.pinion), ("wheel", &raw.wheel)] {
+        let Some(mesher) = gear.mesher.as_ref().map(Spanned::get_ref) else { continue };
+        let counts = [
+            ("order", &mesher.order),
+            ("elements_profile", &mesher.elements_profile),
+            ("elements_fillet", &mesher.elements_fillet),
+            ("elements_thickness", &mesher.elements_thickness),
+            ("elements_face", &mesher.elements_face),
+            ("elements_rim", &mesher.elements_rim),
+        ];
+        if let Some((key, word)) = counts.into_iter().find_map(|(key, value)| Some((key, value.as_ref()?))) {
+            return Err(s.conflict(
+                &word.span(),
+                format!("`{key}` in [{whose}.mesher], but `model = \"auto\"` chooses the mesh"),
+                format!("leave `{key}` out, or say `model = \"reduced\"`: its error is estimated all the same"),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// A window has no more teeth than the gears.

@@ -83,7 +83,7 @@ impl Rung {
                 lines: false,
                 torques: Torques::Any,
             }),
-            Model::Iso | Model::Reduced | Model::ReducedModes | Model::Full => None,
+            Model::Auto | Model::Iso | Model::Reduced | Model::ReducedModes | Model::Full => None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The file itself, and the tables on pair, load, contact, analysis and output.
 
 use super::INF;
+use crate::accuracy::{ACCURACY, RawAccuracy};
 use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};
 use super::ladder::{
     IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
@@ -21,6 +22,7 @@ table! {
         drive: table(DRIVE: RawDrive);
         load: table(LOAD: RawLoad);
         analysis: always(ANALYSIS: RawAnalysis);
+        accuracy: table(ACCURACY: RawAccuracy);
         modes: table(MODES: RawModes);
         motion: table(MOTION: RawMotion);
         mesh: table(MESH: RawMesh);

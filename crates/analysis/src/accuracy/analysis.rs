@@ -1,0 +1,267 @@
+//! A scene at rest with bounds, by the cheapest rung of the ladder that keeps what is asked.
+
+use scene::{Model, Quantity, Scene, Tolerance};
+use serde::Serialize;
+
+use super::{
+    Accuracy, Bound, Calibration, Cause, Rung, Sample, companion::Companions, estimate::estimate,
+    goes_with_deflection, kept_gears::KeptGears,
+};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, StaticAnalysis, StaticResult, StaticSink,
+};
+
+/// A rung that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TriedRung {
+    /// Elements along the profile, as many in proportion in all other directions; `None` for meshes of the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements_profile: Option<u32>,
+    /// Slices over the face width.
+    pub slices: Option<u32>,
+    /// Positions of the mesh cycle.
+    pub positions_per_cycle: u32,
+    /// Why it was left; `None` for the one that was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_because: Option<String>,
+}
+
+/// The answer to a scene at rest, with bounds.
+#[derive(Debug)]
+pub struct AccurateResult {
+    /// The scene as it was solved: of `model = "auto"` with the model, mesh, slices and positions that were taken.
+    pub scene: Scene,
+    /// Its positions and facts, [`crate::facts::Facts::accuracy`] among them.
+    pub result: StaticResult,
+}
+
+/// A scene at rest that is to be solved with bounds.
+///
+/// Of `model = "auto"` the cheapest rung of the ladder is taken that keeps what `[accuracy]` asks: the first guess comes
+/// from the calibration, the proof from the estimate of the run; where that falls short, what it is mostly made of is
+/// refined. Of any other model the bounds of the run are estimated.
+#[derive(Clone, Copy)]
+pub struct AccurateAnalysis<'a> {
+    scene: &'a Scene,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for AccurateAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("AccurateAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+/// Positions of a cycle that the ladder begins with, at least, and ends with.
+const POSITIONS: [u32; 2] = [8, 256];
+/// Share of what is asked that a guess leaves to the mesh.
+const MESH_SHARE: f64 = 0.85;
+/// Slices beyond which no more are taken.
+const MOST_SLICES: u32 = 768;
+/// Rungs that are tried, at most: each is twice as fine in something as one before.
+const TRIES: usize = 16;
+
+impl<'a> AccurateAnalysis<'a> {
+    /// Of a scene.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, cache: &NoCache }
+    }
+
+    /// With reduced gears from a cache.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Solves it, telling nobody.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve(&self) -> Result<AccurateResult, AnalysisError> {
+        self.solve_into(&mut NoObserver, &mut NoSink)
+    }
+
+    /// Solves it; positions go into `sink` as they come, from the beginning at every rung.
+    ///
+    /// What cannot be kept on the finest rung is an answer all the same: [`Accuracy::is_met`] says so.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve_into(
+        &self,
+        observer: &mut dyn Observer,
+        sink: &mut dyn StaticSink,
+    ) -> Result<AccurateResult, AnalysisError> {
+        let kept = KeptGears::new(self.cache);
+        let mut tried = Vec::new();
+        let mut companions = Companions::default();
+        let mut next = Some(self.first());
+        loop {
+            let Some(scene) = next.take() else { unreachable!("a rung that is not left is the last one") };
+            let mut result =
+                StaticAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink)?;
+            let mut accuracy = estimate(&scene, &result, &kept, &mut companions, observer)?;
+            if self.scene.is_auto() && tried.len() + 1 < TRIES {
+                next = self.finer(&scene, &result, &accuracy)?;
+            }
+            let left_because = next.as_ref().map(|_| missed(&accuracy));
+            if let Some(why) = &left_because {
+                observer.note(format!("left for a finer one: {why}"));
+            }
+            if self.scene.is_auto() {
+                tried.push(tried_rung(&scene, left_because));
+            }
+            if next.is_none() {
+                accuracy.rungs = tried;
+                result.facts.accuracy = Some(accuracy);
+                return Ok(AccurateResult { scene, result });
+            }
+        }
+    }
+
+    /// The scene that is solved first.
+    fn first(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        let slices = StaticAnalysis::new(self.scene).slices();
+        scene.contact.slices = slices;
+        if !self.scene.is_auto() {
+            return scene;
+        }
+        scene.analysis.model = Model::Reduced;
+        let guess = FirstGuess::new(self.scene);
+        if self.scene.place_of(&["analysis.positions_per_cycle"]).is_none() {
+            scene.analysis.positions_per_cycle = guess.positions;
+        }
+        if has_own_mesh(self.scene) { scene } else { guess.rung.scene(&scene) }
+    }
+
+    /// A scene that is finer in what the bounds that are not kept are mostly made of; `None` where all are kept, or
+    /// nothing finer is left.
+    fn finer(
+        &self,
+        scene: &Scene,
+        result: &StaticResult,
+        accuracy: &Accuracy,
+    ) -> Result<Option<Scene>, AnalysisError> {
+        let Some(worst) = accuracy.missed().max_by(|a, b| over(a).total_cmp(&over(b))) else { return Ok(None) };
+        let mut finer = scene.clone();
+        let slices = scene.contact.slices.unwrap_or(MOST_SLICES);
+        let rung = Rung::of(scene).filter(|_| !has_own_mesh(self.scene));
+        let share = |cause: Cause| match cause {
+            // The known part of the error is the mesh's.
+            Cause::Mesh => term(worst, cause) + (worst.value - worst.corrected).abs(),
+            cause => term(worst, cause),
+        };
+        let mut causes = [Cause::Mesh, Cause::Slices, Cause::Positions];
+        causes.sort_by(|a, b| share(*b).total_cmp(&share(*a)));
+        for cause in causes {
+            match cause {
+                Cause::Mesh => {
+                    if let Some(next) = rung.and_then(|r| enough(r, worst, result, scene)) {
+                        return Ok(Some(next.scene(&finer)));
+                    }
+                }
+                Cause::Slices if 2 * slices <= MOST_SLICES => {
+                    finer.contact.slices = Some(2 * slices);
+                    return Ok(Some(finer));
+                }
+                Cause::Positions if 2 * scene.analysis.positions_per_cycle <= POSITIONS[1] => {
+                    finer.analysis.positions_per_cycle *= 2;
+                    return Ok(Some(finer));
+                }
+                _ => {}
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Whether the scene brings a mesh that no rung replaces.
+fn has_own_mesh(scene: &Scene) -> bool {
+    scene.gears().iter().any(|g| g.mesh.is_some())
+}
+
+/// How many times a bound is larger than what is asked.
+fn over(bound: &Bound) -> f64 {
+    bound.largest() / bound.asked.unwrap_or(f64::INFINITY)
+}
+
+fn term(bound: &Bound, cause: Cause) -> f64 {
+    bound.terms.iter().filter(|t| t.cause == cause).map(|t| t.amount).sum()
+}
+
+/// What the mesh of a rung usually makes of a bound, over the scale of the quantity.
+fn usual(rung: Rung, quantity: Quantity) -> Option<f64> {
+    let laws = Calibration::committed().of(quantity)?;
+    laws.mesh.iter().find(|law| law.elements_profile == rung.elements_profile).map(|law| law.usual)
+}
+
+/// Where the ladder begins.
+struct FirstGuess {
+    rung: Rung,
+    positions: u32,
+}
+
+impl FirstGuess {
+    /// The coarsest rung, then the fewest positions, whose usual bounds keep the shares that are asked.
+    fn new(scene: &Scene) -> Self {
+        let shares: Vec<(Quantity, f64)> = scene
+            .accuracy
+            .tolerances()
+            .iter()
+            .filter_map(|(q, tolerance)| match tolerance {
+                Tolerance::Relative(share) if is_own_scale(*q) => Some((*q, *share)),
+                _ => None,
+            })
+            .collect();
+        let of_mesh = |rung: Rung, q: Quantity| usual(rung, q).unwrap_or(0.0);
+        let keeps = |rung: &Rung| shares.iter().all(|(q, share)| of_mesh(*rung, *q) <= MESH_SHARE * share);
+        let rung = calibrated().find(keeps).or(calibrated().last()).unwrap_or(Rung::ALL[0]);
+        let enough = |positions: &u32| {
+            shares.iter().all(|(q, share)| {
+                let laws = Calibration::committed().of(*q).map_or(&[][..], |laws| &laws.positions);
+                let law = laws.iter().find(|law| law.positions == *positions);
+                law.is_none_or(|law| law.usual <= share - of_mesh(rung, *q))
+            })
+        };
+        let positions = [8, 16, 32, 64].into_iter().find(enough).unwrap_or(64);
+        Self { rung, positions: positions.max(POSITIONS[0]) }
+    }
+}
+
+/// Whether a share of a quantity is one of its scale, as far as that is known before anything is solved.
+fn is_own_scale(quantity: Quantity) -> bool {
+    quantity == Quantity::MeanSte || !goes_with_deflection(quantity)
+}
+
+/// Rungs that the calibration knows.
+fn calibrated() -> impl Iterator<Item = Rung> {
+    Rung::ALL.into_iter().filter(|rung| usual(*rung, Quantity::MeanSte).is_some())
+}
+
+/// The coarsest finer rung that usually keeps a bound, else the next one.
+fn enough(rung: Rung, bound: &Bound, result: &StaticResult, scene: &Scene) -> Option<Rung> {
+    let scale = Sample::of(scene, &result.history, 1).ok()?.scale(bound.quantity)?;
+    let others: f64 = bound.terms.iter().filter(|t| t.cause != Cause::Mesh).map(|t| t.amount).sum();
+    let room = bound.asked? - others;
+    let finer: Vec<Rung> = calibrated().filter(|r| *r > rung).collect();
+    let keeps = |r: &&Rung| usual(**r, bound.quantity).is_some_and(|share| share * scale <= room);
+    finer.iter().find(keeps).or(finer.first()).copied()
+}
+
+fn missed(accuracy: &Accuracy) -> String {
+    let said = |b: &Bound| {
+        let asked = b.asked.unwrap_or(f64::NAN);
+        format!("{} is known to {:.2e} {}, {asked:.2e} is asked", b.quantity.key(), b.largest(), b.unit)
+    };
+    accuracy.missed().map(said).collect::<Vec<_>>().join("; ")
+}
+
+fn tried_rung(scene: &Scene, left_because: Option<String>) -> TriedRung {
+    TriedRung {
+        elements_profile: Rung::of(scene).map(|r| r.elements_profile),
+        slices: scene.contact.slices,
+        positions_per_cycle: scene.analysis.positions_per_cycle,
+        left_because,
+    }
+}

@@ -1,0 +1,125 @@
+//! Bounds of headline numbers, split by cause.
+
+use scene::{Quantity, Tolerance};
+use serde::Serialize;
+
+use crate::worse;
+
+/// What makes a number differ from that of the exact pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cause {
+    /// Finite elements of finite size.
+    Mesh,
+    /// Contact lines cut into slices.
+    Slices,
+    /// Positions of the mesh cycle that are not looked at.
+    Positions,
+    /// Interpolation of the bulk compliance between heights.
+    Interpolation,
+    /// Contact iterations that end.
+    Iteration,
+    /// A model that is not made of finite elements.
+    Model,
+}
+
+/// A share of a bound, in the unit of its quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Term {
+    /// Where it comes from.
+    pub cause: Cause,
+    /// How much it may be, either way.
+    pub amount: f64,
+}
+
+/// What a headline number is off by at the most, with the coverage of the calibration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Bound {
+    /// Which number.
+    pub quantity: Quantity,
+    /// Its unit.
+    pub unit: &'static str,
+    /// As it was computed.
+    pub value: f64,
+    /// The exact value is at least `value - below`.
+    pub below: f64,
+    /// The exact value is at most `value + above`.
+    pub above: f64,
+    /// The value with the known part of its error taken off.
+    pub corrected: f64,
+    /// The exact value is within this of the corrected one.
+    pub corrected_within: f64,
+    /// What the bound of the corrected value is made of.
+    pub terms: Vec<Term>,
+    /// What the scene asks for, in the unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asked: Option<f64>,
+    /// Whether value and bounds keep it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub met: Option<bool>,
+}
+
+impl Bound {
+    /// Of a value, its corrected value, and what that may be off by.
+    pub fn new(quantity: Quantity, value: f64, corrected: f64, terms: Vec<Term>) -> Self {
+        let within: f64 = terms.iter().map(|t| t.amount).sum();
+        Self {
+            quantity,
+            unit: quantity.unit(),
+            value,
+            below: worse(value - corrected + within, 0.0),
+            above: worse(corrected + within - value, 0.0),
+            corrected,
+            corrected_within: within,
+            terms,
+            asked: None,
+            met: None,
+        }
+    }
+
+    /// The same against what is asked; a share is one of the value.
+    #[must_use]
+    pub fn against(self, tolerance: Option<Tolerance>) -> Self {
+        let asked = tolerance.map(|t| t.of(self.value));
+        let met = asked.map(|most| self.largest() <= most);
+        Self { asked, met, ..self }
+    }
+
+    /// The larger of both sides.
+    pub fn largest(&self) -> f64 {
+        worse(self.above, self.below)
+    }
+
+    /// Value and bounds in words: `9.37 um +0.04 -0.01`.
+    pub fn words(&self) -> String {
+        let Self { value, above, below, unit, .. } = self;
+        // Two digits of the larger side say enough.
+        let places = (1.0 - self.largest().log10().floor()).clamp(0.0, 9.0) as usize;
+        if above == below {
+            format!("{value:.places$} +-{above:.places$} {unit}")
+        } else {
+            format!("{value:.places$} +{above:.places$} -{below:.places$} {unit}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the corrected value lies above, the bound is larger above; both together hold the corrected band.
+    #[test]
+    fn bounds_hold_the_band_of_the_corrected_value() {
+        let term = |cause, amount| Term { cause, amount };
+        let terms = || vec![term(Cause::Mesh, 0.02), term(Cause::Slices, 0.005)];
+        let b = Bound::new(Quantity::MeanSte, 9.37, 9.385, terms());
+        assert!((b.value + b.above - 9.41).abs() < 1e-12 && (b.value - b.below - 9.36).abs() < 1e-12, "{b:?}");
+        assert_eq!(b.words(), "9.370 +0.040 -0.010 um");
+        // A value that lies outside of the band is within its bounds all the same.
+        let far = Bound::new(Quantity::MeanSte, 9.0, 9.385, terms());
+        assert!(far.below == 0.0 && (far.above - 0.41).abs() < 1e-12, "{far:?}");
+        let [loose, tight] = [0.05, 0.04].map(|share| far.clone().against(Some(Tolerance::Relative(share))).met);
+        assert_eq!([loose, tight], [Some(true), Some(false)]);
+        assert_eq!(Bound::new(Quantity::MeanSte, 9.0, f64::NAN, terms()).against(Some(Tolerance::Relative(1.0))).met, Some(false));
+    }
+}

@@ -1,0 +1,143 @@
+//! What a run is held against: the same pair on another mesh, at a share of the positions.
+
+use scene::{Method, Model, Reduction, Scene};
+
+use super::{Rung, Sample, SolvedCycle};
+use crate::{AnalysisError, GearCache, StaticAnalysis, StaticResult, reduced};
+
+/// Positions of a cycle at which a run is held against another one, at least.
+const LEAST_POSITIONS: u32 = 8;
+/// Rung whose meshes stand beside those that are not of the ladder.
+const BESIDE: Rung = Rung::ALL[1];
+/// Rungs up to this one are told more of by linear elements, higher ones by the next lower rung: measured on random
+/// pairs (`calibrate_accuracy`).
+const HIGHEST_BY_ORDER: Rung = Rung::ALL[2];
+
+/// Where a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// On a low rung of the ladder; the same mesh of linear elements goes along.
+    Low(Rung),
+    /// On a high one; the next lower one goes along.
+    High(Rung),
+    /// On meshes that anybody made, or without any; a rung of the ladder goes along.
+    Beside(Rung),
+}
+
+impl Standing {
+    pub fn of(scene: &Scene) -> Self {
+        let sliced = scene.analysis.model == Model::Reduced && scene.contact.method == Method::Slice;
+        match Rung::of(scene).filter(|_| sliced) {
+            None => Self::Beside(BESIDE),
+            Some(rung) if rung <= HIGHEST_BY_ORDER => Self::Low(rung),
+            Some(rung) => Self::High(rung),
+        }
+    }
+
+    /// The rung whose laws hold.
+    pub fn rung(self) -> Rung {
+        match self {
+            Self::Low(rung) | Self::High(rung) | Self::Beside(rung) => rung,
+        }
+    }
+
+    /// The rung that goes along.
+    fn companion(self) -> Rung {
+        match self {
+            Self::Low(rung) => rung.linear(),
+            Self::High(rung) => rung.coarser().unwrap_or(rung),
+            Self::Beside(rung) => rung,
+        }
+    }
+
+    /// What a run is held against, in words.
+    pub fn words(self) -> String {
+        let n = self.companion().elements_profile;
+        match self {
+            Self::Low(_) => format!("the same meshes of linear elements, {n} along the profile"),
+            Self::High(_) => format!("meshes coarser in every direction, {n} elements along the profile"),
+            Self::Beside(_) => format!("meshes of the built-in mesher, {n} quadratic elements along the profile"),
+        }
+    }
+}
+
+/// Every so manieth position of a run at which it is held against another one.
+pub(super) fn stride(positions: u32) -> u32 {
+    let fits = |s: &u32| positions.is_multiple_of(*s) && positions / s >= LEAST_POSITIONS;
+    [8, 4, 2].into_iter().find(fits).unwrap_or(1)
+}
+
+/// Samples of the companion of a run.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Companion {
+    /// At the slices of the run.
+    pub sample: Sample,
+    /// At half of them.
+    pub fewer_slices: Sample,
+}
+
+/// The last companion, for runs that differ in their positions alone.
+#[derive(Debug, Default)]
+pub(super) struct Companions(Option<(Scene, Companion)>);
+
+impl Companions {
+    /// The companion of a run, solved where the last one is of another scene.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn of(
+        &mut self,
+        scene: &Scene,
+        result: &StaticResult,
+        cache: &dyn GearCache,
+    ) -> Result<Companion, AnalysisError> {
+        let scene = companion_scene(scene, result);
+        if let Some((_, companion)) = self.0.as_ref().filter(|(of, _)| *of == scene) {
+            return Ok(*companion);
+        }
+        let companion = Companion::solve(&scene, cache)?;
+        self.0 = Some((scene, companion));
+        Ok(companion)
+    }
+}
+
+impl Companion {
+    fn solve(scene: &Scene, cache: &dyn GearCache) -> Result<Self, AnalysisError> {
+        let solved = SolvedCycle::new(scene, cache)?;
+        let sample = solved.sample(1)?;
+        let slices = scene.contact.slices.unwrap_or(2).max(2);
+        let fewer = solved.again(slices / 2, scene.analysis.positions_per_cycle)?;
+        Ok(Self { sample, fewer_slices: fewer.sample(1)? })
+    }
+}
+
+fn companion_scene(scene: &Scene, result: &StaticResult) -> Scene {
+    let mut own = scene.clone();
+    for (i, gear) in [&mut own.pinion, &mut own.wheel].into_iter().enumerate() {
+        let mesher = Rung::ALL[0].mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
+        let mut mesher = gear.mesher.unwrap_or(mesher);
+        // A mesh of some teeth with free cuts is held against as many.
+        if let Some(meshed) = result.model.as_ref().and_then(|m| reduced(&m.gears()[i])) {
+            let teeth = meshed.gear().teeth().len() as u32;
+            let open = !meshed.is_cyclic() && teeth < meshed.gear().tooth_count();
+            mesher.sector_teeth = if open { teeth } else { 0 };
+        }
+        gear.mesher = Some(mesher);
+    }
+    let mut own = Standing::of(scene).companion().scene(&own);
+    own.analysis.model = Model::Reduced;
+    own.analysis.reduction = Some(Reduction::Auto);
+    own.analysis.positions_per_cycle /= stride(own.analysis.positions_per_cycle);
+    if own.contact.slices.is_none() {
+        own.contact.method = Method::Slice;
+        (own.contact.gap, own.contact.points_per_face_edge) = (None, None);
+        own.contact.penalty_mpa_per_mm = None;
+        own.contact.corner_contact = Some(true);
+        own.contact.slices = Some(LEAST_SLICES);
+        own.contact.slices = StaticAnalysis::new(&own).slices();
+    }
+    own
+}
+
+/// Slices of a pair that asks for no more.
+const LEAST_SLICES: u32 = 32;

@@ -1,0 +1,94 @@
+//! What bounds do not cover: scenes unlike those of the calibration, and what no mesh can know.
+
+use std::ops::RangeInclusive;
+
+use fem::mass_properties;
+use mesh::GearMesh;
+use scene::Scene;
+
+use super::{Rung, companion::Standing};
+use crate::{AnalysisError, StaticResult, elastic_gears::material, meshes};
+
+/// Ranges of the random pairs of the calibration (`tests/src/random_scene.rs`).
+const TEETH: RangeInclusive<u32> = 12..=120;
+const HELIX_DEG: RangeInclusive<f64> = 0.0..=40.0;
+const WIDTH_MODULES: RangeInclusive<f64> = 3.0..=25.0;
+const SHIFT: RangeInclusive<f64> = -0.4..=0.8;
+const PRESSURE_ANGLE_DEG: RangeInclusive<f64> = 15.0..=28.0;
+/// Radial thickness of the body below the root, modules.
+const LEAST_RIM_MODULES: f64 = 0.8;
+const POSITIONS: RangeInclusive<u32> = 8..=1_000_000;
+/// Difference of the volumes of two meshes of one body, relative; facets of linear elements cost a third of it.
+const SAME_BODY: f64 = 0.015;
+
+/// In words, one each.
+///
+/// # Errors
+/// [`AnalysisError`] where meshes cannot be made.
+pub(super) fn not_covered(
+    scene: &Scene,
+    result: &StaticResult,
+    standing: Standing,
+) -> Result<Vec<String>, AnalysisError> {
+    let mut all: Vec<String> = beyond_ranges(scene, result);
+    if let Standing::Beside(_) = standing {
+        all.extend(other_bodies(scene, result)?);
+    }
+    all.push("material data, load and micro-geometry as they are given; bodies beyond the bore, which is held rigid".into());
+    if scene.contact.friction > 0.0 {
+        all.push("the coefficient of friction as it is given".into());
+    }
+    Ok(all)
+}
+
+fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
+    let module = scene.pair.normal_module_mm;
+    let mut all = Vec::new();
+    let mut check = |what: &str, value: f64, range: RangeInclusive<f64>| {
+        if !range.contains(&value) {
+            all.push(format!("{what} of {value:.3}: the calibration has {} to {}", range.start(), range.end()));
+        }
+    };
+    check("a helix angle", scene.pinion.helix_angle_deg.abs(), HELIX_DEG);
+    check("b/m_n", scene.pair.face_width_mm / module, WIDTH_MODULES);
+    check("a normal pressure angle", scene.pair.normal_pressure_angle_deg, PRESSURE_ANGLE_DEG);
+    let positions = f64::from(scene.analysis.positions_per_cycle);
+    check("positions a cycle", positions, f64::from(*POSITIONS.start())..=f64::from(*POSITIONS.end()));
+    for (name, gear, exact) in
+        [("pinion", scene.gears()[0], &result.pair.pinion), ("wheel", scene.gears()[1], &result.pair.wheel)]
+    {
+        let data = exact.data();
+        let root = module * (0.5 * f64::from(gear.teeth) / gear.helix_angle().cos() + data.profile_shift
+            - data.dedendum_coefficient);
+        let rim = (root - 0.5 * gear.bore_diameter_mm) / module;
+        check(&format!("teeth of the {name}"), f64::from(gear.teeth), f64::from(*TEETH.start())..=f64::from(*TEETH.end()));
+        check(&format!("profile shift of the {name}"), gear.profile_shift, SHIFT);
+        check(&format!("rim of the {name} in modules"), rim, LEAST_RIM_MODULES..=f64::INFINITY);
+    }
+    all
+}
+
+/// Gears whose mesh is of another body than that of the built-in mesher, which it is held against.
+fn other_bodies(scene: &Scene, result: &StaticResult) -> Result<Vec<String>, AnalysisError> {
+    let Some(model) = &result.model else { return Ok(Vec::new()) };
+    let coarse = Rung::ALL[0].scene(scene);
+    let mut all = Vec::new();
+    for (i, name) in ["pinion", "wheel"].into_iter().enumerate() {
+        let exact = [&result.pair.pinion, &result.pair.wheel][i];
+        let solid = meshes::gear_mesh(&coarse, name, coarse.gears()[i], exact)?;
+        let volume = |gear: &GearMesh| {
+            let properties = mass_properties(gear.mesh(), &material(scene, i)?);
+            let tooth = |p: fem::MassProperties| p.volume_mm3 / gear.teeth().len() as f64;
+            properties.map(tooth).map_err(|source| AnalysisError::Body { place: name.into(), source: Box::new(source) })
+        };
+        let [own, solid] = [volume(model.gears()[i].gear())?, volume(&solid.gear)?];
+        if (own / solid - 1.0).abs() > SAME_BODY {
+            all.push(format!(
+                "the mesh of the {name} has {:+.1} % more volume than a solid gear: another body, and what its mesh \
+                 does is not told from what its shape does",
+                100.0 * (own / solid - 1.0)
+            ));
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,43 @@
+//! Gears that are reduced already stay, from rung to rung of the ladder.
+
+use std::{
+    collections::BTreeMap,
+    sync::{Mutex, PoisonError},
+};
+
+use reduction::{RecordKey, ReductionRecord};
+
+use crate::GearCache;
+
+/// Reduced gears in memory before the caller's own store.
+pub(super) struct KeptGears<'a> {
+    store: &'a dyn GearCache,
+    kept: Mutex<BTreeMap<String, ReductionRecord>>,
+}
+
+impl<'a> KeptGears<'a> {
+    /// None yet, but those of `store`.
+    pub fn new(store: &'a dyn GearCache) -> Self {
+        Self { store, kept: Mutex::default() }
+    }
+}
+
+impl GearCache for KeptGears<'_> {
+    fn is_on(&self) -> bool {
+        true
+    }
+
+    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner).get(&key.to_string()).cloned();
+        match kept {
+            Some(record) => (Some(record), None),
+            None if self.store.is_on() => self.store.load(key),
+            None => (None, None),
+        }
+    }
+
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_string(), record.clone());
+        if self.store.is_on() { self.store.save(key, record) } else { None }
+    }
+}

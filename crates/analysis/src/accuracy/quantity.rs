@@ -1,0 +1,74 @@
+//! The headline numbers of a cycle at rest that bounds are given for.
+
+use ltca::{StaticHistory, StaticPosition};
+use scene::{Quantity, Scene};
+use study::StudyError;
+
+use crate::results::{RootStressHeadline, StaticHeadline, static_headline};
+
+/// The value of a quantity in a run; `None` where the run does not have it.
+pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
+    let root = |of: fn(&RootStressHeadline) -> f64| headline.root_stress.as_ref().map(of);
+    let harmonic = |order: usize| headline.ste_harmonics_um.get(order - 1).copied();
+    match quantity {
+        Quantity::MeanSte => Some(headline.mean_ste_um),
+        Quantity::PeakToPeakSte => Some(headline.peak_to_peak_ste_um),
+        Quantity::FirstSteHarmonic => harmonic(1),
+        Quantity::SecondSteHarmonic => harmonic(2),
+        Quantity::ThirdSteHarmonic => harmonic(3),
+        Quantity::MaxPairForce => Some(headline.max_pair_force_n),
+        Quantity::MaxPressure => Some(headline.max_pressure_mpa),
+        Quantity::PinionRootStress => root(|r| r.pinion.max_principal.stress_mpa),
+        Quantity::WheelRootStress => root(|r| r.wheel.max_principal.stress_mpa),
+        Quantity::ContactLineLength => Some(headline.mean_contact_line_length_mm),
+        Quantity::MeshStiffness => Some(headline.mean_mesh_stiffness_n_per_um),
+        Quantity::MeshStiffnessTangent => Some(headline.mean_mesh_stiffness_tangent_n_per_um),
+    }
+}
+
+/// Values of all quantities of one cycle; NaN where a run does not have one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    values: [f64; Quantity::ALL.len()],
+    /// Mean transmission error without what micro-geometry and misalignment make of it unloaded, um.
+    deflection: f64,
+}
+
+/// Whether errors of a quantity go with the deflection of the pair, not with the quantity itself: transmission errors
+/// may be small where flanks that stand back cancel the deflection, or where they hardly vary.
+pub fn goes_with_deflection(quantity: Quantity) -> bool {
+    matches!(
+        quantity,
+        Quantity::MeanSte
+            | Quantity::PeakToPeakSte
+            | Quantity::FirstSteHarmonic
+            | Quantity::SecondSteHarmonic
+            | Quantity::ThirdSteHarmonic
+    )
+}
+
+impl Sample {
+    /// Of every `stride`-th position of a history of the scene's cycles; the stride divides the positions of a cycle.
+    ///
+    /// # Errors
+    /// [`StudyError`] when the history is not what the scene asked for.
+    pub fn of(scene: &Scene, history: &StaticHistory, stride: usize) -> Result<Self, StudyError> {
+        let positions = history.positions.iter().step_by(stride).cloned().collect();
+        let headline = static_headline(scene, &StaticHistory { positions, ..StaticHistory::default() })?;
+        let values = std::array::from_fn(|i| value_of(Quantity::ALL[i], &headline).unwrap_or(f64::NAN));
+        let elastic = |p: &StaticPosition| 1e3 * (p.transmission_error - p.kinematic_transmission_error);
+        let all = history.positions.iter().step_by(stride).map(elastic);
+        Ok(Self { values, deflection: all.sum::<f64>() / history.positions.len().div_ceil(stride) as f64 })
+    }
+
+    /// The value of a quantity; `None` where the run does not have it.
+    pub fn get(&self, quantity: Quantity) -> Option<f64> {
+        Some(self.values[quantity as usize]).filter(|v| v.is_finite())
+    }
+
+    /// What errors of a quantity are measured against; `None` where the run does not have it.
+    pub fn scale(&self, quantity: Quantity) -> Option<f64> {
+        let own = self.get(quantity)?;
+        Some(if goes_with_deflection(quantity) { self.deflection } else { own.abs() })
+    }
+}

@@ -1,0 +1,236 @@
+//! How exact the headline numbers are to be: `[accuracy]`.
+//!
+//! A new quantity is a row of `quantities!`; its value is taken from a result in `analysis`.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer, ser::SerializeMap};
+
+use crate::{Scene, SceneError, source::Source, spanned::Word};
+
+/// A headline number once: its key in `[accuracy]`, its unit, and what it is.
+macro_rules! quantities {
+    ($($variant:ident: $key:ident, $unit:literal, $about:literal;)*) => {
+        /// A headline number that bounds are given for and that a scene may ask an accuracy of.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Quantity {
+            $(#[doc = concat!($about, ", ", $unit, ".")] $variant,)*
+        }
+
+        impl Quantity {
+            /// All of them, in the order of tables.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),*];
+
+            /// Its key in `[accuracy]`.
+            pub fn key(self) -> &'static str {
+                match self { $(Self::$variant => stringify!($key),)* }
+            }
+
+            /// Its unit.
+            pub fn unit(self) -> &'static str {
+                match self { $(Self::$variant => $unit,)* }
+            }
+
+            /// What it is.
+            pub fn about(self) -> &'static str {
+                match self { $(Self::$variant => $about,)* }
+            }
+        }
+
+        table! {
+            /// `[accuracy]`
+            ACCURACY, RawAccuracy: "how exact the headline numbers are to be, each as \"1 %\" of itself or as \"0.05 um\" in its unit; with it `model` is \"auto\" where none is written"; {
+                $($key: text(), $about;)*
+            }
+        }
+
+        fn written(raw: &RawAccuracy) -> impl Iterator<Item = (Quantity, &toml::Spanned<String>)> {
+            let all: [(Quantity, &Word); Quantity::ALL.len()] = [$((Quantity::$variant, &raw.$key)),*];
+            all.into_iter().filter_map(|(quantity, word)| Some((quantity, word.as_ref()?)))
+        }
+    };
+}
+
+quantities! {
+    MeanSte: mean_ste, "um", "mean static transmission error";
+    PeakToPeakSte: peak_to_peak_ste, "um", "peak to peak of the static transmission error";
+    FirstSteHarmonic: first_ste_harmonic, "um", "first mesh harmonic of the static transmission error";
+    SecondSteHarmonic: second_ste_harmonic, "um", "second mesh harmonic of the static transmission error";
+    ThirdSteHarmonic: third_ste_harmonic, "um", "third mesh harmonic of the static transmission error";
+    MaxPairForce: max_pair_force, "N", "largest normal force of a tooth pair";
+    MaxPressure: max_pressure, "MPa", "largest contact pressure";
+    PinionRootStress: pinion_root_stress, "MPa", "largest root stress of the pinion (tension)";
+    WheelRootStress: wheel_root_stress, "MPa", "largest root stress of the wheel (tension)";
+    ContactLineLength: contact_line_length, "mm", "mean total contact-line length";
+    MeshStiffness: mesh_stiffness, "N/um", "mean mesh stiffness (secant)";
+    MeshStiffnessTangent: mesh_stiffness_tangent, "N/um", "mean mesh stiffness (tangent)";
+}
+
+impl Serialize for Quantity {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
+}
+
+/// How far a number may be off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    /// As a share of the number itself.
+    Relative(f64),
+    /// In the unit of the number.
+    Absolute(f64),
+}
+
+impl Tolerance {
+    /// The largest error of a number that has this value, in its unit.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Relative(share) => share * value.abs(),
+            Self::Absolute(most) => most,
+        }
+    }
+
+    /// As it is written for a quantity: `1 %`, `0.05 um`.
+    pub fn words(self, quantity: Quantity) -> String {
+        match self {
+            Self::Relative(share) => format!("{} %", 1e6 * share / 1e4),
+            Self::Absolute(most) => format!("{most} {}", quantity.unit()),
+        }
+    }
+
+    /// From words: a number above zero with `%` or the quantity's unit behind it.
+    ///
+    /// # Errors
+    /// [`ToleranceError`].
+    pub fn parse(words: &str, quantity: Quantity) -> Result<Self, ToleranceError> {
+        let wrong = || ToleranceError { words: words.to_owned(), unit: quantity.unit() };
+        let words = words.trim();
+        let split = words.find(|c: char| c == '%' || c.is_whitespace() || c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+        let (number, unit) = words.split_at(split.unwrap_or(words.len()));
+        let value: f64 = number.trim().parse().map_err(|_| wrong())?;
+        if !(value.is_finite() && value > 0.0) {
+            return Err(wrong());
+        }
+        match unit.trim() {
+            "%" if value <= 100.0 => Ok(Self::Relative(1e-2 * value)),
+            unit if unit == quantity.unit() => Ok(Self::Absolute(value)),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+/// Words that are no tolerance.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{words}` is no accuracy")]
+pub struct ToleranceError {
+    /// As written.
+    pub words: String,
+    /// Unit that it might have had.
+    pub unit: &'static str,
+}
+
+impl ToleranceError {
+    /// How to write it.
+    pub fn hint(&self) -> String {
+        format!("write a share, \"1 %\" (up to 100 %), or a number above zero with its unit, \"0.05 {}\"", self.unit)
+    }
+}
+
+/// What a scene asks of the accuracy of its headline numbers.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AccuracyScene(Vec<(Quantity, Tolerance)>);
+
+impl AccuracyScene {
+    /// Of these tolerances; of two for one quantity the last one holds.
+    pub fn new(tolerances: impl IntoIterator<Item = (Quantity, Tolerance)>) -> Self {
+        let mut all: Vec<(Quantity, Tolerance)> = Vec::new();
+        for (quantity, tolerance) in tolerances {
+            all.retain(|(other, _)| *other != quantity);
+            all.push((quantity, tolerance));
+        }
+        all.sort_by_key(|(quantity, _)| *quantity);
+        Self(all)
+    }
+
+    /// Whether nothing is asked.
+    pub fn is_none(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What is asked, in the order of [`Quantity::ALL`].
+    pub fn tolerances(&self) -> &[(Quantity, Tolerance)] {
+        &self.0
+    }
+
+    /// What is asked of a quantity.
+    pub fn of(&self, quantity: Quantity) -> Option<Tolerance> {
+        self.0.iter().find(|(asked, _)| *asked == quantity).map(|(_, tolerance)| *tolerance)
+    }
+
+    /// From what is written.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] for words that are no tolerance.
+    pub(crate) fn read(s: &Source<'_>, raw: &RawAccuracy) -> Result<Self, SceneError> {
+        let one = |(quantity, word): (Quantity, &toml::Spanned<String>)| {
+            let parsed = Tolerance::parse(word.get_ref(), quantity);
+            let said = parsed.map_err(|e| s.conflict(&word.span(), format!("`{}`: {e}", quantity.key()), e.hint()));
+            Ok((quantity, said?))
+        };
+        Ok(Self::new(written(raw).map(one).collect::<Result<Vec<_>, SceneError>>()?))
+    }
+}
+
+impl Serialize for AccuracyScene {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (quantity, tolerance) in &self.0 {
+            map.serialize_entry(quantity.key(), &tolerance.words(*quantity))?;
+        }
+        map.end()
+    }
+}
+
+impl fmt::Display for AccuracyScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = self.0.iter().map(|(quantity, tolerance)| format!("{} {}", quantity.key(), tolerance.words(*quantity)));
+        f.write_str(&all.collect::<Vec<_>>().join(", "))
+    }
+}
+
+impl Scene {
+    /// Whether model, mesh, slices and positions are left to the program.
+    pub fn is_auto(&self) -> bool {
+        self.analysis.model == crate::Model::Auto
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_are_shares_or_amounts() {
+        let of = |words| Tolerance::parse(words, Quantity::MeanSte);
+        for (words, tolerance) in [
+            ("1 %", Tolerance::Relative(0.01)),
+            ("0.3%", Tolerance::Relative(0.003)),
+            (" 5e-2 um", Tolerance::Absolute(0.05)),
+            ("0.05um", Tolerance::Absolute(0.05)),
+        ] {
+            assert_eq!(of(words), Ok(tolerance), "{words}");
+            assert_eq!(of(&tolerance.words(Quantity::MeanSte)), Ok(tolerance), "{words}: written and read");
+        }
+        for words in ["", "1", "%", "-1 %", "0 um", "101 %", "nan %", "inf um", "1 mm", "um 1", "1 % %"] {
+            assert!(of(words).is_err(), "{words}: {:?}", of(words));
+        }
+    }
+
+    #[test]
+    fn the_last_of_two_holds() {
+        let [a, b] = [0.1, 0.2].map(Tolerance::Relative);
+        let twice = AccuracyScene::new([(Quantity::MaxPressure, a), (Quantity::MeanSte, a), (Quantity::MaxPressure, b)]);
+        assert_eq!(twice.tolerances(), [(Quantity::MeanSte, a), (Quantity::MaxPressure, b)]);
+        assert_eq!(twice.to_string(), "mean_ste 10 %, max_pressure 20 %");
+    }
+}

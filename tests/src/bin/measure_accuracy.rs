@@ -1,0 +1,159 @@
+//! Headline numbers of random pairs on meshes refined alike in all directions, with more slices and more positions: what
+//! bounds are calibrated on. One line of JSON a pair, appended as it comes; pairs that are there are left out.
+//!
+//! `cargo run --release -p verification --bin measure_accuracy -- FILE SEED FIRST COUNT [FINEST]`
+#![allow(clippy::print_stderr, reason = "the progress of hours")]
+
+use std::{
+    collections::BTreeMap,
+    error::Error,
+    fs::{File, OpenOptions},
+    io::{BufRead, BufReader, Write},
+    time::Instant,
+};
+
+use analysis::{
+    NoCache, StaticAnalysis,
+    accuracy::{Quantity, Rung, Sample, SolvedCycle},
+};
+use scene::Scene;
+use serde_json::{Value, json};
+use verification::random_scene::random_scene;
+
+/// Positions of a cycle on every mesh.
+const POSITIONS: u32 = 32;
+
+/// Face width up to which root stress is measured, modules.
+const NARROW_MODULES: f64 = 8.0;
+/// Every so manieth of them for what only differences are taken of.
+const SPARSE: u32 = 4;
+/// Positions that stand for all of them.
+const FINE_POSITIONS: u32 = 128;
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+fn main() -> Result<(), Failure> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [file, seed, first, count, rest @ ..] = &words[..] else {
+        return Err("FILE SEED FIRST COUNT [FINEST] are wanted".into());
+    };
+    let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
+    let finest: u32 = rest.first().map_or(Ok(8), |word| word.parse())?;
+    let done = done(file, seed)?;
+    let mut out = OpenOptions::new().create(true).append(true).open(file)?;
+    // One after the other: a pair in work may be large, and a run of hours is cut off without warning.
+    for index in (first..first + count).filter(|i| !done.contains(i)) {
+        let start = Instant::now();
+        let line = measured(seed, index, finest);
+        let failed = if line.get("error").is_some() { ", failed" } else { "" };
+        eprintln!("pair {index}: {:.0} s{failed}", start.elapsed().as_secs_f64());
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}
+
+/// Pairs of a seed that a file has.
+fn done(file: &str, seed: u64) -> Result<Vec<u64>, Failure> {
+    let Ok(file) = File::open(file) else { return Ok(Vec::new()) };
+    let mut found = Vec::new();
+    for line in BufReader::new(file).lines() {
+        let pair: Value = serde_json::from_str(&line?)?;
+        if pair["seed"] == json!(seed) {
+            found.extend(pair["index"].as_u64());
+        }
+    }
+    Ok(found)
+}
+
+/// The line of a pair; one that cannot be computed says why.
+fn measured(seed: u64, index: u64, finest: u32) -> Value {
+    let mut scene = random_scene(seed, index);
+    // Stress of wide gears takes longer than all else.
+    scene.output.root_stress = scene.pair.face_width_mm < NARROW_MODULES * scene.pair.normal_module_mm;
+    let mut line = json!({ "seed": seed, "index": index });
+    match scene_facts(&scene).and_then(|facts| Ok((facts, samples(&scene, finest)?))) {
+        Ok((facts, samples)) => {
+            line["scene"] = facts;
+            line["samples"] = json!(samples);
+        }
+        Err(e) => line["error"] = e.to_string().into(),
+    }
+    line
+}
+
+fn scene_facts(scene: &Scene) -> Result<Value, Failure> {
+    let pair = scene.gear_pair()?;
+    let modification = &scene.pinion.modification.drive;
+    Ok(json!({
+        "teeth": scene.gears().map(|g| g.teeth),
+        "beta": scene.pinion.helix_angle_deg,
+        "m": scene.pair.normal_module_mm,
+        "b": scene.pair.face_width_mm,
+        "x": scene.gears().map(|g| g.profile_shift),
+        "alpha": scene.pair.normal_pressure_angle_deg,
+        "bore": scene.gears().map(|g| g.bore_diameter_mm),
+        "torque": scene.operation.torque_nm,
+        "eps_alpha": pair.transverse_contact_ratio(),
+        "eps_beta": pair.overlap_ratio(),
+        "rim": [lumped::iso::rim_ratio(&pair.pinion), lumped::iso::rim_ratio(&pair.wheel)],
+        "relief": !modification.is_none(),
+        "misaligned": !scene.pair.misalignment.is_none(),
+    }))
+}
+
+type Samples = BTreeMap<String, Value>;
+
+fn samples(scene: &Scene, finest: u32) -> Result<Samples, Failure> {
+    let mut scene = scene.clone();
+    scene.analysis.positions_per_cycle = POSITIONS;
+    let mut all = Samples::new();
+    let mut add = |name: String, sample: &Sample, seconds: f64| {
+        let mut values: BTreeMap<&str, f64> =
+            Quantity::ALL.iter().filter_map(|q| Some((q.key(), sample.get(*q)?))).collect();
+        values.insert("seconds", seconds);
+        all.insert(name, json!(values));
+    };
+    // As many as the program chooses, by its own rule.
+    let chosen = StaticAnalysis::new(&scene).slices().unwrap_or(32);
+    scene.contact.slices = Some(chosen);
+    let timed = |start: Instant| start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let default = SolvedCycle::new(&scene, &NoCache)?;
+    add("default".into(), &default.sample(1)?, timed(start));
+    drop(default);
+    for rung in Rung::ALL.into_iter().filter(|r| r.elements_profile <= finest) {
+        let n = rung.elements_profile;
+        let start = Instant::now();
+        let mut solved = SolvedCycle::new(&rung.scene(&scene), &NoCache)?;
+        add(format!("mesh {n}"), &solved.sample(1)?, timed(start));
+        add(format!("mesh {n} sparse"), &solved.sample(SPARSE as usize)?, 0.0);
+        if n == 2 {
+            for slices in [chosen / 2, 4 * chosen] {
+                let start = Instant::now();
+                // So many slices may be too many for a coarse mesh: their compliance is no longer positive definite.
+                solved = match solved.again(slices, POSITIONS / SPARSE) {
+                    Ok(again) => again,
+                    Err(_) => {
+                        solved = SolvedCycle::new(&rung.scene(&scene), &NoCache)?;
+                        continue;
+                    }
+                };
+                add(format!("slices {slices} sparse"), &solved.sample(1)?, timed(start));
+            }
+            let start = Instant::now();
+            solved = solved.again(chosen, FINE_POSITIONS)?;
+            for stride in [1, 2, 4, 8, 16] {
+                let seconds = if stride == 1 { timed(start) } else { 0.0 };
+                add(format!("positions {}", FINE_POSITIONS / stride), &solved.sample(stride as usize)?, seconds);
+            }
+        }
+        if n <= 4 {
+            let mut sparse = rung.linear().scene(&scene);
+            sparse.analysis.positions_per_cycle = POSITIONS / SPARSE;
+            let start = Instant::now();
+            add(format!("linear {n} sparse"), &SolvedCycle::new(&sparse, &NoCache)?.sample(1)?, timed(start));
+        }
+    }
+    all.insert("slices".into(), json!(chosen));
+    Ok(all)
+}
