@@ -65,7 +65,8 @@ impl MeasuredPair {
     /// The coarsest rung whose error is a share of the exact value at the most.
     pub fn cheapest(&self, quantity: Quantity, share: f64) -> Option<u32> {
         let exact = self.exact(quantity)?;
-        let keeps = |n: &u32| self.value(&format!("mesh {n}"), quantity).is_some_and(|v| (v / exact - 1.0).abs() <= share);
+        let keeps =
+            |n: &u32| self.value(&format!("mesh {n}"), quantity).is_some_and(|v| (v / exact - 1.0).abs() <= share);
         RUNGS.into_iter().find(keeps)
     }
 }

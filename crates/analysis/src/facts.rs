@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::{accuracy::Accuracy, certificate::Certificate};
 pub use crate::resolution::Resolution;
+use crate::{accuracy::Accuracy, certificate::Certificate};
 
 /// What a run was made of and what it cost.
 #[derive(Debug, Clone, Default, Serialize)]

@@ -38,7 +38,8 @@ pub struct Resolution {
 fn is_sliced(scene: &Scene) -> bool {
     let model = scene.analysis.model;
     let feeds = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
-    (model.is_reduced() || matches!(model, Model::Auto | Model::Full | Model::Impact) || feeds) && scene.contact.slices.is_some()
+    (model.is_reduced() || matches!(model, Model::Auto | Model::Full | Model::Impact) || feeds)
+        && scene.contact.slices.is_some()
 }
 
 /// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many: in its text, or by

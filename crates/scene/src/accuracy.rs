@@ -193,7 +193,8 @@ impl Serialize for AccuracyScene {
 
 impl fmt::Display for AccuracyScene {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all = self.0.iter().map(|(quantity, tolerance)| format!("{} {}", quantity.key(), tolerance.words(*quantity)));
+        let all =
+            self.0.iter().map(|(quantity, tolerance)| format!("{} {}", quantity.key(), tolerance.words(*quantity)));
         f.write_str(&all.collect::<Vec<_>>().join(", "))
     }
 }
@@ -211,7 +212,7 @@ mod tests {
 
     #[test]
     fn tolerances_are_shares_or_amounts() {
-        let of = |words| Tolerance::parse(words, Quantity::MeanSte);
+        let of = |words: &str| Tolerance::parse(words, Quantity::MeanSte);
         for (words, tolerance) in [
             ("1 %", Tolerance::Relative(0.01)),
             ("0.3%", Tolerance::Relative(0.003)),
@@ -229,7 +230,8 @@ mod tests {
     #[test]
     fn the_last_of_two_holds() {
         let [a, b] = [0.1, 0.2].map(Tolerance::Relative);
-        let twice = AccuracyScene::new([(Quantity::MaxPressure, a), (Quantity::MeanSte, a), (Quantity::MaxPressure, b)]);
+        let twice =
+            AccuracyScene::new([(Quantity::MaxPressure, a), (Quantity::MeanSte, a), (Quantity::MaxPressure, b)]);
         assert_eq!(twice.tolerances(), [(Quantity::MeanSte, a), (Quantity::MaxPressure, b)]);
         assert_eq!(twice.to_string(), "mean_ste 10 %, max_pressure 20 %");
     }

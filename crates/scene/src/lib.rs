@@ -211,7 +211,8 @@ impl Scene {
 
     /// Whether the scene's contact is made of slices of its own, which a contact pattern needs.
     pub fn has_slices(&self) -> bool {
-        matches!(self.analysis.model, Model::Reduced | Model::Auto | Model::Full) && self.contact.method == Method::Slice
+        matches!(self.analysis.model, Model::Reduced | Model::Auto | Model::Full)
+            && self.contact.method == Method::Slice
     }
 
     /// Elements along the face that a mesh of this order asks for; the default of `elements_face`.

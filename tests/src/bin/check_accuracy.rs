@@ -29,7 +29,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (share, count): (f64, usize) = (1e-2 * percent.parse::<f64>()?, count.parse()?);
     let mut pairs = Vec::new();
     for file in files {
-        pairs.extend(fs::read_to_string(file)?.lines().map(serde_json::from_str::<Value>).collect::<Result<Vec<_>, _>>()?);
+        pairs.extend(
+            fs::read_to_string(file)?.lines().map(serde_json::from_str::<Value>).collect::<Result<Vec<_>, _>>()?,
+        );
     }
     let pairs: Vec<MeasuredPair> = pairs.into_iter().filter_map(MeasuredPair::new).take(count).collect();
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();

@@ -32,7 +32,10 @@ impl Overrides {
         for word in &self.accuracy {
             let (key, amount) = word.split_once('=').unwrap_or((Quantity::MeanSte.key(), word));
             let setting = Setting::of(&format!("accuracy.{}", key.trim()), &amount.trim().into())?;
-            all.extend([setting.called("--accuracy"), Setting::of("analysis.model", &"auto".into())?.called("--accuracy")]);
+            all.extend([
+                setting.called("--accuracy"),
+                Setting::of("analysis.model", &"auto".into())?.called("--accuracy"),
+            ]);
         }
         for word in &self.set {
             all.push(Setting::parse(word)?);

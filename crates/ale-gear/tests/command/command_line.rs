@@ -202,3 +202,28 @@ fn wrong_words_are_told_with_a_way_out() {
     }
     assert_eq!(scratch.names(), ["a.msh", "a.toml", "f"]);
 }
+
+/// A pair on the built-in mesher, model and mesh left to the program.
+const PLAIN_SCENE: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 31\n[pair]\nnormal_module_mm = 3.0\n\
+     face_width_mm = 15.0\n[operation]\ntorque_nm = 200.0\n";
+
+/// What is asked and kept: status 0. Less exact than asked: the result is there, and status 3 says so.
+#[test]
+fn an_accuracy_that_is_not_kept_has_a_status_of_its_own() {
+    let meshed = PLAIN_SCENE.replace("[wheel]", "[pinion.mesher]\nelements_profile = 2\n[wheel]");
+    let scratch = Scratch::new().file("a.toml", PLAIN_SCENE).file("meshed.toml", meshed);
+    let kept = scratch.ale_gear(["run", "a.toml", "--out", "kept", "--no-cache", "--accuracy", "10%"]);
+    fine(&kept);
+    let summary = json(&scratch.read("kept/summary.json"));
+    assert_eq!(summary["accuracy"]["bounds"][0]["quantity"], "mean_ste");
+    assert_eq!(summary["accuracy"]["bounds"][0]["met"], true);
+    assert!(scratch.read("kept/report.html").contains("How exact"));
+    let words = ["run", "meshed.toml", "--out", "missed", "--no-cache", "--accuracy", "0.01%", "--set"];
+    let missed = scratch.command(&[&words[..], &["analysis.model=reduced"]].concat());
+    assert_eq!(missed.code, Some(3), "{}", missed.stderr);
+    assert!(missed.stderr.contains("the accuracy asked for is not kept: mean_ste is"), "{}", missed.stderr);
+    assert_eq!(json(&scratch.read("missed/summary.json"))["accuracy"]["bounds"][0]["met"], false);
+    // The program chooses the mesh, or the scene does.
+    let both = scratch.ale_gear(["run", "meshed.toml", "--out", "both", "--accuracy", "10%"]);
+    assert_eq!((both.code, both.stderr.contains("chooses the mesh")), (Some(2), true), "{}", both.stderr);
+}

@@ -4,8 +4,8 @@ use scene::{Model, Quantity, Scene, Tolerance};
 use serde::Serialize;
 
 use super::{
-    Accuracy, Bound, Calibration, Cause, Rung, Sample, companion::Companions, estimate::estimate,
-    goes_with_deflection, kept_gears::KeptGears,
+    Accuracy, Bound, Calibration, Cause, Rung, Sample, companion::Companions, estimate::estimate, goes_with_deflection,
+    kept_gears::KeptGears,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, StaticAnalysis, StaticResult, StaticSink,
@@ -55,7 +55,7 @@ impl std::fmt::Debug for AccurateAnalysis<'_> {
 /// Positions of a cycle that the ladder begins with, at least, and ends with.
 const POSITIONS: [u32; 2] = [8, 256];
 /// Share of what is asked that a guess leaves to the mesh.
-const MESH_SHARE: f64 = 0.85;
+const MESH_SHARE: f64 = 0.95;
 /// Slices beyond which no more are taken.
 const MOST_SLICES: u32 = 768;
 /// Rungs that are tried, at most: each is twice as fine in something as one before.
@@ -137,12 +137,7 @@ impl<'a> AccurateAnalysis<'a> {
 
     /// A scene that is finer in what the bounds that are not kept are mostly made of; `None` where all are kept, or
     /// nothing finer is left.
-    fn finer(
-        &self,
-        scene: &Scene,
-        result: &StaticResult,
-        accuracy: &Accuracy,
-    ) -> Result<Option<Scene>, AnalysisError> {
+    fn finer(&self, scene: &Scene, result: &StaticResult, accuracy: &Accuracy) -> Result<Option<Scene>, AnalysisError> {
         let Some(worst) = accuracy.missed().max_by(|a, b| over(a).total_cmp(&over(b))) else { return Ok(None) };
         let mut finer = scene.clone();
         let slices = scene.contact.slices.unwrap_or(MOST_SLICES);

@@ -120,6 +120,9 @@ mod tests {
         assert!(far.below == 0.0 && (far.above - 0.41).abs() < 1e-12, "{far:?}");
         let [loose, tight] = [0.05, 0.04].map(|share| far.clone().against(Some(Tolerance::Relative(share))).met);
         assert_eq!([loose, tight], [Some(true), Some(false)]);
-        assert_eq!(Bound::new(Quantity::MeanSte, 9.0, f64::NAN, terms()).against(Some(Tolerance::Relative(1.0))).met, Some(false));
+        assert_eq!(
+            Bound::new(Quantity::MeanSte, 9.0, f64::NAN, terms()).against(Some(Tolerance::Relative(1.0))).met,
+            Some(false)
+        );
     }
 }

@@ -55,7 +55,7 @@ pub struct MeshLaw {
     pub by_size: Option<Law>,
     /// Without a companion: the scale itself stands for the difference.
     pub alone: Law,
-    /// What error and bound together come to in four of five pairs, over the scale.
+    /// What error and bound together come to in three of five pairs, over the scale.
     pub usual: f64,
 }
 
@@ -66,7 +66,7 @@ pub struct PositionsLaw {
     pub positions: u32,
     /// From every second of them.
     pub law: Law,
-    /// What error and bound together come to in four of five pairs, over the scale.
+    /// What error and bound together come to in three of five pairs, over the scale.
     pub usual: f64,
 }
 

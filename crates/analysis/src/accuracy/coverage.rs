@@ -34,7 +34,9 @@ pub(super) fn not_covered(
     if let Standing::Beside(_) = standing {
         all.extend(other_bodies(scene, result)?);
     }
-    all.push("material data, load and micro-geometry as they are given; bodies beyond the bore, which is held rigid".into());
+    all.push(
+        "material data, load and micro-geometry as they are given; bodies beyond the bore, which is held rigid".into(),
+    );
     if scene.contact.friction > 0.0 {
         all.push("the coefficient of friction as it is given".into());
     }
@@ -58,10 +60,14 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
         [("pinion", scene.gears()[0], &result.pair.pinion), ("wheel", scene.gears()[1], &result.pair.wheel)]
     {
         let data = exact.data();
-        let root = module * (0.5 * f64::from(gear.teeth) / gear.helix_angle().cos() + data.profile_shift
-            - data.dedendum_coefficient);
+        let root = module
+            * (0.5 * f64::from(gear.teeth) / gear.helix_angle().cos() + data.profile_shift - data.dedendum_coefficient);
         let rim = (root - 0.5 * gear.bore_diameter_mm) / module;
-        check(&format!("teeth of the {name}"), f64::from(gear.teeth), f64::from(*TEETH.start())..=f64::from(*TEETH.end()));
+        check(
+            &format!("teeth of the {name}"),
+            f64::from(gear.teeth),
+            f64::from(*TEETH.start())..=f64::from(*TEETH.end()),
+        );
         check(&format!("profile shift of the {name}"), gear.profile_shift, SHIFT);
         check(&format!("rim of the {name} in modules"), rim, LEAST_RIM_MODULES..=f64::INFINITY);
     }

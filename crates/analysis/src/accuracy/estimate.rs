@@ -8,9 +8,7 @@ use super::{
     companion::{Companion, Companions, Standing, stride},
     coverage::not_covered,
 };
-use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, StaticResult, results::static_headline, run_phase,
-};
+use crate::{AnalysisError, GearCache, Observer, PhaseWork, StaticResult, results::static_headline, run_phase};
 
 /// How exact a result is, and how that is known.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -58,9 +58,10 @@ impl Rung {
     pub fn of(scene: &Scene) -> Option<Self> {
         let stands = |rung: &Self| {
             let own = rung.mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
-            scene.gears().iter().all(|g| {
-                g.mesher.is_some_and(|m| MesherScene { sector_teeth: m.sector_teeth, ..own } == m)
-            })
+            scene
+                .gears()
+                .iter()
+                .all(|g| g.mesher.is_some_and(|m| MesherScene { sector_teeth: m.sector_teeth, ..own } == m))
         };
         Self::ALL.into_iter().find(stands)
     }

@@ -1,3 +1,4 @@
 //! Laws of the crate `analysis`.
 
+mod accuracy;
 mod motion_in_memory;

@@ -204,3 +204,28 @@ fn rounding_opens_the_gap() {
         contact(0.0, 0.1).edge_opening() > 1e-4 && contact(-0.1, 0.1).edge_opening() > contact(0.0, 0.1).edge_opening()
     );
 }
+
+/// However heavy the load and thin the layer, more approach takes more load, and the slope is that of the approach up to
+/// loads that steel stands: pointed tips come to bands as wide as they are deep.
+#[test]
+fn no_load_makes_a_thin_layer_pull() {
+    for depth in [0.05, 0.2, 1.0] {
+        let mut thin = contact(0.1, 0.0);
+        thin.bodies[0].depth = depth;
+        let law = thin.law();
+        let mut before = 0.0;
+        for step in 0..60 {
+            let load = 1.0 * 1.25f64.powi(step);
+            let state = law.under(load);
+            assert!(state.slope > 0.0, "depth {depth}, {load} N/mm: slope {}", state.slope);
+            assert!(state.approach > before, "depth {depth}, {load} N/mm: approach {} after {before}", state.approach);
+            before = state.approach;
+            let h = 1e-5 * load;
+            let difference = (law.under(load + h).approach - law.under(load - h).approach) / (2.0 * h);
+            if state.pressure < 3000.0 {
+                let off = (state.slope / difference - 1.0).abs();
+                assert!(off < 1e-6, "depth {depth}, {load} N/mm: slope {} and difference {difference}", state.slope);
+            }
+        }
+    }
+}

@@ -1,12 +1,12 @@
 //! The file itself, and the tables on pair, load, contact, analysis and output.
 
 use super::INF;
-use crate::accuracy::{ACCURACY, RawAccuracy};
 use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};
 use super::ladder::{
     IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
 };
 use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};
+use crate::accuracy::{ACCURACY, RawAccuracy};
 use crate::{Driver, FieldName, Flanks, Gap, Kind, Method, Model, Reduction, Rotation};
 
 table! {

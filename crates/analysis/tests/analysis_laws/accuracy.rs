@@ -1,0 +1,89 @@
+//! Laws of bounds: what they hold, what they refuse, and when the ladder is left.
+
+use analysis::{
+    AnalysisError, StaticAnalysis,
+    accuracy::{AccurateAnalysis, AccurateResult, Bound, Calibration, Cause, Quantity, Rung},
+};
+use scene::{Scene, SceneBuilder};
+
+fn pair() -> SceneBuilder {
+    let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(15.0);
+    base.torque_nm(200.0)
+}
+
+fn solved(scene: &Scene) -> AccurateResult {
+    AccurateAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn bound(result: &AccurateResult, quantity: Quantity) -> Bound {
+    let all = &result.result.facts.accuracy.as_ref().unwrap().bounds;
+    all.iter().find(|b| b.quantity == quantity).unwrap_or_else(|| panic!("no bound of {}", quantity.key())).clone()
+}
+
+/// What is asked is kept on a coarse rung, its bounds hold the values of a rung of twice as many elements, and they are
+/// made of their terms.
+#[test]
+fn the_ladder_is_left_as_soon_as_the_bounds_keep_what_is_asked() {
+    let coarse = solved(&pair().set("accuracy.mean_ste", "10 %").build().unwrap());
+    assert_eq!(Rung::of(&coarse.scene).map(|r| r.elements_profile), Some(2));
+    let fine = solved(&pair().set("accuracy.mean_ste", "1 %").build().unwrap());
+    let rung = Rung::of(&fine.scene).unwrap().elements_profile;
+    assert!(rung > 2 && fine.result.facts.accuracy.as_ref().unwrap().is_met(), "rung {rung}");
+    for quantity in [Quantity::MeanSte, Quantity::MeshStiffness, Quantity::MaxPressure] {
+        let [coarse, fine] = [&coarse, &fine].map(|r| bound(r, quantity));
+        let Bound { value, below, above, .. } = coarse;
+        let key = quantity.key();
+        assert!(
+            (value - below..=value + above).contains(&fine.corrected),
+            "{key}: {} is outside of {}",
+            fine.corrected,
+            coarse.words()
+        );
+        let terms: f64 = coarse.terms.iter().map(|t| t.amount).sum();
+        assert!((terms / coarse.corrected_within - 1.0).abs() < 1e-12, "{key}: {terms}");
+        assert!(coarse.terms.iter().any(|t| t.cause == Cause::Mesh && t.amount > 0.0), "{key}: {coarse:?}");
+    }
+}
+
+/// A mesh that is fine where it does not matter and coarse in the rim is caught: it is held against another mesh.
+#[test]
+fn one_element_in_a_thin_rim_is_caught() {
+    let of = |rim: i64| {
+        let mut builder = pair().set("accuracy.mean_ste", "1 %").set("analysis.model", "reduced");
+        for gear in ["pinion", "wheel"] {
+            builder = builder
+                .set(&format!("{gear}.mesher.elements_rim"), rim)
+                .set(&format!("{gear}.mesher.elements_profile"), 8)
+                .set(&format!("{gear}.mesher.elements_fillet"), 2);
+        }
+        solved(&builder.set("analysis.positions_per_cycle", 16).build().unwrap())
+    };
+    let [one, six] = [of(1), of(6)].map(|r| bound(&r, Quantity::MeanSte));
+    assert!(one.value < six.value, "fewer elements are stiffer: {} and {} um", one.value, six.value);
+    assert!(one.value + one.above >= six.value, "{} um is beyond {}", six.value, one.words());
+    assert!(one.above > six.above, "{} and {}", one.words(), six.words());
+}
+
+/// Who asks for bounds does not get a result without.
+#[test]
+fn an_analysis_without_bounds_refuses_to_leave_them_out() {
+    let scene = pair().set("accuracy.mean_ste", "1 %").build().unwrap();
+    let refused = StaticAnalysis::new(&scene).solve().map(|_| ()).unwrap_err();
+    assert!(matches!(refused, AnalysisError::WithAccuracy { .. }), "{refused}");
+}
+
+/// Every quantity has its laws on the same rungs, and every bound is above zero.
+#[test]
+fn the_calibration_is_whole() {
+    let all = Calibration::committed();
+    assert!(all.pairs >= 50 && all.coverage >= 0.95, "{} pairs, {}", all.pairs, all.coverage);
+    for quantity in Quantity::ALL {
+        let laws = all.of(*quantity).unwrap_or_else(|| panic!("no laws of {}", quantity.key()));
+        let rungs: Vec<u32> = laws.mesh.iter().map(|law| law.elements_profile).collect();
+        assert_eq!(rungs[..4], [2, 3, 4, 6], "{}", quantity.key());
+        let of_mesh = laws.mesh.iter().flat_map(|l| [l.by_order, l.by_size, Some(l.alone)]).flatten();
+        for law in of_mesh.chain([laws.slices]).chain(laws.positions.iter().map(|p| p.law)) {
+            assert!(law.factor > 0.0 && law.floor > 0.0, "{}: {law:?}", quantity.key());
+        }
+    }
+}
