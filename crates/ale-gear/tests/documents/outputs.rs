@@ -30,6 +30,10 @@ const SWEEP: &str = "run = \"sweep\"\nperiodic_tolerance = 0.5\nwarm_up_cycles =
 const STUDY: &str = "[[case]]\nscene = \"iso.toml\"\nlabel = \"a\"\nvalue = 1\n[[case]]\nscene = \"iso.toml\"\nlabel = \"b\"\nvalue = 2\nset = [\"operation.torque_nm=100\"]\n\
     [[quantity]]\ncolumn = \"ste_um\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
 
+/// A rung that is left and one that is taken.
+const EXACT: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 31\n[pair]\nnormal_module_mm = 3.0\n\
+    face_width_mm = 15.0\n[operation]\ntorque_nm = 200.0\n[accuracy]\nmean_ste = \"50 %\"\npeak_to_peak_ste = \"20 %\"\n";
+
 /// One folder of every kind, in a folder of its own each.
 fn every_kind() -> Scratch {
     let scratch = Scratch::new()
@@ -38,12 +42,13 @@ fn every_kind() -> Scratch {
         .file("span.toml", on_bearings())
         .file("ramp.toml", motion_scene(0, RAMP))
         .file("resonance.toml", motion_scene(1, SWEEP))
+        .file("exact.toml", EXACT)
         .file("study.toml", STUDY);
     let run = |words: &[&str]| {
         let done = scratch.command(words);
         assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
     };
-    for scene in ["iso", "rest", "span", "ramp", "resonance"] {
+    for scene in ["iso", "rest", "exact", "span", "ramp", "resonance"] {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();

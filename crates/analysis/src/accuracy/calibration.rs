@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// How the error of a number goes with a difference `d` that was seen.
+/// How the error of a number goes with a difference `d` that was seen. Theory (64).
 ///
 /// ```text
 /// exact = value + pull d  +-  factor (|d| + floor scale)
