@@ -245,24 +245,28 @@ impl LocalLaw {
     }
 }
 
-/// How sharply a layer that is thinner than the band is wide takes over from a deep one.
-const THIN: f64 = 8.0;
+/// Logarithm of half-width over depth, either way of 0, within which a layer that is compressed evenly takes over from
+/// one that is deep beside the band.
+const TAKES_OVER: f64 = 0.5;
 /// Slope of the approach, at least, over K_1 + K_2: a tenth of what it is under the heaviest loads that steel stands.
 /// Loads beyond come up only while a solution is sought, and must not make the contact pull.
 const LEAST_SLOPE: f64 = 0.05;
 
 impl BodyLaw {
-    /// By how much the logarithm of the depth grows for a band of half-width a, and the derivative of that by ln a:
-    /// `ln (1 + (a/t)^8) / 8`.
+    /// By how much the logarithm of the depth grows for a band of half-width a, and the derivative of that by ln a.
     ///
+    /// ```text
+    /// y = ln(a/t):   0 for y < -w,   (y + w)^2 / (4 w) up to w,   y beyond;   w = 1/2
+    /// ```
     /// The logarithmic law is that of a band that is narrow beside the depth; it would have no stiffness left at a = 1.2
     /// t and pull beyond. Under a wide band a thin layer is compressed evenly instead, with dq/d delta about E / 0.37
-    /// from a = t on (nu 0.3), which is what the law has at depth a. Pointed tips under heavy load come to that.
+    /// from a = t on (nu 0.3), which is what the law has at depth a. Pointed tips under heavy load come to that; below a
+    /// = 0.6 t nothing changes.
     fn depth_beyond(&self, ln_a: f64) -> (f64, f64) {
-        let y = THIN * (ln_a - self.ln_depth);
-        // Without an overflow where the band is very wide.
-        let beyond = if y > 0.0 { y + (-y).exp().ln_1p() } else { y.exp().ln_1p() };
-        (beyond / THIN, 1.0 / (1.0 + (-y).exp()))
+        let y = ln_a - self.ln_depth;
+        let within = (y + TAKES_OVER).clamp(0.0, 2.0 * TAKES_OVER);
+        let past = (y - TAKES_OVER).max(0.0);
+        (within * within / (4.0 * TAKES_OVER) + past, within / (2.0 * TAKES_OVER))
     }
 }
 
