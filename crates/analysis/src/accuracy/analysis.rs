@@ -147,12 +147,17 @@ impl<'a> AccurateAnalysis<'a> {
             Cause::Mesh => term(worst, cause) + (worst.value - worst.corrected).abs(),
             cause => term(worst, cause),
         };
+        let finer_mesh = rung.and_then(|r| enough(r, worst, result, scene));
+        // A mesh that cannot be refined may be too coarse by itself: nothing else would help.
+        if finer_mesh.is_none() && worst.asked.is_some_and(|asked| share(Cause::Mesh) >= asked) {
+            return Ok(None);
+        }
         let mut causes = [Cause::Mesh, Cause::Slices, Cause::Positions];
         causes.sort_by(|a, b| share(*b).total_cmp(&share(*a)));
         for cause in causes {
             match cause {
                 Cause::Mesh => {
-                    if let Some(next) = rung.and_then(|r| enough(r, worst, result, scene)) {
+                    if let Some(next) = finer_mesh {
                         return Ok(Some(next.scene(&finer)));
                     }
                 }
