@@ -33,11 +33,6 @@ impl CommandError {
         Self { status: 1, message: message.to_string(), excerpt: None, hint }
     }
 
-    /// The result is there, but less exact than was asked: exit status 3.
-    pub fn inexact(message: impl Display, hint: Option<String>) -> Self {
-        Self { status: 3, message: message.to_string(), excerpt: None, hint }
-    }
-
     /// A file of the result cannot be written.
     pub fn write(path: &Path, error: &std::io::Error) -> Self {
         let hint = "is the disk full, or the folder write-protected?".to_owned();
@@ -71,8 +66,8 @@ impl From<AnalysisError> for CommandError {
             other => other,
         };
         let hint = error.hint();
-        let told = if error.is_without_result() { Self::failed(&error, hint) } else { Self::input(&error, hint) };
-        told.about(error.excerpt())
+        let status = if error.is_inexact() { 3 } else { 2 - u8::from(error.is_without_result()) };
+        Self { status, message: error.to_string(), excerpt: error.excerpt().map(str::to_owned), hint }
     }
 }
 

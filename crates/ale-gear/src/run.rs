@@ -1,9 +1,7 @@
 //! A scene at rest, with what goes into files on the way: fields for ParaView and the gears in space.
 
-use analysis::{
-    StaticAnalysis, StaticResult,
-    accuracy::{AccurateAnalysis, AccurateResult},
-};
+use analysis::StaticResult;
+use analysis::accuracy::{AccurateAnalysis, AccurateResult};
 use report::StaticFileSink;
 
 pub(crate) use analysis::static_certificate as certificate;
@@ -29,12 +27,8 @@ pub fn solve(
     cache: &Cache,
 ) -> Result<Solved, CommandError> {
     let mut sink = StaticFileSink::new(scene, results, phases.start());
-    let AccurateResult { scene, result } = if scene.accuracy.is_none() {
-        let result = StaticAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
-        AccurateResult { scene: scene.clone(), result }
-    } else {
-        AccurateAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?
-    };
+    let analysis = AccurateAnalysis::new(scene).with_cache(cache);
+    let AccurateResult { scene, result } = analysis.solve_into(phases, &mut sink)?;
     let StaticResult { mut history, mut facts, model, .. } = result;
     let Some(model) = model else { return Ok(Solved { scene, history, facts, view: None }) };
     facts.first_result_s = sink.first_result_s;

@@ -150,6 +150,14 @@ pub enum AnalysisError {
         /// The scene.
         file: String,
     },
+    /// The result is there, less exact than was asked.
+    #[error("{file}: the accuracy asked for is not kept: {missed}")]
+    Inexact {
+        /// The scene.
+        file: String,
+        /// What is not kept, with its bounds.
+        missed: String,
+    },
     /// The rows that a motion is to be resumed with are not those before its checkpoint.
     #[error("{file}: {found} rows are given, {wanted} came before the checkpoint")]
     ResumedRows {
@@ -286,6 +294,11 @@ impl AnalysisError {
         Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
     }
 
+    /// Whether the result is there, less exact than was asked.
+    pub fn is_inexact(&self) -> bool {
+        matches!(self, Self::Inexact { .. })
+    }
+
     /// Whether the input is fine and yet no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
@@ -341,6 +354,9 @@ impl AnalysisError {
             }
             Self::WithAccuracy { .. } => {
                 Some("`accuracy::AccurateAnalysis` solves it with bounds; without `[accuracy]` this one does".into())
+            }
+            Self::Inexact { .. } => {
+                Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".into())
             }
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),

@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 pub use crate::resolution::Resolution;
-use crate::{accuracy::Accuracy, certificate::Certificate};
+use scene::Scene;
+
+use crate::{AnalysisError, accuracy::Accuracy, certificate::Certificate};
 
 /// What a run was made of and what it cost.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -40,6 +42,22 @@ pub struct Facts {
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,
+}
+
+impl Facts {
+    /// Whether the result holds and is as exact as was asked.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`].
+    pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
+        self.certificate.verdict(scene)?;
+        let missed = self.accuracy.iter().flat_map(Accuracy::missed);
+        let missed: Vec<String> = missed.map(|b| format!("{} is {}", b.quantity.key(), b.words())).collect();
+        if missed.is_empty() {
+            return Ok(());
+        }
+        Err(AnalysisError::Inexact { file: scene.file.display().to_string(), missed: missed.join(", ") })
+    }
 }
 
 /// Where a mesh comes from and how large it is.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::{
     resolution::with_slices,
-    scene::{Quantity, Scene, SceneError, Setting},
+    scene::{Scene, SceneError, Setting},
 };
 
 /// Keys of the scene, instead of the file's.
@@ -28,15 +28,7 @@ impl Overrides {
     /// Words that are no key with a value.
     pub fn settings(&self) -> Result<Vec<Setting>, SceneError> {
         // First, so that `--set analysis.model=reduced` holds beside it: what is asked is then estimated, not chosen.
-        let mut all = Vec::new();
-        for word in &self.accuracy {
-            let (key, amount) = word.split_once('=').unwrap_or((Quantity::MeanSte.key(), word));
-            let setting = Setting::of(&format!("accuracy.{}", key.trim()), &amount.trim().into())?;
-            all.extend([
-                setting.called("--accuracy"),
-                Setting::of("analysis.model", &"auto".into())?.called("--accuracy"),
-            ]);
-        }
+        let mut all = self.accuracy.iter().map(|w| Setting::accuracy(w)).collect::<Result<Vec<_>, _>>()?.concat();
         for word in &self.set {
             all.push(Setting::parse(word)?);
         }

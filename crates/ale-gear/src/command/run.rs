@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use analysis::{accuracy::Bound, lumped::is_lumped};
+use analysis::lumped::is_lumped;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use report::check_memory;
@@ -11,7 +11,7 @@ use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    facts::{Facts, Solved},
+    facts::Solved,
     memory,
     motion::{self, Progression},
     output::{ResultDirectory, closing_table, static_headline, write_contact, write_history, write_report},
@@ -219,17 +219,5 @@ fn write_static(
     report.write(results)?;
     report::close_result(scene, (&facts, &cost), &headline, &history.warnings, results)?;
     let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
-    let verdict = facts.certificate.verdict(scene).map_err(CommandError::from);
-    Ok(Written { table, verdict: verdict.and_then(|()| accuracy_verdict(scene, &facts)) })
-}
-
-/// Exit status 3 where an accuracy that was asked for is not kept, or cannot be shown to be.
-fn accuracy_verdict(scene: &Scene, facts: &Facts) -> Result<(), CommandError> {
-    let Some(accuracy) = facts.accuracy.as_ref().filter(|a| !a.is_met()) else { return Ok(()) };
-    let said = |b: &Bound| format!("{} is {}", b.quantity.key(), b.words());
-    let missed: Vec<String> = accuracy.missed().map(said).collect();
-    Err(CommandError::inexact(
-        format_args!("{}: the accuracy asked for is not kept: {}", scene.file.display(), missed.join(", ")),
-        Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".into()),
-    ))
+    Ok(Written { table, verdict: facts.verdict(scene).map_err(CommandError::from) })
 }

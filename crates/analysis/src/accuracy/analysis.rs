@@ -39,7 +39,7 @@ pub struct AccurateResult {
 ///
 /// Of `model = "auto"` the cheapest rung of the ladder is taken that keeps what `[accuracy]` asks: the first guess comes
 /// from the calibration, the proof from the estimate of the run; where that falls short, what it is mostly made of is
-/// refined. Of any other model the bounds of the run are estimated.
+/// refined. Of any other model the bounds of the run are estimated; of a scene that asks for no accuracy, none are.
 #[derive(Clone, Copy)]
 pub struct AccurateAnalysis<'a> {
     scene: &'a Scene,
@@ -92,6 +92,10 @@ impl<'a> AccurateAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<AccurateResult, AnalysisError> {
+        if self.scene.accuracy.is_none() {
+            let result = StaticAnalysis::new(self.scene).with_cache(self.cache).solve_into(observer, sink)?;
+            return Ok(AccurateResult { scene: self.scene.clone(), result });
+        }
         let kept = KeptGears::new(self.cache);
         let mut tried = Vec::new();
         let mut companions = Companions::default();
