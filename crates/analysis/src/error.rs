@@ -150,6 +150,14 @@ pub enum AnalysisError {
         /// The scene.
         file: String,
     },
+    /// An accuracy is asked of a number that has no bound.
+    #[error("{file}: there is no bound of `{quantity}` in this run")]
+    NoBound {
+        /// The scene.
+        file: String,
+        /// Its key in `[accuracy]`.
+        quantity: &'static str,
+    },
     /// The result is there, less exact than was asked.
     #[error("{file}: the accuracy asked for is not kept: {missed}")]
     Inexact {
@@ -355,6 +363,9 @@ impl AnalysisError {
             Self::WithAccuracy { .. } => {
                 Some("`accuracy::AccurateAnalysis` solves it with bounds; without `[accuracy]` this one does".into())
             }
+            Self::NoBound { quantity, .. } => Some(format!(
+                "leave `{quantity}` out of [accuracy]; harmonics need more positions a cycle, root stress a model with meshes"
+            )),
             Self::Inexact { .. } => {
                 Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".into())
             }

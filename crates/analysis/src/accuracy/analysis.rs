@@ -99,15 +99,13 @@ impl<'a> AccurateAnalysis<'a> {
         let kept = KeptGears::new(self.cache);
         let mut tried = Vec::new();
         let mut companions = Companions::default();
-        let mut next = Some(self.first());
+        let mut scene = self.first();
         loop {
-            let Some(scene) = next.take() else { unreachable!("a rung that is not left is the last one") };
             let mut result =
                 StaticAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink)?;
             let mut accuracy = estimate(&scene, &result, &kept, &mut companions, observer)?;
-            if self.scene.is_auto() && tried.len() + 1 < TRIES {
-                next = self.finer(&scene, &result, &accuracy)?;
-            }
+            let goes_on = self.scene.is_auto() && tried.len() + 1 < TRIES;
+            let next = if goes_on { self.finer(&scene, &result, &accuracy) } else { None };
             let left_because = next.as_ref().map(|_| missed(&accuracy));
             if let Some(why) = &left_because {
                 observer.note(format!("left for a finer one: {why}"));
@@ -115,11 +113,12 @@ impl<'a> AccurateAnalysis<'a> {
             if self.scene.is_auto() {
                 tried.push(tried_rung(&scene, left_because));
             }
-            if next.is_none() {
+            let Some(finer) = next else {
                 accuracy.rungs = tried;
                 result.facts.accuracy = Some(accuracy);
                 return Ok(AccurateResult { scene, result });
-            }
+            };
+            scene = finer;
         }
     }
 
@@ -141,8 +140,8 @@ impl<'a> AccurateAnalysis<'a> {
 
     /// A scene that is finer in what the bounds that are not kept are mostly made of; `None` where all are kept, or
     /// nothing finer is left.
-    fn finer(&self, scene: &Scene, result: &StaticResult, accuracy: &Accuracy) -> Result<Option<Scene>, AnalysisError> {
-        let Some(worst) = accuracy.missed().max_by(|a, b| over(a).total_cmp(&over(b))) else { return Ok(None) };
+    fn finer(&self, scene: &Scene, result: &StaticResult, accuracy: &Accuracy) -> Option<Scene> {
+        let worst = accuracy.missed().max_by(|a, b| over(a).total_cmp(&over(b)))?;
         let mut finer = scene.clone();
         let slices = scene.contact.slices.unwrap_or(MOST_SLICES);
         let rung = Rung::of(scene).filter(|_| !has_own_mesh(self.scene));
@@ -154,7 +153,7 @@ impl<'a> AccurateAnalysis<'a> {
         let finer_mesh = rung.and_then(|r| enough(r, worst, result, scene));
         // A mesh that cannot be refined may be too coarse by itself: nothing else would help.
         if finer_mesh.is_none() && worst.asked.is_some_and(|asked| share(Cause::Mesh) >= asked) {
-            return Ok(None);
+            return None;
         }
         let mut causes = [Cause::Mesh, Cause::Slices, Cause::Positions];
         causes.sort_by(|a, b| share(*b).total_cmp(&share(*a)));
@@ -162,21 +161,21 @@ impl<'a> AccurateAnalysis<'a> {
             match cause {
                 Cause::Mesh => {
                     if let Some(next) = finer_mesh {
-                        return Ok(Some(next.scene(&finer)));
+                        return Some(next.scene(&finer));
                     }
                 }
                 Cause::Slices if 2 * slices <= MOST_SLICES => {
                     finer.contact.slices = Some(2 * slices);
-                    return Ok(Some(finer));
+                    return Some(finer);
                 }
                 Cause::Positions if 2 * scene.analysis.positions_per_cycle <= POSITIONS[1] => {
                     finer.analysis.positions_per_cycle *= 2;
-                    return Ok(Some(finer));
+                    return Some(finer);
                 }
                 _ => {}
             }
         }
-        Ok(None)
+        None
     }
 }
 

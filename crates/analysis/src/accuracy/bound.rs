@@ -19,8 +19,6 @@ pub enum Cause {
     Interpolation,
     /// Contact iterations that end.
     Iteration,
-    /// A model that is not made of finite elements.
-    Model,
 }
 
 /// A share of a bound, in the unit of its quantity.

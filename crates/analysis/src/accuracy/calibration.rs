@@ -7,6 +7,8 @@ use std::sync::LazyLock;
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
 
+use super::Rung;
+
 /// How the error of a number goes with a difference `d` that was seen. Theory (64).
 ///
 /// ```text
@@ -94,6 +96,12 @@ impl Calibration {
     /// The committed one.
     pub fn committed() -> &'static Self {
         &COMMITTED
+    }
+
+    /// Whether there are laws of a rung.
+    pub fn knows(&self, rung: Rung) -> bool {
+        let of_rung = |laws: &QuantityLaws| laws.mesh.iter().any(|law| law.elements_profile == rung.elements_profile);
+        self.quantities.iter().any(of_rung)
     }
 
     /// What is known of a quantity.

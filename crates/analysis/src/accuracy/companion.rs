@@ -2,7 +2,7 @@
 
 use scene::{Method, Model, Reduction, Scene};
 
-use super::{Rung, Sample, SolvedCycle};
+use super::{Calibration, Rung, Sample, SolvedCycle};
 use crate::{AnalysisError, GearCache, StaticAnalysis, StaticResult, reduced};
 
 /// Positions of a cycle at which a run is held against another one, at least.
@@ -27,7 +27,8 @@ pub(super) enum Standing {
 impl Standing {
     pub fn of(scene: &Scene) -> Self {
         let sliced = scene.analysis.model == Model::Reduced && scene.contact.method == Method::Slice;
-        match Rung::of(scene).filter(|_| sliced) {
+        // A rung that has no laws stands as any other mesh does.
+        match Rung::of(scene).filter(|rung| sliced && Calibration::committed().knows(*rung)) {
             None => Self::Beside(BESIDE),
             Some(rung) if rung <= HIGHEST_BY_ORDER => Self::Low(rung),
             Some(rung) => Self::High(rung),

@@ -1,10 +1,11 @@
 //! What bounds do not cover: scenes unlike those of the calibration, and what no mesh can know.
 
-use std::ops::RangeInclusive;
+use std::{f64::consts::PI, ops::RangeInclusive};
 
 use fem::mass_properties;
+use geometry::GearPair;
 use mesh::GearMesh;
-use scene::Scene;
+use scene::{Driver, GearScene, Scene};
 
 use super::{Rung, companion::Standing};
 use crate::{AnalysisError, StaticResult, elastic_gears::material, meshes};
@@ -15,6 +16,8 @@ const HELIX_DEG: RangeInclusive<f64> = 0.0..=40.0;
 const WIDTH_MODULES: RangeInclusive<f64> = 3.0..=25.0;
 const SHIFT: RangeInclusive<f64> = -0.4..=0.8;
 const PRESSURE_ANGLE_DEG: RangeInclusive<f64> = 15.0..=28.0;
+/// Hertz pressure of the mean line load at the pitch point, MPa.
+const PRESSURE_MPA: RangeInclusive<f64> = 500.0..=1800.0;
 /// Radial thickness of the body below the root, modules.
 const LEAST_RIM_MODULES: f64 = 0.8;
 const POSITIONS: RangeInclusive<u32> = 8..=1_000_000;
@@ -54,6 +57,7 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
     check("a helix angle", scene.pinion.helix_angle_deg.abs(), HELIX_DEG);
     check("b/m_n", scene.pair.face_width_mm / module, WIDTH_MODULES);
     check("a normal pressure angle", scene.pair.normal_pressure_angle_deg, PRESSURE_ANGLE_DEG);
+    check("a Hertz pressure at the pitch point (MPa)", nominal_pressure(scene, &result.pair), PRESSURE_MPA);
     let positions = f64::from(scene.analysis.positions_per_cycle);
     check("positions a cycle", positions, f64::from(*POSITIONS.start())..=f64::from(*POSITIONS.end()));
     for (name, gear, exact) in
@@ -71,7 +75,28 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
         check(&format!("profile shift of the {name}"), gear.profile_shift, SHIFT);
         check(&format!("rim of the {name} in modules"), rim, LEAST_RIM_MODULES..=f64::INFINITY);
     }
+    let measured = |gear: &&GearScene| {
+        let flanks = [&gear.modification.drive, &gear.modification.coast];
+        let pitch = !gear.pitch_errors_um.is_empty() || gear.pitch_errors_file.is_some();
+        pitch || flanks.iter().any(|flank| flank.topography.is_some())
+    };
+    if scene.gears().iter().any(measured) {
+        all.push("pitch errors and topographies: the calibration has none".into());
+    }
     all
+}
+
+/// p = sqrt(F' E* / (pi rho)) of the mean line load, rho of both flanks at the pitch point, MPa.
+fn nominal_pressure(scene: &Scene, pair: &GearPair) -> f64 {
+    let driven = match scene.operation.driver {
+        Driver::Pinion => &pair.wheel,
+        Driver::Wheel => &pair.pinion,
+    };
+    let cos = pair.base_helix_angle().cos();
+    let line_load = scene.operation.torque() / (driven.base_radius() * cos * pair.mean_contact_line_length());
+    let [r1, r2] = pair.working_radii().map(|r| r * pair.working_pressure_angle().sin());
+    let compliance: f64 = scene.gears().map(|g| (1.0 - g.material.poisson.powi(2)) / g.material.young_mpa).iter().sum();
+    (line_load * (r1 + r2) * cos / (PI * compliance * r1 * r2)).sqrt()
 }
 
 /// Gears whose mesh is of another body than that of the built-in mesher, which it is held against.

@@ -43,7 +43,7 @@ impl Accuracy {
 /// Bounds of a solved cycle, from a companion on another mesh, half the slices and half the positions.
 ///
 /// # Errors
-/// [`AnalysisError`] where the companion cannot be solved.
+/// [`AnalysisError`] where the companion cannot be solved, or something is asked that there is no bound of.
 pub(super) fn estimate(
     scene: &Scene,
     result: &StaticResult,
@@ -56,11 +56,17 @@ pub(super) fn estimate(
     let standing = Standing::of(scene);
     let seen = Seen::new(scene, result, standing, companion)?;
     let bound = |&q: &Quantity| Some(seen.bound(q, calibration.of(q)?)?.against(scene.accuracy.of(q)));
+    let bounds: Vec<Bound> = Quantity::ALL.iter().filter_map(bound).collect();
+    // What is asked and cannot be bounded is not kept by silence.
+    let has = |quantity: Quantity| bounds.iter().any(|b| b.quantity == quantity);
+    if let Some((quantity, _)) = scene.accuracy.tolerances().iter().find(|(quantity, _)| !has(*quantity)) {
+        return Err(AnalysisError::NoBound { file: scene.file.display().to_string(), quantity: quantity.key() });
+    }
     Ok(Accuracy {
         coverage: calibration.coverage,
         calibrated_on_pairs: calibration.pairs,
         held_against: standing.words(),
-        bounds: Quantity::ALL.iter().filter_map(bound).collect(),
+        bounds,
         rungs: Vec::new(),
         not_covered: not_covered(scene, result, standing)?,
     })

@@ -87,3 +87,23 @@ fn the_calibration_is_whole() {
         }
     }
 }
+
+/// A rung that the calibration does not know has bounds as any other mesh, a number without a bound is an error, and a
+/// load beyond the calibration is told.
+#[test]
+fn nothing_that_is_asked_is_passed_over() {
+    let mesher = Rung::ALL[4].mesher(15.0, 3.0);
+    let mut by_hand = pair().set("accuracy.mean_ste", "5 %").set("analysis.model", "reduced").build().unwrap();
+    by_hand.analysis.positions_per_cycle = 8;
+    for gear in [&mut by_hand.pinion, &mut by_hand.wheel] {
+        gear.mesher = Some(mesher);
+    }
+    assert_eq!(bound(&solved(&by_hand), Quantity::MeanSte).met, Some(true));
+    let few = pair().set("accuracy.third_ste_harmonic", "5 %").set("analysis.model", "reduced");
+    let few = few.set("analysis.positions_per_cycle", 2).build().unwrap();
+    let refused = AccurateAnalysis::new(&few).solve().map(|_| ()).unwrap_err();
+    assert!(matches!(refused, AnalysisError::NoBound { .. } | AnalysisError::Statistics(_)), "{refused}");
+    let tiny = solved(&pair().torque_nm(0.1).set("accuracy.mean_ste", "90 %").build().unwrap());
+    let not_covered = &tiny.result.facts.accuracy.as_ref().unwrap().not_covered;
+    assert!(not_covered.iter().any(|said| said.starts_with("a Hertz pressure")), "{not_covered:?}");
+}
