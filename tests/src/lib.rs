@@ -3,6 +3,7 @@
 
 pub mod measured_pair;
 pub mod moving;
+pub mod pair_law_fit;
 pub mod random_scene;
 
 use std::path::PathBuf;

@@ -1,22 +1,18 @@
 //! The unloaded pair: where modified, misaligned flanks just touch. Theory (32), (33).
 
 use ale::Station;
-use contact::{
-    ContactOptions, Pose, SurfacePair, Vec3, check_offsets, contact_intervals, covered, gear_pose, last_inside,
-    reference_angle,
-};
+use contact::{ContactOptions, Pose, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle};
 use geometry::{Gear, GearPair, ModifiedFlank};
 
-use crate::StaticError;
+use crate::{
+    StaticError,
+    flank_gap::{FlankGap, STATIONS},
+};
 
-/// Axial stations of each pair at which the least gap is looked at first.
-const STATIONS: usize = 41;
-/// Dips of the gap along the face that are looked into.
-const DIPS: usize = 3;
-/// Steps of the golden section in z: the bracket shrinks to a 10^8th.
-const GOLDEN_STEPS: usize = 40;
 /// Steps of the rotation before giving up; the gap is nearly linear in it, so three or four do.
 const STEPS: usize = 30;
+/// Share by which gaps of two pairs may change differently as the gear turns.
+const OTHER_LEVERS: f64 = 0.05;
 /// Flanks nearer than this touch, mm: a nanometre.
 const TOUCHING: f64 = 1e-6;
 
@@ -57,10 +53,12 @@ impl<'a> Unloaded<'a> {
             return Ok(unloaded);
         }
         let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
+        let mut teeth: Vec<i64> = unloaded.teeth().collect();
         for _ in 0..STEPS {
             let poses = unloaded.poses();
             let apart = StaticError::Apart { cycle: station.cycle, phase: station.phase };
-            let Some(nearest) = unloaded.nearest(&poses) else { return Err(apart) };
+            let Some((nearest, beside)) = unloaded.nearest(&poses, &teeth) else { return Err(apart) };
+            teeth = beside;
             let lever = unloaded.lever(&poses, &nearest);
             let step = -nearest.gap / lever;
             if !step.is_finite() || step.abs() > 0.5 * pair.pinion.pitch_angle() {
@@ -73,8 +71,8 @@ impl<'a> Unloaded<'a> {
         }
         // Two pairs that touch alternately at the last bits: the gap is far below any tolerance by then, or it is an
         // error.
-        match unloaded.nearest(&unloaded.poses()) {
-            Some(nearest) if nearest.gap.abs() <= 1e-3 * TOUCHING => Ok(unloaded),
+        match unloaded.nearest(&unloaded.poses(), &teeth) {
+            Some((nearest, _)) if nearest.gap.abs() <= 1e-3 * TOUCHING => Ok(unloaded),
             _ => Err(StaticError::Apart { cycle: station.cycle, phase: station.phase }),
         }
     }
@@ -127,12 +125,26 @@ impl<'a> Unloaded<'a> {
         low.floor() as i64..=high.ceil() as i64
     }
 
-    fn nearest(&self, poses: &[Pose; 2]) -> Option<Nearest> {
-        let of_pair = |tooth| {
-            let flanks = self.flanks(tooth);
-            FlankGap::new(&flanks, poses).nearest().map(|(gap, at)| Nearest { gap, at, tooth })
-        };
-        self.teeth().filter_map(of_pair).min_by(|a, b| a.gap.total_cmp(&b.gap))
+    /// Least gap over the pairs of some teeth, and the teeth that may have it once the gear has turned to where they
+    /// touch: the gaps of all pairs change by nearly the same.
+    ///
+    /// Pairs are looked into in the order of what was seen of them, and no further than one may have the least gap.
+    fn nearest(&self, poses: &[Pose; 2], teeth: &[i64]) -> Option<(Nearest, Vec<i64>)> {
+        let flanks: Vec<[ModifiedFlank; 2]> = teeth.iter().map(|&tooth| self.flanks(tooth)).collect();
+        let gaps: Vec<FlankGap<'_>> = flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect();
+        let mut order: Vec<usize> = (0..teeth.len()).collect();
+        order.sort_by(|&i, &j| gaps[i].lowest().total_cmp(&gaps[j].lowest()));
+        let mut best: Option<Nearest> = None;
+        for i in order {
+            let enough = best.map_or(f64::INFINITY, |b| b.gap);
+            let Some((gap, at)) = gaps[i].nearest_below(enough) else { continue };
+            best = Some(Nearest { gap, at, tooth: teeth[i] });
+        }
+        let best = best?;
+        let reach = best.gap + OTHER_LEVERS * best.gap.abs() + TOUCHING;
+        let beside =
+            teeth.iter().zip(&gaps).filter(|(_, gap)| gap.lowest() <= reach).map(|(&tooth, _)| tooth).collect();
+        Some((best, beside))
     }
 
     /// d gap / d angle of the driven gear, mm.
@@ -156,7 +168,7 @@ impl<'a> Unloaded<'a> {
         let poses = self.poses();
         let flanks = self.flanks(running - self.station.middle_pair(self.options.sense));
         let gap = FlankGap::new(&flanks, &poses);
-        let Some((least, [_, z])) = gap.nearest() else { return 0.0 };
+        let Some((least, [_, z])) = gap.nearest_below(f64::INFINITY) else { return 0.0 };
         if least > TOUCHING {
             return 0.0;
         }
@@ -173,91 +185,6 @@ impl<'a> Unloaded<'a> {
         }
         covered(&intervals, [-half, half]) / self.pair.base_helix_angle().cos()
     }
-}
-
-/// Gap between the two flanks of a pair.
-struct FlankGap<'a> {
-    flanks: &'a [ModifiedFlank; 2],
-    poses: &'a [Pose; 2],
-}
-
-impl<'a> FlankGap<'a> {
-    fn new(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2]) -> Self {
-        Self { flanks, poses }
-    }
-
-    fn half_width(&self) -> f64 {
-        self.flanks[0].nominal().half_width
-    }
-
-    /// Roll angle of least gap at height `z` of the pinion, and the gap.
-    fn at(&self, z: f64) -> Option<(f64, f64)> {
-        let [first, second] = self.flanks;
-        let (f, s) = (first.nominal(), second.nominal());
-        // The foot of an end face's point lies on the end face to round-off.
-        let end = s.half_width * (1.0 + 1e-9);
-        let covers = |[u, z]: [f64; 2]| u >= s.roll_form && u <= s.roll_tip && z.abs() <= end;
-        SurfacePair { first, second, poses: self.poses }.least_gap([f.roll_form, f.roll_tip], &covers, z)
-    }
-
-    /// Least gap over the face and where on the pinion.
-    fn nearest(&self) -> Option<(f64, [f64; 2])> {
-        let half = self.half_width();
-        let z = |i: usize| half * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0);
-        let gaps: Vec<f64> = (0..STATIONS).map(|i| self.at(z(i)).map_or(f64::INFINITY, |g| g.1)).collect();
-        let mut dips: Vec<usize> = (0..STATIONS)
-            .filter(|&i| {
-                let beside = |k: Option<&f64>| k.is_none_or(|g| gaps[i] <= *g);
-                gaps[i].is_finite() && beside(i.checked_sub(1).and_then(|k| gaps.get(k))) && beside(gaps.get(i + 1))
-            })
-            .collect();
-        dips.sort_by(|&a, &b| gaps[a].total_cmp(&gaps[b]));
-        // A stretch of equal gaps is one dip after another; any of them is as good.
-        dips.truncate(DIPS);
-        dips.into_iter()
-            .filter_map(|i| {
-                let (from, to) = (z(i.saturating_sub(1)), z((i + 1).min(STATIONS - 1)));
-                let place = self.golden(self.facing_end(z(i), from), self.facing_end(z(i), to));
-                [z(i), place].into_iter().filter_map(|z| self.at(z).map(|(u, gap)| (gap, [u, z]))).min_by(by_gap)
-            })
-            .min_by(by_gap)
-    }
-
-    /// `to`, or the last place on the way there from `from` at which the flanks face each other.
-    fn facing_end(&self, from: f64, to: f64) -> f64 {
-        if self.at(to).is_some() {
-            return to;
-        }
-        last_inside(|z| self.at(z).is_some(), [from, to], GOLDEN_STEPS, 0.0)
-    }
-
-    /// Place of the least gap between `a` and `b`, ends included.
-    fn golden(&self, mut a: f64, mut b: f64) -> f64 {
-        const RATIO: f64 = 0.618_033_988_749_894_9;
-        let gap = |z: f64| self.at(z).map_or(f64::INFINITY, |g| g.1);
-        let ends = [(a, gap(a)), (b, gap(b))];
-        let (mut x, mut y) = (b - RATIO * (b - a), a + RATIO * (b - a));
-        let (mut gx, mut gy) = (gap(x), gap(y));
-        for _ in 0..GOLDEN_STEPS {
-            if gx <= gy {
-                (b, y, gy) = (y, x, gx);
-                x = b - RATIO * (b - a);
-                gx = gap(x);
-            } else {
-                (a, x, gx) = (x, y, gy);
-                y = a + RATIO * (b - a);
-                gy = gap(y);
-            }
-        }
-        let inner = if gx <= gy { (x, gx) } else { (y, gy) };
-        // At an end of the flanks the gap may still fall: the end itself is the place then, and no golden section
-        // reaches it.
-        ends.into_iter().fold(inner, |best, end| if end.1 <= best.1 { end } else { best }).0
-    }
-}
-
-fn by_gap(a: &(f64, [f64; 2]), b: &(f64, [f64; 2])) -> std::cmp::Ordering {
-    a.0.total_cmp(&b.0)
 }
 
 /// Kinematic transmission error of an unloaded pair, mm: see [`crate::StaticPosition::kinematic_transmission_error`].

@@ -7,6 +7,7 @@ mod cycle;
 mod cycle_solver;
 mod equilibrium;
 mod error;
+mod flank_gap;
 mod kinematic;
 mod line;
 mod loads;

@@ -29,11 +29,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (share, count): (f64, usize) = (1e-2 * percent.parse::<f64>()?, count.parse()?);
     let mut pairs = Vec::new();
     for file in files {
-        pairs.extend(
-            fs::read_to_string(file)?.lines().map(serde_json::from_str::<Value>).collect::<Result<Vec<_>, _>>()?,
-        );
+        for line in fs::read_to_string(file)?.lines() {
+            pairs.extend(MeasuredPair::new(&serde_json::from_str::<Value>(line)?));
+        }
     }
-    let pairs: Vec<MeasuredPair> = pairs.into_iter().filter_map(MeasuredPair::new).take(count).collect();
+    let pairs: Vec<MeasuredPair> = pairs.into_iter().take(count).collect();
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
     let (mut met, mut kept, mut cheapest, mut costs) = (0, 0, 0, Vec::new());
     for pair in &pairs {

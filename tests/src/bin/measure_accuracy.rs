@@ -18,17 +18,15 @@ use analysis::{
 };
 use scene::Scene;
 use serde_json::{Value, json};
-use verification::random_scene::random_scene;
+use verification::{
+    measured_pair::{FINE_POSITIONS, POSITIONS},
+    random_scene::random_scene,
+};
 
-/// Positions of a cycle on every mesh.
-const POSITIONS: u32 = 32;
-
+/// The finest rung of narrow pairs, and that of others, where it takes minutes.
+const FINEST: [u32; 2] = [8, 6];
 /// Face width up to which root stress is measured, modules.
-const NARROW_MODULES: f64 = 8.0;
-/// Every so manieth of them for what only differences are taken of.
-const SPARSE: u32 = 4;
-/// Positions that stand for all of them.
-const FINE_POSITIONS: u32 = 128;
+const NARROW_MODULES: f64 = 7.0;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -38,7 +36,7 @@ fn main() -> Result<(), Failure> {
         return Err("FILE SEED FIRST COUNT [FINEST] are wanted".into());
     };
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
-    let finest: u32 = rest.first().map_or(Ok(8), |word| word.parse())?;
+    let finest: Option<u32> = rest.first().map(|word| word.parse()).transpose()?;
     let done = done(file, seed)?;
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
     // One after the other: a pair in work may be large, and a run of hours is cut off without warning.
@@ -66,10 +64,12 @@ fn done(file: &str, seed: u64) -> Result<Vec<u64>, Failure> {
 }
 
 /// The line of a pair; one that cannot be computed says why.
-fn measured(seed: u64, index: u64, finest: u32) -> Value {
+fn measured(seed: u64, index: u64, finest: Option<u32>) -> Value {
     let mut scene = random_scene(seed, index);
     // Stress of wide gears takes longer than all else.
-    scene.output.root_stress = scene.pair.face_width_mm < NARROW_MODULES * scene.pair.normal_module_mm;
+    let narrow = scene.pair.face_width_mm < NARROW_MODULES * scene.pair.normal_module_mm;
+    scene.output.root_stress = narrow;
+    let finest = finest.unwrap_or(if narrow { FINEST[0] } else { FINEST[1] });
     let mut line = json!({ "seed": seed, "index": index });
     match scene_facts(&scene).and_then(|facts| Ok((facts, samples(&scene, finest)?))) {
         Ok((facts, samples)) => {
@@ -118,41 +118,32 @@ fn samples(scene: &Scene, finest: u32) -> Result<Samples, Failure> {
     scene.contact.slices = Some(chosen);
     let timed = |start: Instant| start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let default = SolvedCycle::new(&scene, &NoCache)?;
-    add("default".into(), &default.sample(1)?, timed(start));
-    drop(default);
+    add("default".into(), &SolvedCycle::new(&scene, &NoCache)?.sample(1)?, timed(start));
     for rung in Rung::ALL.into_iter().filter(|r| r.elements_profile <= finest) {
         let n = rung.elements_profile;
         let start = Instant::now();
-        let mut solved = SolvedCycle::new(&rung.scene(&scene), &NoCache)?;
+        let solved = SolvedCycle::new(&rung.scene(&scene), &NoCache)?;
         add(format!("mesh {n}"), &solved.sample(1)?, timed(start));
-        add(format!("mesh {n} sparse"), &solved.sample(SPARSE as usize)?, 0.0);
-        if n == 2 {
-            for slices in [chosen / 2, 4 * chosen] {
-                let start = Instant::now();
-                // So many slices may be too many for a coarse mesh: their compliance is no longer positive definite.
-                solved = match solved.again(slices, POSITIONS / SPARSE) {
-                    Ok(again) => again,
-                    Err(_) => {
-                        solved = SolvedCycle::new(&rung.scene(&scene), &NoCache)?;
-                        continue;
-                    }
-                };
-                add(format!("slices {slices} sparse"), &solved.sample(1)?, timed(start));
+    }
+    let scene = Rung::ALL[0].scene(&scene);
+    let mut solved = SolvedCycle::new(&scene, &NoCache)?;
+    for slices in [chosen / 2, 4 * chosen] {
+        let start = Instant::now();
+        // So many slices may be too many for a coarse mesh: their compliance is no longer positive definite.
+        solved = match solved.again(slices, POSITIONS) {
+            Ok(again) => again,
+            Err(_) => {
+                solved = SolvedCycle::new(&scene, &NoCache)?;
+                continue;
             }
-            let start = Instant::now();
-            solved = solved.again(chosen, FINE_POSITIONS)?;
-            for stride in [1, 2, 4, 8, 16] {
-                let seconds = if stride == 1 { timed(start) } else { 0.0 };
-                add(format!("positions {}", FINE_POSITIONS / stride), &solved.sample(stride as usize)?, seconds);
-            }
-        }
-        if n <= 4 {
-            let mut sparse = rung.linear().scene(&scene);
-            sparse.analysis.positions_per_cycle = POSITIONS / SPARSE;
-            let start = Instant::now();
-            add(format!("linear {n} sparse"), &SolvedCycle::new(&sparse, &NoCache)?.sample(1)?, timed(start));
-        }
+        };
+        add(format!("slices {slices}"), &solved.sample(1)?, timed(start));
+    }
+    let start = Instant::now();
+    solved = solved.again(chosen, FINE_POSITIONS)?;
+    for stride in [1, 2, 4, 8] {
+        let seconds = if stride == 1 { timed(start) } else { 0.0 };
+        add(format!("positions {}", FINE_POSITIONS / stride), &solved.sample(stride as usize)?, seconds);
     }
     all.insert("slices".into(), json!(chosen));
     Ok(all)

@@ -4,7 +4,10 @@ use scene::{Model, Quantity, Scene, Tolerance};
 use serde::Serialize;
 
 use super::{
-    Accuracy, Bound, Calibration, Cause, Rung, Sample, companion::Companions, estimate::estimate, goes_with_deflection,
+    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Rung, Sample,
+    companion::Companions,
+    estimate::{estimate, free_estimate},
+    goes_with_deflection,
     kept_gears::KeptGears,
 };
 use crate::{
@@ -93,7 +96,8 @@ impl<'a> AccurateAnalysis<'a> {
         sink: &mut dyn StaticSink,
     ) -> Result<AccurateResult, AnalysisError> {
         if self.scene.accuracy.is_none() {
-            let result = StaticAnalysis::new(self.scene).with_cache(self.cache).solve_into(observer, sink)?;
+            let mut result = StaticAnalysis::new(self.scene).with_cache(self.cache).solve_into(observer, sink)?;
+            result.facts.accuracy = free_estimate(self.scene, &result)?;
             return Ok(AccurateResult { scene: self.scene.clone(), result });
         }
         let kept = KeptGears::new(self.cache);
@@ -196,7 +200,7 @@ fn term(bound: &Bound, cause: Cause) -> f64 {
 /// What the mesh of a rung usually makes of a bound, over the scale of the quantity.
 fn usual(rung: Rung, quantity: Quantity) -> Option<f64> {
     let laws = Calibration::committed().of(quantity)?;
-    laws.mesh.iter().find(|law| law.elements_profile == rung.elements_profile).map(|law| law.usual)
+    laws.of_mesh(CalibratedMesh::Rung(rung.elements_profile)).map(|law| law.usual)
 }
 
 /// Where the ladder begins.
@@ -222,8 +226,7 @@ impl FirstGuess {
         let rung = calibrated().find(keeps).or(calibrated().last()).unwrap_or(Rung::ALL[0]);
         let enough = |positions: &u32| {
             shares.iter().all(|(q, share)| {
-                let laws = Calibration::committed().of(*q).map_or(&[][..], |laws| &laws.positions);
-                let law = laws.iter().find(|law| law.positions == *positions);
+                let law = Calibration::committed().of(*q).and_then(|laws| laws.of_positions(*positions));
                 law.is_none_or(|law| law.usual <= share - of_mesh(rung, *q))
             })
         };

@@ -1,4 +1,4 @@
-//! What was learnt from random pairs: how errors of headline numbers go with differences that a run can see.
+//! What was learnt from random pairs: how errors of headline numbers go with what is known of a run.
 //!
 //! The table is made by `cargo run --release -p verification --bin calibrate_accuracy` from measured pairs.
 
@@ -7,29 +7,42 @@ use std::sync::LazyLock;
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
 
-use super::Rung;
+use super::{CalibratedMesh, Features, features::FEATURES};
 
-/// How the error of a number goes with a difference `d` that was seen. Theory (64).
+/// How the error of a number goes with the features `x` of a run and a difference `d` that was seen. Theory (64).
 ///
 /// ```text
-/// exact = value + pull d  +-  factor (|d| + floor scale)
+/// exact = value + scale a'x  +-  scale factor exp(b'x + c ln(|d| / scale + LEAST))
 /// ```
 /// `scale` is the number itself, for transmission errors the mean deflection of the pair. The factor is that of
-/// split conformal prediction: the share [`Calibration::coverage`] of the pairs that it was made of lies within.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Law {
-    /// Share of the difference that is the known part of the error.
-    pub pull: f64,
-    /// Difference that is assumed at least, over the scale.
-    pub floor: f64,
-    /// Bound over the difference.
+/// conformal prediction: of pairs that took no part in a and b, the share [`Calibration::coverage`] lies within.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PairLaw {
+    /// a, the known part of the error.
+    pub known: Vec<f64>,
+    /// b, logarithm of the spread about it.
+    pub spread: Vec<f64>,
+    /// c, power of the difference in the spread; 0 where none is seen.
+    pub power: f64,
+    /// What makes a bound of the spread.
     pub factor: f64,
 }
 
-impl Law {
+/// Difference over the scale that counts as none.
+pub const LEAST_DIFFERENCE: f64 = 1e-5;
+
+impl PairLaw {
     /// Known part of the error, and the bound of the rest.
-    pub fn of(self, difference: f64, scale: f64) -> [f64; 2] {
-        [self.pull * difference, self.factor * (difference.abs() + self.floor * scale.abs())]
+    pub fn of(&self, x: &Features, difference: f64, scale: f64) -> [f64; 2] {
+        let dot = |with: &[f64]| with.iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
+        let seen = (difference.abs() / scale.abs() + LEAST_DIFFERENCE).ln();
+        [scale * dot(&self.known), scale.abs() * self.factor * (dot(&self.spread) + self.power * seen).exp()]
+    }
+
+    /// Whether it has a number for each feature.
+    pub fn is_whole(&self) -> bool {
+        let all = self.known.iter().chain(&self.spread).chain([&self.power, &self.factor]);
+        self.known.len() == FEATURES && self.spread.len() == FEATURES && all.into_iter().all(|a| a.is_finite())
     }
 }
 
@@ -38,36 +51,32 @@ impl Law {
 pub struct QuantityLaws {
     /// Its key in `[accuracy]`.
     pub quantity: String,
-    /// Of the mesh, by rung of the ladder.
+    /// Of the mesh.
     pub mesh: Vec<MeshLaw>,
-    /// Of a number of slices, from half as many.
-    pub slices: Law,
+    /// Of the number of slices that a pair asks for.
+    pub slices: PairLaw,
     /// Of a number of positions, from half as many.
     pub positions: Vec<PositionsLaw>,
 }
 
-/// What is known of a rung of the ladder.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// What is known of a mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeshLaw {
-    /// Elements along the profile.
-    pub elements_profile: u32,
-    /// From the same mesh of linear elements; `None` for fine rungs, which go by size.
-    pub by_order: Option<Law>,
-    /// From the next coarser rung; `None` for the coarsest.
-    pub by_size: Option<Law>,
-    /// Without a companion: the scale itself stands for the difference.
-    pub alone: Law,
+    /// Which.
+    pub mesh: CalibratedMesh,
+    /// Its law.
+    pub law: PairLaw,
     /// What error and bound together come to in three of five pairs, over the scale.
     pub usual: f64,
 }
 
 /// What is known of a number of positions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PositionsLaw {
     /// Positions of a cycle.
     pub positions: u32,
     /// From every second of them.
-    pub law: Law,
+    pub law: PairLaw,
     /// What error and bound together come to in three of five pairs, over the scale.
     pub usual: f64,
 }
@@ -77,7 +86,7 @@ pub struct PositionsLaw {
 pub struct Calibration {
     /// Pairs that it was made of.
     pub pairs: usize,
-    /// Share of them that lies within a bound.
+    /// Share of them that lies within its bounds.
     pub coverage: f64,
     /// By quantity.
     pub quantities: Vec<QuantityLaws>,
@@ -98,14 +107,25 @@ impl Calibration {
         &COMMITTED
     }
 
-    /// Whether there are laws of a rung.
-    pub fn knows(&self, rung: Rung) -> bool {
-        let of_rung = |laws: &QuantityLaws| laws.mesh.iter().any(|law| law.elements_profile == rung.elements_profile);
-        self.quantities.iter().any(of_rung)
+    /// Whether there are laws of a mesh.
+    pub fn knows(&self, mesh: CalibratedMesh) -> bool {
+        self.quantities.iter().any(|laws| laws.of_mesh(mesh).is_some())
     }
 
     /// What is known of a quantity.
     pub fn of(&self, quantity: Quantity) -> Option<&QuantityLaws> {
         self.quantities.iter().find(|laws| laws.quantity == quantity.key())
+    }
+}
+
+impl QuantityLaws {
+    /// The law of a mesh.
+    pub fn of_mesh(&self, mesh: CalibratedMesh) -> Option<&MeshLaw> {
+        self.mesh.iter().find(|law| law.mesh == mesh)
+    }
+
+    /// Of the largest calibrated number of positions that a run has; the smallest for fewer.
+    pub fn of_positions(&self, positions: u32) -> Option<&PositionsLaw> {
+        self.positions.iter().rev().find(|law| law.positions <= positions).or(self.positions.first())
     }
 }

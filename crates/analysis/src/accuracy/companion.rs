@@ -2,62 +2,48 @@
 
 use scene::{Method, Model, Reduction, Scene};
 
-use super::{Calibration, Rung, Sample, SolvedCycle};
+use super::{CalibratedMesh, Calibration, Rung, Sample, SolvedCycle};
 use crate::{AnalysisError, GearCache, StaticAnalysis, StaticResult, reduced};
 
 /// Positions of a cycle at which a run is held against another one, at least.
 const LEAST_POSITIONS: u32 = 8;
-/// Rung whose meshes stand beside those that are not of the ladder.
+/// Rung whose meshes stand beside others, and that beside itself and coarser ones.
 const BESIDE: Rung = Rung::ALL[1];
-/// Rungs up to this one are told more of by linear elements, higher ones by the next lower rung: measured on random
-/// pairs (`calibrate_accuracy`).
-const HIGHEST_BY_ORDER: Rung = Rung::ALL[2];
-
+const BESIDE_COARSE: Rung = Rung::ALL[2];
 /// Where a run stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Standing {
-    /// On a low rung of the ladder; the same mesh of linear elements goes along.
-    Low(Rung),
-    /// On a high one; the next lower one goes along.
-    High(Rung),
-    /// On meshes that anybody made, or without any; a rung of the ladder goes along.
+    /// Slices on a mesh, of a scene like those of the calibration: its laws say how large the errors are.
+    Calibrated(CalibratedMesh),
+    /// On meshes that anybody made, or without any, or of a scene unlike those: a rung of the ladder goes along.
     Beside(Rung),
 }
 
 impl Standing {
-    pub fn of(scene: &Scene) -> Self {
+    /// `covered`: the scene is like those of the calibration.
+    pub fn of(scene: &Scene, covered: bool) -> Self {
         let sliced = scene.analysis.model == Model::Reduced && scene.contact.method == Method::Slice;
-        // A rung that has no laws stands as any other mesh does.
-        match Rung::of(scene).filter(|rung| sliced && Calibration::committed().knows(*rung)) {
-            None => Self::Beside(BESIDE),
-            Some(rung) if rung <= HIGHEST_BY_ORDER => Self::Low(rung),
-            Some(rung) => Self::High(rung),
+        let mesh = CalibratedMesh::of(scene).filter(|mesh| sliced && Calibration::committed().knows(*mesh));
+        match mesh {
+            Some(mesh) if covered => Self::Calibrated(mesh),
+            Some(CalibratedMesh::Rung(n)) if n <= BESIDE.elements_profile => Self::Beside(BESIDE_COARSE),
+            _ => Self::Beside(BESIDE),
         }
     }
 
-    /// The rung whose laws hold.
-    pub fn rung(self) -> Rung {
+    /// The mesh whose laws hold.
+    pub fn mesh(self) -> CalibratedMesh {
         match self {
-            Self::Low(rung) | Self::High(rung) | Self::Beside(rung) => rung,
-        }
-    }
-
-    /// The rung that goes along.
-    fn companion(self) -> Rung {
-        match self {
-            Self::Low(rung) => rung.linear(),
-            Self::High(rung) => rung.coarser().unwrap_or(rung),
-            Self::Beside(rung) => rung,
+            Self::Calibrated(mesh) => mesh,
+            Self::Beside(rung) => CalibratedMesh::Rung(rung.elements_profile),
         }
     }
 
     /// What a run is held against, in words.
     pub fn words(self) -> String {
-        let n = self.companion().elements_profile;
         match self {
-            Self::Low(_) => format!("the same meshes of linear elements, {n} along the profile"),
-            Self::High(_) => format!("meshes coarser in every direction, {n} elements along the profile"),
-            Self::Beside(_) => format!("meshes of the built-in mesher, {n} quadratic elements along the profile"),
+            Self::Calibrated(mesh) => format!("random pairs on {}", mesh.words()),
+            Self::Beside(_) => format!("{} of the built-in mesher", self.mesh().words()),
         }
     }
 }
@@ -88,11 +74,11 @@ impl Companions {
     /// [`AnalysisError`].
     pub fn of(
         &mut self,
-        scene: &Scene,
+        (scene, rung): (&Scene, Rung),
         result: &StaticResult,
         cache: &dyn GearCache,
     ) -> Result<Companion, AnalysisError> {
-        let scene = companion_scene(scene, result);
+        let scene = companion_scene(scene, rung, result);
         if let Some((_, companion)) = self.0.as_ref().filter(|(of, _)| *of == scene) {
             return Ok(*companion);
         }
@@ -112,10 +98,10 @@ impl Companion {
     }
 }
 
-fn companion_scene(scene: &Scene, result: &StaticResult) -> Scene {
+fn companion_scene(scene: &Scene, rung: Rung, result: &StaticResult) -> Scene {
     let mut own = scene.clone();
     for (i, gear) in [&mut own.pinion, &mut own.wheel].into_iter().enumerate() {
-        let mesher = Rung::ALL[0].mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
+        let mesher = Rung::ALL[0].mesher(scene);
         let mut mesher = gear.mesher.unwrap_or(mesher);
         // A mesh of some teeth with free cuts is held against as many.
         if let Some(meshed) = result.model.as_ref().and_then(|m| reduced(&m.gears()[i])) {
@@ -125,7 +111,7 @@ fn companion_scene(scene: &Scene, result: &StaticResult) -> Scene {
         }
         gear.mesher = Some(mesher);
     }
-    let mut own = Standing::of(scene).companion().scene(&own);
+    let mut own = rung.scene(&own);
     own.analysis.model = Model::Reduced;
     own.analysis.reduction = Some(Reduction::Auto);
     own.analysis.positions_per_cycle /= stride(own.analysis.positions_per_cycle);

@@ -24,7 +24,12 @@ const POSITIONS: RangeInclusive<u32> = 8..=1_000_000;
 /// Difference of the volumes of two meshes of one body, relative; facets of linear elements cost a third of it.
 const SAME_BODY: f64 = 0.015;
 
-/// In words, one each.
+/// What of a scene is unlike those of the calibration, in words, one each: empty where its laws hold.
+pub(super) fn beyond_calibration(scene: &Scene, result: &StaticResult) -> Vec<String> {
+    beyond_ranges(scene, result)
+}
+
+/// All that bounds do not cover, in words, one each; `beyond` from [`beyond_calibration`].
 ///
 /// # Errors
 /// [`AnalysisError`] where meshes cannot be made.
@@ -32,8 +37,9 @@ pub(super) fn not_covered(
     scene: &Scene,
     result: &StaticResult,
     standing: Standing,
+    beyond: Vec<String>,
 ) -> Result<Vec<String>, AnalysisError> {
-    let mut all: Vec<String> = beyond_ranges(scene, result);
+    let mut all = beyond;
     if let Standing::Beside(_) = standing {
         all.extend(other_bodies(scene, result)?);
     }

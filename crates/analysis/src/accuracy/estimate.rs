@@ -4,9 +4,10 @@ use scene::{Quantity, Scene};
 use serde::Serialize;
 
 use super::{
-    Bound, Calibration, Cause, Law, PositionsLaw, QuantityLaws, Sample, Term,
+    Bound, Calibration, Cause, Features, PairLaw, Sample, Term,
     companion::{Companion, Companions, Standing, stride},
-    coverage::not_covered,
+    coverage::{beyond_calibration, not_covered},
+    features::features,
 };
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, StaticResult, results::static_headline, run_phase};
 
@@ -40,7 +41,8 @@ impl Accuracy {
     }
 }
 
-/// Bounds of a solved cycle, from a companion on another mesh, half the slices and half the positions.
+/// Bounds of a solved cycle: of a scene like those of the calibration on a mesh that it knows from its laws, which takes
+/// no time; of any other from a companion on a rung of the ladder as well.
 ///
 /// # Errors
 /// [`AnalysisError`] where the companion cannot be solved, or something is asked that there is no bound of.
@@ -51,40 +53,72 @@ pub(super) fn estimate(
     companions: &mut Companions,
     observer: &mut dyn Observer,
 ) -> Result<Accuracy, AnalysisError> {
-    let calibration = Calibration::committed();
-    let companion = run_phase(observer, "estimate", PhaseWork::Unknown, |_| companions.of(scene, result, cache))?;
-    let standing = Standing::of(scene);
-    let seen = Seen::new(scene, result, standing, companion)?;
-    let bound = |&q: &Quantity| Some(seen.bound(q, calibration.of(q)?)?.against(scene.accuracy.of(q)));
-    let bounds: Vec<Bound> = Quantity::ALL.iter().filter_map(bound).collect();
+    let beyond = beyond_calibration(scene, result);
+    let standing = Standing::of(scene, beyond.is_empty());
+    let companion = match standing {
+        Standing::Calibrated(_) => None,
+        Standing::Beside(rung) => {
+            Some(run_phase(observer, "estimate", PhaseWork::Unknown, |_| companions.of((scene, rung), result, cache))?)
+        }
+    };
+    let seen = Seen::new(scene, result, standing, companion, !beyond.is_empty())?;
+    accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?)
+}
+
+/// Bounds that cost nothing: those of the laws alone; `None` where these do not hold.
+///
+/// # Errors
+/// [`AnalysisError::Statistics`].
+pub(super) fn free_estimate(scene: &Scene, result: &StaticResult) -> Result<Option<Accuracy>, AnalysisError> {
+    let beyond = beyond_calibration(scene, result);
+    let standing = Standing::of(scene, beyond.is_empty());
+    if let Standing::Beside(_) = standing {
+        return Ok(None);
+    }
+    let seen = Seen::new(scene, result, standing, None, false)?;
+    accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?).map(Some)
+}
+
+fn accuracy(
+    scene: &Scene,
+    bounds: Vec<Bound>,
+    standing: Standing,
+    not_covered: Vec<String>,
+) -> Result<Accuracy, AnalysisError> {
     // What is asked and cannot be bounded is not kept by silence.
     let has = |quantity: Quantity| bounds.iter().any(|b| b.quantity == quantity);
     if let Some((quantity, _)) = scene.accuracy.tolerances().iter().find(|(quantity, _)| !has(*quantity)) {
         return Err(AnalysisError::NoBound { file: scene.file.display().to_string(), quantity: quantity.key() });
     }
+    let calibration = Calibration::committed();
     Ok(Accuracy {
         coverage: calibration.coverage,
         calibrated_on_pairs: calibration.pairs,
         held_against: standing.words(),
         bounds,
         rungs: Vec::new(),
-        not_covered: not_covered(scene, result, standing)?,
+        not_covered,
     })
 }
 
 /// Positions from which on half of them say something.
 const LEAST_HALVED: u32 = 16;
+/// How many times the bounds of the calibration stand for a scene that it does not cover.
+const BEYOND: f64 = 3.0;
 
 /// Samples that differences are taken of.
 struct Seen {
     standing: Standing,
     positions: u32,
+    features: Features,
     own: Sample,
     /// At the positions of the companion.
     sparse: Sample,
     /// At every second position; `None` for an odd number, and for a small one.
     halved: Option<Sample>,
-    companion: Companion,
+    companion: Option<Companion>,
+    /// The scene is unlike those of the calibration.
+    beyond: bool,
     /// Relative errors of the interpolated bulk compliance and of the contact iterations.
     interpolation: f64,
     iteration: f64,
@@ -95,58 +129,66 @@ impl Seen {
         scene: &Scene,
         result: &StaticResult,
         standing: Standing,
-        companion: Companion,
+        companion: Option<Companion>,
+        beyond: bool,
     ) -> Result<Self, AnalysisError> {
         let positions = scene.analysis.positions_per_cycle;
         let sample = |stride: u32| Sample::of(scene, &result.history, stride as usize);
         let headline = static_headline(scene, &result.history)?;
+        let own = sample(1)?;
         Ok(Self {
             standing,
             positions,
-            own: sample(1)?,
+            features: features(scene, &result.pair, &own),
+            own,
             sparse: sample(stride(positions))?,
             halved: (positions >= LEAST_HALVED && positions.is_multiple_of(2)).then(|| sample(2)).transpose()?,
             companion,
+            beyond,
             interpolation: headline.bulk_compliance_error,
             iteration: headline.worst_torque_residual.max(headline.worst_complementarity_residual),
         })
     }
 
-    fn bound(&self, q: Quantity, laws: &QuantityLaws) -> Option<Bound> {
-        let (own, sparse, companion) = (self.own.get(q)?, self.sparse.get(q)?, self.companion.sample.get(q)?);
-        let scale = self.own.scale(q)?;
-        let law = laws.mesh.iter().find(|law| law.elements_profile == self.standing.rung().elements_profile)?;
-        let [mesh_shift, mesh] = match self.standing {
-            Standing::Low(_) => law.by_order?.of(sparse - companion, scale),
-            Standing::High(_) => law.by_size?.of(sparse - companion, scale),
-            Standing::Beside(_) => {
-                let [known, within] = law.alone.of(scale, scale);
-                [companion + known - sparse, within]
+    fn bounds(&self, scene: &Scene) -> Vec<Bound> {
+        let bound = |&q: &Quantity| Some(self.bound(q)?.against(scene.accuracy.of(q)));
+        Quantity::ALL.iter().filter_map(bound).collect()
+    }
+
+    fn bound(&self, q: Quantity) -> Option<Bound> {
+        let laws = Calibration::committed().of(q)?;
+        let (own, scale) = (self.own.get(q)?, self.own.scale(q)?);
+        let of = |law: &PairLaw, difference: f64| law.of(&self.features, difference, scale);
+        let mut mesh = of(&laws.of_mesh(self.standing.mesh())?.law, 0.0);
+        let mut slices = of(&laws.slices, 0.0);
+        let halved = self.halved.as_ref().and_then(|halved| Some(own - halved.get(q)?));
+        // Without half of them only the law of the fewest goes without a difference.
+        let law = laws.of_positions(if halved.is_some() { self.positions } else { 0 })?;
+        let mut positions = of(&law.law, halved.unwrap_or(0.0));
+        if let Some(companion) = &self.companion {
+            let (sparse, beside) = (self.sparse.get(q)?, companion.sample.get(q)?);
+            mesh[0] += beside - sparse;
+            if self.beyond {
+                let fewer = beside - companion.fewer_slices.get(q)?;
+                mesh = widened(mesh, 0.0);
+                slices = widened(slices, fewer);
+                positions = widened(positions, halved.unwrap_or(0.0));
             }
-        };
-        let of_slices = companion - self.companion.fewer_slices.get(q)?;
-        let [slice_shift, slices] = laws.slices.of(of_slices, scale);
-        let [position_shift, positions] = self.positions_law(laws)?.of(self.halved_difference(q, own), scale);
+        }
         let terms = [
-            (Cause::Mesh, mesh),
-            (Cause::Slices, slices),
-            (Cause::Positions, positions),
+            (Cause::Mesh, mesh[1]),
+            (Cause::Slices, slices[1]),
+            (Cause::Positions, positions[1]),
             (Cause::Interpolation, self.interpolation * scale),
             (Cause::Iteration, self.iteration * scale),
         ];
-        let corrected = own + mesh_shift + slice_shift + position_shift;
+        let corrected = own + mesh[0] + slices[0] + positions[0];
         Some(Bound::new(q, own, corrected, terms.map(|(cause, amount)| Term { cause, amount }).to_vec()))
     }
+}
 
-    /// What every second position leaves out; 0 where the law goes without.
-    fn halved_difference(&self, q: Quantity, own: f64) -> f64 {
-        self.halved.as_ref().and_then(|halved| Some(own - halved.get(q)?)).unwrap_or(0.0)
-    }
-
-    /// Of the largest calibrated number of positions that the run has, else the smallest: that goes without a
-    /// difference, as an odd number of positions does.
-    fn positions_law(&self, laws: &QuantityLaws) -> Option<Law> {
-        let fits = |law: &&PositionsLaw| law.positions <= self.positions && self.halved.is_some();
-        Some(laws.positions.iter().rev().find(fits).or(laws.positions.first())?.law)
-    }
+/// Known part and bound where the calibration does not hold: nothing is known, and what it says, or what is seen, may be
+/// off either way.
+fn widened([known, within]: [f64; 2], seen: f64) -> [f64; 2] {
+    [0.0, known.abs() + BEYOND * within + seen.abs()]
 }

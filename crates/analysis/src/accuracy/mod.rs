@@ -1,25 +1,27 @@
 //! How exact is an answer, and which is the cheapest model that is exact enough?
 //!
-//! A solved cycle is held against a companion: the same meshes of linear elements where it stands on a rung of the
-//! ladder, else a rung of its own; against half its slices; against half its positions. How an error goes with such a
-//! difference was learnt from random pairs ([`Calibration`]). [`AccurateAnalysis`] climbs the ladder until the bounds
-//! keep what a scene asks for. Theory, section 15.
+//! How large the errors of a solved cycle are, and how they go with the pair, was learnt from random pairs
+//! ([`Calibration`]): for scenes like these on meshes that were measured, that and half of its positions are enough.
+//! Any other cycle is held against a companion on a rung of the ladder, and against half its slices.
+//! [`AccurateAnalysis`] climbs the ladder until the bounds keep what a scene asks for. Theory, section 15.
 //!
 //! | file | question |
 //! |---|---|
 //! | `analysis` | which rung is exact enough? |
 //! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
-//! | `calibration` | how does the error go with what is seen? |
+//! | `calibration`, `calibrated_mesh`, `features` | how does the error go with what is known of a run? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
 //! | `coverage` | what do bounds not cover? |
 
 mod analysis;
 mod bound;
+mod calibrated_mesh;
 mod calibration;
 mod companion;
 mod coverage;
 mod estimate;
+mod features;
 mod kept_gears;
 mod quantity;
 mod rung;
@@ -27,8 +29,10 @@ mod solved_cycle;
 
 pub use analysis::{AccurateAnalysis, AccurateResult, TriedRung};
 pub use bound::{Bound, Cause, Term};
-pub use calibration::{Calibration, Law, MeshLaw, PositionsLaw, QuantityLaws};
+pub use calibrated_mesh::CalibratedMesh;
+pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
 pub use estimate::Accuracy;
+pub use features::{FEATURES, Features, features};
 pub use quantity::{Sample, goes_with_deflection, value_of};
 pub use rung::Rung;
 pub use scene::Quantity;

@@ -12,36 +12,28 @@ use serde::Serialize;
 pub struct Rung {
     /// Elements along the active profile.
     pub elements_profile: u32,
-    /// Linear elements in place of quadratic ones.
-    pub linear: bool,
 }
 
 /// Length of a face element over the normal module, times the number of elements along the profile.
 const FACE_LENGTH_MODULES: f64 = 9.0;
-/// Elements in the rim, at least: two in place of three double the error of the coarsest mesh.
-const LEAST_RIM: u32 = 3;
+/// Elements of fillet and rim beyond those along the profile: what the coarsest meshes lack first.
+const MORE_IN_FILLET: u32 = 1;
+const MORE_IN_RIM: u32 = 2;
 
 impl Rung {
     /// Those of the ladder, coarse to fine.
     pub const ALL: [Self; 7] = [
-        Self::quadratic(2),
-        Self::quadratic(3),
-        Self::quadratic(4),
-        Self::quadratic(6),
-        Self::quadratic(8),
-        Self::quadratic(10),
-        Self::quadratic(12),
+        Self::along_profile(2),
+        Self::along_profile(3),
+        Self::along_profile(4),
+        Self::along_profile(6),
+        Self::along_profile(8),
+        Self::along_profile(10),
+        Self::along_profile(12),
     ];
 
-    /// Quadratic elements.
-    const fn quadratic(elements_profile: u32) -> Self {
-        Self { elements_profile, linear: false }
-    }
-
-    /// The same mesh of linear elements.
-    #[must_use]
-    pub const fn linear(self) -> Self {
-        Self { linear: true, ..self }
+    const fn along_profile(elements_profile: u32) -> Self {
+        Self { elements_profile }
     }
 
     /// The next coarser one of the ladder.
@@ -57,7 +49,7 @@ impl Rung {
     /// The rung that both gears of a scene stand on.
     pub fn of(scene: &Scene) -> Option<Self> {
         let stands = |rung: &Self| {
-            let own = rung.mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
+            let own = rung.mesher(scene);
             scene
                 .gears()
                 .iter()
@@ -66,18 +58,23 @@ impl Rung {
         Self::ALL.into_iter().find(stands)
     }
 
-    /// Numbers of elements of a gear in a pair of this face width and normal module, both mm.
-    pub fn mesher(self, face_width: f64, normal_module: f64) -> MesherScene {
+    /// Numbers of elements of a gear in the scene's pair.
+    ///
+    /// Lines of contact run oblique over helical flanks: the more so, the more elements along the face.
+    pub fn mesher(self, scene: &Scene) -> MesherScene {
         let n = self.elements_profile;
-        let by_length = (f64::from(n) * face_width / (FACE_LENGTH_MODULES * normal_module)).ceil() as u32;
+        let slope = scene.pinion.helix_angle_deg.to_radians().tan().abs();
+        let modules = scene.pair.face_width_mm / scene.pair.normal_module_mm;
+        let by_length = (f64::from(n) * modules / FACE_LENGTH_MODULES * (1.0 + slope)).ceil() as u32;
+        let oblique = (f64::from(n) * slope).round() as u32;
         MesherScene {
-            order: if self.linear { 1 } else { 2 },
+            order: 2,
             elements_profile: n,
-            elements_fillet: n,
+            elements_fillet: n + MORE_IN_FILLET,
             // Even, so that nodes lie on the tooth's centre surface, where slice contact cuts it.
             elements_thickness: 2 * n.div_ceil(3),
-            elements_face: by_length.max(n + 2),
-            elements_rim: n.max(LEAST_RIM),
+            elements_face: by_length.max(n + 2 + oblique),
+            elements_rim: n + MORE_IN_RIM,
             sector_teeth: 0,
         }
     }
@@ -85,7 +82,7 @@ impl Rung {
     /// The scene with both gears on this mesh; teeth of an open sector stay.
     pub fn scene(self, scene: &Scene) -> Scene {
         let mut own = scene.clone();
-        let mesher = self.mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
+        let mesher = self.mesher(scene);
         for gear in [&mut own.pinion, &mut own.wheel] {
             let sector_teeth = gear.mesher.map_or(0, |m| m.sector_teeth);
             gear.mesher = Some(MesherScene { sector_teeth, ..mesher });

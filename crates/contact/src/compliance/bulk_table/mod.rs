@@ -4,6 +4,7 @@
 mod rows;
 
 use faer::MatRef;
+use nalgebra::Matrix3;
 
 use crate::{
     FacePoint, FlankPatch, Support, Vec3,
@@ -63,9 +64,44 @@ const MOST_POINTS: usize = 6144;
 /// Uniform grids to try, each twice as fine as the one before.
 const REFINEMENTS: usize = 3;
 /// Places of each patch at which a table is held against the matrices, either way.
-const CHECKS: usize = 9;
+const CHECKS: usize = 5;
+
+/// Displacement at a place by unit forces along x, y, z at another one, column by column: `moved` of
+/// [`BulkCompliance::displacements`].
+fn between(support: &Support, moved: &[[f64; 3]]) -> Matrix3<f64> {
+    let mut sum = Matrix3::zeros();
+    for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights) {
+        for axis in 0..3 {
+            let row = moved[3 * node as usize + axis];
+            (0..3).for_each(|k| sum[(axis, k)] += w * row[k]);
+        }
+    }
+    sum
+}
 
 impl BulkCompliance<'_> {
+    /// D by unit forces along x, y, z at a place, row by row, mm/N.
+    fn displacements(&self, support: &Support, out: &mut Vec<[f64; 3]>) {
+        out.clear();
+        out.resize(self.whole.nrows(), [0.0; 3]);
+        for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights).filter(|(_, w)| **w != 0.0) {
+            let columns = [0, 1, 2].map(|k| self.whole.col(3 * node as usize + k));
+            for (i, row) in out.iter_mut().enumerate() {
+                (0..3).for_each(|k| row[k] += w * columns[k][i]);
+            }
+            for (numbers, local) in &self.local {
+                let Ok(own) = numbers.binary_search(&node) else { continue };
+                let columns = [0, 1, 2].map(|k| local.col(3 * own + k));
+                for (at, &number) in numbers.iter().enumerate() {
+                    for axis in 0..3 {
+                        let row = &mut out[3 * number as usize + axis];
+                        (0..3).for_each(|k| row[k] -= w * columns[k][3 * at + axis]);
+                    }
+                }
+            }
+        }
+    }
+
     /// D a for a unit force, mm/N.
     fn displacement(&self, support: &Support, out: &mut Vec<f64>) {
         out.clear();
@@ -127,20 +163,22 @@ impl BulkTable {
         lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
-        let along = |p: usize| supports[p % count].as_ref().map(|s| &s[p / count]);
-        let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
-        let mut u = Vec::new();
-        for (q, column) in table.chunks_mut((DIRECTIONS * count).max(1)).enumerate() {
-            let Some(load) = along(q) else { continue };
-            bulk.displacement(load, &mut u);
-            for (p, entry) in column.iter_mut().enumerate().skip(q) {
-                *entry = along(p).map_or(0.0, |s| opening(s, &u));
-            }
-        }
         let all = DIRECTIONS * count;
-        for q in 0..all {
-            for p in q + 1..all {
-                table[p * all + q] = table[q * all + p];
+        let mut table = vec![0.0; all * all];
+        let mut moved = Vec::new();
+        for (q, load) in supports.iter().enumerate() {
+            let Some(load) = load else { continue };
+            bulk.displacements(&load[0], &mut moved);
+            for (p, opened) in supports.iter().enumerate().skip(q) {
+                let Some(opened) = opened else { continue };
+                let between = between(&opened[0], &moved);
+                for (e, opening) in opened.iter().enumerate() {
+                    for (d, load) in load.iter().enumerate() {
+                        let entry = opening.direction.dot(&(between * load.load));
+                        table[(d * count + q) * all + e * count + p] = entry;
+                        table[(e * count + p) * all + d * count + q] = entry;
+                    }
+                }
             }
         }
         let mut made = Self { lines, first, table, error: 0.0 };

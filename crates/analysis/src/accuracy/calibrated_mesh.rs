@@ -1,0 +1,44 @@
+//! Meshes whose errors are known from random pairs.
+
+use mesh::StructuredOptions;
+use scene::{MesherScene, Scene};
+use serde::{Deserialize, Serialize};
+
+use super::Rung;
+
+/// A mesh of the built-in mesher that the calibration has measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CalibratedMesh {
+    /// A rung of the ladder, by its elements along the profile.
+    Rung(u32),
+    /// What the mesher makes where the scene says nothing.
+    Default,
+}
+
+impl CalibratedMesh {
+    /// That of both gears of a scene; `None` for any other, and for open sectors, which are other bodies.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        if scene.gears().iter().any(|g| g.mesher.is_none_or(|m| m.sector_teeth > 1)) {
+            return None;
+        }
+        let d = StructuredOptions::default();
+        let default = |m: &MesherScene| {
+            let counts = [m.elements_profile, m.elements_fillet, m.elements_thickness, m.elements_face, m.elements_rim];
+            m.order == d.order as u32
+                && counts
+                    == [d.elements_profile, d.elements_fillet, d.elements_thickness, d.elements_face, d.elements_rim]
+        };
+        let rung = Rung::of(scene).map(|rung| Self::Rung(rung.elements_profile));
+        let is_default = scene.gears().iter().all(|g| g.mesher.as_ref().is_some_and(default));
+        rung.or(is_default.then_some(Self::Default))
+    }
+
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Rung(n) => format!("meshes of {n} elements along the profile"),
+            Self::Default => "meshes of the mesher's own choice".into(),
+        }
+    }
+}

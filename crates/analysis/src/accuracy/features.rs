@@ -1,0 +1,67 @@
+//! What of a solved pair tells how large its errors are.
+
+use geometry::GearPair;
+use lumped::iso::rim_ratio;
+use scene::{Driver, Quantity, Scene};
+
+use super::Sample;
+
+/// How many there are.
+pub const FEATURES: usize = 12;
+
+/// What laws of errors know of a solved cycle, each of the order of one. Theory (64).
+pub type Features = [f64; FEATURES];
+
+/// Where the logarithm of a share ends.
+const LEAST_SHARE: f64 = 1e-4;
+
+/// Of a scene, its pair and a sample of its cycle.
+///
+/// | number | what |
+/// |---|---|
+/// | 0 | 1 |
+/// | 1 | tan^2 beta |
+/// | 2 | (alpha_n - 20 deg) / 8 deg |
+/// | 3 | 1 / eps_alpha |
+/// | 4 | tooth height over thickness of the rim, 3 at the most, mean of both gears |
+/// | 5 | 17 / z, mean of both gears |
+/// | 6 | ln of the peak to peak over the mean deflection |
+/// | 7 | ln of the share of the force that is not on the most loaded pair |
+/// | 8 | eps_beta / (1 + eps_beta) |
+/// | 9 | 1 with tip relief |
+/// | 10 | 1 with crowning or misalignment |
+/// | 11 | ln of b / (10 m_n) |
+pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
+    let helix = scene.pinion.helix_angle_deg.to_radians();
+    let gears = [&pair.pinion, &pair.wheel];
+    let mean = |of: [f64; 2]| 0.5 * (of[0] + of[1]);
+    let rim = mean(gears.map(|gear| (1.0 / rim_ratio(gear).max(1e-3)).min(3.0)));
+    let teeth = mean([&scene.pinion, &scene.wheel].map(|gear| 17.0 / f64::from(gear.teeth)));
+    let overlap = pair.overlap_ratio();
+    let logarithm = |share: f64| share.clamp(LEAST_SHARE, 10.0).ln();
+    let of = |quantity| sample.get(quantity).unwrap_or(0.0);
+    let driven = match scene.operation.driver {
+        Driver::Pinion => &pair.wheel,
+        Driver::Wheel => &pair.pinion,
+    };
+    let force = scene.operation.torque() / (driven.base_radius() * pair.base_helix_angle().cos());
+    let flanks = [&scene.pinion, &scene.wheel].map(|gear| &gear.modification.drive);
+    let given = |um: Option<f64>| um.is_some_and(|um| um != 0.0);
+    let flag = |is: bool| f64::from(u8::from(is));
+    let relief = flanks.iter().any(|f| given(f.tip_relief_um) || given(f.root_relief_um));
+    let crowned = flanks.iter().any(|f| given(f.lead_crowning_um)) || !scene.pair.misalignment.is_none();
+    [
+        1.0,
+        helix.tan().powi(2),
+        (scene.pair.normal_pressure_angle_deg - 20.0) / 8.0,
+        1.0 / pair.transverse_contact_ratio(),
+        rim,
+        teeth,
+        logarithm(of(Quantity::PeakToPeakSte) / sample.deflection()),
+        logarithm(1.0 - of(Quantity::MaxPairForce) / force),
+        overlap / (1.0 + overlap),
+        flag(relief),
+        flag(crowned),
+        (scene.pair.face_width_mm / (10.0 * scene.pair.normal_module_mm)).ln(),
+    ]
+}
