@@ -3,6 +3,7 @@
 
 pub mod measured_pair;
 pub mod moving;
+pub mod random_motion;
 pub mod random_scene;
 
 use std::path::PathBuf;

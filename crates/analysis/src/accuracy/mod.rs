@@ -13,6 +13,7 @@
 //! | `calibration` | how does the error go with what is seen? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
 //! | `coverage` | what do bounds not cover? |
+//! | [`motion`] | the same questions of a pair in motion |
 
 mod analysis;
 mod bound;
@@ -21,6 +22,7 @@ mod companion;
 mod coverage;
 mod estimate;
 mod kept_gears;
+pub mod motion;
 mod quantity;
 mod rung;
 mod solved_cycle;
@@ -29,6 +31,7 @@ pub use analysis::{AccurateAnalysis, AccurateResult, TriedRung};
 pub use bound::{Bound, Cause, Term};
 pub use calibration::{Calibration, Law, MeshLaw, PositionsLaw, QuantityLaws};
 pub use estimate::Accuracy;
+pub use kept_gears::KeptGears;
 pub use quantity::{Sample, goes_with_deflection, value_of};
 pub use rung::Rung;
 pub use scene::Quantity;
