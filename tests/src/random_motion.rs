@@ -1,6 +1,9 @@
 //! Random pairs in motion at constant speed, the same in every run.
 
-use scene::{BodyScene, DriveBy, DriveScene, Flanks, Integration, Kind, MotionScene, Run, Scene, TorqueScene};
+use scene::{
+    BodyScene, Boundary, DriveBy, DriveScene, Flanks, Integration, Kind, ModesScene, MotionScene, Run, Scene,
+    TorqueScene,
+};
 use testing::Random;
 
 use crate::random_scene::random_scene;
@@ -12,7 +15,7 @@ const THINNING: f64 = 0.02;
 /// Mesh frequency over the mesh resonance.
 const SPEEDS: [f64; 2] = [0.05, 1.5];
 /// Damping ratio of the mesh.
-const DAMPING: [f64; 2] = [0.02, 0.1];
+const DAMPING: [f64; 2] = [0.04, 0.12];
 
 /// A pair in motion, and the speeds that it is run at.
 #[derive(Debug, Clone)]
@@ -23,8 +26,8 @@ pub struct RandomMotion {
     pub speeds: [f64; 3],
 }
 
-/// The pair of [`random_scene`] in motion, driven by speed or by a torque that balances the load, damping ratio 0.02 to
-/// 0.1, backlash of some hundredths of a module; `None` for wide pairs.
+/// The pair of [`random_scene`] in motion, driven by speed or by a torque that balances the load, damping ratio 0.04 to
+/// 0.12, backlash of some hundredths of a module; `None` for wide pairs.
 pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
     let mut scene = random_scene(seed, index);
     if scene.pair.face_width_mm > NARROW_MODULES * scene.pair.normal_module_mm {
@@ -38,7 +41,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
     let by = if random.between(0.0, 1.0) < 0.5 { DriveBy::Speed } else { DriveBy::Torque };
     scene.analysis.kind = Kind::Dynamic;
     scene.analysis.cycles = 1;
-    scene.contact.flanks = Flanks::Both;
+    scene.contact.flanks = Flanks::Driving;
     scene.motion = Some(MotionScene {
         run: Run::Steady,
         method: Integration::Energy,
@@ -49,7 +52,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
         stop_at_events: false,
         mesh_damping_ratio: Some(damping),
         mesh_damping_ns_per_mm2: None,
-        periodic_tolerance: Some(1e-4),
+        periodic_tolerance: Some(1e-3),
         warm_up_cycles: Some(300),
         duration_s: None,
         checkpoint_every_cycles: Some(0),
@@ -64,6 +67,11 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
         gear.body = Some(BodyScene::default());
     }
     Some(RandomMotion { scene, speeds })
+}
+
+/// The lowest modes of each gear: eight steps in a period of the highest of them are fine ones for the mesh.
+pub fn fine_modes() -> ModesScene {
+    ModesScene { count: Some(6), below_hz: None, boundary: Boundary::Massless, fixed_modes: None, damping_ratio: 0.02 }
 }
 
 impl RandomMotion {

@@ -3,7 +3,8 @@
 use analysis::lumped::{BifurcationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
 use report::{
     columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
-    lumped_files::{SweepPage, lumped_sweep_table, lumped_table, write_key_sweep, write_lumped},
+    lumped_files::{SweepPage, lumped_sweep_table, write_key_sweep},
+    write_lumped_result,
 };
 
 use crate::{
@@ -32,11 +33,8 @@ pub(crate) fn solve(
         return Ok(Written { table, verdict: Ok(()) });
     }
     let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
-    let cost = phases.cost();
-    write_lumped(scene, &result, &cost, results)?;
-    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
-    let table = lumped_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
-    Ok(Written { table, verdict: result.certificate().verdict(scene).map_err(CommandError::from) })
+    let table = write_lumped_result(scene, &result, &phases.cost(), results)?;
+    Ok(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) })
 }
 
 /// The column of that name of a scene's rows.

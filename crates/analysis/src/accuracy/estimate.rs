@@ -24,6 +24,9 @@ pub struct Accuracy {
     /// Rungs of the ladder that were tried, in their order; empty where the scene says what is taken.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rungs: Vec<super::TriedRung>,
+    /// Models of a motion that were tried, in their order; empty where the scene says what is taken, and at rest.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub models: Vec<super::motion::TriedModel>,
     /// What the bounds do not cover.
     pub not_covered: Vec<String>,
 }
@@ -68,6 +71,7 @@ pub(super) fn estimate(
         held_against: standing.words(),
         bounds,
         rungs: Vec::new(),
+        models: Vec::new(),
         not_covered: not_covered(scene, result, standing)?,
     })
 }

@@ -7,8 +7,8 @@ use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
 use geometry::GearPair;
 use ltca::StaticPosition;
 use scene::{
-    AccuracyScene, Analysis, BearingScene, ContactScene, Driver, Flanks, GearScene, Kind, Law, MeshScene, Model, Operation,
-    OutputScene, Reduction, Scene, StiffnessFrom,
+    AccuracyScene, Analysis, BearingScene, ContactScene, Driver, Flanks, GearScene, Kind, Law, MeshScene, Model,
+    Operation, OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
 use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, static_certificate};

@@ -31,7 +31,13 @@ pub(super) fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<(
     let model = scene.analysis.model;
     if let (Some(word), false) = (&raw.analysis.model, model.is_reduced() || model == Model::Auto) {
         let instead = "use `model = \"auto\"`, which takes a cheaper model where that is exact enough, or \"reduced\"";
-        return Err(not_yet(s, word.span(), format!("model = \"{}\"", word.get_ref()), "bounds of this model", instead));
+        return Err(not_yet(
+            s,
+            word.span(),
+            format!("model = \"{}\"", word.get_ref()),
+            "bounds of this model",
+            instead,
+        ));
     }
     let words = raw.motion.as_ref().map(Spanned::get_ref);
     if let Some(run) = words.and_then(|w| w.run.as_ref())
@@ -48,6 +54,12 @@ pub(super) fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<(
             "bounds of a motion whose steps vary",
             "leave it out: with [accuracy] steps of equal length are held against steps of twice that length",
         ));
+    }
+    let kept = words.and_then(|w| w.checkpoint_every_cycles.as_ref());
+    if let Some(every) = kept.filter(|_| scene.motion.as_ref().is_some_and(|m| m.checkpoint_every_cycles != Some(0))) {
+        let key = "checkpoint_every_cycles".to_owned();
+        let instead = "leave it out: a motion with bounds is run more than once";
+        return Err(not_yet(s, every.span(), key, "checkpoints of a motion with bounds", instead));
     }
     let varies = |t: &TorqueScene| t.amplitude_nm.is_some() || t.table_s_nm.is_some();
     let driven = |d: &crate::DriveScene| d.by == DriveBy::Torque && !d.torque.is_none();

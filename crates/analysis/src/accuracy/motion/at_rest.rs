@@ -4,15 +4,12 @@ use std::f64::consts::TAU;
 
 use dynamics::{ElasticChange, MeshDamping, MeshResonance, RigidBody, equivalent_mass};
 use reduction::ElasticGear;
-use scene::{DriveBy, Driver, Scene};
-use study::{cycle_statistics, mesh_harmonics};
+use scene::{DriveBy, Driver, Quantity, Scene};
+use study::{cycle_statistics, mesh_harmonics, root_mean_square};
 
 use crate::{
-    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, StaticResult,
-    lumped::static_scene,
-    meshes,
-    motion::motion_options,
-    options, reduced,
+    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, StaticResult, lumped::static_scene, meshes,
+    motion::motion_options, options, reduced,
 };
 
 /// A pair at rest, as far as its motion is told from it.
@@ -70,7 +67,7 @@ impl PairAtRest {
             resonance: MeshResonance { hz: (stiffness / mass).sqrt() / TAU, damping },
             elastic_hz: [lowest(0)?, lowest(1)?],
             amplitudes_um: harmonics.iter().map(|h| h.amplitude).collect(),
-            ste_um: [rms(&ste), cycle_statistics(&ste, 1)?.peak_to_peak],
+            ste_um: [root_mean_square(&ste), cycle_statistics(&ste, 1)?.peak_to_peak],
             bodies: options.bodies,
         })
     }
@@ -90,12 +87,26 @@ impl PairAtRest {
         ElasticChange::of(&self.amplitudes_um, [self.mesh_hz; 2], self.elastic_hz, self.resonance).share
     }
 
+    /// A number of the motion as the harmonics alone foresee it, um.
+    pub(super) fn foreseen_um(&self, quantity: Quantity) -> f64 {
+        let gain = |k: usize| self.response(k + 1, 1.0);
+        let all: f64 = self.amplitudes_um.iter().sum();
+        let swung: f64 = self.amplitudes_um.iter().enumerate().map(|(k, a)| a * gain(k)).sum();
+        let still = self.ste_um[usize::from(quantity == Quantity::PeakToPeakDte)];
+        if all > 0.0 { still * swung / all } else { still }
+    }
+
     /// |1 / (1 - rho^2 + 2 i zeta rho)| of a mesh harmonic, 1 the mesh frequency, when the resonance is so many times
     /// as high as it is.
     pub(super) fn response(&self, harmonic: usize, resonance: f64) -> f64 {
         let rho = harmonic as f64 * self.speed_ratio() / resonance;
         1.0 / (1.0 - rho * rho).hypot(2.0 * self.resonance.damping * rho).max(f64::MIN_POSITIVE)
     }
+}
+
+/// A scene in motion as one at rest: the same pair and load, without friction.
+pub(super) fn at_rest(scene: &Scene) -> Scene {
+    static_scene(scene)
 }
 
 /// Solves the pair of a scene in motion at rest, under its load.
@@ -107,11 +118,5 @@ pub fn solve_at_rest(
     cache: &dyn GearCache,
     observer: &mut dyn Observer,
 ) -> Result<StaticResult, AnalysisError> {
-    StaticAnalysis::new(&static_scene(scene)).with_slices_of_scene().with_cache(cache).solve_into(observer, &mut NoSink)
-}
-
-/// Root mean square about the mean.
-pub(super) fn rms(samples: &[f64]) -> f64 {
-    let mean = study::mean(samples);
-    (samples.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / samples.len().max(1) as f64).sqrt()
+    StaticAnalysis::new(&at_rest(scene)).with_slices_of_scene().with_cache(cache).solve_into(observer, &mut NoSink)
 }

@@ -15,12 +15,17 @@
 //! | `calibration` | how far are models and steps off? |
 //! | `estimate` | what are the bounds of a run? |
 
+mod analysis;
 mod at_rest;
+mod calibration;
+mod estimate;
 mod model;
 mod response;
 mod run;
 
+pub use analysis::{AccurateMotion, AccurateMotionResult, TriedModel};
 pub use at_rest::{PairAtRest, solve_at_rest};
+pub use calibration::{MotionCalibration, MotionLaws, SpeedLaw, UsualBound};
 pub use model::MotionModel;
 pub use response::mesh_bound;
 pub use run::{MotionAnswer, MotionSample, MotionTold};

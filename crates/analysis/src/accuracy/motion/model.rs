@@ -1,8 +1,8 @@
 //! Models of a motion, cheapest first, each of the same scene.
 
 use scene::{
-    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Driver, Lumped12Scene, MeshScene, Model, ModesScene,
-    Scene, Sharing, StiffnessFrom, TorqueScene,
+    AccuracyScene, Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Driver, Lumped12Scene, MeshScene,
+    Model, ModesScene, Scene, Sharing, StiffnessFrom, TorqueScene,
 };
 use serde::Serialize;
 
@@ -68,9 +68,9 @@ impl MotionModel {
         self != Self::Lumped12 || (scene.gears().iter().all(fixed) && scene.contact.friction == 0.0)
     }
 
-    /// A scene in motion as one of this model, with so many steps in a period of the resonance.
+    /// A scene in motion as one of this model that asks for no accuracy, with so many steps in a period of the resonance.
     pub fn scene(self, scene: &Scene, rest: &PairAtRest, steps_per_resonance: u32) -> Scene {
-        let mut own = scene.clone();
+        let mut own = Scene { accuracy: AccuracyScene::default(), ..scene.clone() };
         if let Some(motion) = &mut own.motion {
             motion.steps_per_resonance = steps_per_resonance;
         }

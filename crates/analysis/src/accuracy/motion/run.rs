@@ -2,7 +2,6 @@
 
 use scene::{Quantity, Scene};
 
-use super::at_rest::rms;
 use crate::{
     AnalysisError, GearCache, Observer,
     lumped::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink},
@@ -81,37 +80,26 @@ impl MotionAnswer {
     ///
     /// # Errors
     /// [`AnalysisError`].
-    pub fn quietly(
-        scene: &Scene,
-        cache: &dyn GearCache,
-        observer: &mut dyn Observer,
-    ) -> Result<Self, AnalysisError> {
+    pub fn quietly(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
     }
 
     /// Its numbers.
     pub fn sample(&self) -> MotionSample {
+        // Both headlines have the same names for them.
+        macro_rules! sample {
+            ($headline:expr) => {
+                MotionSample {
+                    rms_um: $headline.rms_dte_um,
+                    peak_to_peak_um: $headline.peak_to_peak_dte_um,
+                    least_force: $headline.min_normal_force_n / $headline.mean_normal_force_n,
+                    periodicity: $headline.certificate.periodicity,
+                }
+            };
+        }
         match self {
-            Self::Lumped(result) => {
-                let dte: Vec<f64> = result.rows.iter().map(|r| r.transmission_error_um).collect();
-                let h = &result.headline;
-                MotionSample {
-                    rms_um: rms(&dte),
-                    peak_to_peak_um: h.peak_to_peak_dte_um,
-                    least_force: h.min_normal_force_n / h.mean_normal_force_n,
-                    periodicity: h.certificate.periodicity,
-                }
-            }
-            Self::Reduced(result) => {
-                let dte: Vec<f64> = result.rows.iter().map(|r| r.dte_um).collect();
-                let h = &result.headline;
-                MotionSample {
-                    rms_um: rms(&dte),
-                    peak_to_peak_um: h.peak_to_peak_dte_um,
-                    least_force: h.min_normal_force_n / h.mean_normal_force_n,
-                    periodicity: h.certificate.periodicity,
-                }
-            }
+            Self::Lumped(result) => sample!(result.headline),
+            Self::Reduced(result) => sample!(result.headline),
         }
     }
 }
