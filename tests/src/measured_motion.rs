@@ -42,22 +42,23 @@ impl MeasuredMotion {
         run[q.key()].as_f64().filter(|_| run["periodicity"].as_f64().is_some_and(|p| p < 0.01))
     }
 
-    /// With steps as fine as can be.
+    /// With steps as fine as there are.
     fn reduced(&self, q: Quantity) -> Option<f64> {
-        let [coarse, fine] = [self.value("reduced 16", q)?, self.value("reduced 32", q)?];
-        Some(fine + RICHARDSON * (fine - coarse))
+        let coarse = self.value("reduced 16", q)?;
+        Some(self.value("reduced 32", q).map_or(coarse, |fine| fine + RICHARDSON * (fine - coarse)))
     }
 
     /// Sixteen steps in a period of the resonance, beside eight.
     pub fn step(&self, q: Quantity) -> Option<Case> {
         let own = self.value("reduced 16", q)?;
+        self.value("reduced 32", q)?;
         Some(Case { difference: own - self.value("reduced 8", q)?, error: self.reduced(q)? - own, scale: own })
     }
 
     /// Elasticity without inertia, beside what theory (63) says of it.
     pub fn elasticity(&self, q: Quantity) -> Option<Case> {
         let own = self.reduced(q)?;
-        Some(Case { difference: self.elastic_share * own, error: self.value("reduced+modes 8", q)? - own, scale: own })
+        Some(Case { difference: self.elastic_share * own, error: self.value("reduced+modes 6", q)? - own, scale: own })
     }
 
     /// Twelve coordinates, beside what the motion adds to the number at rest; flanks that part are not theirs.

@@ -12,6 +12,8 @@ use crate::random_scene::random_scene;
 const NARROW_MODULES: f64 = 8.0;
 /// Tooth thinning of either gear over the module: some backlash.
 const THINNING: f64 = 0.02;
+/// Slices over the narrow face: steps, models and elasticity are compared at the same number of them.
+const SLICES: u32 = 10;
 /// Mesh frequency over the mesh resonance.
 const SPEEDS: [f64; 2] = [0.05, 1.5];
 /// Damping ratio of the mesh.
@@ -42,6 +44,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
     scene.analysis.kind = Kind::Dynamic;
     scene.analysis.cycles = 1;
     scene.contact.flanks = Flanks::Driving;
+    scene.contact.slices = Some(SLICES);
     scene.motion = Some(MotionScene {
         run: Run::Steady,
         method: Integration::Energy,
@@ -69,9 +72,9 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
     Some(RandomMotion { scene, speeds })
 }
 
-/// The lowest modes of each gear: eight steps in a period of the highest of them are fine ones for the mesh.
+/// The lowest modes of each gear: six steps in a period of the highest of them are fine ones for the mesh.
 pub fn fine_modes() -> ModesScene {
-    ModesScene { count: Some(6), below_hz: None, boundary: Boundary::Massless, fixed_modes: None, damping_ratio: 0.02 }
+    ModesScene { count: Some(4), below_hz: None, boundary: Boundary::Massless, fixed_modes: None, damping_ratio: 0.02 }
 }
 
 impl RandomMotion {

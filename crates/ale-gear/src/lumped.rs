@@ -1,17 +1,16 @@
 //! Runs of cheaper models, and their files.
 
-use analysis::lumped::{BifurcationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
+use analysis::lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
 use report::{
     columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
-    lumped_files::{SweepPage, lumped_sweep_table, write_key_sweep},
-    write_lumped_result,
+    write_key_sweep_result, write_lumped_result,
 };
 
 use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::{ResultDirectory, write_summary},
+    output::ResultDirectory,
     phases::Phases,
     scene::{MotionScene, Scene},
 };
@@ -65,11 +64,5 @@ pub(crate) fn sweep_key(
     cache: &Cache,
 ) -> Result<String, CommandError> {
     let found = KeySweep::new(scenes, options).with_cache(cache).solve_with(phases)?;
-    let cost = phases.cost();
-    let BifurcationAnalysis { scene, facts, headline, warnings, .. } = &found;
-    let page = SweepPage { headline, again };
-    write_key_sweep(options, &found, &page, &cost, results)?;
-    let summary = write_summary(scene, facts, &cost, &page, warnings, &results.files()?);
-    results.write("summary.json", summary.as_bytes())?;
-    Ok(lumped_sweep_table(scene, facts, &cost, headline, warnings))
+    Ok(write_key_sweep_result(options, &found, again, &phases.cost(), results)?)
 }

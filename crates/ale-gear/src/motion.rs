@@ -10,9 +10,8 @@ use analysis::{
 };
 use report::{
     checkpoint::{CheckpointFolder, Checkpoints, ENERGY_FILE, HISTORY, InputDigests, Stored, read_rows},
-    motion_files::{MotionFileSink, write_sweep},
-    tables::sweep_table,
-    write_answer, write_motion_result,
+    motion_files::MotionFileSink,
+    write_answer, write_motion_result, write_sweep_result,
 };
 
 use crate::{
@@ -147,8 +146,7 @@ fn one_motion(
                 }
             }
             let table = write_motion_result(scene, &result, &phases.cost(), view.as_ref(), results)?;
-            let verdict = result.facts.verdict(scene).map_err(CommandError::from);
-            Ok(Outcome::Finished(Written { table, verdict }))
+            Ok(Outcome::Finished(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) }))
         }
     }
 }
@@ -176,9 +174,6 @@ fn sweep(
 ) -> Result<Written, CommandError> {
     let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
     let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
-    let cost = phases.cost();
-    write_sweep(scene, &result, &cost, sink.view.as_ref(), results)?;
-    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
-    let table = sweep_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
+    let table = write_sweep_result(scene, &result, &phases.cost(), sink.view.as_ref(), results)?;
     Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

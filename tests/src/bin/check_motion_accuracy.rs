@@ -19,7 +19,7 @@ use scene::{AccuracyScene, Model, Quantity, Tolerance};
 use verification::random_motion::{RandomMotion, fine_modes, random_motion};
 
 /// Steps in a period of the highest mode that is kept.
-const FINE_STEPS: u32 = 8;
+const FINE_STEPS: u32 = 6;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -41,7 +41,7 @@ fn main() -> Result<(), Failure> {
     };
     let share = 1e-2 * percent.parse::<f64>()?;
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
-    let rung: u32 = rest.first().map_or(Ok(4), |word| word.parse())?;
+    let rung: u32 = rest.first().map_or(Ok(3), |word| word.parse())?;
     let rung = Rung::ALL.into_iter().find(|r| r.elements_profile == rung).ok_or("no such rung")?;
     let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
     for index in first..first + count {

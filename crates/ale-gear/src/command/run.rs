@@ -209,7 +209,6 @@ fn write_static(
     let scene = &scene;
     facts.certificate = run::certificate(&history.positions);
     let headline = static_headline(scene, &history)?;
-
     let picture = phases.run("write", || {
         results.write("history.csv", write_history(scene, &history).as_bytes())?;
         Ok::<_, CommandError>(write_contact(scene, &history, results)?)

@@ -1,0 +1,114 @@
+//! Laws of bounds of motions: what they hold, which model is taken, what is refused.
+
+use analysis::{
+    AnalysisError, NoCache, NoObserver,
+    accuracy::{
+        Bound, Cause, KeptGears, Quantity,
+        motion::{AccurateMotion, AccurateMotionResult, MotionAnswer, MotionCalibration, MotionModel},
+    },
+    motion::MotionAnalysis,
+};
+use scene::{Model, Scene, SceneBuilder, SceneError};
+
+/// A narrow pair, slow beside its resonance of some kHz.
+fn slow() -> SceneBuilder {
+    let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(10.0).torque_nm(150.0);
+    base.set("analysis.kind", "dynamic")
+        .set("analysis.cycles", 1)
+        .set("operation.speed_rpm", 600.0)
+        .set("contact.slices", 8)
+        .set("contact.flanks", "driving")
+        .set("motion.periodic_tolerance", 1e-3)
+}
+
+fn solved(builder: SceneBuilder) -> AccurateMotionResult {
+    AccurateMotion::new(&builder.build().unwrap()).solve().unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn bound(result: &AccurateMotionResult, quantity: Quantity) -> Bound {
+    let all = &result.answer.facts().accuracy.as_ref().unwrap().bounds;
+    all.iter().find(|b| b.quantity == quantity).unwrap_or_else(|| panic!("no bound of {}", quantity.key())).clone()
+}
+
+/// A slow pair needs twelve coordinates where much is allowed, more where little is; what is taken comes last and is
+/// not left, all before it are, and the bounds of the cheap answer hold the dear one.
+#[test]
+fn the_cheapest_model_that_is_exact_enough_is_taken() {
+    let cheap = solved(slow().set("accuracy.peak_to_peak_dte", "40 %").set("accuracy.rms_dte", "40 %"));
+    let accuracy = cheap.answer.facts().accuracy.as_ref().unwrap();
+    let last = accuracy.models.last().unwrap();
+    assert!(accuracy.is_met() && last.left_because.is_none(), "{accuracy:?}");
+    assert_eq!((last.model, cheap.scene.analysis.model), (MotionModel::Lumped12, Model::Lumped12));
+    let dear = solved(slow().set("accuracy.peak_to_peak_dte", "2 %"));
+    let accuracy = dear.answer.facts().accuracy.as_ref().unwrap();
+    let (last, before) = accuracy.models.split_last().unwrap();
+    assert!(last.model > MotionModel::Lumped12 && last.left_because.is_none(), "{accuracy:?}");
+    assert!(before.iter().all(|tried| tried.left_because.is_some()), "{before:?}");
+    for quantity in Quantity::OF_MOTION {
+        let [wide, narrow] = [&cheap, &dear].map(|r| bound(r, quantity));
+        assert!((wide.value - wide.below..=wide.value + wide.above).contains(&narrow.value), "{wide:?} {narrow:?}");
+        assert!(narrow.corrected_within < wide.corrected_within, "{wide:?} {narrow:?}");
+        let causes: Vec<Cause> = wide.terms.iter().map(|t| t.cause).collect();
+        let all = [Cause::Mesh, Cause::Step, Cause::QuasiStaticElasticity, Cause::Model, Cause::Settling];
+        assert_eq!(causes, all);
+    }
+}
+
+/// Bounds of a model that the scene names are estimated, and hold the answer with normal modes and fine steps.
+#[test]
+fn bounds_of_a_reduced_motion_hold_that_with_modes() {
+    let own = slow().set("analysis.model", "reduced").set("operation.speed_rpm", 2500.0);
+    let own = own.set("pinion.mesher.elements_profile", 2).set("wheel.mesher.elements_profile", 2);
+    let result = solved(own.clone().set("accuracy.peak_to_peak_dte", "0.001 %"));
+    assert!(result.answer.facts().accuracy.as_ref().unwrap().models.is_empty());
+    assert!(result.answer.facts().verdict(&result.scene).unwrap_err().is_inexact());
+    let fine = own.set("analysis.model", "reduced+modes").set("modes.count", 4).set("motion.steps_per_resonance", 8);
+    let fine = MotionAnswer::quietly(&fine.build().unwrap(), &KeptGears::new(&NoCache), &mut NoObserver).unwrap();
+    for quantity in Quantity::OF_MOTION {
+        let b = bound(&result, quantity);
+        let exact = fine.sample().get(quantity);
+        assert!((b.value - b.below..=b.value + b.above).contains(&exact), "{exact} is outside of {}", b.words());
+    }
+}
+
+/// Laws are there for every number of a motion, with a coverage of the pairs, and grow with speed as models differ.
+#[test]
+fn the_committed_laws_are_whole() {
+    let table = MotionCalibration::committed();
+    assert!(table.coverage >= 0.95 && table.motions >= 30, "{} motions", table.motions);
+    for quantity in Quantity::OF_MOTION {
+        let laws = table.of(quantity).unwrap();
+        assert_eq!(laws.lumped12.len(), MotionCalibration::SPEEDS.len());
+        assert!(laws.usual.iter().all(|u| u.share > 0.0 && u.share.is_finite()), "{:?}", laws.usual);
+    }
+}
+
+/// What has no bounds is refused, with a way out.
+#[test]
+fn what_has_no_bounds_is_refused_with_a_hint() {
+    let refused = |builder: SceneBuilder| {
+        let error = builder.build().err().unwrap_or_else(|| panic!("a scene that has no bounds"));
+        assert!(matches!(error, SceneError::NotYet { .. } | SceneError::Conflict { .. }), "{error:?}");
+        (error.to_string(), error.hint().unwrap_or_default())
+    };
+    let with = || slow().set("accuracy.rms_dte", "5 %");
+    for (builder, says) in [
+        (slow().set("accuracy.mean_ste", "1 %"), "`mean_ste`"),
+        (with().set("analysis.kind", "static"), "belongs to"),
+        (with().set("motion.run", "shooting"), "shooting"),
+        (with().set("motion.error_tolerance", 1e-4), "error_tolerance"),
+        (with().set("load.amplitude_nm", 10.0).set("load.frequency_hz", 100.0), "[load]"),
+        (with().set("motion.checkpoint_every_cycles", 3), "checkpoint"),
+        (with().set("analysis.model", "lumped8"), "lumped8"),
+    ] {
+        let (message, hint) = refused(builder);
+        assert!(message.contains(says) && !hint.is_empty(), "{message}: {hint}");
+    }
+    let of_rest = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(10.0);
+    let (message, _) = refused(of_rest.torque_nm(150.0).set("accuracy.rms_dte", "5 %"));
+    assert!(message.contains("`rms_dte`"), "{message}");
+    // A library that does not see the bounds does not pass over them.
+    let scene = with().set("analysis.model", "reduced").build().unwrap();
+    let error = MotionAnalysis::new(&scene).solve().unwrap_err();
+    assert!(matches!(error, AnalysisError::WithAccuracy { .. }) && error.hint().is_some(), "{error}");
+}
