@@ -10,10 +10,14 @@ use analysis::{
 };
 use scene::{Model, Scene, SceneBuilder, SceneError};
 
-/// A narrow pair, slow beside its resonance of some kHz.
+fn pair() -> SceneBuilder {
+    Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(10.0).torque_nm(150.0)
+}
+
+/// In motion, slow beside its resonance of some kHz.
 fn slow() -> SceneBuilder {
-    let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(10.0).torque_nm(150.0);
-    base.set("analysis.kind", "dynamic")
+    pair()
+        .set("analysis.kind", "dynamic")
         .set("analysis.cycles", 1)
         .set("operation.speed_rpm", 600.0)
         .set("contact.slices", 8)
@@ -99,13 +103,12 @@ fn what_has_no_bounds_is_refused_with_a_hint() {
         (with().set("motion.error_tolerance", 1e-4), "error_tolerance"),
         (with().set("load.amplitude_nm", 10.0).set("load.frequency_hz", 100.0), "[load]"),
         (with().set("motion.checkpoint_every_cycles", 3), "checkpoint"),
-        (with().set("analysis.model", "lumped8"), "lumped8"),
+        (pair().set("analysis.model", "impact").set("accuracy.rms_dte", "5 %"), "bounds of this model"),
     ] {
         let (message, hint) = refused(builder);
         assert!(message.contains(says) && !hint.is_empty(), "{message}: {hint}");
     }
-    let of_rest = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(10.0);
-    let (message, _) = refused(of_rest.torque_nm(150.0).set("accuracy.rms_dte", "5 %"));
+    let (message, _) = refused(pair().set("accuracy.rms_dte", "5 %"));
     assert!(message.contains("`rms_dte`"), "{message}");
     // A library that does not see the bounds does not pass over them.
     let scene = with().set("analysis.model", "reduced").build().unwrap();

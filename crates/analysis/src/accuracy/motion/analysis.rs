@@ -248,6 +248,7 @@ impl<'a> AccurateMotion<'a> {
         };
         let ladder = || MotionModel::ALL.into_iter().filter(|m| m.knows(self.scene));
         let model = MotionModel::of(self.scene).or_else(|| ladder().find(keeps)).unwrap_or(MotionModel::ReducedModes);
+        let steps = if self.scene.is_auto() { model.first_steps(steps) } else { steps };
         Choice { model, steps }
     }
 
@@ -271,7 +272,7 @@ impl<'a> AccurateMotion<'a> {
         own: MotionSample,
         bounds: &[Bound],
     ) -> Option<(Option<Scene>, Choice, String)> {
-        let dearer = choice.model.finer().map(|model| Choice { model, ..choice });
+        let dearer = choice.model.finer().map(|model| Choice { model, steps: model.first_steps(choice.steps) });
         if choice.model == MotionModel::Lumped12 && own.least_force <= 0.0 {
             return Some((None, dearer?, "its flanks part, which a linear mesh does not know".into()));
         }

@@ -17,8 +17,9 @@ const NO_MASS_DAMPING_HZ: f64 = 1e-6;
 /// t in kg, t mm^2 in kg m^2.
 const KILOGRAM: f64 = 1e3;
 const KILOGRAM_METRE2: f64 = 1e-3;
-/// Normal modes of each gear, and their damping ratio, where the scene says nothing: the defaults of `[modes]`.
-const MODES: u32 = 12;
+/// Lowest normal modes of each gear that the ladder keeps, and their damping ratio, the default of `[modes]`: more of
+/// them make steps shorter and hardly change what the teeth do.
+const MODES: u32 = 6;
 const MODE_DAMPING: f64 = 0.01;
 
 /// A model of the ladder in motion.
@@ -60,6 +61,12 @@ impl MotionModel {
     /// The next dearer one.
     pub fn finer(self) -> Option<Self> {
         Self::ALL.iter().find(|m| **m > self).copied()
+    }
+
+    /// Steps in a period of its fastest motion that it begins with, where a model without modes takes so many in one of
+    /// the resonance: its highest mode need not be shown as well.
+    pub(super) fn first_steps(self, of_resonance: u32) -> u32 {
+        if self == Self::ReducedModes { (of_resonance / 2).max(4) } else { of_resonance }
     }
 
     /// Whether the model can stand for a scene: twelve coordinates without friction, the gears on fixed axes.
