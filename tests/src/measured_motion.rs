@@ -8,6 +8,9 @@ use crate::law_fit::Case;
 /// Steps of second order: what half of them leave, over what they change.
 const RICHARDSON: f64 = 1.0 / 3.0;
 
+/// Mesh frequency over the resonance from which on 64 rows in a mesh cycle are more steps than are compared.
+const ROWS_AS_STEPS: f64 = 0.5;
+
 /// A line of its file.
 #[derive(Debug, Clone)]
 pub struct MeasuredMotion {
@@ -51,7 +54,7 @@ impl MeasuredMotion {
     /// Sixteen steps in a period of the resonance, beside eight.
     pub fn step(&self, q: Quantity) -> Option<Case> {
         let own = self.value("reduced 16", q)?;
-        self.value("reduced 32", q)?;
+        self.value("reduced 32", q).filter(|_| self.speed < ROWS_AS_STEPS)?;
         Some(Case { difference: own - self.value("reduced 8", q)?, error: self.reduced(q)? - own, scale: own })
     }
 

@@ -132,6 +132,7 @@ impl<'a> AccurateMotion<'a> {
                 rest: &base.rest,
                 at_rest: base.bounds,
                 own,
+                steps: self.steps_of(&base, choice),
                 halved,
                 elastic_share: answer.elastic_share().unwrap_or_else(|| base.rest.elastic_share()),
             };
@@ -250,6 +251,19 @@ impl<'a> AccurateMotion<'a> {
         let model = MotionModel::of(self.scene).or_else(|| ladder().find(keeps)).unwrap_or(MotionModel::ReducedModes);
         let steps = if self.scene.is_auto() { model.first_steps(steps) } else { steps };
         Choice { model, steps }
+    }
+
+    /// Steps in a period of the mesh resonance: those that are asked, or as many as there are rows.
+    fn steps_of(&self, base: &Base, choice: Choice) -> f64 {
+        let rows = self.scene.motion.as_ref().map_or(0.0, |m| f64::from(m.steps_per_mesh_cycle));
+        // The highest mode has a shorter period than the resonance: with as many steps in it there are more.
+        let highest = if choice.model == MotionModel::ReducedModes {
+            let elastic = base.rest.elastic_hz[0].min(base.rest.elastic_hz[1]);
+            (elastic / base.rest.resonance.hz).max(1.0)
+        } else {
+            1.0
+        };
+        (rows * base.rest.speed_ratio()).max(f64::from(choice.steps) * highest).max(1.0)
     }
 
     /// The same with half the steps; `None` where rows are the steps.

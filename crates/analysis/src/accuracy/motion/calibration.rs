@@ -15,7 +15,8 @@ use crate::accuracy::Law;
 pub struct MotionLaws {
     /// Its key in `[accuracy]`.
     pub quantity: String,
-    /// Of steps of time; d: what half as many change.
+    /// Of steps of time; d: what half as many change, s: the number itself times the square of
+    /// [`MotionCalibration::STEPS`] over the steps in a period of the mesh resonance.
     pub step: Law,
     /// Of elasticity without inertia; d: what theory (63) says that it may change.
     pub elasticity: Law,
@@ -75,6 +76,8 @@ static COMMITTED: LazyLock<MotionCalibration> = LazyLock::new(|| {
 });
 
 impl MotionCalibration {
+    /// Steps in a period of the mesh resonance that the law of steps was made at.
+    pub const STEPS: f64 = 16.0;
     /// Upper ends of the strata of mesh frequency over mesh resonance.
     pub const SPEEDS: [f64; 3] = [0.16, 0.48, 1.5];
     /// Upper ends of the strata of mesh frequency over the lowest elastic frequency.

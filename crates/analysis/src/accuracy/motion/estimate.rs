@@ -16,6 +16,8 @@ pub(super) struct Seen<'a> {
     /// stiffness over itself.
     pub at_rest: [f64; 2],
     pub own: MotionSample,
+    /// Steps in a period of the mesh resonance.
+    pub steps: f64,
     /// With half the steps; `None`: rows are the steps, and there are more than were asked.
     pub halved: Option<MotionSample>,
     /// Share of the peak to peak that the inertia of elastic deformation which the model leaves out may change.
@@ -33,7 +35,8 @@ impl Seen<'_> {
         let laws = MotionCalibration::committed().of(q)?;
         let own = self.own.get(q);
         let d = self.halved.map_or(0.0, |halved| own - halved.get(q));
-        let [step_shift, step] = laws.step.of(d, own);
+        // Midpoint steps: twice as many leave a quarter of the error.
+        let [step_shift, step] = laws.step.of(d, own * (MotionCalibration::STEPS / self.steps).powi(2));
         let [elastic_shift, elastic] = laws.elasticity.of(self.elastic_share * own, own);
         let mut terms = vec![
             (Cause::Mesh, mesh_bound(q, self.rest, self.at_rest[0], self.at_rest[1])),
