@@ -13,9 +13,8 @@ pub struct Case {
     pub scale: f64,
 }
 
-/// The law with the least bounds, on average of their logarithms, that holds for the share of the cases; tells how it
-/// does.
-pub fn fit(name: &str, cases: &[Case]) -> Law {
+/// The law with the least bounds, on average of their logarithms, that holds for the share of the cases.
+pub fn fit(cases: &[Case]) -> Law {
     let floors = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 1e-2, 3e-2, 1e-1];
     let mut best: Option<(f64, Law)> = None;
     for pull in (-20..=30).map(|i| 0.1 * f64::from(i)) {
@@ -28,7 +27,12 @@ pub fn fit(name: &str, cases: &[Case]) -> Law {
             }
         }
     }
-    let law = best.map_or(Law { pull: 0.0, floor: 1.0, factor: 1.0 }, |(_, law)| law);
+    best.map_or(Law { pull: 0.0, floor: 1.0, factor: 1.0 }, |(_, law)| law)
+}
+
+/// The law, and how it does.
+pub fn told_fit(name: &str, cases: &[Case]) -> Law {
+    let law = fit(cases);
     let median = |of: &dyn Fn(&Case) -> f64| {
         let mut all: Vec<f64> = cases.iter().map(of).collect();
         all.sort_unstable_by(f64::total_cmp);

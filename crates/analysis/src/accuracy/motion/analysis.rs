@@ -236,15 +236,15 @@ impl<'a> AccurateMotion<'a> {
         finer.map(|finer| finer.scene(&scene))
     }
 
-    /// The cheapest model whose usual bound leaves room for that of the mesh.
+    /// The cheapest model whose usual bound is within what is asked: of the usual ones, and of that of the mesh, either may
+    /// turn out to be less.
     fn first_choice(&self, base: &Base) -> Choice {
         let steps = self.scene.motion.as_ref().map_or(16, |m| m.steps_per_resonance);
         let keeps = |model: &MotionModel| {
             self.scene.accuracy.tolerances().iter().all(|(q, tolerance)| {
                 let value = base.rest.foreseen_um(*q);
-                let room = tolerance.of(value) - mesh_bound(*q, &base.rest, base.bounds[0], base.bounds[1]);
                 let usual = MotionCalibration::committed().of(*q).and_then(|laws| laws.usual(*model, &base.rest));
-                usual.is_some_and(|usual| usual * value <= room)
+                usual.is_some_and(|usual| usual * value <= tolerance.of(value))
             })
         };
         let ladder = || MotionModel::ALL.into_iter().filter(|m| m.knows(self.scene));
