@@ -4,7 +4,7 @@ use analysis::{
     AnalysisError, NoCache, NoObserver,
     accuracy::{
         Bound, Cause, KeptGears, Quantity,
-        motion::{AccurateMotion, AccurateMotionResult, MotionAnswer, MotionCalibration, MotionModel},
+        motion::{AccurateMotion, AccurateMotionResult, MotionAnswer, MotionCalibration, MotionModel, UsualBound},
     },
     motion::MotionAnalysis,
 };
@@ -34,25 +34,18 @@ fn bound(result: &AccurateMotionResult, quantity: Quantity) -> Bound {
     all.iter().find(|b| b.quantity == quantity).unwrap_or_else(|| panic!("no bound of {}", quantity.key())).clone()
 }
 
-/// A slow pair needs twelve coordinates where much is allowed, more where little is; what is taken comes last and is
-/// not left, all before it are, and the bounds of the cheap answer hold the dear one.
+/// A slow pair needs no more than twelve coordinates where much is allowed; what is taken comes last and is not left, all
+/// before it are, and each bound says what it is made of.
 #[test]
-fn the_cheapest_model_that_is_exact_enough_is_taken() {
-    let cheap = solved(slow().set("accuracy.peak_to_peak_dte", "40 %").set("accuracy.rms_dte", "40 %"));
-    let accuracy = cheap.answer.facts().accuracy.as_ref().unwrap();
-    let last = accuracy.models.last().unwrap();
-    assert!(accuracy.is_met() && last.left_because.is_none(), "{accuracy:?}");
-    assert_eq!((last.model, cheap.scene.analysis.model), (MotionModel::Lumped12, Model::Lumped12));
-    let dear = solved(slow().set("accuracy.peak_to_peak_dte", "20 %"));
-    let accuracy = dear.answer.facts().accuracy.as_ref().unwrap();
+fn a_slow_pair_needs_twelve_coordinates() {
+    let result = solved(slow().set("accuracy.peak_to_peak_dte", "40 %").set("accuracy.rms_dte", "40 %"));
+    let accuracy = result.answer.facts().accuracy.as_ref().unwrap();
     let (last, before) = accuracy.models.split_last().unwrap();
-    assert!(last.model > MotionModel::Lumped12 && last.left_because.is_none(), "{accuracy:?}");
-    assert!(before.iter().all(|tried| tried.left_because.is_some()), "{before:?}");
+    assert!(accuracy.is_met() && last.left_because.is_none(), "{accuracy:?}");
+    assert!(before.iter().all(|t| t.left_because.is_some()), "{before:?}");
+    assert_eq!((last.model, result.scene.analysis.model), (MotionModel::Lumped12, Model::Lumped12));
     for quantity in Quantity::OF_MOTION {
-        let [wide, narrow] = [&cheap, &dear].map(|r| bound(r, quantity));
-        assert!((wide.value - wide.below..=wide.value + wide.above).contains(&narrow.value), "{wide:?} {narrow:?}");
-        assert!(narrow.corrected_within < wide.corrected_within, "{wide:?} {narrow:?}");
-        let causes: Vec<Cause> = wide.terms.iter().map(|t| t.cause).collect();
+        let causes: Vec<Cause> = bound(&result, quantity).terms.iter().map(|t| t.cause).collect();
         let all = [Cause::Mesh, Cause::Step, Cause::QuasiStaticElasticity, Cause::Model, Cause::Settling];
         assert_eq!(causes, all);
     }
@@ -78,15 +71,23 @@ fn bounds_of_a_reduced_motion_hold_that_with_modes() {
     }
 }
 
-/// Laws are there for every number of a motion, with a coverage of the pairs, and grow with speed as models differ.
+/// Laws are there for every number of a motion; in every stratum the dearest model is usually known best, so that a
+/// smaller tolerance takes a dearer one.
 #[test]
-fn the_committed_laws_are_whole() {
+fn the_dearest_model_is_known_best() {
     let table = MotionCalibration::committed();
     assert!(table.coverage >= 0.95 && table.motions >= 30, "{} motions", table.motions);
     for quantity in Quantity::OF_MOTION {
         let laws = table.of(quantity).unwrap();
         assert_eq!(laws.lumped12.len(), MotionCalibration::SPEEDS.len());
-        assert!(laws.usual.iter().all(|u| u.share > 0.0 && u.share.is_finite()), "{:?}", laws.usual);
+        for u in laws.usual.iter().filter(|u| u.model == MotionModel::Lumped12.name()) {
+            let of = |model: MotionModel| {
+                let same = |v: &&UsualBound| (v.speed_to, v.elastic_to) == (u.speed_to, u.elastic_to);
+                laws.usual.iter().filter(same).find(|v| v.model == model.name()).unwrap().share
+            };
+            let [cheap, middle, dear] = MotionModel::ALL.map(of);
+            assert!(cheap.min(middle) > 2.0 * dear && dear > 0.0, "{u:?}: {cheap} {middle} {dear}");
+        }
     }
 }
 
