@@ -1,9 +1,13 @@
 //! What tests and benches across crates share: the default pair, its meshes, and models of them.
 #![allow(missing_docs, reason = "for tests and benches alone")]
 
+#[allow(clippy::print_stdout, reason = "the figures of a fit are what commands call it for")]
+pub mod law_fit;
+pub mod measured_motion;
 pub mod measured_pair;
 pub mod moving;
 pub mod pair_law_fit;
+pub mod random_motion;
 pub mod random_scene;
 
 use std::path::PathBuf;

@@ -1,16 +1,16 @@
 //! Runs of cheaper models, and their files.
 
-use analysis::lumped::{BifurcationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
+use analysis::lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
 use report::{
     columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
-    lumped_files::{SweepPage, lumped_sweep_table, lumped_table, write_key_sweep, write_lumped},
+    write_key_sweep_result, write_lumped_result,
 };
 
 use crate::{
     cache::Cache,
     certificate::Written,
     error::CommandError,
-    output::{ResultDirectory, write_summary},
+    output::ResultDirectory,
     phases::Phases,
     scene::{MotionScene, Scene},
 };
@@ -32,11 +32,8 @@ pub(crate) fn solve(
         return Ok(Written { table, verdict: Ok(()) });
     }
     let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
-    let cost = phases.cost();
-    write_lumped(scene, &result, &cost, results)?;
-    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
-    let table = lumped_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
-    Ok(Written { table, verdict: result.certificate().verdict(scene).map_err(CommandError::from) })
+    let table = write_lumped_result(scene, &result, &phases.cost(), results)?;
+    Ok(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) })
 }
 
 /// The column of that name of a scene's rows.
@@ -67,11 +64,5 @@ pub(crate) fn sweep_key(
     cache: &Cache,
 ) -> Result<String, CommandError> {
     let found = KeySweep::new(scenes, options).with_cache(cache).solve_with(phases)?;
-    let cost = phases.cost();
-    let BifurcationAnalysis { scene, facts, headline, warnings, .. } = &found;
-    let page = SweepPage { headline, again };
-    write_key_sweep(options, &found, &page, &cost, results)?;
-    let summary = write_summary(scene, facts, &cost, &page, warnings, &results.files()?);
-    results.write("summary.json", summary.as_bytes())?;
-    Ok(lumped_sweep_table(scene, facts, &cost, headline, warnings))
+    Ok(write_key_sweep_result(options, &found, again, &phases.cost(), results)?)
 }

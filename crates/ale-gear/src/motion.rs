@@ -3,11 +3,15 @@
 
 use std::path::Path;
 
-use analysis::motion::{MotionAnalysis, MotionLayout, MotionOutcome, MotionResult, SweepAnalysis};
+use analysis::{
+    accuracy::motion::{AccurateMotion, MotionTold},
+    lumped::NoLumpedSink,
+    motion::{MotionAnalysis, MotionLayout, MotionOutcome, SweepAnalysis},
+};
 use report::{
     checkpoint::{CheckpointFolder, Checkpoints, ENERGY_FILE, HISTORY, InputDigests, Stored, read_rows},
-    motion_files::{MotionFileSink, write_motion, write_sweep},
-    tables::{motion_table, sweep_table},
+    motion_files::MotionFileSink,
+    write_answer, write_motion_result, write_sweep_result,
 };
 
 use crate::{
@@ -71,6 +75,9 @@ pub(crate) fn solve(
 ) -> Result<Outcome, CommandError> {
     if motion.sweep.is_some() {
         return sweep(scene, phases, results, cache).map(Outcome::Finished);
+    }
+    if !scene.accuracy.is_none() {
+        return accurate(scene, phases, results, cache).map(Outcome::Finished);
     }
     let Some(folder) = &progression.folder else {
         return one_motion(scene, phases, (results, cache), None, None);
@@ -138,15 +145,24 @@ fn one_motion(
                     results.copy(&folder.join(file), file)?;
                 }
             }
-            let cost = phases.cost();
-            write_motion(scene, &result, &cost, view.as_ref(), results)?;
-            let MotionResult { facts, headline, warnings, .. } = &*result;
-            report::close_result(scene, (facts, &cost), headline, warnings, results)?;
-            let table = motion_table(scene, facts, &cost, headline, warnings);
-            let verdict = facts.certificate.verdict(scene).map_err(CommandError::from);
-            Ok(Outcome::Finished(Written { table, verdict }))
+            let table = write_motion_result(scene, &result, &phases.cost(), view.as_ref(), results)?;
+            Ok(Outcome::Finished(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) }))
         }
     }
+}
+
+/// With bounds; the model is the scene's, or the cheapest that is as exact as it asks.
+fn accurate(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<Written, CommandError> {
+    let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
+    let told = &mut MotionTold { motion: &mut sink, lumped: &mut NoLumpedSink };
+    let solved = AccurateMotion::new(scene).with_cache(cache).solve_into(phases, told)?;
+    let table = write_answer(&solved.scene, &solved.answer, &phases.cost(), sink.view.as_ref(), results)?;
+    Ok(Written { table, verdict: solved.answer.facts().verdict(&solved.scene).map_err(CommandError::from) })
 }
 
 /// Steady states over speed.
@@ -158,9 +174,6 @@ fn sweep(
 ) -> Result<Written, CommandError> {
     let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
     let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
-    let cost = phases.cost();
-    write_sweep(scene, &result, &cost, sink.view.as_ref(), results)?;
-    report::close_result(scene, (&result.facts, &cost), &result.headline, &result.warnings, results)?;
-    let table = sweep_table(scene, &result.facts, &cost, &result.headline, &result.warnings);
+    let table = write_sweep_result(scene, &result, &phases.cost(), sink.view.as_ref(), results)?;
     Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

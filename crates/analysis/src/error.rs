@@ -361,7 +361,7 @@ impl AnalysisError {
                 Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
             }
             Self::WithAccuracy { .. } => {
-                Some("`accuracy::AccurateAnalysis` solves it with bounds; without `[accuracy]` this one does".into())
+                Some("`accuracy::AccurateAnalysis` (in motion `accuracy::motion::AccurateMotion`) solves it with bounds; without `[accuracy]` this one does".into())
             }
             Self::NoBound { quantity, .. } => Some(format!(
                 "leave `{quantity}` out of [accuracy]; harmonics need more positions a cycle, root stress a model with meshes"

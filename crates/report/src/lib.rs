@@ -37,6 +37,7 @@ pub mod lumped_files;
 mod marked_place;
 mod memory_demand;
 pub mod motion_files;
+mod motion_result;
 pub mod page;
 pub mod paraview;
 mod rows;
@@ -52,6 +53,9 @@ pub use error::ReportError;
 pub use files::ResultFiles;
 pub use marked_place::MarkedPlace;
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
+pub use motion_result::{
+    write_answer, write_key_sweep_result, write_lumped_result, write_motion_result, write_sweep_result,
+};
 pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;
 pub use summary::{close_result, write_summary};

@@ -64,6 +64,18 @@ quantities! {
     ContactLineLength: contact_line_length, "mm", "mean total contact-line length";
     MeshStiffness: mesh_stiffness, "N/um", "mean mesh stiffness (secant)";
     MeshStiffnessTangent: mesh_stiffness_tangent, "N/um", "mean mesh stiffness (tangent)";
+    RmsDte: rms_dte, "um", "root mean square of the dynamic transmission error about its mean, in motion";
+    PeakToPeakDte: peak_to_peak_dte, "um", "peak to peak of the dynamic transmission error, in motion";
+}
+
+impl Quantity {
+    /// Those of a pair in motion.
+    pub const OF_MOTION: [Self; 2] = [Self::RmsDte, Self::PeakToPeakDte];
+
+    /// Whether it is a number of a pair in motion, not of one at rest.
+    pub fn is_of_motion(self) -> bool {
+        Self::OF_MOTION.contains(&self)
+    }
 }
 
 impl Serialize for Quantity {

@@ -110,6 +110,12 @@ pub fn peak_to_peak(series: &[f64]) -> f64 {
     high - low
 }
 
+/// Root mean square about the mean; NaN of nothing.
+pub fn root_mean_square(series: &[f64]) -> f64 {
+    let centre = mean(series);
+    (series.iter().map(|x| (x - centre).powi(2)).sum::<f64>() / series.len() as f64).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -25,7 +25,7 @@ mod work_precision;
 
 pub use bifurcation::{Bifurcation, Branch, sweep_both_ways};
 pub use campbell::{Campbell, Resonance, campbell};
-pub use columns::{Columns, extent, mean, peak_to_peak};
+pub use columns::{Columns, extent, mean, peak_to_peak, root_mean_square};
 pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;

@@ -101,13 +101,13 @@ impl RunArgs {
         let refuse = |what: &str, hint: &str| {
             Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
         };
-        let full = !is_lumped(scene);
+        let full = !is_lumped(scene) && scene.accuracy.is_none();
         let checkpoints =
             full && scene.motion.as_ref().is_some_and(|m| matches!(m.run, Run::Steady | Run::Span | Run::Ramp));
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
             return refuse(
                 "this analysis has no checkpoints",
-                "`--resume` and `--stop-after-cycles` belong to motions of the model \"reduced\" with `run` \"steady\", \"span\" or \"ramp\"",
+                "`--resume` and `--stop-after-cycles` belong to motions of the model \"reduced\" with `run` \"steady\", \"span\" or \"ramp\", without [accuracy]",
             );
         }
         if scene.analysis.kind == Kind::Dynamic && scene.output.vtu {
@@ -209,7 +209,6 @@ fn write_static(
     let scene = &scene;
     facts.certificate = run::certificate(&history.positions);
     let headline = static_headline(scene, &history)?;
-
     let picture = phases.run("write", || {
         results.write("history.csv", write_history(scene, &history).as_bytes())?;
         Ok::<_, CommandError>(write_contact(scene, &history, results)?)

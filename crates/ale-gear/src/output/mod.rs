@@ -14,7 +14,6 @@ pub use ::report::{
     contact_files::{write_contact, write_contact_lines, write_contact_pattern},
     page::{Rendered, report_again, write_report},
     tables::closing_table,
-    write_summary,
 };
 pub(crate) use ::report::{
     motion_files::{motion_precision_csv, motion_precision_svg, motion_precision_table},

@@ -34,6 +34,11 @@ const STUDY: &str = "[[case]]\nscene = \"iso.toml\"\nlabel = \"a\"\nvalue = 1\n[
 const EXACT: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 31\n[pair]\nnormal_module_mm = 3.0\n\
     face_width_mm = 15.0\n[operation]\ntorque_nm = 200.0\n[accuracy]\nmean_ste = \"50 %\"\npeak_to_peak_ste = \"20 %\"\n";
 
+/// A model of motion that is left, and one that is taken.
+const EXACT_MOTION: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 31\n[pair]\nnormal_module_mm = 3.0\n\
+    face_width_mm = 6.0\n[operation]\ntorque_nm = 80.0\nspeed_rpm = 2000.0\n[contact]\nslices = 8\nflanks = \"driving\"\n\
+    [analysis]\nkind = \"dynamic\"\ncycles = 1\n[motion]\nperiodic_tolerance = 1e-3\n[accuracy]\npeak_to_peak_dte = \"40 %\"\n";
+
 /// One folder of every kind, in a folder of its own each.
 fn every_kind() -> Scratch {
     let scratch = Scratch::new()
@@ -43,12 +48,13 @@ fn every_kind() -> Scratch {
         .file("ramp.toml", motion_scene(0, RAMP))
         .file("resonance.toml", motion_scene(1, SWEEP))
         .file("exact.toml", EXACT)
+        .file("exact_motion.toml", EXACT_MOTION)
         .file("study.toml", STUDY);
     let run = |words: &[&str]| {
         let done = scratch.command(words);
         assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
     };
-    for scene in ["iso", "rest", "exact", "span", "ramp", "resonance"] {
+    for scene in ["iso", "rest", "exact", "exact_motion", "span", "ramp", "resonance"] {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();

@@ -19,6 +19,14 @@ pub enum Cause {
     Interpolation,
     /// Contact iterations that end.
     Iteration,
+    /// Steps of time.
+    Step,
+    /// Inertia of elastic deformation that the model leaves out.
+    QuasiStaticElasticity,
+    /// A model with fewer coordinates than the flanks have.
+    Model,
+    /// A transient that has not died out.
+    Settling,
 }
 
 /// A share of a bound, in the unit of its quantity.

@@ -25,6 +25,9 @@ pub struct Accuracy {
     /// Rungs of the ladder that were tried, in their order; empty where the scene says what is taken.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rungs: Vec<super::TriedRung>,
+    /// Models of a motion that were tried, in their order; empty where the scene says what is taken, and at rest.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub models: Vec<super::motion::TriedModel>,
     /// What the bounds do not cover.
     pub not_covered: Vec<String>,
 }
@@ -97,6 +100,7 @@ fn accuracy(
         held_against: standing.words(),
         bounds,
         rungs: Vec::new(),
+        models: Vec::new(),
         not_covered,
     })
 }

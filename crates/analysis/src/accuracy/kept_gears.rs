@@ -10,7 +10,7 @@ use reduction::{RecordKey, ReductionRecord};
 use crate::GearCache;
 
 /// Reduced gears in memory before the caller's own store.
-pub(super) struct KeptGears<'a> {
+pub struct KeptGears<'a> {
     store: &'a dyn GearCache,
     kept: Mutex<BTreeMap<String, ReductionRecord>>,
 }
@@ -19,6 +19,12 @@ impl<'a> KeptGears<'a> {
     /// None yet, but those of `store`.
     pub fn new(store: &'a dyn GearCache) -> Self {
         Self { store, kept: Mutex::default() }
+    }
+}
+
+impl std::fmt::Debug for KeptGears<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("KeptGears").finish_non_exhaustive()
     }
 }
 

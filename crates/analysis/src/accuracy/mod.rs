@@ -10,9 +10,10 @@
 //! | `analysis` | which rung is exact enough? |
 //! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
-//! | `calibration`, `calibrated_mesh`, `features` | how does the error go with what is known of a run? |
+//! | `calibration`, `calibrated_mesh`, `features`, `law` | how does the error go with what is known of a run? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
 //! | `coverage` | what do bounds not cover? |
+//! | [`motion`] | the same questions of a pair in motion |
 
 mod analysis;
 mod bound;
@@ -23,6 +24,8 @@ mod coverage;
 mod estimate;
 mod features;
 mod kept_gears;
+mod law;
+pub mod motion;
 mod quantity;
 mod rung;
 mod solved_cycle;
@@ -33,6 +36,8 @@ pub use calibrated_mesh::CalibratedMesh;
 pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
 pub use estimate::Accuracy;
 pub use features::{FEATURES, Features, features};
+pub use kept_gears::KeptGears;
+pub use law::Law;
 pub use quantity::{Sample, goes_with_deflection, value_of};
 pub use rung::Rung;
 pub use scene::Quantity;

@@ -23,6 +23,7 @@ pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
         Quantity::ContactLineLength => Some(headline.mean_contact_line_length_mm),
         Quantity::MeshStiffness => Some(headline.mean_mesh_stiffness_n_per_um),
         Quantity::MeshStiffnessTangent => Some(headline.mean_mesh_stiffness_tangent_n_per_um),
+        Quantity::RmsDte | Quantity::PeakToPeakDte => None,
     }
 }
 

@@ -2,9 +2,9 @@
 //! beside.
 
 use scene::{
-    Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Integration, Kind, Law, Lumped8Scene,
-    Lumped12Scene, MeshScene, Model, MotionScene, Run, Scene, Shaft18Scene, ShaftScene, Sharing, StiffnessFrom,
-    SupportScene, TorqueScene,
+    AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Integration, Kind, Law,
+    Lumped8Scene, Lumped12Scene, MeshScene, Model, MotionScene, Run, Scene, Shaft18Scene, ShaftScene, Sharing,
+    StiffnessFrom, SupportScene, TorqueScene,
 };
 
 /// Supports that hold as the reduced model's fixed axes do, N/mm and N mm/rad: they yield less than 1e-4 of the teeth.
@@ -15,6 +15,7 @@ const SHAFT_WIDTHS: f64 = 3.0;
 /// In motion at constant speed.
 pub(super) fn in_motion(scene: &mut Scene) {
     scene.analysis.kind = Kind::Dynamic;
+    scene.accuracy = AccuracyScene::default();
     scene.motion = Some(MotionScene {
         run: Run::Steady,
         method: Integration::Energy,

@@ -7,8 +7,8 @@ use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
 use geometry::GearPair;
 use ltca::StaticPosition;
 use scene::{
-    Analysis, BearingScene, ContactScene, Driver, Flanks, GearScene, Kind, Law, MeshScene, Model, Operation,
-    OutputScene, Reduction, Scene, StiffnessFrom,
+    AccuracyScene, Analysis, BearingScene, ContactScene, Driver, Flanks, GearScene, Kind, Law, MeshScene, Model,
+    Operation, OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
 use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, static_certificate};
@@ -110,7 +110,7 @@ fn projection(scene: &Scene, pair: &GearPair) -> f64 {
 }
 
 /// The same as a quasi-static analysis of the reduced model: friction is the cheaper model's own.
-fn static_scene(scene: &Scene) -> Scene {
+pub(crate) fn static_scene(scene: &Scene) -> Scene {
     let without_body =
         |gear: &GearScene| GearScene { body: None, bearing: BearingScene::default(), shaft: None, ..gear.clone() };
     Scene {
@@ -123,6 +123,8 @@ fn static_scene(scene: &Scene) -> Scene {
         drive: None,
         load: None,
         motion: None,
+        accuracy: AccuracyScene::default(),
+        modes: None,
         mesh: None,
         lumped8: None,
         lumped12: None,

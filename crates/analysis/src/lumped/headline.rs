@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics};
+use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
 use super::{LumpedRow, run_loop::LumpedRun};
 use crate::motion::PassageHeadline;
@@ -26,6 +26,7 @@ pub struct LumpedHeadline {
     pub cycles: u64,
     pub judged_cycles: u64,
     pub mean_dte_um: f64,
+    pub rms_dte_um: f64,
     pub peak_to_peak_dte_um: f64,
     pub min_dte_um: f64,
     pub max_dte_um: f64,
@@ -111,6 +112,7 @@ pub(super) fn headline(
         cycles: run.cycles,
         judged_cycles: run.judged,
         mean_dte_um: of_dte.mean,
+        rms_dte_um: root_mean_square(&dte),
         peak_to_peak_dte_um: of_dte.peak_to_peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,

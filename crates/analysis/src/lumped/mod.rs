@@ -38,5 +38,5 @@ pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};
 pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SectionEvery, SweepHeadline, SweepOptions, SweepPoint};
 
 pub(crate) use analysis::steady_rows;
-pub(crate) use excitation::ExcitationSource;
+pub(crate) use excitation::{ExcitationSource, static_scene};
 pub(crate) use inputs::LumpedInputs;

@@ -146,6 +146,9 @@ impl<'a> MotionAnalysis<'a> {
     fn follow(self, observer: &mut dyn Observer, sink: &mut dyn MotionSink) -> Result<FollowedMotion, AnalysisError> {
         let Self { meshes, cache, mut from, stop_after, .. } = self;
         let scene = settled_scene(self.scene, meshes.is_some());
+        if !scene.accuracy.is_none() {
+            return Err(AnalysisError::WithAccuracy { file: scene.file.display().to_string() });
+        }
         let one_motion = |m: &&MotionScene| m.sweep.is_none() && scene.analysis.model.is_reduced();
         let motion = scene.motion.as_ref().filter(one_motion).ok_or_else(|| other_analysis(&scene))?;
         from.as_ref().map_or(Ok(()), |from| check_rows(&scene, motion, from))?;

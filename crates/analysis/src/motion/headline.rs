@@ -3,7 +3,7 @@
 use dynamics::Drive;
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, peak_to_peak};
+use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, peak_to_peak, root_mean_square};
 
 use super::{
     MotionRow,
@@ -30,6 +30,7 @@ pub struct MotionHeadline {
     pub cycles: u64,
     pub free_coordinates: Vec<String>,
     pub mean_dte_um: f64,
+    pub rms_dte_um: f64,
     pub peak_to_peak_dte_um: f64,
     pub min_dte_um: f64,
     pub max_dte_um: f64,
@@ -149,6 +150,7 @@ pub(super) fn headline(
         cycles,
         free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
         mean_dte_um: of_dte.mean,
+        rms_dte_um: root_mean_square(&dte),
         peak_to_peak_dte_um: peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,

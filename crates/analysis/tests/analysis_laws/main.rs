@@ -1,4 +1,5 @@
 //! Laws of the crate `analysis`.
 
 mod accuracy;
+mod motion_accuracy;
 mod motion_in_memory;

@@ -15,6 +15,7 @@ pub fn lumped_table(
 ) -> String {
     let mut t = Lines::new(facts);
     let (h, c) = (headline, &headline.certificate);
+    t.accuracy(facts);
     t.text("coordinates", h.coordinates, "");
     t.resolution(scene, facts);
     t.number("mesh frequency", h.mesh_frequency_hz, 1, "Hz");

@@ -46,6 +46,7 @@ impl Lines {
     /// Headline numbers with their bounds, and what was asked of them.
     pub fn accuracy(&mut self, facts: &Facts) {
         let Some(accuracy) = &facts.accuracy else { return };
+        self.text("how exact", "", "value with bounds");
         for bound in &accuracy.bounds {
             let asked = match (bound.asked, bound.met) {
                 (Some(asked), Some(true)) => format!("(within {asked:.3}, as asked)"),
@@ -60,6 +61,13 @@ impl Lines {
             let slices = rung.slices.map_or(String::new(), |n| format!(", {n} slices"));
             let why = rung.left_because.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
             let of = format!("{mesh}{slices}, {} positions", rung.positions_per_cycle);
+            self.text("tried", of, &why);
+        }
+        for tried in &accuracy.models {
+            let mesh = tried.elements_profile.map_or("meshes of the scene".into(), |n| format!("{n} elements"));
+            let slices = tried.slices.map_or(String::new(), |n| format!(", {n} slices"));
+            let why = tried.left_because.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
+            let of = format!("{}, {mesh}{slices}, {} steps", tried.model.name(), tried.steps_per_resonance);
             self.text("tried", of, &why);
         }
         for what in &accuracy.not_covered {

@@ -19,6 +19,7 @@ pub fn motion_table(
 ) -> String {
     let mut t = Lines::new(facts);
     let (h, c) = (headline, &headline.certificate);
+    t.accuracy(facts);
     t.number("mean speed of the driver", h.speed_rpm, 2, "1/min");
     t.number("mesh frequency", h.mesh_frequency_hz, 1, "Hz");
     t.number("mesh resonance (mean stiffness)", h.mesh_resonance_hz, 1, "Hz");

@@ -19,10 +19,7 @@ pub fn closing_table(
 ) -> String {
     let mut t = Lines::new(facts);
     let h = headline;
-    if facts.accuracy.is_some() {
-        t.text("how exact", "", "value with bounds");
-        t.accuracy(facts);
-    }
+    t.accuracy(facts);
     t.number("mean STE", h.mean_ste_um, 4, "um");
     t.number(&format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), h.peak_to_peak_ste_um, 4, "um");
     t.number("mean mesh stiffness, secant", h.mean_mesh_stiffness_n_per_um, 2, "N/um");

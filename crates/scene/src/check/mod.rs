@@ -1,5 +1,6 @@
 //! From words to a scene: ranges, defaults, what goes together, what this version cannot do.
 
+mod accuracy_in_time;
 mod gear;
 mod motion;
 mod pitch_errors;

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::Checked;
+use super::{Checked, accuracy_in_time};
 use crate::{DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
 
 /// What can only be judged with the whole scene in view.
@@ -24,13 +24,9 @@ pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked
 /// What goes together with `[accuracy]`.
 fn accuracy(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let table = raw.accuracy.as_ref().map_or(0..0, Spanned::span);
+    accuracy_in_time::quantities(s, &table, scene)?;
     if scene.analysis.kind == Kind::Dynamic {
-        return Err(SceneError::NotYet {
-            place: s.place(&table),
-            key: "accuracy".into(),
-            what: "bounds of a motion".into(),
-            instead: "leave [accuracy] out, or use `kind = \"static\"`".into(),
-        });
+        accuracy_in_time::motion(s, raw, scene)?;
     }
     let of_root = [Quantity::PinionRootStress, Quantity::WheelRootStress].into_iter();
     if let Some(asked) = of_root.filter(|q| scene.accuracy.of(*q).is_some()).find(|_| !scene.output.root_stress) {
@@ -174,7 +170,8 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
 
 /// What this version can do in time.
 fn possible(s: &Source<'_>, raw: &RawScene, scene: &Scene, on_ladder: bool) -> Checked<()> {
-    if let (Some(word), true, false) = (&raw.analysis.model, !scene.analysis.model.is_reduced(), on_ladder) {
+    let with_flanks = scene.analysis.model.is_reduced() || scene.is_auto();
+    if let (Some(word), false, false) = (&raw.analysis.model, with_flanks, on_ladder) {
         return Err(not_yet(s, "model", word, "another model in time", "use `model = \"reduced\"`"));
     }
     if let (Some(word), Method::Nodal) = (&raw.contact.method, scene.contact.method) {

@@ -181,6 +181,8 @@ const SCENE: &[Row] = &[
     ("accuracy.contact_line_length", Reduced, "", "50 %"),
     ("accuracy.mesh_stiffness", Reduced, "", "50 %"),
     ("accuracy.mesh_stiffness_tangent", Reduced, "", "50 %"),
+    ("accuracy.rms_dte", Motion, "motion.run=steady; motion.warm_up_cycles=1; analysis.model=reduced", "50 %"),
+    ("accuracy.peak_to_peak_dte", Motion, "motion.run=steady; motion.warm_up_cycles=1; analysis.model=reduced", "50 %"),
     ("accuracy.pinion_root_stress", Reduced, "output.root_stress=true", "50 %"),
     ("accuracy.wheel_root_stress", Reduced, "output.root_stress=true", "50 %"),
     ("contact.friction", Reduced, "", "0.1"),

@@ -1,0 +1,105 @@
+//! A run of a model, and the numbers that bounds are given of.
+
+use scene::{Quantity, Scene};
+
+use crate::{
+    AnalysisError, GearCache, Observer,
+    lumped::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink},
+    motion::{MotionAnalysis, MotionOutcome, MotionResult, MotionSink, NoMotionSink},
+};
+
+/// What is told of a run as it comes; each model has its own rows.
+pub struct MotionTold<'a> {
+    /// Of reduced gears.
+    pub motion: &'a mut dyn MotionSink,
+    /// Of lumped gears.
+    pub lumped: &'a mut dyn LumpedSink,
+}
+
+impl std::fmt::Debug for MotionTold<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MotionTold").finish_non_exhaustive()
+    }
+}
+
+/// The answer of a model.
+#[derive(Debug)]
+pub enum MotionAnswer {
+    /// Of twelve coordinates.
+    Lumped(Box<LumpedResult>),
+    /// Of reduced gears, with modes or without.
+    Reduced(Box<MotionResult>),
+}
+
+/// Numbers of a motion that bounds are given of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionSample {
+    /// Root mean square of the dynamic transmission error about its mean, um.
+    pub rms_um: f64,
+    /// Its peak to peak, um.
+    pub peak_to_peak_um: f64,
+    /// Least sum of the normal forces over the mean: at zero and below the flanks part.
+    pub least_force: f64,
+    /// How nearly the motion repeats itself, over the peak to peak; `None`: nobody looked.
+    pub periodicity: Option<f64>,
+}
+
+impl MotionSample {
+    /// The value of a quantity of motion.
+    pub fn get(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::RmsDte => self.rms_um,
+            _ => self.peak_to_peak_um,
+        }
+    }
+}
+
+impl MotionAnswer {
+    /// Runs the model of a scene.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn of(
+        scene: &Scene,
+        cache: &dyn GearCache,
+        observer: &mut dyn Observer,
+        told: &mut MotionTold<'_>,
+    ) -> Result<Self, AnalysisError> {
+        if !scene.analysis.model.is_reduced() {
+            let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(observer, told.lumped)?;
+            return Ok(Self::Lumped(Box::new(result)));
+        }
+        match MotionAnalysis::new(scene).with_cache(cache).solve_into(observer, told.motion)? {
+            MotionOutcome::Finished(result) => Ok(Self::Reduced(result)),
+            // Nobody asked it to.
+            MotionOutcome::Stopped { .. } => Err(AnalysisError::other_analysis(scene, "motion to its end")),
+        }
+    }
+
+    /// The same, told nobody.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn quietly(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
+        Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
+    }
+
+    /// Its numbers.
+    pub fn sample(&self) -> MotionSample {
+        // Both headlines have the same names for them.
+        macro_rules! sample {
+            ($headline:expr) => {
+                MotionSample {
+                    rms_um: $headline.rms_dte_um,
+                    peak_to_peak_um: $headline.peak_to_peak_dte_um,
+                    least_force: $headline.min_normal_force_n / $headline.mean_normal_force_n,
+                    periodicity: $headline.certificate.periodicity,
+                }
+            };
+        }
+        match self {
+            Self::Lumped(result) => sample!(result.headline),
+            Self::Reduced(result) => sample!(result.headline),
+        }
+    }
+}

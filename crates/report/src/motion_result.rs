@@ -1,0 +1,104 @@
+//! All files of a motion, or of motions at many values, but the rows of reduced gears; the table at their end.
+
+use analysis::{
+    accuracy::motion::MotionAnswer,
+    lumped::{BifurcationAnalysis, LumpedResult, SweepOptions},
+    motion::{MotionResult, SweepResult},
+};
+use scene::Scene;
+
+use crate::{
+    Cost, ReportError, ResultFiles, close_result,
+    folder::ResultDirectory,
+    lumped_files::{SweepPage, lumped_sweep_table, lumped_table, write_key_sweep, write_lumped},
+    motion_files::{write_motion, write_sweep},
+    tables::{motion_table, sweep_table},
+    view::View,
+    write_summary,
+};
+
+/// Of reduced gears, whose rows are written as they come.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_motion_result(
+    scene: &Scene,
+    result: &MotionResult,
+    cost: &Cost,
+    view: Option<&View>,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    write_motion(scene, result, cost, view, results)?;
+    let MotionResult { facts, headline, warnings, .. } = result;
+    close_result(scene, (facts, cost), headline, warnings, results)?;
+    Ok(motion_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of steady states of reduced gears over speed.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_sweep_result(
+    scene: &Scene,
+    result: &SweepResult,
+    cost: &Cost,
+    view: Option<&View>,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    write_sweep(scene, result, cost, view, results)?;
+    let SweepResult { facts, headline, warnings, .. } = result;
+    close_result(scene, (facts, cost), headline, warnings, results)?;
+    Ok(sweep_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of a cheaper model at many values of a key; `again`: words of `ale-gear sweep` that make it again.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_key_sweep_result(
+    options: &SweepOptions,
+    found: &BifurcationAnalysis,
+    again: Option<&str>,
+    cost: &Cost,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    let BifurcationAnalysis { scene, facts, headline, warnings, .. } = found;
+    let page = SweepPage { headline, again };
+    write_key_sweep(options, found, &page, cost, results)?;
+    let summary = write_summary(scene, facts, cost, &page, warnings, &results.files()?);
+    ResultFiles::write(results, "summary.json", summary.as_bytes())?;
+    Ok(lumped_sweep_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of a cheaper model, its rows among them.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_lumped_result(
+    scene: &Scene,
+    result: &LumpedResult,
+    cost: &Cost,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    write_lumped(scene, result, cost, results)?;
+    let LumpedResult { facts, headline, warnings, .. } = result;
+    close_result(scene, (facts, cost), headline, warnings, results)?;
+    Ok(lumped_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of whichever model was taken.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_answer(
+    scene: &Scene,
+    answer: &MotionAnswer,
+    cost: &Cost,
+    view: Option<&View>,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    match answer {
+        MotionAnswer::Lumped(result) => write_lumped_result(scene, result, cost, results),
+        MotionAnswer::Reduced(result) => write_motion_result(scene, result, cost, view, results),
+    }
+}

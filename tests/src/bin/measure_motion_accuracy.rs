@@ -1,0 +1,128 @@
+//! Random pairs in motion by every model, with few and many steps: what bounds of motions are calibrated on. One line of
+//! JSON a pair and speed, appended as it comes; those that are there are left out.
+//!
+//! `cargo run --release -p verification --bin measure_motion_accuracy -- FILE SEED FIRST COUNT [MESH_RUNG]`
+#![allow(clippy::print_stderr, reason = "the progress of hours")]
+
+use std::{
+    error::Error,
+    fs::{File, OpenOptions},
+    io::{BufRead, BufReader, Write},
+    time::Instant,
+};
+
+use analysis::{
+    NoObserver,
+    accuracy::{
+        KeptGears, Rung,
+        motion::{MotionAnswer, MotionModel, PairAtRest, solve_at_rest},
+    },
+};
+use serde_json::{Value, json};
+use verification::random_motion::{RandomMotion, fine_modes, random_motion};
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+/// Steps in a period of the fastest motion, of each model.
+const STEPS: [(MotionModel, &[u32]); 3] =
+    [(MotionModel::Lumped12, &[16]), (MotionModel::Reduced, &[8, 16, 32]), (MotionModel::ReducedModes, &[6])];
+/// Steps at the speeds of a pair at which they are not compared.
+const ENOUGH: u32 = 16;
+
+fn main() -> Result<(), Failure> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [file, seed, first, count, rest @ ..] = &words[..] else {
+        return Err("FILE SEED FIRST COUNT [MESH_RUNG] are wanted".into());
+    };
+    let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
+    let rung: u32 = rest.first().map_or(Ok(2), |word| word.parse())?;
+    let rung = Rung::ALL.into_iter().find(|r| r.elements_profile == rung).ok_or("no such rung")?;
+    let done = done(file, seed)?;
+    let mut out = OpenOptions::new().create(true).append(true).open(file)?;
+    for index in (first..first + count).filter(|i| !done.contains(i)) {
+        let Some(pair) = random_motion(seed, index) else { continue };
+        let start = Instant::now();
+        for line in measured(&pair, index, rung) {
+            let mut line = line.unwrap_or_else(|e| json!({ "error": e.to_string() }));
+            (line["seed"], line["index"]) = (json!(seed), json!(index));
+            writeln!(out, "{line}")?;
+        }
+        eprintln!("pair {index}: {:.0} s", start.elapsed().as_secs_f64());
+    }
+    Ok(())
+}
+
+/// Pairs of a seed that a file has.
+fn done(file: &str, seed: u64) -> Result<Vec<u64>, Failure> {
+    let Ok(file) = File::open(file) else { return Ok(Vec::new()) };
+    let mut found = Vec::new();
+    for line in BufReader::new(file).lines() {
+        let pair: Value = serde_json::from_str(&line?)?;
+        if pair["seed"] == json!(seed) {
+            found.extend(pair["index"].as_u64());
+        }
+    }
+    Ok(found)
+}
+
+/// The lines of a pair, one a speed.
+fn measured(pair: &RandomMotion, index: u64, rung: Rung) -> Vec<Result<Value, Failure>> {
+    let kept = KeptGears::new(&analysis::NoCache);
+    let scene = rung.scene(&pair.scene);
+    let rest = solve_at_rest(&scene, &kept, &mut NoObserver).and_then(|solved| PairAtRest::new(&scene, &solved));
+    match rest {
+        Ok(rest) => {
+            let compared = index as usize % pair.speeds.len();
+            let one = |(i, speed): (usize, &f64)| at_speed(pair, rung, &rest, (*speed, i == compared), &kept);
+            pair.speeds.iter().enumerate().map(one).collect()
+        }
+        Err(e) => vec![Err(e.into())],
+    }
+}
+
+fn at_speed(
+    pair: &RandomMotion,
+    rung: Rung,
+    rest: &PairAtRest,
+    (speed, compares_steps): (f64, bool),
+    kept: &KeptGears<'_>,
+) -> Result<Value, Failure> {
+    let rest = PairAtRest { mesh_hz: speed * rest.resonance.hz, ..rest.clone() };
+    let mut scene = rung.scene(&pair.at(rest.mesh_hz));
+    scene.modes = Some(fine_modes());
+    let mut runs = serde_json::Map::new();
+    for (model, steps) in STEPS {
+        for n in steps.iter().filter(|n| compares_steps || model != MotionModel::Reduced || **n == ENOUGH) {
+            // As many rows as there are in a mesh cycle are steps whatever is asked: fewer change nothing.
+            let rows = scene.motion.as_ref().map_or(0.0, |m| f64::from(m.steps_per_mesh_cycle));
+            let same = steps.iter().filter(|s| *s < n && f64::from(*n) <= rows * speed).min();
+            let same = same.filter(|_| model != MotionModel::ReducedModes);
+            if let Some(told) = same.and_then(|s| runs.get(&format!("{} {s}", model.name())).cloned()) {
+                runs.insert(format!("{} {n}", model.name()), told);
+                continue;
+            }
+            let start = Instant::now();
+            let answer = MotionAnswer::quietly(&model.scene(&scene, &rest, *n), kept, &mut NoObserver);
+            let seconds = start.elapsed().as_secs_f64();
+            let told = match answer.map(|a| a.sample()) {
+                Ok(s) => json!({
+                    "rms_dte": s.rms_um, "peak_to_peak_dte": s.peak_to_peak_um, "least_force": s.least_force,
+                    "periodicity": s.periodicity, "seconds": seconds,
+                }),
+                Err(e) => json!({ "error": e.to_string() }),
+            };
+            runs.insert(format!("{} {n}", model.name()), told);
+        }
+    }
+    Ok(json!({
+        "speed": speed,
+        "elastic_ratio": rest.elastic_ratio(),
+        "elastic_share": rest.elastic_share(),
+        "damping": rest.resonance.damping,
+        "resonance_hz": rest.resonance.hz,
+        "elastic_hz": rest.elastic_hz,
+        "ste": { "rms_dte": rest.ste_um[0], "peak_to_peak_dte": rest.ste_um[1] },
+        "amplitudes_um": rest.amplitudes_um.iter().take(8).collect::<Vec<_>>(),
+        "runs": runs,
+    }))
+}
