@@ -10,6 +10,7 @@
 //! | `analysis` | which rung is exact enough? |
 //! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
+//! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration` | how does the error go with what is seen? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
 //! | `coverage` | what do bounds not cover? |
@@ -21,6 +22,7 @@ mod companion;
 mod coverage;
 mod estimate;
 mod kept_gears;
+mod of_results;
 mod quantity;
 mod rung;
 mod solved_cycle;
@@ -29,6 +31,7 @@ pub use analysis::{AccurateAnalysis, AccurateResult, TriedRung};
 pub use bound::{Bound, Cause, Term};
 pub use calibration::{Calibration, Law, MeshLaw, PositionsLaw, QuantityLaws};
 pub use estimate::Accuracy;
+pub(crate) use of_results::BoundsOfResults;
 pub use quantity::{Sample, goes_with_deflection, value_of};
 pub use rung::Rung;
 pub use scene::Quantity;
