@@ -13,13 +13,14 @@
 //! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration` | how does the error go with what is seen? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
-//! | `coverage` | what do bounds not cover? |
+//! | `coverage`, `coverage_flanks` | what do bounds not cover? |
 
 mod analysis;
 mod bound;
 mod calibration;
 mod companion;
 mod coverage;
+mod coverage_flanks;
 mod estimate;
 mod kept_gears;
 mod of_results;

@@ -40,13 +40,13 @@ fn bounds_that_hold(chart: &WorkPrecision) -> String {
     };
     let of = |name: &str, bounds: Vec<&OwnBound>| {
         let held = bounds.iter().filter(|b| b.holds).count();
-        format!("{held} of {} of the {name}", bounds.len())
+        format!("{held} of {} bounds of the {name}", bounds.len())
     };
     let mean = of("mean STE", known().map(|own| &own.mean_ste).collect());
     let swing = of("peak to peak", known().filter_map(|own| own.peak_to_peak_ste.as_ref()).collect());
     format!(
-        "*May be off by*: the bounds that `[accuracy]` gives of the point, estimated apart from all times here. Of these \
-         bounds {mean} and {swing} hold the reference.\n\n"
+        "*May be off by*: the bounds that `[accuracy]` gives of the point, estimated apart from all times here. The reference \
+         lies inside of {mean} and {swing}.\n\n"
     )
 }
 

@@ -213,3 +213,18 @@ fn draw(
     root.present().map_err(|e| fail(&e))?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The picture has the area between both edges, the script's numbers have the edges beside the curve.
+    #[test]
+    fn a_band_lies_around_its_curve() {
+        let curve = Curve { label: "STE".into(), points: vec![(0.0, 9.0), (1.0, 10.0), (2.0, 9.0)] };
+        let figure = banded_chart("t", "x", "y", curve, "bounds", [0.25, 0.5]).unwrap();
+        assert_eq!(figure.matches("<polygon").count(), 1, "{figure}");
+        assert!(figure.contains(r#""band":true"#), "{figure}");
+        assert!(figure.contains("[[0,1,2],[9,10,9],[9.5,10.5,9.5],[8.75,9.75,8.75]]"), "{figure}");
+    }
+}
