@@ -1,6 +1,7 @@
 //! What tests and benches across crates share: the default pair, its meshes, and models of them.
 #![allow(missing_docs, reason = "for tests and benches alone")]
 
+pub mod judged;
 pub mod measured_pair;
 pub mod moving;
 pub mod random_scene;
