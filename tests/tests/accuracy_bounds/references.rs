@@ -61,17 +61,23 @@ fn all_lie_inside(what: &str, accuracy: &Accuracy, references: &[(Quantity, f64)
 
 #[test]
 fn the_converged_values_lie_inside_of_the_bounds_of_slices() {
-    for mesh in ["ref_qcoarse_hex20", "ref_coarse_hex8"] {
-        all_lie_inside(&format!("slices, {mesh}"), &bounds_of(&on(mesh)), &CONVERGED);
-    }
+    all_lie_inside("slices, hex20", &bounds_of(&on("ref_qcoarse_hex20")), &CONVERGED);
 }
 
-/// Pressed points without the local approach are 7 % off, with the gaps of flat faces 23 %: their bounds say so, and hold
-/// what CalculiX finds on a finer mesh as well.
+/// Pressed points without the local approach are 7 % off: their bounds say so, and hold what CalculiX finds on a finer
+/// mesh as well.
 #[test]
 fn converged_values_and_calculix_lie_inside_of_the_bounds_of_pressed_points() {
     let hex20 = bounds_of(&as_calculix("ref_qcoarse_hex20", "smooth"));
     all_lie_inside("pressed points, hex20", &hex20, &CONVERGED);
     all_lie_inside("pressed points, hex20", &hex20, &CALCULIX);
+}
+
+/// The coarse hex8 meshes, with slices and with the gaps of flat faces, which are 23 % off:
+/// `cargo test --release --workspace --test accuracy_bounds -- --ignored --nocapture hex8`.
+#[test]
+#[ignore = "the larger meshes of the references"]
+fn the_converged_values_lie_inside_of_the_bounds_of_hex8() {
+    all_lie_inside("slices, hex8", &bounds_of(&on("ref_coarse_hex8")), &CONVERGED);
     all_lie_inside("gaps of flat faces, hex8", &bounds_of(&as_calculix("ref_coarse_hex8", "facet")), &CONVERGED);
 }

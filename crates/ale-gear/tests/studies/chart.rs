@@ -47,8 +47,8 @@ fn every_point_is_a_run_or_says_why_not() {
     assert_eq!(svg.matches(">Error of ").count() + svg.matches("\nError of ").count(), 6, "six panels");
 }
 
-/// Every meshed model and `iso` says how far it may be off and whether the reference lies inside; models with rigid gears
-/// say that they have no bounds.
+/// Every meshed model and `iso` says how far it may be off and whether the reference lies inside; models with rigid
+/// gears say that they have no bounds.
 fn own_bounds_stand_beside_the_errors(csv: &str) {
     for row in chart_rows(csv).iter().filter(|row| !row["first_cycle_s"].is_empty()) {
         let value = |name: &str| row[name].parse::<f64>();

@@ -8,8 +8,8 @@ use crate::accuracy::{Accuracy, Bound};
 /// How far the error of a number may lie by its own bounds, and whether it does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OwnBound {
-    /// The error is at least this, relative to the reference as all errors of a chart are: the exact value lies above by as
-    /// much at the most.
+    /// The error is at least this, relative to the reference as all errors of a chart are: the exact value lies above
+    /// by as much at the most.
     pub least: f64,
     /// The error is at most this, likewise.
     pub most: f64,
