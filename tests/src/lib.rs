@@ -1,6 +1,7 @@
 //! What tests and benches across crates share: the default pair, its meshes, and models of them.
 #![allow(missing_docs, reason = "for tests and benches alone")]
 
+pub mod judged;
 #[allow(clippy::print_stdout, reason = "the figures of a fit are what commands call it for")]
 pub mod law_fit;
 pub mod measured_motion;

@@ -31,6 +31,7 @@ fn every_point_is_a_run_or_says_why_not() {
     for way in cheap.into_iter().chain(["iso", "slice", "slice, general reduction", "nodal", "full", "reference"]) {
         assert!(measured.iter().any(|(name, ..)| name == way), "no point of {way}:\n{csv}");
     }
+    own_bounds_stand_beside_the_errors(&csv);
     // Each of them computes the same gears: nothing is off by a unit, a sign or a factor.
     for (way, ste, _) in &measured {
         // Rigid gears, whose dent has the stiffness of two balls, yield three times as much.
@@ -44,6 +45,23 @@ fn every_point_is_a_run_or_says_why_not() {
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n") && png.len() > 10_000, "{} bytes", png.len());
     let svg = scratch.read("o/work_precision.svg");
     assert_eq!(svg.matches(">Error of ").count() + svg.matches("\nError of ").count(), 6, "six panels");
+}
+
+/// Every meshed model and `iso` says how far it may be off and whether the reference lies inside; models with rigid
+/// gears say that they have no bounds.
+fn own_bounds_stand_beside_the_errors(csv: &str) {
+    for row in chart_rows(csv).iter().filter(|row| !row["first_cycle_s"].is_empty()) {
+        let value = |name: &str| row[name].parse::<f64>();
+        if row["way"].starts_with("lumped") || ["shaft18", "impact"].contains(&row["way"].as_str()) {
+            assert!(row["no_bounds"].contains("rigid gears") && row["holds_mean_ste"].is_empty(), "{row:?}");
+            continue;
+        }
+        let [least, most] = ["least_error_mean_ste", "most_error_mean_ste"].map(|name| value(name).unwrap());
+        assert!(least <= 0.0 && most >= 0.0 && most > least, "{row:?}");
+        let error = value("error_mean_ste").unwrap();
+        let inside = (least - 1e-12..=most + 1e-12).contains(&error);
+        assert_eq!(row["holds_mean_ste"], inside.to_string(), "{row:?}");
+    }
 }
 
 #[test]

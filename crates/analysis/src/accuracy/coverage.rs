@@ -7,7 +7,7 @@ use geometry::GearPair;
 use mesh::GearMesh;
 use scene::{Driver, GearScene, Scene};
 
-use super::{Rung, companion::Standing};
+use super::{Rung, companion::Standing, coverage_flanks::other_flanks};
 use crate::{AnalysisError, StaticResult, elastic_gears::material, meshes};
 
 /// Ranges of the random pairs of the calibration (`tests/src/random_scene.rs`).
@@ -26,7 +26,10 @@ const SAME_BODY: f64 = 0.015;
 
 /// What of a scene is unlike those of the calibration, in words, one each: empty where its laws hold.
 pub(super) fn beyond_calibration(scene: &Scene, result: &StaticResult) -> Vec<String> {
-    beyond_ranges(scene, result)
+    let mut all = beyond_ranges(scene, result);
+    all.extend(other_flanks(scene));
+    all.extend(few_slices(result));
+    all
 }
 
 /// All that bounds do not cover, in words, one each; `beyond` from [`beyond_calibration`].
@@ -90,6 +93,14 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
         all.push("pitch errors and topographies: the calibration has none".into());
     }
     all
+}
+
+/// Half as many slices tell little of the error of too few: peaks between them are seen by neither.
+fn few_slices(result: &StaticResult) -> Option<String> {
+    let resolution = result.facts.resolution.as_ref()?;
+    let [slices, enough] = [resolution.slices?, resolution.slices_that_would_do?];
+    let few = slices < enough;
+    few.then(|| format!("{slices} slices: the calibration has as many as a pair asks for, here {enough}"))
 }
 
 /// p = sqrt(F' E* / (pi rho)) of the mean line load, rho of both flanks at the pitch point, MPa.

@@ -10,9 +10,10 @@
 //! | `analysis` | which rung is exact enough? |
 //! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
+//! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration`, `calibrated_mesh`, `features`, `law` | how does the error go with what is known of a run? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
-//! | `coverage` | what do bounds not cover? |
+//! | `coverage`, `coverage_flanks` | what do bounds not cover? |
 //! | [`motion`] | the same questions of a pair in motion |
 
 mod analysis;
@@ -21,11 +22,13 @@ mod calibrated_mesh;
 mod calibration;
 mod companion;
 mod coverage;
+mod coverage_flanks;
 mod estimate;
 mod features;
 mod kept_gears;
 mod law;
 pub mod motion;
+mod of_results;
 mod quantity;
 mod rung;
 mod solved_cycle;
@@ -38,6 +41,7 @@ pub use estimate::Accuracy;
 pub use features::{FEATURES, Features, features};
 pub use kept_gears::KeptGears;
 pub use law::Law;
+pub(crate) use of_results::BoundsOfResults;
 pub use quantity::{Sample, goes_with_deflection, value_of};
 pub use rung::Rung;
 pub use scene::Quantity;

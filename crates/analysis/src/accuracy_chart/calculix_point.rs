@@ -74,7 +74,8 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
         work.peak_memory_mb = work.peak_memory_mb.into_iter().chain(run.peak_memory_mb).reduce(f64::max);
         answer.ste_um.push(1e3 * base_radius * run.result.rotation);
     }
-    Ok(Measured { work, answer, note: calculix.version().unwrap_or_default() })
+    let accuracy = Err("no bounds of other programs".into());
+    Ok(Measured { work, answer, note: calculix.version().unwrap_or_default(), accuracy })
 }
 
 /// Angle of the pinion at a phase of the first cycle, rad.

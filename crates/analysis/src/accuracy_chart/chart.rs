@@ -6,14 +6,18 @@ use scene::Scene;
 use study::{Answer, AnswerError, Work};
 
 use super::{
-    Density, MemoryGauge, MotionRow, NoGauge, Point, Way, guard,
+    Density, MemoryGauge, MotionRow, NoGauge, OwnBounds, Point, Way, guard,
     measure::measure,
     measured::{ChartTools, Measured, degrees_of_freedom},
     motion,
     plan::{Engine, Range, Share, densities, reference},
     ways,
 };
-use crate::{AnalysisError, Observer, PhaseWork, run_phase};
+use crate::{
+    AnalysisError, Observer, PhaseWork,
+    accuracy::{Accuracy, BoundsOfResults},
+    run_phase,
+};
 
 /// How much is run.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +55,8 @@ pub enum Outcome {
         answer: Answer,
         /// How far that is off the reference.
         error: AnswerError,
+        /// What it says of that error itself, or why it says nothing.
+        bounds: Result<OwnBounds, String>,
         /// What a reader should know.
         note: String,
     },
@@ -78,6 +84,8 @@ pub struct WorkPrecision {
     pub reference_work: Work,
     /// What it gave.
     pub reference: Answer,
+    /// What it says of its own error.
+    pub reference_bounds: Result<OwnBounds, String>,
     /// Why it was not taken on a finer mesh; empty when it is on the finest.
     pub reference_note: String,
     /// The points, way by way, coarse to fine.
@@ -152,24 +160,40 @@ impl<'a> AccuracyChart<'a> {
     fn points(&self, mut seen: impl FnMut(&str)) -> Result<WorkPrecision, AnalysisError> {
         let Self { scene, options, tools } = *self;
         let mut raw: Vec<MeasuredPoint> = Vec::new();
+        let mut bounds = BoundsOfResults::new();
         for way in ways() {
-            self.series(way, &mut raw, &mut seen);
+            self.series(way, &mut raw, &mut bounds, &mut seen);
         }
         seen("reference");
-        let (reference_density, reference_note, reference) = self.refined(&raw)?;
+        let (reference_density, reference_note, reference) = self.refined(&raw, &mut bounds)?;
         let rows = raw.into_iter().map(|point| point.against(&reference.answer)).collect();
-        let Measured { work: reference_work, answer: reference, .. } = reference;
+        let Measured { work: reference_work, answer: reference, accuracy, .. } = reference;
+        let reference_bounds = own_bounds(accuracy, &reference, &reference);
         // The finest mesh that is not the reference's own.
         let density = options.densities.iter().rev().nth(1).or(options.densities.first());
         let motion = match density.filter(|_| options.motion) {
             Some(density) => motion::rows(scene, *density, tools, seen),
             None => Vec::new(),
         };
-        Ok(WorkPrecision { reference_density, reference_work, reference, reference_note, rows, motion })
+        Ok(WorkPrecision {
+            reference_density,
+            reference_work,
+            reference,
+            reference_bounds,
+            reference_note,
+            rows,
+            motion,
+        })
     }
 
     /// The points of one way, coarse to fine.
-    fn series(&self, way: Way, raw: &mut Vec<MeasuredPoint>, seen: &mut impl FnMut(&str)) {
+    fn series(
+        &self,
+        way: Way,
+        raw: &mut Vec<MeasuredPoint>,
+        bounds: &mut BoundsOfResults,
+        seen: &mut impl FnMut(&str),
+    ) {
         let mut last: Option<Work> = None;
         let mut given_up: Option<String> = None;
         for density in densities(&way, &self.options.densities) {
@@ -177,7 +201,7 @@ impl<'a> AccuracyChart<'a> {
             let point = Point::new(self.scene, way, density, self.options.part);
             let measured = match &given_up {
                 Some(why) => Err(why.clone()),
-                None => self.guarded(&point, last.as_ref()),
+                None => self.guarded(&point, last.as_ref(), bounds),
             };
             match &measured {
                 Ok(m) => last = Some(m.work),
@@ -188,7 +212,7 @@ impl<'a> AccuracyChart<'a> {
         }
     }
 
-    fn guarded(&self, point: &Point, smaller: Option<&Work>) -> Result<Measured, String> {
+    fn guarded(&self, point: &Point, smaller: Option<&Work>, bounds: &mut BoundsOfResults) -> Result<Measured, String> {
         let one_line = |e: AnalysisError| e.to_string().replace('\n', " ");
         if let Some(smaller) = smaller {
             let dof = degrees_of_freedom(&point.scene).map_err(one_line)?;
@@ -197,11 +221,15 @@ impl<'a> AccuracyChart<'a> {
                 return Err(why);
             }
         }
-        measure(point, self.tools).map_err(one_line)
+        measure(point, self.tools, Some(bounds)).map_err(one_line)
     }
 
     /// The reference on the finest mesh that can be run: slices, twice as many as the scene's.
-    fn refined(&self, raw: &[MeasuredPoint]) -> Result<(Density, String, Measured), AnalysisError> {
+    fn refined(
+        &self,
+        raw: &[MeasuredPoint],
+        bounds: &mut BoundsOfResults,
+    ) -> Result<(Density, String, Measured), AnalysisError> {
         let way = Way { name: "reference", engine: Engine::Own(reference), range: Range::All, share: Share::Whole };
         // What slices took on coarser meshes tells what the reference will.
         let before: Vec<(Density, Work)> = raw
@@ -213,7 +241,7 @@ impl<'a> AccuracyChart<'a> {
         for &density in self.options.densities.iter().rev() {
             let smaller = before.iter().filter(|(d, _)| *d <= density).max_by_key(|(d, _)| *d).map(|(_, work)| work);
             let point = Point::new(self.scene, way, Some(density), self.options.part);
-            match self.guarded(&point, smaller) {
+            match self.guarded(&point, smaller, bounds) {
                 Ok(measured) => return Ok((density, coarser, measured)),
                 Err(message) => coarser = format!("not on {} elements along the profile: {message}", density.profile),
             }
@@ -228,13 +256,21 @@ impl MeasuredPoint {
         let Self { way, density, measured } = self;
         let outcome = match measured {
             Err(why) => Outcome::Skipped(why),
-            Ok(Measured { work, answer, note }) => match answer.error_against(reference) {
-                Ok(error) => Outcome::Measured { work, answer, error, note },
+            Ok(Measured { work, answer, note, accuracy }) => match answer.error_against(reference) {
+                Ok(error) => {
+                    let bounds = own_bounds(accuracy, &answer, reference);
+                    Outcome::Measured { work, answer, error, bounds, note }
+                }
                 Err(e) => Outcome::Skipped(e.to_string()),
             },
         };
         PointRow { way: way.name, density, outcome }
     }
+}
+
+/// Bounds of an answer beside its error against the reference.
+fn own_bounds(accuracy: Result<Accuracy, String>, answer: &Answer, reference: &Answer) -> Result<OwnBounds, String> {
+    accuracy.and_then(|a| OwnBounds::new(&a, answer, reference).ok_or_else(|| "no bound of its mean STE".to_owned()))
 }
 
 /// A point in a few words.

@@ -58,5 +58,6 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
             line_length_mm: lengths.unwrap_or_default(),
         },
         note: system.warnings.join("; "),
+        accuracy: Err("no bounds of models with rigid gears".into()),
     })
 }

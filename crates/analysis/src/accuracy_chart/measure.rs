@@ -9,7 +9,9 @@ use super::{
     phase_times::PhaseTimes,
     plan::Engine,
 };
-use crate::{AnalysisError, NoSink, StaticAnalysis, StaticResult, static_certificate, time_again};
+use crate::{
+    AnalysisError, NoSink, StaticAnalysis, StaticResult, accuracy::BoundsOfResults, static_certificate, time_again,
+};
 
 /// Phase of the positions.
 const SOLVE: &str = "solve";
@@ -17,13 +19,17 @@ const SOLVE: &str = "solve";
 /// alike.
 const LONG: f64 = 20.0;
 
-/// Runs a point.
+/// Runs a point; with `bounds`, what it says of its own error as well.
 ///
 /// # Errors
 /// Whatever keeps it from a result; the message is for the chart's table.
-pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> {
+pub(super) fn measure(
+    point: &Point,
+    tools: ChartTools<'_>,
+    bounds: Option<&mut BoundsOfResults>,
+) -> Result<Measured, AnalysisError> {
     let measured = match point.way.engine {
-        Engine::Own(_) => own(point, tools),
+        Engine::Own(_) => own(point, tools, bounds),
         Engine::Lumped(_) => lumped_point::measure(point, tools),
         Engine::Calculix => calculix_point::measure(point, tools),
     };
@@ -37,13 +43,19 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
     })
 }
 
-fn own(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> {
+fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults>) -> Result<Measured, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
     let solved = StaticAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
-    let StaticResult { history, facts, model, .. } = solved;
-    static_certificate(&history.positions).verdict(&point.scene)?;
+    static_certificate(&solved.history.positions).verdict(&point.scene)?;
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
+    let peak_memory_mb = phases.peak_mb();
     let (offline_s, run_s) = (phases.wall_s(|name| name != SOLVE), phases.wall_s(|name| name == SOLVE));
+    // Past all clocks and readings of memory: what the point takes is without it.
+    let accuracy = match bounds {
+        Some(bounds) => bounds.of(&point.scene, &solved).map_err(|e| e.to_string().replace('\n', " ")),
+        None => Err("nobody asked for bounds".into()),
+    };
+    let StaticResult { history, facts, model, .. } = solved;
     let further_s = match model {
         Some(model) if run_s < LONG => Some(time_again(&point.scene, model)?),
         Some(_) => None,
@@ -59,12 +71,12 @@ fn own(point: &Point, tools: ChartTools<'_>) -> Result<Measured, AnalysisError> 
         further_cycle_s: further_s.map(|s| scale * s),
         positions_run: point.positions as usize,
         positions_asked: point.positions_asked as usize,
-        peak_memory_mb: phases.peak_mb(),
+        peak_memory_mb,
         dof_before: facts.dof_before.iter().sum(),
         dof_after: facts.dof_after.iter().sum(),
     };
     let widened = history.warnings.iter().find(|w| w.contains("the window was widened"));
-    Ok(Measured { work, answer, note: widened.cloned().unwrap_or_default() })
+    Ok(Measured { work, answer, note: widened.cloned().unwrap_or_default(), accuracy })
 }
 
 /// Seconds of one cycle of a model without meshes, a mean of many.

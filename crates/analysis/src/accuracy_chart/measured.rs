@@ -7,7 +7,7 @@ use scene::{Model, Scene, StiffnessFrom};
 use study::{Answer, Work};
 
 use super::MemoryGauge;
-use crate::{AnalysisError, lumped::is_lumped, meshes};
+use crate::{AnalysisError, accuracy::Accuracy, lumped::is_lumped, meshes};
 
 /// Repeats of a cheap cycle, so that the clock's steps do not show.
 pub(super) const REPEATS: u32 = 200;
@@ -27,6 +27,8 @@ pub(super) struct Measured {
     pub answer: Answer,
     /// What a reader of the chart should know of it.
     pub note: String,
+    /// What the model says of its own error, or why it says nothing.
+    pub accuracy: Result<Accuracy, String>,
 }
 
 /// The meshes of a point, as its analysis takes them.

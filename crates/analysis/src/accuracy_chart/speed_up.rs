@@ -36,7 +36,7 @@ pub struct SpeedUp {
 pub fn speed_up(scene: &Scene, positions: u32, memory: &dyn MemoryGauge) -> Result<SpeedUp, AnalysisError> {
     let still = at_rest(scene);
     let run = |way| -> Result<Measured, AnalysisError> {
-        measure(&Point::new(&still, way, None, positions), ChartTools { memory, scratch: None })
+        measure(&Point::new(&still, way, None, positions), ChartTools { memory, scratch: None }, None)
     };
     let (reduced, full) = (run(SLICE_WAY)?, run(FULL_WAY)?);
     let error = full.answer.error_against(&reduced.answer)?;

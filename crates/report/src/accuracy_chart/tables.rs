@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use study::{AnswerError, Work, power_law};
 
-use analysis::accuracy_chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, REDUCED, WorkPrecision};
+use analysis::accuracy_chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, OwnBound, REDUCED, WorkPrecision};
 
 /// All tables of a chart.
 pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> String {
@@ -16,6 +16,10 @@ pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> Str
          are relative to it.\n",
         mean(&chart.reference.ste_um)
     );
+    if let Ok(own) = &chart.reference_bounds {
+        let _ = writeln!(t, "By its own bounds its mean STE may be off by {} %.\n", off_by(Some(&own.mean_ste)));
+    }
+    t.push_str(&bounds_that_hold(chart));
     if !chart.reference_note.is_empty() {
         let _ = writeln!(t, "It was {}.\n", chart.reference_note);
     }
@@ -24,6 +28,26 @@ pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> Str
     t.push_str(&scaling(chart));
     t.push_str(&in_motion(chart));
     t
+}
+
+/// How many of the points' own bounds hold.
+fn bounds_that_hold(chart: &WorkPrecision) -> String {
+    let known = || {
+        chart.rows.iter().filter_map(|r| match &r.outcome {
+            Outcome::Measured { bounds: Ok(own), .. } => Some(own),
+            _ => None,
+        })
+    };
+    let of = |name: &str, bounds: Vec<&OwnBound>| {
+        let held = bounds.iter().filter(|b| b.holds).count();
+        format!("{held} of {} bounds of the {name}", bounds.len())
+    };
+    let mean = of("mean STE", known().map(|own| &own.mean_ste).collect());
+    let swing = of("peak to peak", known().filter_map(|own| own.peak_to_peak_ste.as_ref()).collect());
+    format!(
+        "*May be off by*: the bounds that `[accuracy]` gives of the point, estimated apart from all times here. The reference \
+         lies inside of {mean} and {swing}.\n\n"
+    )
 }
 
 /// The models in motion, compared with the reduced one.
@@ -82,19 +106,22 @@ fn measured(chart: &WorkPrecision) -> impl Iterator<Item = (&'static str, Option
 
 fn points(chart: &WorkPrecision) -> String {
     let mut t = "| way | elements along the profile | DOF | DOF kept | fewer by | before the first position, s | first cycle with all \
-                 of that, s | a further cycle, s | one more position, ms | peak MB | mean STE, % | p-p STE, % | line length, % | remark |\n\
-                 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+                 of that, s | a further cycle, s | one more position, ms | peak MB | mean STE, % | may be off by | p-p STE, % | may be off by | line length, % | remark |\n\
+                 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for row in &chart.rows {
         let profile = row.density.map_or_else(|| "-".into(), |d| d.profile.to_string());
         // Writing to a String cannot fail.
         let _ = match &row.outcome {
-            Outcome::Skipped(why) => writeln!(t, "| {} | {profile} |{} not run: {why} |", row.way, " |".repeat(11)),
-            Outcome::Measured { work: w, error: e, note, .. } => {
+            Outcome::Skipped(why) => writeln!(t, "| {} | {profile} |{} not run: {why} |", row.way, " |".repeat(13)),
+            Outcome::Measured { work: w, error: e, bounds, note, .. } => {
+                let own = bounds.as_ref().ok();
+                let remark = [bounds.as_ref().err(), Some(note)].into_iter().flatten().filter(|s| !s.is_empty());
+                let remark = remark.map(String::as_str).collect::<Vec<_>>().join("; ");
                 let further = w.further_cycle_s.map_or_else(|| "-".into(), seconds);
                 writeln!(
                     t,
-                    "| {} | {profile} | {} | {} | {} | {} | {} | {further} | {} | {} | {} | {} | {} | {note} |",
+                    "| {} | {profile} | {} | {} | {} | {} | {} | {further} | {} | {} | {} | {} | {} | {} | {} | {remark} |",
                     row.way,
                     w.dof_before,
                     w.dof_after,
@@ -104,7 +131,9 @@ fn points(chart: &WorkPrecision) -> String {
                     seconds(1e3 * w.position_s()),
                     w.peak_memory_mb.map_or_else(|| "-".into(), |m| format!("{m:.0}")),
                     percent(Some(e.mean_ste)),
+                    off_by(own.map(|b| &b.mean_ste)),
                     percent(e.peak_to_peak_ste),
+                    off_by(own.and_then(|b| b.peak_to_peak_ste.as_ref())),
                     percent(e.mean_line_length),
                 )
             }
@@ -181,6 +210,17 @@ fn times(ratio: f64) -> String {
 fn seconds(value: f64) -> String {
     let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
     format!("{value:.digits$}")
+}
+
+/// Where an error lies by the point's own bounds, in per cent; in bold where it does not.
+fn off_by(bound: Option<&OwnBound>) -> String {
+    bound.map_or_else(
+        || "-".to_owned(),
+        |b| {
+            let range = format!("{:+.2} .. {:+.2}", 100.0 * b.least, 100.0 * b.most);
+            if b.holds { range } else { format!("**{range}: not so**") }
+        },
+    )
 }
 
 fn percent(value: Option<f64>) -> String {

@@ -1,10 +1,11 @@
-//! The work-precision chart: errors against wall times, one panel a quantity and a kind of work.
+//! The work-precision chart: errors against wall times, one panel a quantity and a kind of work; strokes are what the
+//! points say of their errors themselves.
 
 use plotters::prelude::*;
 use study::{AnswerError, Work};
 
 use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
-use analysis::accuracy_chart::{Outcome, WorkPrecision};
+use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
 const WIDTH: u32 = 1040;
 /// Height of a row of panels.
@@ -14,10 +15,11 @@ const HEAD: u32 = 136;
 /// Errors below this are drawn on the axis: round-off and luck are no accuracy.
 const LEAST: f64 = 1e-5;
 
-/// One error of an answer, where it is known.
+/// One error of an answer, where it is known, and what the answer says of it itself.
 struct Quantity {
     name: &'static str,
     of: fn(&AnswerError) -> Option<f64>,
+    own: fn(&OwnBounds) -> Option<OwnBound>,
 }
 
 /// One wall time.
@@ -27,9 +29,9 @@ struct Effort {
 }
 
 const QUANTITIES: [Quantity; 3] = [
-    Quantity { name: "mean STE", of: |e| Some(e.mean_ste) },
-    Quantity { name: "peak-to-peak STE", of: |e| e.peak_to_peak_ste },
-    Quantity { name: "mean contact-line length", of: |e| e.mean_line_length },
+    Quantity { name: "mean STE", of: |e| Some(e.mean_ste), own: |b| Some(b.mean_ste) },
+    Quantity { name: "peak-to-peak STE", of: |e| e.peak_to_peak_ste, own: |b| b.peak_to_peak_ste },
+    Quantity { name: "mean contact-line length", of: |e| e.mean_line_length, own: |_| None },
 ];
 const EFFORTS: [Effort; 2] = [
     Effort { name: "first cycle, everything before it included [s]", of: Work::first_cycle_s },
@@ -61,14 +63,22 @@ fn series(chart: &WorkPrecision) -> Vec<&'static str> {
 fn points(chart: &WorkPrecision, way: &str, q: &Quantity, e: &Effort) -> Vec<Labelled> {
     let rows = chart.rows.iter().filter(|r| r.way == way);
     rows.filter_map(|r| match &r.outcome {
-        Outcome::Measured { work, error, .. } => {
-            let (x, y) = ((e.of)(work), (q.of)(error)?.abs().max(LEAST));
+        Outcome::Measured { work, error, bounds, .. } => {
+            let error = (q.of)(error)?;
+            let (x, y) = ((e.of)(work), error.abs().max(LEAST));
+            let own = bounds.as_ref().ok().and_then(q.own);
+            let bound = own.map(|own| 100.0 * on_side_of(error, own).max(LEAST));
             let label = r.density.filter(|d| d.profile > 0).map(|d| d.profile.to_string());
-            (x > 0.0 && x.is_finite() && y.is_finite()).then_some(Labelled { at: (x, 100.0 * y), label })
+            (x > 0.0 && x.is_finite() && y.is_finite()).then_some(Labelled { at: (x, 100.0 * y), label, bound })
         }
         Outcome::Skipped(_) => None,
     })
     .collect()
+}
+
+/// The bound of an error on the side where it lies, relative.
+fn on_side_of(error: f64, own: OwnBound) -> f64 {
+    if error < 0.0 { -own.least } else { own.most }
 }
 
 fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Failure> {

@@ -54,8 +54,8 @@
     const sticks = plot.kind === "sticks";
     const series = plot.names.map((name, k) => ({
       // A curve without a name is more of the one before and needs no line in the legend.
-      label: name, class: name ? undefined : "unnamed", stroke: plot.colours[k], width: 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
-      points: { show: !sticks && plot.data[0].length < 40, size: 4 },
+      label: name, class: name ? undefined : "unnamed", stroke: plot.colours[k], width: plot.band && k > 0 ? 0.8 : 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
+      points: { show: !sticks && !(plot.band && k > 0) && plot.data[0].length < 40, size: 4 },
       paths: sticks ? uPlot.paths.bars({ size: [0.0, 4, 2] }) : undefined, fill: sticks ? plot.colours[k] : undefined,
       value: (u, v) => short(v),
     }));
@@ -63,7 +63,7 @@
       ...sizeOf(place), series: [{ label: plot.x, value: (u, v) => short(v, 7) }, ...series], axes: axes(plot.x, plot.y),
       scales: { x: { time: false }, y: { range: room(plot.zero) } },
       cursor: { sync: { key: plot.x }, drag: { x: true, y: false }, focus: { prox: 24 } },
-      legend: { live: true },
+      legend: { live: true }, bands: plot.band ? [{ series: [2, 3], fill: plot.colours[1] + "26" }] : [],
     }, plot.data, place);
   };
 

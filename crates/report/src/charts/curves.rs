@@ -21,6 +21,24 @@ pub fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bo
     Some(figure(&svg, &[embedded("plot", &Plot::new(title, x, y, &curves, from_zero))]))
 }
 
+/// [`line_chart`] of one curve in the band that it is known to: the exact one lies between `below` under it and `above`
+/// over it; `name` says what the band is.
+pub fn banded_chart(
+    title: &str,
+    x: &str,
+    y: &str,
+    curve: Curve,
+    name: &str,
+    [below, above]: [f64; 2],
+) -> Option<String> {
+    let moved = |by: f64| curve.points.iter().map(|&(at, value)| (at, value + by)).collect();
+    let edges = [(name, moved(above)), ("", moved(-below))];
+    let [upper, lower] = edges.map(|(label, points)| Curve { label: label.to_owned(), points });
+    let curves = with_points(&[curve, upper, lower]);
+    let svg = picture(title, [x, y], &curves, false, Marks::Band)?;
+    Some(figure(&svg, &[embedded("plot", &Plot::banded(title, x, y, &curves))]))
+}
+
 /// The same with dots in place of lines: sections and bifurcation diagrams.
 pub fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     let curves = with_points(curves);
@@ -68,11 +86,18 @@ const DOTS: usize = 3000;
 /// Points of a curve up to which they are drawn large.
 const FEW: usize = 100;
 
+/// Colour of a band: that of its upper edge, the second curve.
+const BAND: usize = 1;
+/// Share of the colour in the area.
+const BAND_FILL: f64 = 0.15;
+
 /// How points are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Marks {
     Lines,
     Dots,
+    /// A line, and the area between two others.
+    Band,
 }
 
 /// The chart as SVG.
@@ -140,17 +165,31 @@ fn draw(
         .build_cartesian_2d(x_low..x_high, y_low..y_high)
         .map_err(|e| fail(&e))?;
     chart.configure_mesh().max_light_lines(0).x_desc(x).y_desc(y).draw().map_err(|e| fail(&e))?;
-    for (k, curve) in curves.iter().enumerate() {
+    if let (Marks::Band, [_, upper, lower]) = (marks, curves) {
+        let around = thinned(&upper.points).into_iter().chain(thinned(&lower.points).into_iter().rev());
+        let area: Vec<_> = around.filter(|(a, b)| a.is_finite() && b.is_finite()).collect();
+        chart.draw_series([Polygon::new(area, COLOURS[BAND].mix(BAND_FILL))]).map_err(|e| fail(&e))?;
+    }
+    // The curve lies over the edges of its band.
+    let mut order: Vec<usize> = (0..curves.len()).collect();
+    if marks == Marks::Band {
+        order.reverse();
+    }
+    for k in order {
+        let curve = &curves[k];
         let colour = COLOURS[colour_of(curves.iter().map(|c| c.label.as_str()), k)];
         let shown = match marks {
-            Marks::Lines => thinned(&curve.points),
+            Marks::Lines | Marks::Band => thinned(&curve.points),
             Marks::Dots => curve.points.iter().step_by(curve.points.len().div_ceil(DOTS).max(1)).copied().collect(),
         };
         let finite = shown.into_iter().filter(|(a, b)| a.is_finite() && b.is_finite());
         // A few points are to be seen, many to be told apart.
         let dot = if curve.points.len() <= FEW { 3 } else { 1 };
         let series = match marks {
-            Marks::Lines => chart.draw_series(LineSeries::new(finite, colour.stroke_width(2))),
+            Marks::Lines | Marks::Band => {
+                let width = if marks == Marks::Band && k > 0 { 1 } else { 2 };
+                chart.draw_series(LineSeries::new(finite, colour.stroke_width(width)))
+            }
             Marks::Dots => chart.draw_series(finite.map(|p| Circle::new(p, dot, colour.filled()))),
         };
         let series = series.map_err(|e| fail(&e))?;
@@ -173,4 +212,19 @@ fn draw(
     drop(chart);
     root.present().map_err(|e| fail(&e))?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The picture has the area between both edges, the script's numbers have the edges beside the curve.
+    #[test]
+    fn a_band_lies_around_its_curve() {
+        let curve = Curve { label: "STE".into(), points: vec![(0.0, 9.0), (1.0, 10.0), (2.0, 9.0)] };
+        let figure = banded_chart("t", "x", "y", curve, "bounds", [0.25, 0.5]).unwrap();
+        assert_eq!(figure.matches("<polygon").count(), 1, "{figure}");
+        assert!(figure.contains(r#""band":true"#), "{figure}");
+        assert!(figure.contains("[[0,1,2],[9,10,9],[9.5,10.5,9.5],[8.75,9.75,8.75]]"), "{figure}");
+    }
 }

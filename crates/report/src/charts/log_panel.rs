@@ -16,6 +16,8 @@ pub struct Labelled {
     pub at: (f64, f64),
     /// What is written beside it.
     pub label: Option<String>,
+    /// Value that the point's own bound ends at: a thin line with a stroke across it.
+    pub bound: Option<f64>,
 }
 
 /// What stands around a panel.
@@ -51,12 +53,13 @@ pub fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>])
         let text = format!("{}: no point", words.title);
         return Ok(area.draw(&Text::new(text, (40, 40), ("sans-serif", 14)))?);
     }
-    let span = |pick: fn(&Labelled) -> f64| {
-        let (low, high) = flat().map(pick).fold((f64::INFINITY, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+    let span = |pick: fn(&Labelled) -> [f64; 2]| {
+        let (low, high) =
+            flat().flat_map(pick).fold((f64::INFINITY, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
         // Whole decades, so that every axis has at least one labelled step.
         (10f64.powf((low / 1.3).log10().floor()), 10f64.powf((1.3 * high).log10().ceil()))
     };
-    let ((x0, x1), (y0, y1)) = (span(|p| p.at.0), span(|p| p.at.1));
+    let ((x0, x1), (y0, y1)) = (span(|p| [p.at.0; 2]), span(|p| [p.at.1, p.bound.unwrap_or(p.at.1)]));
     let mut panel = ChartBuilder::on(area)
         .caption(words.title, ("sans-serif", 14))
         .margin(8)
@@ -64,7 +67,14 @@ pub fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>])
         .x_label_area_size(40)
         .y_label_area_size(62)
         .build_cartesian_2d((x0..x1).log_scale(), (y0..y1).log_scale())?;
-    let label = |v: &f64| format!("{v}");
+    // Powers of ten that were added up are no round numbers.
+    let label = |v: &f64| {
+        if *v < 1e-3 {
+            format!("{v:.0e}")
+        } else {
+            format!("{:.6}", v).trim_end_matches('0').trim_end_matches('.').to_owned()
+        }
+    };
     panel
         .configure_mesh()
         .max_light_lines(0)
@@ -77,7 +87,14 @@ pub fn log_panel(area: &Drawing<'_>, words: Captions<'_>, all: &[Vec<Labelled>])
         let colour = COLOURS[k % COLOURS.len()];
         panel.draw_series(LineSeries::new(points.iter().map(|p| p.at), colour.stroke_width(2)))?;
         panel.draw_series(points.iter().map(|p| Circle::new(p.at, 4, colour.filled())))?;
-        for Labelled { at, label } in points {
+        for Labelled { at: (x, y), bound, .. } in points {
+            if let Some(end) = bound {
+                panel.draw_series(LineSeries::new([(*x, *y), (*x, *end)], colour.mix(0.5).stroke_width(1)))?;
+                let stroke = PathElement::new([(-5, 0), (5, 0)], colour.stroke_width(2));
+                panel.draw_series(std::iter::once(EmptyElement::at((*x, *end)) + stroke))?;
+            }
+        }
+        for Labelled { at, label, .. } in points {
             if let Some(label) = label {
                 let text = Text::new(label.clone(), (6, -14), ("sans-serif", 12).into_font().color(&colour));
                 panel.draw_series(std::iter::once(EmptyElement::at(*at) + text))?;

@@ -11,7 +11,7 @@ mod png;
 
 pub use campbell::campbell_chart;
 pub use curve::Curve;
-pub use curves::{dot_chart, dot_picture, figure, line_chart, line_picture, stick_chart};
+pub use curves::{banded_chart, dot_chart, dot_picture, figure, line_chart, line_picture, stick_chart};
 pub use field_map::{FieldMap, Side, share};
 pub use heat_map::{contact_pattern_figure, contact_pattern_svg};
 pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};

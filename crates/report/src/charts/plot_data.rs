@@ -35,6 +35,8 @@ pub struct Plot<'a> {
     x: &'a str,
     y: &'a str,
     zero: bool,
+    /// Whether the area between the second and the third curve is filled.
+    band: bool,
     names: Vec<&'a str>,
     colours: Vec<String>,
     data: Vec<Numbers>,
@@ -50,6 +52,13 @@ impl<'a> Plot<'a> {
             None => (Kind::Path, path(curves)),
         };
         Self::of(kind, [title, x, y], curves, zero, columns)
+    }
+
+    /// A curve, and the upper and the lower edge of the band around it.
+    pub fn banded(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve]) -> Self {
+        let plot = Self::new(title, x, y, curves, false);
+        // A path has one curve alone.
+        Self { band: plot.kind == Kind::Lines && curves.len() == 3, ..plot }
     }
 
     /// One curve of sticks.
@@ -72,7 +81,7 @@ impl<'a> Plot<'a> {
         let colours = (0..names.len()).map(|k| colour(colour_of(names.iter().copied(), k))).collect();
         let digits = |k: usize| DIGITS[usize::from(k == 0 || matches!(kind, Kind::Path | Kind::Dots))];
         let data = columns.into_iter().enumerate().map(|(k, c)| Numbers(c, digits(k))).collect();
-        Self { kind, title, x, y, zero, names, colours, data }
+        Self { kind, title, x, y, zero, band: false, names, colours, data }
     }
 }
 

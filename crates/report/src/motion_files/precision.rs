@@ -38,6 +38,7 @@ fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failu
             let at = |p: &MotionPrecisionPoint, error: f64| Labelled {
                 at: (x(p), error.max(LEAST_UM)),
                 label: labelled.then(|| p.steps.to_string()),
+                bound: None,
             };
             stands.map(|(p, error)| at(p, error)).collect()
         };

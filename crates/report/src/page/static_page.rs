@@ -1,13 +1,13 @@
 //! `report.html` of a run at rest.
 
-use analysis::{facts::Facts, results::StaticHeadline};
+use analysis::{accuracy::Quantity, facts::Facts, results::StaticHeadline};
 use ltca::StaticHistory;
 use scene::Scene;
 
 use super::{Rendered, RunPage};
 use crate::{
     Cost, ReportError,
-    charts::line_chart,
+    charts::{Curve, banded_chart, line_chart},
     columns::{
         At, StaticCurves,
         static_history::{
@@ -38,7 +38,7 @@ pub fn write_report(
         facts,
         cost,
         headline,
-        charts: charts(scene, history),
+        charts: charts(scene, history, facts),
         pattern,
         view,
         warnings: &history.warnings,
@@ -46,7 +46,7 @@ pub fn write_report(
     page.render("report.html")
 }
 
-fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
+fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> {
     let curves = StaticCurves::new(scene, history);
     let forces = [("x", FORCE_X), ("y", FORCE_Y), ("z", FORCE_Z)]
         .map(|(axis, column)| curves.at(axis, column, At { gear: 1, pair: 0 }));
@@ -56,7 +56,7 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
     let bending = |gear| curves.by_pair(TOOTH_TENSION, gear);
     let angle = "pinion angle [deg]";
     [
-        line_chart("Static transmission error", angle, "STE [um]", &[curves.of("STE", STE)], false),
+        transmission_error(curves.of("STE", STE), angle, facts),
         line_chart("Load sharing", angle, "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
         line_chart("Total contact-line length", angle, "length [mm]", &length, false),
         line_chart("Mesh stiffness", angle, "stiffness [N/um]", &stiffness, false),
@@ -67,4 +67,14 @@ fn charts(scene: &Scene, history: &StaticHistory) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// STE over the angle; where its bounds are known, in the band of those of its mean.
+fn transmission_error(curve: Curve, angle: &str, facts: &Facts) -> Option<String> {
+    let (title, ste) = ("Static transmission error", "STE [um]");
+    let bounds = facts.accuracy.as_ref().map(|accuracy| &accuracy.bounds[..]).unwrap_or_default();
+    match bounds.iter().find(|b| b.quantity == Quantity::MeanSte) {
+        Some(mean) => banded_chart(title, angle, ste, curve, "within the bounds of the mean", [mean.below, mean.above]),
+        None => line_chart(title, angle, ste, &[curve], false),
+    }
 }

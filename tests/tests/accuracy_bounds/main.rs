@@ -1,0 +1,5 @@
+//! Bounds of headline numbers where they might fail: scenes built against the estimate, meshes of other programs,
+//! references that this program did not make.
+
+mod adversarial;
+mod references;
