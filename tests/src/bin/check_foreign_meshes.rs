@@ -89,7 +89,7 @@ const THINNING: f64 = 0.02;
 
 /// The mesher's number of teeth: 0 for whole gears.
 fn set_teeth(scene: &mut Scene, sector_teeth: u32) {
-    let mesher = Rung::ALL[0].mesher(scene.pair.face_width_mm, scene.pair.normal_module_mm);
+    let mesher = Rung::ALL[0].mesher(scene);
     for gear in [&mut scene.pinion, &mut scene.wheel] {
         gear.mesher = Some(MesherScene { sector_teeth, ..mesher });
     }

@@ -25,9 +25,9 @@ impl CalibratedMesh {
         let d = StructuredOptions::default();
         let default = |m: &MesherScene| {
             let counts = [m.elements_profile, m.elements_fillet, m.elements_thickness, m.elements_face, m.elements_rim];
+            let face = scene.face_elements(m.order);
             m.order == d.order as u32
-                && counts
-                    == [d.elements_profile, d.elements_fillet, d.elements_thickness, d.elements_face, d.elements_rim]
+                && counts == [d.elements_profile, d.elements_fillet, d.elements_thickness, face, d.elements_rim]
         };
         let rung = Rung::of(scene).map(|rung| Self::Rung(rung.elements_profile));
         let is_default = scene.gears().iter().all(|g| g.mesher.as_ref().is_some_and(default));

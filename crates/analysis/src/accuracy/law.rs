@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How the error of a number goes with a difference `d` that was seen. Theory (64).
+/// How the error of a number goes with a difference `d` that was seen. Theory (67).
 ///
 /// ```text
 /// exact = value + pull d  +-  factor (|d| + floor scale)
 /// ```
 /// `scale` is the number itself, for transmission errors the mean deflection of the pair. The factor is that of
-/// split conformal prediction: the share [`super::Calibration::coverage`] of the pairs that it was made of lies within.
+/// split conformal prediction: the share of the calibration's pairs lies within.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Law {
     /// Share of the difference that is the known part of the error.
