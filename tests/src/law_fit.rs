@@ -1,4 +1,4 @@
-//! Laws of errors fitted to measured cases: theory (64).
+//! Laws of errors fitted to measured cases: theory (67).
 
 use analysis::accuracy::Law;
 

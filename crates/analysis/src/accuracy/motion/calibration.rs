@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::{MotionModel, PairAtRest};
 use crate::accuracy::Law;
 
-/// What is known of one quantity of a motion. Each law is that of theory (64), s the number itself.
+/// What is known of one quantity of a motion. Each law is that of theory (67), s the number itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionLaws {
     /// Its key in `[accuracy]`.
