@@ -104,9 +104,25 @@ impl<'a> AccurateAnalysis<'a> {
         let mut tried = Vec::new();
         let mut companions = Companions::default();
         let mut scene = self.first();
+        let mut failed = false;
         loop {
-            let mut result =
-                StaticAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink)?;
+            let solved =
+                StaticAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink);
+            let mut result = match solved {
+                Ok(result) => result,
+                Err(e) => {
+                    // Teeth of few elements may have no equilibrium where finer ones have: one more rung tells.
+                    let finer = Rung::of(&scene).filter(|_| !failed && self.may_refine()).and_then(Rung::finer);
+                    let Some(finer) = finer.filter(|_| matches!(e, AnalysisError::Solver { .. })) else {
+                        return Err(e);
+                    };
+                    observer.note(format!("left for a finer one: {e}"));
+                    tried.push(tried_rung(&scene, Some(e.to_string())));
+                    failed = true;
+                    scene = finer.scene(&scene);
+                    continue;
+                }
+            };
             let mut accuracy = estimate(&scene, &result, &kept, &mut companions, observer)?;
             let goes_on = self.scene.is_auto() && tried.len() + 1 < TRIES;
             let next = if goes_on { self.finer(&scene, &result, &accuracy) } else { None };
@@ -124,6 +140,11 @@ impl<'a> AccurateAnalysis<'a> {
             };
             scene = finer;
         }
+    }
+
+    /// Whether the mesh is the program's to choose.
+    fn may_refine(&self) -> bool {
+        self.scene.is_auto() && !has_own_mesh(self.scene)
     }
 
     /// The scene that is solved first.
@@ -148,12 +169,8 @@ impl<'a> AccurateAnalysis<'a> {
         let worst = accuracy.missed().max_by(|a, b| over(a).total_cmp(&over(b)))?;
         let mut finer = scene.clone();
         let slices = scene.contact.slices.unwrap_or(MOST_SLICES);
-        let rung = Rung::of(scene).filter(|_| !has_own_mesh(self.scene));
-        let share = |cause: Cause| match cause {
-            // The known part of the error is the mesh's.
-            Cause::Mesh => term(worst, cause) + (worst.value - worst.corrected).abs(),
-            cause => term(worst, cause),
-        };
+        let rung = Rung::of(scene).filter(|_| self.may_refine());
+        let share = |cause: Cause| term(worst, cause);
         let finer_mesh = rung.and_then(|r| enough(r, worst, result, scene));
         // A mesh that cannot be refined may be too coarse by itself: nothing else would help.
         if finer_mesh.is_none() && worst.asked.is_some_and(|asked| share(Cause::Mesh) >= asked) {
@@ -193,8 +210,9 @@ fn over(bound: &Bound) -> f64 {
     bound.largest() / bound.asked.unwrap_or(f64::INFINITY)
 }
 
+/// What a cause makes of a bound: what is known of it, and what is not.
 fn term(bound: &Bound, cause: Cause) -> f64 {
-    bound.terms.iter().filter(|t| t.cause == cause).map(|t| t.amount).sum()
+    bound.terms.iter().filter(|t| t.cause == cause).map(|t| t.known.abs() + t.amount).sum()
 }
 
 /// What the mesh of a rung usually makes of a bound, over the scale of the quantity.
@@ -248,7 +266,7 @@ fn calibrated() -> impl Iterator<Item = Rung> {
 /// The coarsest finer rung that usually keeps a bound, else the next one.
 fn enough(rung: Rung, bound: &Bound, result: &StaticResult, scene: &Scene) -> Option<Rung> {
     let scale = Sample::of(scene, &result.history, 1).ok()?.scale(bound.quantity)?;
-    let others: f64 = bound.terms.iter().filter(|t| t.cause != Cause::Mesh).map(|t| t.amount).sum();
+    let others: f64 = bound.terms.iter().filter(|t| t.cause != Cause::Mesh).map(|t| t.known.abs() + t.amount).sum();
     let room = bound.asked? - others;
     let finer: Vec<Rung> = calibrated().filter(|r| *r > rung).collect();
     let keeps = |r: &&Rung| usual(**r, bound.quantity).is_some_and(|share| share * scale <= room);

@@ -34,7 +34,9 @@ pub enum Cause {
 pub struct Term {
     /// Where it comes from.
     pub cause: Cause,
-    /// How much it may be, either way.
+    /// Known part of the error, taken off in the corrected value.
+    pub known: f64,
+    /// How much it may be beyond that, either way.
     pub amount: f64,
 }
 
@@ -116,7 +118,7 @@ mod tests {
     /// Where the corrected value lies above, the bound is larger above; both together hold the corrected band.
     #[test]
     fn bounds_hold_the_band_of_the_corrected_value() {
-        let term = |cause, amount| Term { cause, amount };
+        let term = |cause, amount| Term { cause, known: 0.0, amount };
         let terms = || vec![term(Cause::Mesh, 0.02), term(Cause::Slices, 0.005)];
         let b = Bound::new(Quantity::MeanSte, 9.37, 9.385, terms());
         assert!((b.value + b.above - 9.41).abs() < 1e-12 && (b.value - b.below - 9.36).abs() < 1e-12, "{b:?}");

@@ -180,14 +180,19 @@ impl Seen {
             }
         }
         let terms = [
-            (Cause::Mesh, mesh[1]),
-            (Cause::Slices, slices[1]),
-            (Cause::Positions, positions[1]),
-            (Cause::Interpolation, self.interpolation * scale),
-            (Cause::Iteration, self.iteration * scale),
+            (Cause::Mesh, mesh),
+            (Cause::Slices, slices),
+            (Cause::Positions, positions),
+            (Cause::Interpolation, [0.0, self.interpolation * scale.abs()]),
+            (Cause::Iteration, [0.0, self.iteration * scale.abs()]),
         ];
         let corrected = own + mesh[0] + slices[0] + positions[0];
-        Some(Bound::new(q, own, corrected, terms.map(|(cause, amount)| Term { cause, amount }).to_vec()))
+        Some(Bound::new(
+            q,
+            own,
+            corrected,
+            terms.map(|(cause, [known, amount])| Term { cause, known, amount }).to_vec(),
+        ))
     }
 }
 

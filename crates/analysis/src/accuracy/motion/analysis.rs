@@ -11,7 +11,9 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, StaticResult,
-    accuracy::{Accuracy, AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung},
+    accuracy::{
+        Accuracy, AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung,
+    },
     facts::Facts,
     lumped::NoLumpedSink,
     motion::NoMotionSink,
@@ -219,7 +221,9 @@ impl<'a> AccurateMotion<'a> {
         let of = |cause: Cause| peak.terms.iter().filter(|t| t.cause == cause).map(|t| t.amount).sum::<f64>();
         let known = (peak.value - peak.corrected).abs();
         let rung = Rung::of(&base.scene).filter(|_| !has_own_mesh(self.scene));
-        let finer = rung.and_then(Rung::finer).filter(|r| Calibration::committed().knows(CalibratedMesh::Rung(r.elements_profile)));
+        let finer = rung
+            .and_then(Rung::finer)
+            .filter(|r| Calibration::committed().knows(CalibratedMesh::Rung(r.elements_profile)));
         let (mesh, slices, positions) = (of(Cause::Mesh) + known, of(Cause::Slices), of(Cause::Positions));
         let mut scene = base.scene.clone();
         if let Some(finer) = finer.filter(|_| mesh >= slices.max(positions)) {

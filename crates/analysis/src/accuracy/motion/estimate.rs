@@ -36,22 +36,20 @@ impl Seen<'_> {
         let own = self.own.get(q);
         let d = self.halved.map_or(0.0, |halved| own - halved.get(q));
         // Midpoint steps: twice as many leave a quarter of the error.
-        let [step_shift, step] = laws.step.of(d, own * (MotionCalibration::STEPS / self.steps).powi(2));
-        let [elastic_shift, elastic] = laws.elasticity.of(self.elastic_share * own, own);
+        let step = laws.step.of(d, own * (MotionCalibration::STEPS / self.steps).powi(2));
         let mut terms = vec![
-            (Cause::Mesh, mesh_bound(q, self.rest, self.at_rest[0], self.at_rest[1])),
+            (Cause::Mesh, [0.0, mesh_bound(q, self.rest, self.at_rest[0], self.at_rest[1])]),
             (Cause::Step, step),
-            (Cause::QuasiStaticElasticity, elastic),
+            (Cause::QuasiStaticElasticity, laws.elasticity.of(self.elastic_share * own, own)),
         ];
-        let mut corrected = own + step_shift + elastic_shift;
         if self.model == MotionModel::Lumped12 {
             let still = self.rest.ste_um[usize::from(q == Quantity::PeakToPeakDte)];
-            let [shift, within] = laws.lumped12_at(self.rest)?.of(own - still, own);
-            corrected += shift;
-            terms.push((Cause::Model, within));
+            terms.push((Cause::Model, laws.lumped12_at(self.rest)?.of(own - still, own)));
         }
-        terms.push((Cause::Settling, self.settling(own)));
-        Some(Bound::new(q, own, corrected, terms.into_iter().map(|(cause, amount)| Term { cause, amount }).collect()))
+        terms.push((Cause::Settling, [0.0, self.settling(own)]));
+        let corrected = own + terms.iter().map(|(_, [known, _])| known).sum::<f64>();
+        let term = |(cause, [known, amount])| Term { cause, known, amount };
+        Some(Bound::new(q, own, corrected, terms.into_iter().map(term).collect()))
     }
 
     /// What is left of a transient: a difference from cycle to cycle that shrinks as the resonance decays, summed to its
