@@ -22,7 +22,7 @@ pub struct Fitted {
 /// Cases that take no part, in turn.
 const FOLDS: usize = 8;
 /// Weight of small coefficients, over that of one case.
-const RIDGE: f64 = 1.0;
+const RIDGE: f64 = 4.0;
 /// Error over the scale that counts as none.
 const LEAST_ERROR: f64 = 1e-6;
 /// Share of the cases that lies within a single bound.

@@ -112,6 +112,15 @@ fn laws(pairs: &[MeasuredPair], q: Quantity) -> Option<QuantityLaws> {
             |c: &PairCase| law.of(&c.features, c.difference, c.scale).iter().map(|x| x.abs()).sum::<f64>() / c.scale;
         quantile(c.cases.iter().map(of).collect(), 0.6)
     };
+    for (n, c) in &positions {
+        let raw = median(c.cases.iter().map(|c| 100.0 * (c.error / c.scale).abs()).collect());
+        let bound =
+            median(c.fitted.held_out.iter().zip(&c.cases).map(|(h, c)| 100.0 * joint * h[1] / c.scale).collect());
+        println!(
+            "    {n} positions: error {raw:.3} %, bound of the corrected {bound:.3} %, usual {:.3} %",
+            100.0 * usual(c)
+        );
+    }
     for (mesh, c) in &mesh {
         let raw = median(c.cases.iter().map(|c| 100.0 * (c.error / c.scale).abs()).collect());
         let bound =
@@ -123,7 +132,7 @@ fn laws(pairs: &[MeasuredPair], q: Quantity) -> Option<QuantityLaws> {
     }
     Some(QuantityLaws {
         quantity: q.key().to_owned(),
-        mesh: mesh.iter().map(|(mesh, c)| MeshLaw { mesh: *mesh, law: scaled(c), usual: usual(c) }).collect(),
+        mesh: mesh.iter().map(|(mesh, c)| MeshLaw { mesh: *mesh, law: scaled(c) }).collect(),
         slices: scaled(&slices),
         positions: positions
             .iter()

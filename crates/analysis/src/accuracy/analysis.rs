@@ -1,12 +1,15 @@
 //! A scene at rest with bounds, by the cheapest rung of the ladder that keeps what is asked.
 
+use geometry::GearPair;
 use scene::{Model, Quantity, Scene, Tolerance};
 use serde::Serialize;
 
 use super::{
-    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Rung, Sample,
+    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Features, Rung, Sample,
     companion::Companions,
     estimate::{estimate, free_estimate},
+    features,
+    features::features_before,
     goes_with_deflection,
     kept_gears::KeptGears,
 };
@@ -156,7 +159,8 @@ impl<'a> AccurateAnalysis<'a> {
             return scene;
         }
         scene.analysis.model = Model::Reduced;
-        let guess = FirstGuess::new(self.scene);
+        let Ok(pair) = self.scene.gear_pair() else { return scene };
+        let guess = FirstGuess::new(self.scene, &pair);
         if self.scene.place_of(&["analysis.positions_per_cycle"]).is_none() {
             scene.analysis.positions_per_cycle = guess.positions;
         }
@@ -215,10 +219,11 @@ fn term(bound: &Bound, cause: Cause) -> f64 {
     bound.terms.iter().filter(|t| t.cause == cause).map(|t| t.known.abs() + t.amount).sum()
 }
 
-/// What the mesh of a rung usually makes of a bound, over the scale of the quantity.
-fn usual(rung: Rung, quantity: Quantity) -> Option<f64> {
-    let laws = Calibration::committed().of(quantity)?;
-    laws.of_mesh(CalibratedMesh::Rung(rung.elements_profile)).map(|law| law.usual)
+/// What the mesh of a rung makes of a bound by its law, over the scale of the quantity.
+fn foreseen(rung: Rung, quantity: Quantity, features: &Features) -> Option<f64> {
+    let law = &Calibration::committed().of(quantity)?.of_mesh(CalibratedMesh::Rung(rung.elements_profile))?.law;
+    let [known, within] = law.of(features, 0.0, 1.0);
+    Some(known.abs() + within)
 }
 
 /// Where the ladder begins.
@@ -228,8 +233,9 @@ struct FirstGuess {
 }
 
 impl FirstGuess {
-    /// The coarsest rung, then the fewest positions, whose usual bounds keep the shares that are asked.
-    fn new(scene: &Scene) -> Self {
+    /// The coarsest rung, then the fewest positions, whose foreseen bounds keep the shares that are asked.
+    fn new(scene: &Scene, pair: &GearPair) -> Self {
+        let features = features_before(scene, pair);
         let shares: Vec<(Quantity, f64)> = scene
             .accuracy
             .tolerances()
@@ -239,7 +245,7 @@ impl FirstGuess {
                 _ => None,
             })
             .collect();
-        let of_mesh = |rung: Rung, q: Quantity| usual(rung, q).unwrap_or(0.0);
+        let of_mesh = |rung: Rung, q: Quantity| foreseen(rung, q, &features).unwrap_or(0.0);
         let keeps = |rung: &Rung| shares.iter().all(|(q, share)| of_mesh(*rung, *q) <= MESH_SHARE * share);
         let rung = calibrated().find(keeps).or(calibrated().last()).unwrap_or(Rung::ALL[0]);
         let enough = |positions: &u32| {
@@ -260,16 +266,17 @@ fn is_own_scale(quantity: Quantity) -> bool {
 
 /// Rungs that the calibration knows.
 fn calibrated() -> impl Iterator<Item = Rung> {
-    Rung::ALL.into_iter().filter(|rung| usual(*rung, Quantity::MeanSte).is_some())
+    Rung::ALL.into_iter().filter(|rung| Calibration::committed().knows(CalibratedMesh::Rung(rung.elements_profile)))
 }
 
-/// The coarsest finer rung that usually keeps a bound, else the next one.
+/// The coarsest finer rung that is foreseen to keep a bound, else the next one.
 fn enough(rung: Rung, bound: &Bound, result: &StaticResult, scene: &Scene) -> Option<Rung> {
-    let scale = Sample::of(scene, &result.history, 1).ok()?.scale(bound.quantity)?;
+    let sample = Sample::of(scene, &result.history, 1).ok()?;
+    let (scale, features) = (sample.scale(bound.quantity)?, features(scene, &result.pair, &sample));
     let others: f64 = bound.terms.iter().filter(|t| t.cause != Cause::Mesh).map(|t| t.known.abs() + t.amount).sum();
     let room = bound.asked? - others;
     let finer: Vec<Rung> = calibrated().filter(|r| *r > rung).collect();
-    let keeps = |r: &&Rung| usual(**r, bound.quantity).is_some_and(|share| share * scale <= room);
+    let keeps = |r: &&Rung| foreseen(**r, bound.quantity, &features).is_some_and(|share| share * scale <= room);
     finer.iter().find(keeps).or(finer.first()).copied()
 }
 

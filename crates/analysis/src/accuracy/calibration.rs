@@ -66,8 +66,6 @@ pub struct MeshLaw {
     pub mesh: CalibratedMesh,
     /// Its law.
     pub law: PairLaw,
-    /// What error and bound together come to in three of five pairs, over the scale.
-    pub usual: f64,
 }
 
 /// What is known of a number of positions.

@@ -65,3 +65,10 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
         (scene.pair.face_width_mm / (10.0 * scene.pair.normal_module_mm)).ln(),
     ]
 }
+
+/// The same before anything is solved: of what only a solved cycle knows, what many pairs have.
+pub(super) fn features_before(scene: &Scene, pair: &GearPair) -> Features {
+    let mut all = features(scene, pair, &Sample::new(|_| None, 1.0));
+    [all[6], all[7]] = [0.1f64.ln(), 0.3f64.ln()];
+    all
+}

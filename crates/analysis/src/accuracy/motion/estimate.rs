@@ -48,7 +48,7 @@ impl Seen<'_> {
         }
         terms.push((Cause::Settling, [0.0, self.settling(own)]));
         let corrected = own + terms.iter().map(|(_, [known, _])| known).sum::<f64>();
-        let term = |(cause, [known, amount])| Term { cause, known, amount };
+        let term = |(cause, [known, amount]): (Cause, [f64; 2])| Term { cause, known, amount };
         Some(Bound::new(q, own, corrected, terms.into_iter().map(term).collect()))
     }
 
