@@ -60,7 +60,7 @@ mod tests {
         assert!((of(1000.0, 0.0) - 0.1 * (10.0 + 0.2 / 3.0) / 1.2).abs() < 1e-2, "{}", of(1000.0, 0.0));
         assert!(of(10_000.0, 0.0) < 0.01 * 0.1 * 1.2);
         // An uncertain stiffness matters on the flank of the resonance, and not where nothing swings.
-        assert!(of(950.0, 0.02) > 10.0 * of(950.0, 0.0), "{}", of(950.0, 0.02));
+        assert!(of(950.0, 0.02) > 3.0 * of(950.0, 0.0), "{}", of(950.0, 0.02));
         assert!(of(10.0, 0.02) < 1.01 * of(10.0, 0.0));
         let [rms, peak] = [Quantity::RmsDte, Quantity::PeakToPeakDte].map(|q| mesh_bound(q, &pair(400.0), 0.1, 0.01));
         assert!((peak / rms - 8f64.sqrt()).abs() < 1e-12);
