@@ -26,7 +26,7 @@ impl CalibratedMesh {
         let default = |m: &MesherScene| {
             let counts = [m.elements_profile, m.elements_fillet, m.elements_thickness, m.elements_face, m.elements_rim];
             let face = scene.face_elements(m.order);
-            m.order == d.order as u32
+            m.order == d.order
                 && counts == [d.elements_profile, d.elements_fillet, d.elements_thickness, face, d.elements_rim]
         };
         let rung = Rung::of(scene).map(|rung| Self::Rung(rung.elements_profile));

@@ -56,7 +56,7 @@ pub enum Outcome {
         /// How far that is off the reference.
         error: AnswerError,
         /// What it says of that error itself, or why it says nothing.
-        bounds: Result<OwnBounds, String>,
+        bounds: Result<Box<OwnBounds>, String>,
         /// What a reader should know.
         note: String,
     },
@@ -85,7 +85,7 @@ pub struct WorkPrecision {
     /// What it gave.
     pub reference: Answer,
     /// What it says of its own error.
-    pub reference_bounds: Result<OwnBounds, String>,
+    pub reference_bounds: Result<Box<OwnBounds>, String>,
     /// Why it was not taken on a finer mesh; empty when it is on the finest.
     pub reference_note: String,
     /// The points, way by way, coarse to fine.
@@ -269,8 +269,14 @@ impl MeasuredPoint {
 }
 
 /// Bounds of an answer beside its error against the reference.
-fn own_bounds(accuracy: Result<Accuracy, String>, answer: &Answer, reference: &Answer) -> Result<OwnBounds, String> {
-    accuracy.and_then(|a| OwnBounds::new(&a, answer, reference).ok_or_else(|| "no bound of its mean STE".to_owned()))
+fn own_bounds(
+    accuracy: Result<Accuracy, String>,
+    answer: &Answer,
+    reference: &Answer,
+) -> Result<Box<OwnBounds>, String> {
+    accuracy.and_then(|a| {
+        OwnBounds::new(&a, answer, reference).map(Box::new).ok_or_else(|| "no bound of its mean STE".to_owned())
+    })
 }
 
 /// A point in a few words.

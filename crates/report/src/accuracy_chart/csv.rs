@@ -63,10 +63,10 @@ fn line(row: &PointRow) -> String {
 const BOUND_FIELDS: usize = 7;
 
 /// Least and largest error of mean and peak to peak, whether the reference lies inside, or why there are none.
-fn of_bounds(bounds: &Result<OwnBounds, String>) -> String {
+fn of_bounds(bounds: &Result<Box<OwnBounds>, String>) -> String {
     let of =
         |b: Option<&OwnBound>| b.map_or_else(|| ",,".to_owned(), |b| format!("{},{},{}", b.least, b.most, b.holds));
-    match bounds {
+    match bounds.as_deref() {
         Ok(OwnBounds { mean_ste, peak_to_peak_ste }) => {
             format!("{},{},", of(Some(mean_ste)), of(peak_to_peak_ste.as_ref()))
         }

@@ -34,7 +34,7 @@ pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> Str
 fn bounds_that_hold(chart: &WorkPrecision) -> String {
     let known = || {
         chart.rows.iter().filter_map(|r| match &r.outcome {
-            Outcome::Measured { bounds: Ok(own), .. } => Some(own),
+            Outcome::Measured { bounds: Ok(own), .. } => Some(&**own),
             _ => None,
         })
     };

@@ -66,7 +66,7 @@ fn points(chart: &WorkPrecision, way: &str, q: &Quantity, e: &Effort) -> Vec<Lab
         Outcome::Measured { work, error, bounds, .. } => {
             let error = (q.of)(error)?;
             let (x, y) = ((e.of)(work), error.abs().max(LEAST));
-            let own = bounds.as_ref().ok().and_then(q.own);
+            let own = bounds.as_deref().ok().and_then(q.own);
             let bound = own.map(|own| 100.0 * on_side_of(error, own).max(LEAST));
             let label = r.density.filter(|d| d.profile > 0).map(|d| d.profile.to_string());
             (x > 0.0 && x.is_finite() && y.is_finite()).then_some(Labelled { at: (x, 100.0 * y), label, bound })

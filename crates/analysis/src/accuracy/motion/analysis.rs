@@ -55,6 +55,9 @@ pub struct AccurateMotion<'a> {
     cache: &'a dyn GearCache,
 }
 
+/// What is tried next, and why: another mesh where there is one, the model and its steps.
+type Next = (Option<Scene>, Choice, String);
+
 impl std::fmt::Debug for AccurateMotion<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("AccurateMotion").field("scene", &self.scene.name).finish_non_exhaustive()
@@ -283,23 +286,18 @@ impl<'a> AccurateMotion<'a> {
 
     /// What is taken after a run whose bounds are not kept, and why it is left: a finer mesh, a dearer model, or more
     /// steps; `None` where all is kept, or nothing finer is left.
-    fn next(
-        &self,
-        base: &Base,
-        choice: Choice,
-        own: MotionSample,
-        bounds: &[Bound],
-    ) -> Option<(Option<Scene>, Choice, String)> {
+    fn next(&self, base: &Base, choice: Choice, own: MotionSample, bounds: &[Bound]) -> Option<Next> {
         let dearer = choice.model.finer().map(|model| Choice { model, steps: model.first_steps(choice.steps) });
         if choice.model == MotionModel::Lumped12 && own.least_force <= 0.0 {
             return Some((None, dearer?, "its flanks part, which a linear mesh does not know".into()));
         }
         let over = |b: &&Bound| b.largest() / b.asked.unwrap_or(f64::INFINITY);
         let worst = bounds.iter().filter(|b| b.met == Some(false)).max_by(|a, b| over(a).total_cmp(&over(b)))?;
-        let of = |cause: Cause| worst.terms.iter().filter(|t| t.cause == cause).map(|t| t.amount).sum::<f64>();
-        // What is taken off as the known part of an error is the model's, too.
-        let known = (worst.value - worst.corrected).abs();
-        let model = known + of(Cause::Model) + of(Cause::QuasiStaticElasticity);
+        let of = |cause: Cause| {
+            let own = worst.terms.iter().filter(|t| t.cause == cause);
+            own.map(|t| t.known.abs() + t.amount).sum::<f64>()
+        };
+        let model = of(Cause::Model) + of(Cause::QuasiStaticElasticity);
         let (mesh, step) = (of(Cause::Mesh), of(Cause::Step));
         let why = format!(
             "{} is known to {:.2e} {}, {:.2e} is asked",
@@ -312,8 +310,7 @@ impl<'a> AccurateMotion<'a> {
         let by_mesh = || self.finer_mesh(base).map(|finer| (Some(finer), choice, why.clone()));
         let steps = 2 * choice.steps;
         let by_step = || (steps <= MOST_STEPS).then(|| (None, Choice { steps, ..choice }, why.clone()));
-        let mut ways: [(f64, &dyn Fn() -> Option<(Option<Scene>, Choice, String)>); 3] =
-            [(model, &by_model), (mesh, &by_mesh), (step, &by_step)];
+        let mut ways: [(f64, &dyn Fn() -> Option<Next>); 3] = [(model, &by_model), (mesh, &by_mesh), (step, &by_step)];
         ways.sort_by(|a, b| b.0.total_cmp(&a.0));
         ways.iter().find_map(|(_, way)| way())
     }
