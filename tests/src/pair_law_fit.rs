@@ -28,7 +28,7 @@ const LEAST_ERROR: f64 = 1e-6;
 /// Share of the cases that lies within a single bound.
 const TERM_COVERAGE: f64 = 0.9;
 
-/// The law that holds for [`TERM_COVERAGE`] of the cases when it is made without them.
+/// The law that holds for nine in ten cases when it is made without them.
 pub fn fit(cases: &[PairCase], by_difference: bool) -> Fitted {
     let mut held_out = vec![[0.0; 2]; cases.len()];
     for fold in 0..FOLDS {

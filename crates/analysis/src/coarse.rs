@@ -53,7 +53,8 @@ impl<'a> Coarse<'a> {
     /// Mean transmission error with bodies `b` over that with bodies `a`; `None` where one of them cannot be made or
     /// run.
     pub fn ratio(&self, a: [Body; 2], b: [Body; 2]) -> Option<f64> {
-        let ratio = self.mean_error(b)? / self.mean_error(a)?;
+        let (b, a) = rayon::join(|| self.mean_error(b), || self.mean_error(a));
+        let ratio = b? / a?;
         ratio.is_finite().then_some(ratio)
     }
 

@@ -49,7 +49,7 @@ impl MotionModel {
         }
     }
 
-    /// As [analysis] names it.
+    /// As `[analysis]` names it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lumped12 => "lumped12",
