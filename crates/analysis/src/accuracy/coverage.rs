@@ -29,6 +29,12 @@ pub(super) fn beyond_calibration(scene: &Scene, result: &StaticResult) -> Vec<St
     let mut all = beyond_ranges(scene, result);
     all.extend(other_flanks(scene));
     all.extend(few_slices(result));
+    if scene.contact.friction > 0.0 {
+        all.push("friction: the calibration has none".into());
+    }
+    if scene.contact.corner_contact == Some(false) {
+        all.push("edges cut off: in the calibration corners press".into());
+    }
     all
 }
 
