@@ -8,6 +8,7 @@ pub mod measured_motion;
 pub mod measured_pair;
 pub mod moving;
 pub mod pair_law_fit;
+pub mod pairs_done;
 pub mod random_motion;
 pub mod random_scene;
 

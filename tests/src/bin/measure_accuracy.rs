@@ -4,13 +4,7 @@
 //! `cargo run --release -p verification --bin measure_accuracy -- FILE SEED FIRST COUNT [FINEST]`
 #![allow(clippy::print_stderr, reason = "the progress of hours")]
 
-use std::{
-    collections::BTreeMap,
-    error::Error,
-    fs::{File, OpenOptions},
-    io::{BufRead, BufReader, Write},
-    time::Instant,
-};
+use std::{collections::BTreeMap, error::Error, fs::OpenOptions, io::Write, time::Instant};
 
 use analysis::{
     NoCache, StaticAnalysis,
@@ -20,6 +14,7 @@ use scene::Scene;
 use serde_json::{Value, json};
 use verification::{
     measured_pair::{FINE_POSITIONS, POSITIONS},
+    pairs_done::pairs_done,
     random_scene::random_scene,
 };
 
@@ -37,7 +32,7 @@ fn main() -> Result<(), Failure> {
     };
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
     let finest: Option<u32> = rest.first().map(|word| word.parse()).transpose()?;
-    let done = done(file, seed)?;
+    let done = pairs_done(file, seed)?;
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
     // One after the other: a pair in work may be large, and a run of hours is cut off without warning.
     for index in (first..first + count).filter(|i| !done.contains(i)) {
@@ -48,19 +43,6 @@ fn main() -> Result<(), Failure> {
         writeln!(out, "{line}")?;
     }
     Ok(())
-}
-
-/// Pairs of a seed that a file has.
-fn done(file: &str, seed: u64) -> Result<Vec<u64>, Failure> {
-    let Ok(file) = File::open(file) else { return Ok(Vec::new()) };
-    let mut found = Vec::new();
-    for line in BufReader::new(file).lines() {
-        let pair: Value = serde_json::from_str(&line?)?;
-        if pair["seed"] == json!(seed) {
-            found.extend(pair["index"].as_u64());
-        }
-    }
-    Ok(found)
 }
 
 /// The line of a pair; one that cannot be computed says why.

@@ -4,12 +4,7 @@
 //! `cargo run --release -p verification --bin measure_motion_accuracy -- FILE SEED FIRST COUNT [MESH_RUNG]`
 #![allow(clippy::print_stderr, reason = "the progress of hours")]
 
-use std::{
-    error::Error,
-    fs::{File, OpenOptions},
-    io::{BufRead, BufReader, Write},
-    time::Instant,
-};
+use std::{error::Error, fs::OpenOptions, io::Write, time::Instant};
 
 use analysis::{
     NoObserver,
@@ -19,7 +14,10 @@ use analysis::{
     },
 };
 use serde_json::{Value, json};
-use verification::random_motion::{RandomMotion, fine_modes, random_motion};
+use verification::{
+    pairs_done::pairs_done,
+    random_motion::{RandomMotion, fine_modes, random_motion},
+};
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -37,7 +35,7 @@ fn main() -> Result<(), Failure> {
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
     let rung: u32 = rest.first().map_or(Ok(2), |word| word.parse())?;
     let rung = Rung::ALL.into_iter().find(|r| r.elements_profile == rung).ok_or("no such rung")?;
-    let done = done(file, seed)?;
+    let done = pairs_done(file, seed)?;
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
     for index in (first..first + count).filter(|i| !done.contains(i)) {
         let Some(pair) = random_motion(seed, index) else { continue };
@@ -50,19 +48,6 @@ fn main() -> Result<(), Failure> {
         eprintln!("pair {index}: {:.0} s", start.elapsed().as_secs_f64());
     }
     Ok(())
-}
-
-/// Pairs of a seed that a file has.
-fn done(file: &str, seed: u64) -> Result<Vec<u64>, Failure> {
-    let Ok(file) = File::open(file) else { return Ok(Vec::new()) };
-    let mut found = Vec::new();
-    for line in BufReader::new(file).lines() {
-        let pair: Value = serde_json::from_str(&line?)?;
-        if pair["seed"] == json!(seed) {
-            found.extend(pair["index"].as_u64());
-        }
-    }
-    Ok(found)
 }
 
 /// The lines of a pair, one a speed.
