@@ -2,6 +2,7 @@
 //!
 //! Lengths in mm. Node order inside an element is Gmsh's own for every kind.
 
+mod block;
 mod check;
 pub mod element;
 pub mod error;

@@ -16,8 +16,10 @@ pub(crate) const LAST_COMPLIANCE: f64 = 1e-6;
 const SLOW: f64 = 0.5;
 /// Proximal steps before giving up.
 const PROXIMAL_STEPS: usize = 300;
-/// Violation of the penalty law that is still an answer.
-const PENALTY_TOLERANCE: f64 = 1e-9;
+/// Violation that is still an answer: of the penalty law, and of exact contact where forces drift too slowly to wait.
+const ANSWER_TOLERANCE: f64 = 1e-9;
+/// Proximal steps without extrapolation after one that made things worse.
+const PATIENCE: usize = 12;
 
 /// Solves the contact of `rows`; `balance` is about the axis of body number `body`.
 ///
@@ -51,7 +53,7 @@ pub fn solve(
     let Law::Exact = law else {
         let (answer, active, iterations) = pivot(bodies, &problem, active)?;
         let solution = finish(&problem, answer, active, iterations);
-        if solution.residual > PENALTY_TOLERANCE {
+        if solution.residual > ANSWER_TOLERANCE {
             let infeasible = solution.active.len();
             return Err(ContactError::NotConverged { iterations, infeasible, points: rows.len() });
         }
@@ -62,6 +64,8 @@ pub fn solve(
     let mut total = 0;
     let mut relative = FIRST_COMPLIANCE;
     let mut residual = f64::INFINITY;
+    let mut best: Option<Solution> = None;
+    let mut patience = 0usize;
     for _ in 0..PROXIMAL_STEPS {
         problem.compliance.fill(relative * own);
         for (i, row) in rows.iter().enumerate() {
@@ -74,16 +78,26 @@ pub fn solve(
         if solution.residual < TOLERANCE {
             return Ok(solution);
         }
-        let slow = relative <= LAST_COMPLIANCE && solution.residual > SLOW * residual;
+        // Extrapolations that overshoot would go round in circles: after one that makes things worse, plain steps, each
+        // of which comes nearer.
+        patience = if solution.residual > residual { PATIENCE } else { patience.saturating_sub(1) };
+        let slow = relative <= LAST_COMPLIANCE && solution.residual > SLOW * residual && patience == 0;
         let further = if slow { extrapolation(&before, &solution.forces, solution.residual / residual) } else { 0.0 };
         for (b, f) in before.iter_mut().zip(&solution.forces) {
             *b = (f + further * (f - *b)).max(0.0);
         }
         residual = solution.residual;
+        if best.as_ref().is_none_or(|b| residual < b.residual) {
+            best = Some(solution);
+        }
         active = settled;
         relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
-    Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() })
+    best.filter(|solution| solution.residual <= ANSWER_TOLERANCE).ok_or(ContactError::NotConverged {
+        iterations: total,
+        infeasible: active.len(),
+        points: rows.len(),
+    })
 }
 
 /// How many steps like the last one proximal continuation may go at once where it creeps.

@@ -1,11 +1,11 @@
 //! Assembly: what the whole inherits from its parts.
 
-use crate::common::{box_mesh, largest, on_threads, shaken};
+use crate::common::{largest, on_threads, shaken};
 use fem::{
     DofMap, ElementOptions, FemError, Material, SymmetricMatrix, assemble, assemble_mass, assemble_stiffness,
     mass_properties,
 };
-use mesh::{ElementBlock, ElementKind};
+use mesh::{ElementBlock, ElementKind, Mesh};
 
 const STEEL: Material = Material::STEEL;
 
@@ -16,7 +16,7 @@ fn bits(matrix: &SymmetricMatrix) -> Vec<(usize, usize, u64)> {
 #[test]
 fn one_thread_or_two_the_same_bits() {
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, [7, 6, 5], shaken(0.15));
+        let mesh = Mesh::block(kind, [7, 6, 5], shaken(0.15));
         let dofs = DofMap::new(mesh.nodes.len(), &[0, 3, 5]);
         let run = || assemble(&mesh, &STEEL, &dofs, &ElementOptions::default()).unwrap();
         let (one, two, many) = (on_threads(1, run), on_threads(2, run), on_threads(5, run));
@@ -33,7 +33,7 @@ fn one_thread_or_two_the_same_bits() {
 #[test]
 fn a_rigid_move_costs_no_force() {
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, [3, 2, 2], shaken(0.15));
+        let mesh = Mesh::block(kind, [3, 2, 2], shaken(0.15));
         let dofs = DofMap::new(mesh.nodes.len(), &[]);
         let k = assemble_stiffness(&mesh, &STEEL, &dofs, &ElementOptions::default()).unwrap();
         let stiffest = largest(k.diagonal());
@@ -59,7 +59,7 @@ fn a_rigid_move_costs_no_force() {
 /// Fixing nodes picks rows and columns of the free body's matrix, nothing else.
 #[test]
 fn fixing_nodes_drops_their_rows_and_columns() {
-    let mesh = box_mesh(ElementKind::Tet10, [2, 2, 1], shaken(0.1));
+    let mesh = Mesh::block(ElementKind::Tet10, [2, 2, 1], shaken(0.1));
     let fixed = [1, 4, 9, 4];
     let (all, some) = (DofMap::new(mesh.nodes.len(), &[]), DofMap::new(mesh.nodes.len(), &fixed));
     let whole = assemble(&mesh, &STEEL, &all, &ElementOptions::default()).unwrap();
@@ -83,7 +83,7 @@ fn fixing_nodes_drops_their_rows_and_columns() {
 fn mass_centre_and_inertia_of_a_box() {
     let (size, cells) = ([2.0, 3.0, 4.0], [2, 3, 2]);
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, cells, |c| [0, 1, 2].map(|a| 100.0 + c[a] * size[a] / cells[a] as f64));
+        let mesh = Mesh::block(kind, cells, |c| [0, 1, 2].map(|a| 100.0 + c[a] * size[a] / cells[a] as f64));
         let found = mass_properties(&mesh, &STEEL).unwrap();
         let mass = STEEL.density_t_per_mm3() * 24.0;
         assert!((found.mass_t - mass).abs() < 1e-12 * mass, "{}", kind.name());
@@ -108,7 +108,7 @@ fn mass_centre_and_inertia_of_a_box() {
 /// Blocks of different kinds meet on shared nodes.
 #[test]
 fn kinds_can_be_mixed() {
-    let mut mesh = box_mesh(ElementKind::Hex8, [2, 1, 1], |c| c);
+    let mut mesh = Mesh::block(ElementKind::Hex8, [2, 1, 1], |c| c);
     let block = &mut mesh.blocks[0];
     let second: Vec<u32> = block.connectivity.split_off(8);
     block.tags.pop();
@@ -126,7 +126,7 @@ fn kinds_can_be_mixed() {
 
 #[test]
 fn damaged_meshes_are_refused() {
-    let good = box_mesh(ElementKind::Hex8, [1, 1, 1], |c| c);
+    let good = Mesh::block(ElementKind::Hex8, [1, 1, 1], |c| c);
     let dofs = DofMap::new(8, &[]);
     let run = |mesh: &mesh::Mesh, dofs: &DofMap| {
         assemble_stiffness(mesh, &STEEL, dofs, &ElementOptions::default()).map(|_| ())

@@ -1,7 +1,7 @@
 //! Laws every element has to obey.
 
 use crate::common::{
-    boundary_faces, boundary_nodes, box_mesh, first_element, largest, nodes_where, pick_free, shaken, solve_prescribed,
+    boundary_faces, boundary_nodes, first_element, largest, nodes_where, pick_free, shaken, solve_prescribed,
 };
 use faer::{Mat, Side};
 use fem::{
@@ -25,7 +25,7 @@ fn linear_field(x: [f64; 3]) -> [f64; 3] {
 
 /// Error of the displacement of a shaken patch whose boundary moves linearly, and of its stress; relative.
 fn patch_error(kind: ElementKind, options: &ElementOptions) -> Result<(f64, f64), FemError> {
-    let mesh = box_mesh(kind, [3, 3, 3], shaken(0.2));
+    let mesh = Mesh::block(kind, [3, 3, 3], shaken(0.2));
     let (n, boundary) = (mesh.nodes.len(), boundary_nodes(&mesh));
     let (free, interior) = (DofMap::new(n, &[]), DofMap::new(n, &boundary));
     let full = assemble_stiffness(&mesh, &STEEL, &free, options)?;
@@ -70,7 +70,7 @@ fn an_element_has_six_rigid_modes_and_no_other_zero_mode() {
     let plain = ElementOptions { incompatible_modes: IncompatibleModes::Off, ..options() };
     let cases = ElementKind::ALL.map(|kind| (kind, options())).into_iter().chain([(ElementKind::Hex8, plain)]);
     for (kind, options) in cases {
-        let mesh = box_mesh(kind, [1, 1, 1], shaken(0.2));
+        let mesh = Mesh::block(kind, [1, 1, 1], shaken(0.2));
         let k = element_stiffness(kind, &first_element(&mesh), 1, &STEEL, &options).unwrap();
         let mut values: Vec<f64> = k.self_adjoint_eigenvalues(Side::Lower).unwrap();
         values.sort_by(f64::total_cmp);
@@ -84,7 +84,7 @@ fn an_element_has_six_rigid_modes_and_no_other_zero_mode() {
 #[test]
 fn reduced_hex20_has_six_zero_modes_more() {
     let options = ElementOptions { integration: Integration::Reduced, ..options() };
-    let mesh = box_mesh(ElementKind::Hex20, [1, 1, 1], |c| c);
+    let mesh = Mesh::block(ElementKind::Hex20, [1, 1, 1], |c| c);
     let k = element_stiffness(ElementKind::Hex20, &first_element(&mesh), 1, &STEEL, &options).unwrap();
     let values = k.self_adjoint_eigenvalues(Side::Lower).unwrap();
     let top = largest(values.iter().copied());
@@ -94,7 +94,7 @@ fn reduced_hex20_has_six_zero_modes_more() {
 #[test]
 fn element_mass_is_density_times_volume_and_carries_the_first_moment() {
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, [1, 1, 1], |c| [2.0 * c[0] + 0.3 * c[1], 3.0 * c[1], 4.0 * c[2] + c[0]]);
+        let mesh = Mesh::block(kind, [1, 1, 1], |c| [2.0 * c[0] + 0.3 * c[1], 3.0 * c[1], 4.0 * c[2] + c[0]]);
         let x = first_element(&mesh);
         let m = element_mass(kind, &x, 1, &STEEL).unwrap();
         let pieces = mesh.element_count() as f64;
@@ -118,7 +118,7 @@ fn element_mass_is_density_times_volume_and_carries_the_first_moment() {
 
 #[test]
 fn an_inverted_element_is_named() {
-    let mut mesh = box_mesh(ElementKind::Hex8, [2, 1, 1], |c| c);
+    let mut mesh = Mesh::block(ElementKind::Hex8, [2, 1, 1], |c| c);
     let nodes = &mut mesh.blocks[0].connectivity[8..];
     nodes.rotate_left(4); // bottom and top exchanged
     let dofs = DofMap::new(mesh.nodes.len(), &[]);
@@ -131,7 +131,7 @@ fn an_inverted_element_is_named() {
 /// Tip deflection (mm) of a 10 x 1 x 1 mm cantilever under 1 N across the tip face, and that of beam theory.
 fn cantilever(kind: ElementKind, cells: [usize; 3], options: &ElementOptions) -> Result<(f64, f64), FemError> {
     let size = [10.0, 1.0, 1.0];
-    let mesh = box_mesh(kind, cells, |c| [0, 1, 2].map(|a| c[a] * size[a] / cells[a] as f64));
+    let mesh = Mesh::block(kind, cells, |c| [0, 1, 2].map(|a| c[a] * size[a] / cells[a] as f64));
     let dofs = DofMap::new(mesh.nodes.len(), &nodes_where(&mesh, |x| x[0] < 1e-9));
     let k = assemble_stiffness(&mesh, &STEEL, &dofs, options)?;
     let load = tip_load(&mesh, size[0]);
@@ -224,7 +224,7 @@ fn harmonic(x: [f64; 3]) -> [f64; 3] {
 fn field_error(kind: ElementKind, cells: usize) -> f64 {
     let n = cells as f64;
     // a smooth distortion, so that refinement makes the elements ever more regular inside
-    let mesh = box_mesh(kind, [cells; 3], |c| {
+    let mesh = Mesh::block(kind, [cells; 3], |c| {
         let [x, y, z] = c.map(|v| v / n);
         [x + 0.08 * y * z, y - 0.06 * x * z, z + 0.07 * x * y]
     });

@@ -1,6 +1,6 @@
 //! One factor, many answers: each judged by dense algebra.
 
-use crate::common::{box_mesh, nodes_where, on_threads, shaken};
+use crate::common::{nodes_where, on_threads, shaken};
 use faer::{Mat, MatRef, linalg::solvers::Solve};
 use fem::{
     BoundaryLastFactor, DofMap, ElementOptions, FemError, IndefiniteFactor, Material, SymmetricMatrix,
@@ -10,7 +10,7 @@ use mesh::{ElementKind, Mesh};
 
 /// A clamped block and the rows of some of its nodes, in no particular order.
 fn clamped(kind: ElementKind, cells: [usize; 3]) -> (Mesh, DofMap, SymmetricMatrix) {
-    let mesh = box_mesh(kind, cells, shaken(0.15));
+    let mesh = Mesh::block(kind, cells, shaken(0.15));
     let fixed = nodes_where(&mesh, |x| x[0] < 0.3);
     let dofs = DofMap::new(mesh.nodes.len(), &fixed);
     let k = assemble_stiffness(&mesh, &Material::STEEL, &dofs, &ElementOptions::default()).unwrap();
@@ -199,7 +199,7 @@ fn one_thread_or_two_the_same_bits() {
 
 #[test]
 fn a_body_that_can_move_is_refused() {
-    let mesh = box_mesh(ElementKind::Hex8, [4, 4, 4], shaken(0.1));
+    let mesh = Mesh::block(ElementKind::Hex8, [4, 4, 4], shaken(0.1));
     let run = |fixed: &[u32], boundary: &[usize]| {
         let dofs = DofMap::new(mesh.nodes.len(), fixed);
         let k = assemble_stiffness(&mesh, &Material::STEEL, &dofs, &ElementOptions::default()).unwrap();

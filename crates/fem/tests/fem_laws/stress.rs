@@ -1,12 +1,12 @@
 //! Stress recovery.
 
-use crate::common::{box_mesh, largest, nodes_where, on_threads, shaken};
+use crate::common::{largest, nodes_where, on_threads, shaken};
 use faer::Mat;
 use fem::{
     BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, assemble_stiffness, max_principal,
     nodal_stress, von_mises,
 };
-use mesh::ElementKind;
+use mesh::{ElementKind, Mesh};
 
 const STEEL: Material = Material::STEEL;
 
@@ -22,7 +22,7 @@ fn bending(x: [f64; 3]) -> [f64; 3] {
 fn quadratic_elements_recover_linear_stress() {
     for kind in ElementKind::ALL.into_iter().filter(|k| k.order() == 2) {
         // parallelepipeds: their quadratic fields are those of true coordinates
-        let mesh = box_mesh(kind, [3, 2, 2], |c| [c[0] + 0.2 * c[1], c[1] - 0.1 * c[2], c[2] + 0.15 * c[0]]);
+        let mesh = Mesh::block(kind, [3, 2, 2], |c| [c[0] + 0.2 * c[1], c[1] - 0.1 * c[2], c[2] + 0.15 * c[0]]);
         let u: Vec<[f64; 3]> = mesh.nodes.iter().map(|&x| bending(x)).collect();
         let stress = nodal_stress(&mesh, &STEEL, &ElementOptions::default(), &u).unwrap();
         for (x, s) in mesh.nodes.iter().zip(&stress) {
@@ -37,7 +37,7 @@ fn quadratic_elements_recover_linear_stress() {
 #[test]
 fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
     let cells = [8, 2, 1];
-    let mesh = box_mesh(ElementKind::Hex8, cells, |c| [c[0], 0.5 * c[1] - 0.5, c[2] - 0.5]);
+    let mesh = Mesh::block(ElementKind::Hex8, cells, |c| [c[0], 0.5 * c[1] - 0.5, c[2] - 0.5]);
     // symmetric about x = 4: hold the middle plane as bending does, move the ends
     let ends = nodes_where(&mesh, |x| x[0] < 1e-9 || x[0] > 8.0 - 1e-9);
     let n = mesh.nodes.len();
@@ -57,7 +57,7 @@ fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
 #[test]
 fn the_operator_gives_the_nodal_stress() {
     for kind in ElementKind::ALL {
-        let mesh = box_mesh(kind, [3, 2, 2], shaken(0.15));
+        let mesh = Mesh::block(kind, [3, 2, 2], shaken(0.15));
         let fixed = nodes_where(&mesh, |x| x[0] < 0.3);
         let dofs = DofMap::new(mesh.nodes.len(), &fixed);
         let options = ElementOptions::default();
@@ -93,7 +93,7 @@ fn equivalent_and_principal_stress_of_known_states() {
 /// Work and stress agree: the end load of a bar is its cross-section times its mean stress.
 #[test]
 fn a_pulled_bar_is_under_its_load() {
-    let mesh = box_mesh(ElementKind::Hex8, [6, 2, 2], |c| c);
+    let mesh = Mesh::block(ElementKind::Hex8, [6, 2, 2], |c| c);
     let fixed = nodes_where(&mesh, |x| x[0] < 1e-9);
     let dofs = DofMap::new(mesh.nodes.len(), &fixed);
     let options = ElementOptions::default();

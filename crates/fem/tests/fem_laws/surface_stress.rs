@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::common::{boundary_faces, box_mesh, largest, nodes_where, shaken};
+use crate::common::{boundary_faces, largest, nodes_where, shaken};
 use faer::Mat;
 use fem::{DofMap, ElementOptions, FemError, Material, StressOperator, assemble_stiffness, nodal_stress};
 use mesh::{ElementKind, Face, Mesh};
@@ -36,7 +36,7 @@ fn uniform_stress_is_exact() {
     for kind in ElementKind::ALL {
         // Shaken along the pull alone, so that the free faces stay plane.
         let shake = shaken(0.15);
-        let mesh = box_mesh(kind, [3, 2, 2], |c| [shake(c)[0] + 0.1 * c[1], c[1], c[2]]);
+        let mesh = Mesh::block(kind, [3, 2, 2], |c| [shake(c)[0] + 0.1 * c[1], c[1], c[2]]);
         let u: Vec<[f64; 3]> =
             mesh.nodes.iter().map(|x| [x[0], -nu * x[1], -nu * x[2]].map(|c| 100.0 / young * c)).collect();
         for at in [0.0, 2.0] {
@@ -56,7 +56,7 @@ fn linear_stress_is_exact_on_quadratic_faces() {
     let (young, nu, curvature) = (STEEL.young_mpa(), STEEL.poisson(), 1e-3);
     let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.7, 1.1);
     for kind in ElementKind::ALL.into_iter().filter(|k| k.order() == 2) {
-        let straight = box_mesh(kind, [3, 2, 2], |c| [c[0] + 0.2 * c[1], c[1], c[2]]);
+        let straight = Mesh::block(kind, [3, 2, 2], |c| [c[0] + 0.2 * c[1], c[1], c[2]]);
         let field = |[x, y, z]: [f64; 3]| {
             let down = -0.5 * curvature * (x * x + nu * (y * y - z * z));
             [curvature * x * y, down, -nu * curvature * y * z]
@@ -83,7 +83,7 @@ fn linear_stress_is_exact_on_quadratic_faces() {
 #[test]
 fn rigid_motion_is_free_of_stress_and_the_surface_of_traction() {
     for kind in ElementKind::ALL {
-        let mut mesh = box_mesh(kind, [2, 2, 2], |c| c);
+        let mut mesh = Mesh::block(kind, [2, 2, 2], |c| c);
         mesh.nodes.iter_mut().for_each(|x| *x = polar([1.0 + x[0], 0.3 * x[1], x[2] + 0.1 * x[0] * x[1]]));
         let u: Vec<[f64; 3]> = mesh
             .nodes
@@ -96,7 +96,7 @@ fn rigid_motion_is_free_of_stress_and_the_surface_of_traction() {
         assert!(largest(stress.iter().flatten().copied()) < 1e-9 * STEEL.young_mpa(), "{}", kind.name());
     }
     // One curved face: no traction across its own normal, whatever its displacement.
-    let mut mesh = box_mesh(ElementKind::Hex20, [1, 1, 1], |c| c);
+    let mut mesh = Mesh::block(ElementKind::Hex20, [1, 1, 1], |c| c);
     mesh.nodes.iter_mut().for_each(|x| *x = polar([1.0 + x[0], 0.5 * x[1], x[2]]));
     let (faces, nodes) = faces_where(&mesh, |x| (x[0].hypot(x[1]) - 1.0).abs() < 1e-9);
     let u: Vec<[f64; 3]> = (0..mesh.nodes.len()).map(|i| [0, 1, 2].map(|a| (1.7 * (3 * i + a) as f64).sin())).collect();
@@ -130,7 +130,7 @@ fn kirsch([x, y, _]: [f64; 3]) -> [f64; 3] {
 /// Largest error of the hoop stress S (1 - 2 cos 2 theta) on the free hole, over its maximum 3 S: surface, volume.
 fn errors_at_the_hole(kind: ElementKind, n: usize) -> [f64; 2] {
     let cells = [n, 2 * n, 2];
-    let mut mesh = box_mesh(kind, cells, |c| c);
+    let mut mesh = Mesh::block(kind, cells, |c| c);
     for x in &mut mesh.nodes {
         // Layers that grow with the distance from the hole.
         *x = polar([3f64.powf(x[0] / n as f64), FRAC_PI_2 * x[1] / (2 * n) as f64, x[2] - 1.0]);
@@ -186,7 +186,7 @@ fn stress_at_a_hole_converges() {
 
 #[test]
 fn nodes_and_faces_must_exist() {
-    let mesh = box_mesh(ElementKind::Hex8, [1, 1, 1], |c| c);
+    let mesh = Mesh::block(ElementKind::Hex8, [1, 1, 1], |c| c);
     let dofs = DofMap::new(8, &[]);
     let (faces, _) = faces_where(&mesh, |x| x[2] == 0.0);
     let of = |faces: &[Face], nodes: &[u32]| StressOperator::on_surface(&mesh, &STEEL, &dofs, &[faces.to_vec()], nodes);

@@ -1,0 +1,93 @@
+//! A mode's scene as it stands and with keys set otherwise, solved.
+
+use std::path::PathBuf;
+
+use analysis::{
+    AnalysisError, StaticAnalysis, StaticResult,
+    lumped::{LumpedAnalysis, LumpedResult},
+    motion::{MotionAnalysis, MotionResult},
+    static_certificate,
+};
+use scene::{Scene, SceneError, Setting};
+
+use crate::FailureMode;
+
+/// Solves scenes of one failure mode.
+#[derive(Debug)]
+pub(crate) struct Bench {
+    mode: FailureMode,
+}
+
+impl Bench {
+    pub(crate) fn new(mode: &FailureMode) -> Self {
+        Self { mode: *mode }
+    }
+
+    /// The settings that show the failure, and these beside them.
+    pub(crate) fn naive(&self, more: &[&str]) -> Vec<String> {
+        self.mode.naive.iter().chain(more).map(|s| (*s).to_owned()).collect()
+    }
+
+    /// The scene with some of its keys set otherwise, `key=value` each.
+    pub(crate) fn scene<S: AsRef<str>>(&self, settings: &[S]) -> Result<Scene, SceneError> {
+        let settings = settings.iter().map(|s| Setting::parse(s.as_ref())).collect::<Result<Vec<_>, _>>()?;
+        let file = PathBuf::from(format!("scenes/envelope/{}.toml", self.mode.file));
+        Scene::parse_with(self.mode.scene, &file, &settings)
+    }
+
+    /// Solved at rest, its certificate held.
+    pub(crate) fn at_rest<S: AsRef<str>>(&self, settings: &[S]) -> Result<StaticResult, AnalysisError> {
+        let scene = self.scene(settings)?;
+        let result = StaticAnalysis::new(&scene).solve()?;
+        static_certificate(&result.history.positions).verdict(&scene)?;
+        Ok(result)
+    }
+
+    /// Solved in motion, its certificate held.
+    pub(crate) fn in_motion<S: AsRef<str>>(&self, settings: &[S]) -> Result<MotionResult, AnalysisError> {
+        let scene = self.scene(settings)?;
+        let result = MotionAnalysis::new(&scene).solve()?;
+        result.facts.certificate.verdict(&scene)?;
+        Ok(result)
+    }
+
+    /// Solved in motion, whatever its certificate says.
+    pub(crate) fn unchecked_motion<S: AsRef<str>>(&self, settings: &[S]) -> Result<MotionResult, AnalysisError> {
+        MotionAnalysis::new(&self.scene(settings)?).solve()
+    }
+
+    /// Solved by a model with few coordinates, its certificate held.
+    pub(crate) fn lumped<S: AsRef<str>>(&self, settings: &[S]) -> Result<LumpedResult, AnalysisError> {
+        let scene = self.scene(settings)?;
+        let result = LumpedAnalysis::new(&scene).solve()?;
+        result.certificate().verdict(&scene)?;
+        Ok(result)
+    }
+}
+
+/// No settings.
+pub(crate) const AS_IT_IS: [&str; 0] = [];
+
+/// Transmission error of all positions, um.
+pub(crate) fn errors_um(result: &StaticResult) -> Vec<f64> {
+    result.history.positions.iter().map(|p| 1e3 * p.transmission_error).collect()
+}
+
+/// Arithmetic mean; NaN of nothing.
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Largest less least; NaN where one is no number.
+pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (v.min(l), v.max(h)));
+    if values.iter().any(|v| v.is_nan()) { f64::NAN } else { high - low }
+}
+
+/// Largest difference of two rows of equal length; infinite where they are not.
+pub(crate) fn farthest(a: &[f64], b: &[f64]) -> f64 {
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |m, d| if d <= m { m } else { d })
+}

@@ -1,0 +1,18 @@
+//! Where do gear contact solvers fail, and does this one?
+//!
+//! Every known way in which such solvers fail is a [`FailureMode`]: a scene that a user can run, the naive way failing
+//! where the program still has it, the robust way passing, and the [`Figure`]s that show both. [`MODES`] lists them in
+//! the order of their numbers; [`FailureMode::examine`] runs one.
+
+mod bench;
+mod error;
+mod figure;
+mod mode;
+mod modes;
+mod pieces;
+
+pub use error::EnvelopeError;
+pub use figure::{Asked, Figure, Shown, Value};
+pub use mode::{Examined, FailureMode};
+pub use modes::MODES;
+pub use pieces::contact_patch::contact_patch_deviation;

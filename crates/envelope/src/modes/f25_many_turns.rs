@@ -1,0 +1,92 @@
+//! F25: angles after many turns.
+
+use std::sync::Arc;
+
+use analysis::options;
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque};
+use nalgebra::DVector;
+
+use super::FailureMode;
+use crate::{
+    EnvelopeError, Figure, Shown,
+    bench::{AS_IT_IS, Bench, mean},
+};
+
+pub(super) const MODE: FailureMode = FailureMode {
+    number: 25,
+    name: "lost digits after many turns",
+    file: "F25-many-turns",
+    scene: scene_text!("F25-many-turns"),
+    fails: "An angle that is added up step by step, or that grows with the turns, loses the digits in which teeth deflect.",
+    does: "Teeth are counted in whole numbers; the angle is that within the mesh cycle.",
+    naive: &[],
+    look,
+};
+
+/// Turns of the pinion before the second look.
+const TURNS: f64 = 1e6;
+/// Steps that the naive clock adds up.
+const STEPS: u64 = 1 << 27;
+const PHASES: usize = 8;
+
+/// Normal force of the pair at eight phases of a mesh cycle, N, the gears held at the same lag, `start` cycles on.
+fn forces(bench: &Bench, start: f64) -> Result<Vec<f64>, EnvelopeError> {
+    let piece = "pair in motion";
+    let scene = bench.scene(&AS_IT_IS)?;
+    let solved = bench.at_rest(&AS_IT_IS)?;
+    let lag = 1e-3 * mean(&crate::bench::errors_um(&solved));
+    let missing = || EnvelopeError::piece(piece, "no model");
+    let pair = solved.pair.clone();
+    let stiffness = solved.history.positions.iter().map(|p| p.tangent_stiffness).sum::<f64>() / 8.0;
+    let length = solved.history.positions.iter().map(|p| p.contact_line_length).sum::<f64>() / 8.0;
+    let gears = solved.model.ok_or_else(missing)?.into_gears();
+    let body = RigidBody { mass: 1e-3, transverse_inertia: 0.5, polar_inertia: 1.0 };
+    let statics = options(&scene, &pair);
+    let load = Torque::Constant(statics.torque);
+    let speed = pair.pinion.pitch_angle();
+    let asked = MotionOptions {
+        statics,
+        bodies: [body; 2],
+        bearings: [Bearing::default(); 2],
+        free: [[false; 6]; 2],
+        drive: Drive::Speed(Speed::Constant(speed)),
+        load,
+        damping: MeshDamping::Ratio(0.0),
+        start_cycles: start,
+    };
+    let mut system = PairMechanism::new(pair, Arc::clone(&gears), None, asked, [stiffness, length])
+        .map_err(EnvelopeError::of(piece))?;
+    let n = system.count();
+    let mut all = Vec::new();
+    for k in 0..PHASES {
+        let mut q = DVector::zeros(n);
+        q[system.coordinates().lag()] = lag;
+        let instant = system.instant(k as f64 / PHASES as f64, &q, &DVector::zeros(n)).map_err(EnvelopeError::of(piece))?;
+        all.push(instant.normal_forces[0]);
+    }
+    Ok(all)
+}
+
+fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
+    let first = forces(bench, 0.0)?;
+    let later = forces(bench, 30.0 * TURNS)?;
+    let off = first.iter().zip(&later).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+    // The clock that adds up its steps, 1920 a turn: by how much of a base pitch it is wrong, in um.
+    let step = std::f64::consts::TAU / 1920.0;
+    let (mut angle, mut n) = (0.0f64, 0u64);
+    while n < STEPS {
+        angle += step;
+        n += 1;
+    }
+    let base_radius = bench.scene(&AS_IT_IS)?.gear_pair()?.pinion.base_radius();
+    let exact = (STEPS % 1920) as f64 * step;
+    let drift = 1e3 * base_radius * (angle - (STEPS / 1920) as f64 * std::f64::consts::TAU - exact).abs();
+    Ok(vec![
+        Figure::new("force of the pair at eight phases, now and a million turns later, parts off", Shown::at_most(off, 1e-6)),
+        Figure::new(
+            "drift of the clock on the base circle, um; naive: steps added up over 70 000 turns",
+            Shown::at_most(1e3 * off * 0.01, 1e-4),
+        )
+        .beside(Shown::at_least(drift, 1e-4)),
+    ])
+}
