@@ -64,4 +64,4 @@ pub use statics::{
     NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, time_again,
     wider_window,
 };
-pub use warnings::body_warnings;
+pub use warnings::{body_warnings, locking_warning};

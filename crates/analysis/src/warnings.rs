@@ -1,8 +1,9 @@
 //! What a user should hear of a solution.
 
+use fem::locks_from;
 use ltca::{StaticModel, StaticPosition};
-use mesh::Extent;
-use reduction::GearReducer;
+use mesh::{ElementKind, Extent};
+use reduction::{ElasticGear, GearReducer};
 
 use crate::{coarse::Coarse, reduced};
 
@@ -13,7 +14,10 @@ const NAMES: [&str; 2] = ["pinion", "wheel"];
 pub fn body_warnings(model: &StaticModel) -> Vec<String> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
-    let warn = |i: usize| sector_warning(model, &coarse, i).into_iter().chain(rim_warning(model, &coarse, i));
+    let warn = |i: usize| {
+        let bodies = sector_warning(model, &coarse, i).into_iter().chain(rim_warning(model, &coarse, i));
+        bodies.chain(locking_warning(&gears[i], NAMES[i]))
+    };
     (0..2).flat_map(warn).collect()
 }
 
@@ -71,6 +75,27 @@ fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Str
             100.0 * softer
         )
     })
+}
+
+/// Elements that lock: linear tetrahedra and wedges in bending always, others near a Poisson's ratio of 0.5.
+pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<String> {
+    let poisson = gear.material().poisson();
+    let kinds: Vec<ElementKind> = gear.gear().mesh().blocks.iter().map(|b| b.kind).collect();
+    let locks = kinds.iter().find(|kind| locks_from(**kind).is_some_and(|from| poisson >= from));
+    let stiff = kinds.iter().find(|kind| matches!(kind, ElementKind::Tet4 | ElementKind::Wedge6));
+    match (locks, stiff) {
+        (Some(kind), _) => Some(format!(
+            "the {name}'s mesh has {} elements, which lock at a Poisson's ratio of {poisson}: the body is too stiff, linear ones by \
+             a multiple; mesh it with hexahedra",
+            kind.name()
+        )),
+        (None, Some(kind)) => Some(format!(
+            "the {name}'s mesh has linear {} elements, which are several times too stiff in bending where few of them \
+             lie across a tooth: mesh it with second-order elements or with hexahedra",
+            kind.name()
+        )),
+        (None, None) => None,
+    }
 }
 
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.

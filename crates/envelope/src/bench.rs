@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use analysis::{
-    AnalysisError, StaticAnalysis, StaticResult,
+    AnalysisError, NoObserver, SinkResult, StaticAnalysis, StaticResult, StaticSink,
     lumped::{LumpedAnalysis, LumpedResult},
     motion::{MotionAnalysis, MotionResult},
     static_certificate,
 };
+use ltca::{StaticModel, StaticPosition};
 use scene::{Scene, SceneError, Setting};
 
-use crate::FailureMode;
+use crate::{EnvelopeError, FailureMode};
 
 /// Solves scenes of one failure mode.
 #[derive(Debug)]
@@ -43,6 +44,18 @@ impl Bench {
         Ok(result)
     }
 
+    /// What `look` takes from the first position of an analysis at rest, where the model stands as it was found.
+    pub(crate) fn at_first_position<T>(
+        &self,
+        settings: &[String],
+        look: impl FnMut(&StaticPosition, &StaticModel) -> T,
+    ) -> Result<T, EnvelopeError> {
+        let scene = self.scene(settings)?;
+        let mut sink = FirstPosition { look, taken: None };
+        StaticAnalysis::new(&scene).solve_into(&mut NoObserver, &mut sink)?;
+        sink.taken.ok_or_else(|| EnvelopeError::piece("first position", "there is none"))
+    }
+
     /// Solved in motion, its certificate held.
     pub(crate) fn in_motion<S: AsRef<str>>(&self, settings: &[S]) -> Result<MotionResult, AnalysisError> {
         let scene = self.scene(settings)?;
@@ -62,6 +75,27 @@ impl Bench {
         let result = LumpedAnalysis::new(&scene).solve()?;
         result.certificate().verdict(&scene)?;
         Ok(result)
+    }
+}
+
+/// Looks at position 0.
+struct FirstPosition<F, T> {
+    look: F,
+    taken: Option<T>,
+}
+
+impl<T, F: FnMut(&StaticPosition, &StaticModel) -> T> StaticSink for FirstPosition<F, T> {
+    fn begin(&mut self, _: &Scene) {}
+
+    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult {
+        if index == 0 {
+            self.taken = Some((self.look)(position, model));
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> SinkResult {
+        Ok(())
     }
 }
 

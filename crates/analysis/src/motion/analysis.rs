@@ -282,6 +282,7 @@ fn warnings_of(
     let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
     let pace = Pace::of(wall_s, headline.certificate.steps as f64);
     all.extend(prepared.elasticity.warning(&vibration, &demand, pace));
+    all.extend(prepared.elasticity.rotation_warning(&vibration));
     all.extend(headline.root_tensions().into_iter().flat_map(root_stress_warnings));
     all
 }

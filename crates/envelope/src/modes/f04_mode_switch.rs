@@ -1,12 +1,12 @@
 //! F4: coordinates at a tooth change.
 
-use ale::Station;
 use geometry::Sense;
+use ltca::{StaticModel, StaticPosition};
 
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::Bench,
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -21,44 +21,45 @@ pub(super) const MODE: FailureMode = FailureMode {
 };
 
 /// Strain energy of the pinion before a change, after it, and after one that starts the oncoming tooth from zero.
-fn energies(bench: &Bench) -> Result<[f64; 3], EnvelopeError> {
-    let piece = "tooth change";
+fn energies(position: &StaticPosition, model: &StaticModel) -> Result<[f64; 3], EnvelopeError> {
     let missing = |what: &str| EnvelopeError::piece("tooth change", what);
-    let fail = |e: reduction::ReductionError| EnvelopeError::piece(piece, e);
-    let solved = bench.at_rest(&["analysis.kind=static", "contact.method=nodal", "contact.points_per_face_edge=4"])?;
-    let gear_pair = solved.pair;
-    let mut model = solved.model.ok_or_else(|| missing("no model"))?;
-    // The run ends before the first change is due; phase 0 is where it is.
-    let before = model.solve(Station { cycle: 0, phase: 0.0 }).map_err(EnvelopeError::of(piece))?;
-    let windows = model.contact_set().windows().ok_or_else(|| missing("no window"))?;
-    let from = windows[0].clone();
-    let displacements = model.last().ok_or_else(|| missing("no equilibrium"))?.displacements[0].clone();
-    let forces: Vec<f64> = before.pairs.iter().map(|p| p.normal_force).collect();
+    let fail = EnvelopeError::of::<reduction::ReductionError>("tooth change");
+    let from = &model.contact_set().windows().ok_or_else(|| missing("no window"))?[0];
+    let displacements = &model.last().ok_or_else(|| missing("no equilibrium"))?.displacements[0];
+    let forces: Vec<f64> = position.pairs.iter().map(|p| p.normal_force).collect();
+    // One of the two pairs at the ends is free of load here.
     let next = model.window().change(Sense::Cw, &forces).or_else(|_| model.window().change(Sense::Ccw, &forces));
-    let next = next.map_err(EnvelopeError::of(piece))?;
+    let next = next.map_err(EnvelopeError::of("tooth change"))?;
     let gear = analysis::reduced(&model.gears()[0]).ok_or_else(|| missing("no reduced gear"))?;
-    let to = gear.window(next.first_teeth()[0]).map_err(fail)?;
-    let carried = gear.carry(&from, &to, &displacements).map_err(fail)?;
+    let to = gear.window(next.first_teeth()[0]).map_err(&fail)?;
+    let carried = gear.carry(from, &to, displacements).map_err(&fail)?;
     let mut naive = carried.clone();
-    let teeth: Vec<u32> = to.reduced.teeth.iter().copied().filter(|t| !from.reduced.teeth.contains(t)).collect();
-    for tooth in teeth {
-        let faces = gear.gear().flank(tooth % gear_pair.pinion.teeth(), model.options().side());
-        for node in faces.ok_or_else(|| missing("no such flank"))?.iter().flat_map(|f| f.nodes()) {
-            if let Some(at) = to.reduced.position(*node) {
-                naive[3 * at..3 * at + 3].fill(0.0);
-            }
-        }
+    // Numbers of pairs and teeth grow together: the oncoming tooth is the last of the window, or its first.
+    let oncoming = if next.first() > model.window().first() { to.reduced.teeth.last() } else { to.reduced.teeth.first() };
+    let tooth = oncoming.copied().unwrap_or(0) % gear.gear().tooth_count();
+    let faces = gear.gear().flank(tooth, model.options().side()).ok_or_else(|| missing("no such flank"))?;
+    for at in faces.iter().flat_map(|f| f.nodes()).filter_map(|node| to.reduced.position(*node)) {
+        naive[3 * at..3 * at + 3].fill(0.0);
     }
-    Ok([
-        from.reduced.strain_energy(&displacements),
-        to.reduced.strain_energy(&carried),
-        to.reduced.strain_energy(&naive),
-    ])
+    let before = from.reduced.strain_energy(displacements);
+    Ok([before, to.reduced.strain_energy(&carried), to.reduced.strain_energy(&naive)])
 }
 
+/// In motion until it repeats itself, then over a whole turn and more.
+const IN_MOTION: [&str; 6] = [
+    "analysis.kind=dynamic",
+    "analysis.cycles=32",
+    "contact.slices=8",
+    "drive.by=speed",
+    "motion.steps_per_mesh_cycle=32",
+    "motion.periodic_tolerance=1e-9",
+];
+/// The same pair at rest, on points: slices have no coordinates of their own to tear.
+const AT_REST: [&str; 3] = ["contact.method=nodal", "contact.points_per_face_edge=4", "analysis.cycles=1"];
+
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let [before, carried, naive] = energies(bench)?;
-    let result = bench.in_motion(&AS_IT_IS)?;
+    let [before, carried, naive] = bench.at_first_position(&AT_REST.map(str::to_owned), energies)??;
+    let result = bench.in_motion(&IN_MOTION)?;
     let headline = &result.headline;
     let jump = headline.certificate.force_jump_at_tooth_change_n / headline.mean_normal_force_n;
     // Lines between the mesh harmonics over whole turns are what changes alone could make.

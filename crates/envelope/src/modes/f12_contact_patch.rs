@@ -41,8 +41,8 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         .beside(Shown::at_least(few, 1.0)),
         Figure::new(
             "mean transmission error with 6 points an edge against 12, % off",
-            Shown::at_most(100.0 * (usual / many - 1.0).abs(), 1.0),
+            Shown::at_most(100.0 * (usual / many - 1.0).abs(), 0.4),
         )
-        .beside(Shown::at_least(100.0 * (one / many - 1.0).abs(), 1.0)),
+        .beside(Shown::at_least(100.0 * (one / many - 1.0).abs(), 0.5)),
     ])
 }

@@ -34,13 +34,17 @@ impl Random {
     }
 }
 
-/// Bodies that give way together, a little more at each row, and gaps that are all equal on every third problem.
+/// Three rows that send each other in and out (F. E. Curtis, Z. Han, D. P. Robinson, Comput. Optim. Appl. 60, 2015),
+/// eight times over, their gaps a little apart; all gaps equal on every third problem.
+const TRIPLE: [[f64; 3]; 3] = [[4.0, 5.0, -5.0], [5.0, 9.0, -5.0], [-5.0, -5.0, 7.0]];
+const TRIPLE_GAPS: [f64; 3] = [-2.0, -1.0, 3.0];
+
 fn problem(seed: u64) -> (DMatrix<f64>, DVector<f64>) {
     let mut random = Random(seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    let modes = DMatrix::from_fn(ROWS, 5, |_, _| random.next() - 0.3);
-    let compliance = 1e-5 * (&modes * modes.transpose() + 0.02 * DMatrix::<f64>::identity(ROWS, ROWS));
+    let compliance = DMatrix::from_fn(ROWS, ROWS, |i, j| if i / 3 == j / 3 { 1e-6 * TRIPLE[i % 3][j % 3] } else { 0.0 });
     let equal = seed.is_multiple_of(3);
-    let gaps = DVector::from_fn(ROWS, |_, _| if equal { -0.01 } else { 0.02 * (random.next() - 0.6) });
+    let gap = |i: usize, apart: f64| if equal { -0.01 } else { 5e-3 * TRIPLE_GAPS[i % 3] * (1.0 + 0.1 * apart) };
+    let gaps = DVector::from_fn(ROWS, |i, _| gap(i, random.next() - 0.5));
     (compliance, gaps)
 }
 

@@ -1,9 +1,12 @@
 //! F22: energy over long runs with separation.
 
+use integrate::Scheme;
+
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
     bench::{AS_IT_IS, Bench},
+    pieces::clearance::drift_of,
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -21,8 +24,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let drift = |r: &analysis::motion::MotionResult| r.headline.certificate.ledger_residual_over_turnover.abs();
     let robust = bench.in_motion(&AS_IT_IS)?;
     let naive = bench.unchecked_motion(&bench.naive(&[]))?;
+    let [keeps, loses] = [drift_of(Scheme::Energy)?, drift_of(Scheme::Newmark)?];
     let steps = robust.headline.certificate.steps;
     Ok(vec![
+        Figure::new("oscillator with clearance, 10^6 free steps: energy lost or made, parts", Shown::at_most(keeps, 1e-6))
+            .beside(Shown::at_least(loses, 1e-4)),
         Figure::new(
             format!("undamped, {steps} steps with separation: energy not accounted for over what was turned over"),
             Shown::at_most(drift(&robust), 1e-8),

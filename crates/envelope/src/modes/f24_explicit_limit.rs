@@ -60,17 +60,20 @@ fn growth(scheme: Scheme, share: f64) -> Result<f64, EnvelopeError> {
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let mut figures = Vec::new();
-    for (name, scheme) in [("Runge-Kutta 4", Scheme::RungeKutta4), ("Dormand-Prince", Scheme::DormandPrince)] {
+    // Beyond its limit Dormand-Prince grows slowly: in 400 steps it takes more to show.
+    for (name, scheme, beyond) in
+        [("Runge-Kutta 4", Scheme::RungeKutta4, 1.1), ("Dormand-Prince", Scheme::DormandPrince, 2.0)]
+    {
         figures.push(
             Figure::new(
-                format!("{name}: largest displacement at 0.9 of the limit; naive: at 1.1"),
+                format!("{name}: largest displacement at 0.9 of the limit; naive: at {beyond}"),
                 Shown::at_most(growth(scheme, 0.9)?, 1.01),
             )
-            .beside(Shown::at_least(growth(scheme, 1.1)?, 1e3)),
+            .beside(Shown::at_least(growth(scheme, beyond)?, 1e3)),
         );
     }
     let refused = bench.in_motion(&bench.naive(&[]));
     bench.in_motion(&AS_IT_IS)?;
-    figures.push(Figure::new("pair with steps beyond the limit", Shown::refused(&refused, "limit")));
+    figures.push(Figure::new("pair with steps beyond the limit", Shown::refused(&refused, "stable up to")));
     Ok(figures)
 }

@@ -1,7 +1,5 @@
 //! F28: pressures that alternate from point to point.
 
-use ale::Station;
-
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
@@ -35,11 +33,12 @@ fn roughness(result: &analysis::StaticResult) -> f64 {
 /// Largest pressure of a point at the first position, MPa: its force over its share of the face.
 fn largest_of_points(bench: &Bench, per_edge: u32) -> Result<f64, EnvelopeError> {
     let points = format!("contact.points_per_face_edge={per_edge}");
-    let mut model = bench.at_rest(&bench.naive(&[&points]))?.model.ok_or_else(|| EnvelopeError::piece("points", "no model"))?;
-    model.solve(Station { cycle: 0, phase: 0.0 }).map_err(EnvelopeError::of("points"))?;
-    let last = model.last().ok_or_else(|| EnvelopeError::piece("points", "no equilibrium"))?;
-    let pressures = last.rows.iter().zip(&last.solution.forces).filter(|(row, _)| row.area > 0.0);
-    Ok(pressures.map(|(row, force)| force / row.area).fold(0.0, f64::max))
+    let settings = bench.naive(&[&points, "analysis.positions_per_cycle=1"]);
+    bench.at_first_position(&settings, |_, model| {
+        let found = model.last().map(|last| (&last.rows, &last.solution.forces));
+        let rows = found.into_iter().flat_map(|(rows, forces)| rows.iter().zip(forces));
+        rows.filter(|(row, _)| row.area > 0.0).map(|(row, force)| force / row.area).fold(0.0, f64::max)
+    })
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

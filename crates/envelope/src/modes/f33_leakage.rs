@@ -54,7 +54,8 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         .amplitude_at(TEETH as f64 + 1.0);
     // A sinusoidal index deviation of the pinion: one line of the shaft, and sidebands of the mesh at its distance alone.
     let result = bench.in_motion(&AS_IT_IS)?;
-    let last: Vec<f64> = result.rows[result.rows.len() - TEETH * ROWS..].iter().map(|r| r.dte_um).collect();
+    let per_turn = TEETH * result.headline.rows_per_cycle as usize;
+    let last: Vec<f64> = result.rows[result.rows.len().saturating_sub(per_turn)..].iter().map(|r| r.dte_um).collect();
     let shaft = order(&last, 1, 1);
     let between = [7, 11, 13, 17, 19, 23].map(|k| order(&last, 1, k)).into_iter().fold(0.0, f64::max);
     Ok(vec![

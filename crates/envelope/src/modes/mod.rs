@@ -13,6 +13,7 @@ mod f02_local_compliance;
 mod f03_window_starvation;
 mod f04_mode_switch;
 mod f05_loaded_swap;
+mod f06_rotation;
 mod f07_low_frequency;
 mod f08_periodic_faces;
 mod f09_bad_elements;
@@ -50,6 +51,7 @@ pub const MODES: &[FailureMode] = &[
     f03_window_starvation::MODE,
     f04_mode_switch::MODE,
     f05_loaded_swap::MODE,
+    f06_rotation::MODE,
     f07_low_frequency::MODE,
     f08_periodic_faces::MODE,
     f09_bad_elements::MODE,

@@ -2,6 +2,7 @@
 
 pub(crate) mod bar;
 pub(crate) mod block;
+pub(crate) mod clearance;
 pub(crate) mod contact_patch;
 pub(crate) mod active_set;
 pub(crate) mod rebound;

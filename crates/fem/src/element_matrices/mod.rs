@@ -16,4 +16,4 @@ pub(crate) use geometry::{Table, checked_jacobian, gradients};
 pub(crate) use incompatible::{BUBBLES, Condensed, bubble_gradients};
 pub(crate) use kernels::{MassKernel, StiffnessKernel};
 pub use kernels::{element_mass, element_stiffness};
-pub use options::{ElementOptions, IncompatibleModes, Integration};
+pub use options::{ElementOptions, IncompatibleModes, Integration, locks_from};

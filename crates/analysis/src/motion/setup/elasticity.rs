@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dynamics::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance};
+use dynamics::{CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, MeshResonance, rotation_share};
 use reduction::{ElasticGear, GearModes, GearReducer, ModeChoice, ReductionError};
 use scene::{Boundary, DriveBy, ModesScene, MotionScene, Scene};
 use serde::Serialize;
@@ -27,6 +27,7 @@ pub struct ElasticHeadline {
     pub change_of_peak_to_peak_um: f64,
     pub change_over_peak_to_peak: f64,
     pub limit_of_change: f64,
+    pub rotation_over_stiffness: f64,
     pub kept_modes: Option<KeptModes>,
 }
 
@@ -44,6 +45,8 @@ pub(crate) struct Elasticity {
     lowest_hz: [f64; 2],
     /// Harmonics of the quasi-static transmission error, um.
     amplitudes_um: Vec<f64>,
+    /// Teeth of the gear that turns faster.
+    fewest_teeth: u32,
     kept: Option<[GearVibration; 2]>,
 }
 
@@ -74,7 +77,8 @@ impl Elasticity {
         })?;
         let lowest_hz = [found[0].0, found[1].0];
         let [(_, pinion), (_, wheel)] = found;
-        Ok(Self { lowest_hz, amplitudes_um, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
+        let fewest_teeth = scene.pinion.teeth.min(scene.wheel.teeth);
+        Ok(Self { lowest_hz, amplitudes_um, fewest_teeth, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
     }
 
     /// The modes that the scene keeps.
@@ -119,11 +123,34 @@ impl Elasticity {
             change_of_peak_to_peak_um: change.share * found.peak_to_peak_um,
             change_over_peak_to_peak: change.share,
             limit_of_change: CHANGE_LIMIT,
+            rotation_over_stiffness: self.rotation(found),
             kept_modes: self.kept.as_ref().map(|kept| KeptModes {
                 count: kept.each_ref().map(|g| g.modes.count()),
                 highest_frequency_hz: kept.each_ref().map(highest),
             }),
         }
+    }
+
+    /// What rotation does to the elastic bodies and is left out, over their stiffness.
+    fn rotation(&self, found: &Vibration) -> f64 {
+        let change = self.beside(found);
+        let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
+        let turns = found.mesh_hz[1] / f64::from(self.fewest_teeth);
+        rotation_share(turns, change.harmonic_hz().max(found.mesh_hz[1]), lowest)
+    }
+
+    /// What a user should hear of the rotation.
+    pub fn rotation_warning(&self, found: &Vibration) -> Option<String> {
+        let share = self.rotation(found);
+        (share > CHANGE_LIMIT).then(|| {
+            format!(
+                "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left \
+                 out, reach {:.0} % of the elastic ones (told from {:.1} % on): expect that much of an error in elastic \
+                 deflections and frequencies",
+                100.0 * share,
+                100.0 * CHANGE_LIMIT
+            )
+        })
     }
 
     /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its
