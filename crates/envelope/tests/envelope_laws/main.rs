@@ -1,6 +1,8 @@
 //! Every failure mode has a scene, fails the naive way and passes the robust one.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
+mod maps;
+
 use envelope::{FailureMode, MODES};
 
 fn examine(mode: &FailureMode) -> Option<String> {

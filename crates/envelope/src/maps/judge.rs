@@ -1,0 +1,150 @@
+//! What became of a cell.
+
+use std::path::PathBuf;
+
+use analysis::{
+    AnalysisError,
+    accuracy::{AccurateAnalysis, Bound},
+    lumped::{LumpedAnalysis, LumpedResult},
+    static_certificate,
+};
+use scene::{Quantity, Scene, SceneError, Setting};
+use serde::Serialize;
+
+/// What became of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Solved, and right.
+    Solved,
+    /// Solved, and something was said that a user should hear.
+    Warned,
+    /// No result, with a reason.
+    Refused,
+    /// A result that does not hold, and says so.
+    Failed,
+    /// There is no such pair.
+    None,
+    /// Wrong, though nothing was said: a defect.
+    Wrong,
+}
+
+/// A cell of a map.
+#[derive(Debug, Clone, Serialize)]
+pub struct Cell {
+    /// What became of it.
+    pub outcome: Outcome,
+    /// Difference from the finer answer, %.
+    pub off_percent: Option<f64>,
+    /// Bound of that, %, where there is one.
+    pub bound_percent: Option<f64>,
+    /// The first thing that was said.
+    pub said: Option<String>,
+    /// Keys that make the cell of the map's scene.
+    pub settings: Vec<String>,
+}
+
+impl Cell {
+    pub(super) fn new(outcome: Outcome, settings: &[String]) -> Self {
+        Self { outcome, off_percent: None, bound_percent: None, said: None, settings: settings.to_vec() }
+    }
+
+    pub(super) fn saying(self, said: impl ToString) -> Self {
+        Self { said: Some(said.to_string()), ..self }
+    }
+}
+
+/// A scene of the maps with keys set otherwise.
+pub(super) fn scene(file: &str, text: &str, settings: &[String]) -> Result<Scene, SceneError> {
+    let settings = settings.iter().map(|s| Setting::parse(s)).collect::<Result<Vec<_>, _>>()?;
+    Scene::parse_with(text, &PathBuf::from(format!("scenes/envelope/{file}.toml")), &settings)
+}
+
+/// A mean transmission error with its bounds, and what was said.
+struct Bounded {
+    bound: Bound,
+    warnings: Vec<String>,
+}
+
+fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, AnalysisError> {
+    let scene = scene(file, text, settings)?;
+    let solved = AccurateAnalysis::new(&scene).solve()?;
+    static_certificate(&solved.result.history.positions).verdict(&solved.scene)?;
+    let without = || AnalysisError::WithAccuracy { file: file.to_owned() };
+    let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
+    let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
+    let mut warnings = solved.result.history.warnings;
+    warnings.extend(accuracy.not_covered.iter().map(|n| format!("bounds are not calibrated for this: {n}")));
+    let missed: Vec<String> = accuracy.missed().map(Bound::words).collect();
+    warnings.extend(missed.iter().map(|words| format!("less exact than asked: {words}")));
+    Ok(Bounded { bound, warnings })
+}
+
+/// A pair at rest against the same with `finer` settings beside its own: right where both bounds meet.
+pub(super) fn at_rest(file: &str, text: &str, settings: &[String], finer: &[&str]) -> Cell {
+    let mut better: Vec<String> = settings.to_vec();
+    better.extend(finer.iter().map(|s| (*s).to_owned()));
+    against(file, text, settings, &better)
+}
+
+/// A pair at rest against the scene with other settings: right where both bounds meet.
+pub(super) fn against(file: &str, text: &str, settings: &[String], better: &[String]) -> Cell {
+    let cell = Cell::new(Outcome::Solved, settings);
+    let found = match bounded(file, text, settings) {
+        Ok(found) => found,
+        Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
+    };
+    let said = found.warnings.first().cloned();
+    let reference = match bounded(file, text, better) {
+        Ok(reference) => reference.bound,
+        Err(error) => return Cell { outcome: Outcome::Warned, ..cell }.saying(format!("no finer answer: {error}")),
+    };
+    let off = found.bound.value - reference.corrected;
+    // The finer answer has a bound of its own.
+    let most = if off > 0.0 { found.bound.below } else { found.bound.above } + reference.corrected_within;
+    let share = |x: f64| Some(100.0 * x / reference.corrected);
+    let outcome = match (off.abs() <= most, &said) {
+        (true, None) => Outcome::Solved,
+        (_, Some(_)) => Outcome::Warned,
+        (false, None) => Outcome::Wrong,
+    };
+    Cell { outcome, off_percent: share(off), bound_percent: share(most), said, ..cell }
+}
+
+fn refusal(error: &AnalysisError) -> Outcome {
+    match error {
+        AnalysisError::Certificate { .. } | AnalysisError::Inexact { .. } => Outcome::Failed,
+        _ => Outcome::Refused,
+    }
+}
+
+fn moved(file: &str, text: &str, settings: &[String]) -> Result<LumpedResult, AnalysisError> {
+    let scene = scene(file, text, settings)?;
+    let result = LumpedAnalysis::new(&scene).solve()?;
+    result.certificate().verdict(&scene)?;
+    Ok(result)
+}
+
+/// A motion of few coordinates against the same with `finer` settings: right where the peak to peak of its transmission
+/// error is within `tolerance` percent of it.
+pub(super) fn in_motion(file: &str, text: &str, settings: &[String], finer: &[&str], tolerance: f64) -> Cell {
+    let cell = Cell::new(Outcome::Solved, settings);
+    let found = match moved(file, text, settings) {
+        Ok(found) => found,
+        Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
+    };
+    let said = found.warnings.first().cloned();
+    let mut better: Vec<String> = settings.to_vec();
+    better.extend(finer.iter().map(|s| (*s).to_owned()));
+    let reference = match moved(file, text, &better) {
+        Ok(reference) => reference.headline.peak_to_peak_dte_um,
+        Err(error) => return Cell { outcome: Outcome::Warned, ..cell }.saying(format!("no finer answer: {error}")),
+    };
+    let off = 100.0 * (found.headline.peak_to_peak_dte_um / reference - 1.0);
+    let outcome = match (off.abs() <= tolerance, &said) {
+        (_, Some(_)) => Outcome::Warned,
+        (true, None) => Outcome::Solved,
+        (false, None) => Outcome::Wrong,
+    };
+    Cell { outcome, off_percent: Some(off), bound_percent: Some(tolerance), said, ..cell }
+}
