@@ -57,3 +57,25 @@ pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<V
         })
         .collect())
 }
+
+/// Share of a record's vibration that lies in the upper half of what its samples can tell apart, between a quarter and a
+/// half of the rate: what is cut off beyond is of that size as well where amplitudes fall slowly.
+///
+/// ```text
+/// share = sqrt(sum_{n/4 < k <= n/2} |X_k|^2 / sum_{0 < k <= n/2} |X_k|^2)
+/// ```
+/// 0 for a smooth record that is sampled finely, near 0.7 for noise; 0 for a record that does not move. `samples` evenly
+/// spaced over `cycles` whole mesh cycles.
+///
+/// # Errors
+/// Those of [`crate::cycle_statistics`].
+pub fn unresolved_share(samples: &[f64], cycles: usize) -> Result<f64, StudyError> {
+    check(samples, cycles)?;
+    let n = samples.len();
+    let spectrum = real_transform(samples.to_vec()).ok_or(StudyError::NotWholeCycles { samples: n, cycles })?;
+    let power = |range: std::ops::Range<usize>| spectrum[range].iter().map(|x| x.norm_sqr()).sum::<f64>();
+    let (all, upper) = (power(1..spectrum.len()), power((n / 4 + 1).min(spectrum.len())..spectrum.len()));
+    let level = spectrum[0].norm_sqr();
+    // Round-off of a record that stands still is no vibration.
+    Ok(if all > 1e-24 * level { (upper / all).sqrt() } else { 0.0 })
+}

@@ -30,7 +30,7 @@ pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};
-pub use harmonics::{Harmonic, mesh_harmonics};
+pub use harmonics::{Harmonic, mesh_harmonics, unresolved_share};
 pub use lyapunov::{Lyapunov, LyapunovPlan, largest_lyapunov};
 pub use phase_portrait::{PhasePortrait, phase_portrait};
 pub use poincare::{crossing_section, iterated_section, section_period, stroboscopic_section};

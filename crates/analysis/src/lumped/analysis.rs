@@ -200,6 +200,13 @@ fn result(
     headline.ramp = passage.as_ref().and_then(Passage::headline);
     warnings.extend(certificate_warnings(motion, &headline));
     let judged = motion_series(run.judged_rows());
+    if motion.ramp.is_none() {
+        warnings.extend(motion::unresolved(&judged.dte_um, run.judged));
+        if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
+            let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
+            warnings.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
+        }
+    }
     let spectrum = MotionSpectrum::of(&judged, run.judged, frequencies.mesh_hz, window(motion, &run))?;
     let LumpedRun { rows, energy, end, .. } = run;
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, passage, campbell, headline, warnings })

@@ -13,6 +13,7 @@ use super::{
     headline,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand},
+    unresolved,
     warnings, waterfall,
 };
 use crate::{
@@ -259,7 +260,10 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
             Some(MotionSpectrum::of(&series, headline.cycles, headline.mesh_frequency_hz, window)?)
         }
     };
-    let warnings = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    let mut warnings = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    if motion.ramp.is_none() {
+        warnings.extend(unresolved(&series.dte_um, headline.cycles));
+    }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks());
     let FinishedMotion { rows, layout, patterns, .. } = done;

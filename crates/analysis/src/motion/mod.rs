@@ -22,6 +22,7 @@ mod headline;
 mod orders;
 mod pattern;
 mod precision;
+mod resolved;
 mod row;
 mod setup;
 mod sink;
@@ -37,6 +38,7 @@ pub use orders::{
     PeakOverSpeed, WaterfallLine, waterfall,
 };
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
+pub(crate) use resolved::unresolved;
 pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
 pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
@@ -45,3 +47,4 @@ pub use setup::{
 pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
 pub use warnings::NO_BACKLASH_UM;
+pub(crate) use warnings::coarse_steps;

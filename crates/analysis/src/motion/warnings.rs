@@ -18,8 +18,9 @@ const SLOW: f64 = 20_000.0;
 const LONG: f64 = 100_000.0;
 /// Backlash below which there is none, um.
 pub const NO_BACKLASH_UM: f64 = 1e-3;
-/// Fewer steps than this in a period of the mesh resonance show it wrongly.
-const COARSE: f64 = 8.0;
+/// Fewer steps than this in a period of the mesh resonance show it wrongly: peak to peak off by 10 to 60 % near it (map (c)
+/// of `docs/envelope.md`).
+const COARSE: f64 = 12.0;
 
 /// A window that was too narrow.
 pub(super) fn widened(error: &StaticError, teeth: usize) -> String {
@@ -36,9 +37,14 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
         true => ("highest kept mode", ", or keep fewer modes"),
         false => ("mesh resonance", ""),
     };
-    (given && steps < COARSE).then(|| {
+    if given { coarse_steps(steps, (what, fastest), or) } else { None }
+}
+
+/// Steps that are too long for a motion of this name and frequency, Hz; `steps`: in a period of it.
+pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Option<String> {
+    (steps < COARSE).then(|| {
         format!(
-            "a step is 1/{steps:.1} of the period of the {what} ({fastest:.0} Hz), which it cannot show: take more \
+            "a step is 1/{steps:.1} of the period of the {what} ({hz:.0} Hz), which it cannot show: take more \
              `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
         )
     })

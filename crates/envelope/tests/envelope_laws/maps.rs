@@ -25,7 +25,7 @@ fn no_cell_is_wrong_without_a_word() {
         said.dedup_by_key(|s| s.chars().take(60).collect::<String>());
         said.iter().take(8).for_each(|s| println!("    said: {}", &s.chars().take(200).collect::<String>()));
         for cell in drawn.cells().filter(|c| c.outcome == Outcome::Wrong) {
-            println!("    WRONG {cell:?}");
+            println!("    WRONG {:?} off {:?} %", cell.settings, cell.off_percent);
         }
         assert_eq!(drawn.wrong(), 0, "map {}: cells that are wrong without a word", map.key);
     }
