@@ -1,15 +1,11 @@
 //! Runs the scenes of a study, each into a folder of its own, side by side.
 
-use std::{
-    path::Path,
-    sync::{
-        Mutex, PoisonError,
-        atomic::{AtomicUsize, Ordering},
-    },
-};
+use std::path::Path;
 
-use analysis::parameter_study::{CaseFailure, CaseRecord};
-use rayon::ThreadPoolBuilder;
+use analysis::{
+    parameter_study::{CaseFailure, CaseRecord},
+    side_by_side,
+};
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
 use report::{checkpoint::HISTORY, read_columns};
 use scene::study::{Study, StudyCase};
@@ -30,42 +26,17 @@ pub(crate) type Solve<'a> =
 /// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution
 /// takes nothing from the others; one whose result does not hold leaves its files, marked as such, as a run by itself
 /// does.
-///
-/// As many run at once as there are threads, each with its share of them: motion is serial, so cores serve cases. The
-/// threads of a case are its own, so that no case waits for, or is timed with, the work of another. Results do not
-/// depend on their number.
 pub(crate) fn run_cases(
     study: &Study,
     results: &ResultDirectory,
     solve: Solve<'_>,
     done: &(dyn Fn(&StudyCase) + Sync),
 ) -> Vec<CaseResult> {
-    let count = study.cases.len();
-    let threads = rayon::current_num_threads();
-    let workers = threads.min(count).max(1);
-    let next = AtomicUsize::new(0);
-    let slots: Vec<Mutex<Option<CaseResult>>> = (0..count).map(|_| Mutex::new(None)).collect();
-    let work = || {
-        let pool = ThreadPoolBuilder::new().num_threads((threads / workers).max(1)).build();
-        loop {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = slots.get(i) else { break };
-            let run = || one(study, i, results, solve).unwrap_or_else(|e| Err(miss(e, false)));
-            let ran = match &pool {
-                Ok(pool) => pool.install(run),
-                // No threads to be had: the process's own serve as well.
-                Err(_) => run(),
-            };
-            done(&study.cases[i]);
-            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(ran);
-        }
-    };
-    std::thread::scope(|scope| {
-        let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
-        work();
-        drop(others);
-    });
-    slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+    side_by_side(study.cases.len(), |i| {
+        let ran = one(study, i, results, solve).unwrap_or_else(|e| Err(miss(e, false)));
+        done(&study.cases[i]);
+        ran
+    })
 }
 
 /// Why a case has no result, and whether its files are there to be looked at.

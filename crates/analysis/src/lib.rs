@@ -50,6 +50,7 @@ pub mod parameter_study;
 pub mod reduction_alone;
 pub mod resolution;
 pub mod results;
+mod side_by_side;
 mod static_certificate;
 mod statics;
 mod warnings;
@@ -59,6 +60,7 @@ pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};
 pub use options::options;
+pub use side_by_side::side_by_side;
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{
     NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, time_again,

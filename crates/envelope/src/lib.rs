@@ -6,6 +6,7 @@
 //! method solves, warns, refuses and fails.
 
 mod bench;
+mod chosen;
 mod error;
 mod figure;
 mod maps;
@@ -13,6 +14,7 @@ mod mode;
 mod modes;
 mod pieces;
 
+pub use chosen::chosen;
 pub use error::EnvelopeError;
 pub use figure::{Asked, Figure, Shown, Value};
 pub use maps::{Cell, DrawnMap, EnvelopeMap, MAPS, Outcome};

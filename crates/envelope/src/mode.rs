@@ -4,6 +4,9 @@ use std::time::Instant;
 
 use crate::{EnvelopeError, Figure, bench::Bench};
 
+/// Modes with motions, or with many meshes: more than some three seconds each.
+const LONG: [u32; 17] = [2, 3, 4, 6, 7, 11, 13, 16, 20, 21, 22, 23, 24, 27, 29, 30, 33];
+
 /// A way in which gear contact solvers fail: what it is, a scene, and how to look.
 #[derive(Debug, Clone, Copy)]
 pub struct FailureMode {
@@ -45,6 +48,17 @@ impl FailureMode {
     /// `F7`.
     pub fn label(&self) -> String {
         format!("F{}", self.number)
+    }
+
+    /// Whether a user means it by `word`: `F7`, `f7`, `F07`.
+    pub fn is_named(&self, word: &str) -> bool {
+        let digits = word.strip_prefix(['F', 'f']);
+        digits.and_then(|d| d.parse::<u32>().ok()) == Some(self.number)
+    }
+
+    /// Whether looking takes no more than a few seconds.
+    pub fn is_quick(&self) -> bool {
+        !LONG.contains(&self.number)
     }
 
     /// Runs its scene, the naive way and the robust one.

@@ -30,7 +30,9 @@ mod symmetric;
 
 pub use assembly::{System, assemble, assemble_mass, assemble_stiffness};
 pub use dofs::DofMap;
-pub use element_matrices::{ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from};
+pub use element_matrices::{
+    ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from,
+};
 pub use error::FemError;
 pub use factor::BoundaryLastFactor;
 pub use indefinite::IndefiniteFactor;

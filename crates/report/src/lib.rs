@@ -12,6 +12,7 @@
 //! | [`accuracy_chart`] | table and picture of accuracy against cost |
 //! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
+//! | [`envelope_files`] | failure modes with their figures, maps of where methods fail |
 //! | [`study_files`] | the same figures of several scenes, side by side |
 //! | [`checkpoint`] | rows and state of a motion that can be gone on from |
 //! | [`folder`] | a result folder that is there as a whole or not at all |
@@ -30,6 +31,7 @@ pub mod compare;
 pub mod contact_files;
 mod cost;
 pub mod csv;
+pub mod envelope_files;
 mod error;
 mod files;
 pub mod folder;

@@ -4,22 +4,15 @@ use std::path::PathBuf;
 
 use analysis::accuracy_chart::ChartOptions;
 use analysis::motion::motion_precision;
-use report::accuracy_chart::{chart_csv, chart_tables, work_precision_svg};
+use report::accuracy_chart::{chart_tables, write_work_precision};
+use report::motion_files::write_motion_precision;
 
 use super::overrides::Overrides;
 use report::MarkedPlace;
 
 use report::check_memory;
 
-use crate::{
-    chart::chart,
-    error::CommandError,
-    memory,
-    output::{ResultDirectory, motion_precision_csv, motion_precision_svg, motion_precision_table, svg_to_png},
-    phases::Phases,
-    scene::Scene,
-    talk,
-};
+use crate::{chart::chart, error::CommandError, memory, output::ResultDirectory, phases::Phases, scene::Scene, talk};
 
 /// Words of `ale-gear chart`.
 #[derive(Debug, clap::Args)]
@@ -92,12 +85,7 @@ impl ChartArgs {
         let motion = if self.motion { " --motion" } else { "" };
         let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
-        let fault = |e: String| CommandError::failed(format_args!("work_precision.svg: {e}"), None);
-        let svg = work_precision_svg(&scene.name, &points).map_err(fault)?;
-        results.write("chart.csv", chart_csv(&points).as_bytes())?;
-        results.write("work_precision.svg", svg.as_bytes())?;
-        results.write("work_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
-        results.write("chart.md", format!("# {}\n\n{tables}", scene.name).as_bytes())?;
+        write_work_precision(&scene.name, &points, &tables, &results)?;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
             MarkedPlace::find(file, &scene.name)?.replace(&tables)?;
@@ -124,13 +112,7 @@ impl ChartArgs {
             return Err(self.not_in_time());
         }
         let found = motion_precision(scene, phases, self.quick)?;
-        let fault = |e: String| CommandError::failed(format_args!("motion_precision.svg: {e}"), None);
-        let svg = motion_precision_svg(&scene.name, &found).map_err(fault)?;
-        let table = motion_precision_table(&found, command);
-        results.write("motion_precision.csv", motion_precision_csv(&found).as_bytes())?;
-        results.write("motion_precision.svg", svg.as_bytes())?;
-        results.write("motion_precision.png", &svg_to_png(&svg).map_err(fault)?)?;
-        results.write("motion_precision.md", format!("# {}\n\n{table}", scene.name).as_bytes())?;
+        let table = write_motion_precision(&scene.name, &found, command, &results)?;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
             MarkedPlace::find(file, &scene.name)?.replace(&table)?;

@@ -3,6 +3,7 @@
 mod cache_args;
 mod chart;
 mod compare;
+mod envelope;
 mod init;
 mod mesh;
 mod overrides;
@@ -65,6 +66,8 @@ enum Command {
     Sweep(sweep::SweepArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
+    /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
+    Envelope(envelope::EnvelopeArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
     Reduce(reduce::ReduceArgs),
     /// Result folders side by side: headline numbers with differences, curves over each other
@@ -131,6 +134,7 @@ impl Cli {
         let text = match self.command {
             None => return run::RunArgs::for_default_scene().execute(quiet),
             Some(Command::Run(args)) => return args.execute(quiet),
+            Some(Command::Envelope(args)) => return args.execute(),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),

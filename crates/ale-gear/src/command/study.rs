@@ -4,17 +4,12 @@ use std::path::PathBuf;
 
 use analysis::{
     accuracy_chart::{SpeedUp, speed_up},
-    lumped::is_lumped,
     parameter_study::{Findings, findings},
     resolution::with_slices,
 };
-use report::{
-    checkpoint::motion_column_names,
-    columns::history_columns,
-    study_files::{
-        CaseResult, STUDY_FILE, StudyResult, study_csv, study_table, with_result, write_study_report,
-        write_study_summary,
-    },
+use report::study_files::{
+    STUDY_FILE, StudyResult, columns_of, study_csv, study_table, study_warnings, write_study_report,
+    write_study_summary,
 };
 use scene::study::Study;
 
@@ -22,24 +17,9 @@ use super::{cache_args::CacheArgs, run::write_result};
 use report::check_memory;
 
 use crate::{
-    chart::ProcessMemory,
-    error::CommandError,
-    memory,
-    output::ResultDirectory,
-    phases::Phases,
-    scene::{Scene, SceneError},
-    study_cases::run_cases,
-    talk,
+    chart::ProcessMemory, error::CommandError, memory, output::ResultDirectory, phases::Phases, scene::SceneError,
+    study_cases::run_cases, talk,
 };
-
-/// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
-fn columns_of(scene: &Scene) -> Option<Vec<String>> {
-    match &scene.motion {
-        Some(_) if is_lumped(scene) => None,
-        Some(_) => Some(motion_column_names(scene)),
-        None => Some(history_columns(scene, &[])),
-    }
-}
 
 /// Words of `ale-gear study`.
 #[derive(Debug, clap::Args)]
@@ -90,7 +70,7 @@ impl StudyArgs {
         });
         let records: Vec<_> = runs.iter().map(|r| r.as_ref().map(|r| &r.record).map_err(|m| &m.failure)).collect();
         let findings = findings(&study, &records)?;
-        let mut warnings = warnings(&study, &runs, &findings);
+        let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
             warnings.push(said);
             None
@@ -126,15 +106,4 @@ fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Resu
     }
     let solved = phases.run("full", || speed_up(&study.cases[full.case].scene, full.positions, &ProcessMemory));
     solved.map(Some).map_err(|e| none(&e.to_string()))
-}
-
-/// Cases without a result first; then what the others warn of, each once, with their names.
-fn warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<String> {
-    let failed = (0..study.cases.len()).filter_map(|i| {
-        let reason = findings.reason(i)?;
-        Some(format!("{}: no result: {reason}; tables, charts and correlations are without it", study.cases[i].label))
-    });
-    let of_runs = with_result(study, runs, findings)
-        .flat_map(|(case, run, _)| run.warnings.iter().map(|w| format!("{}: {w}", case.label)).collect::<Vec<_>>());
-    failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
 }

@@ -8,15 +8,12 @@ pub use analysis::results::{
     GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, static_headline,
 };
 
+pub(crate) use ::report::study_files::CASES;
 pub use ::report::{
     charts::{contact_pattern_svg, svg_to_png},
     columns::write_history,
     contact_files::{write_contact, write_contact_lines, write_contact_pattern},
     page::{Rendered, report_again, write_report},
     tables::closing_table,
-};
-pub(crate) use ::report::{
-    motion_files::{motion_precision_csv, motion_precision_svg, motion_precision_table},
-    study_files::CASES,
 };
 pub(crate) use analysis::results::{root_stress_headline, root_stress_warnings};

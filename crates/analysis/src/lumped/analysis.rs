@@ -201,7 +201,11 @@ fn result(
     warnings.extend(certificate_warnings(motion, &headline));
     let judged = motion_series(run.judged_rows());
     if motion.ramp.is_none() {
-        warnings.extend(motion::unresolved(&judged.dte_um, run.judged));
+        let steps = match motion.error_tolerance {
+            None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
+            Some(_) => f64::INFINITY,
+        };
+        warnings.extend(motion::unresolved(&judged.dte_um, run.judged as u64, steps));
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
             warnings.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));

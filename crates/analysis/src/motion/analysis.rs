@@ -11,10 +11,9 @@ use super::{
     MotionSpectrum, NoMotionSink, Passage, WaterfallLine,
     course::{self, FinishedMotion, ResumedState, Span},
     headline,
-    setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
+    setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, fastest_hz, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand},
-    unresolved,
-    warnings, waterfall,
+    unresolved, warnings, waterfall,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
@@ -260,9 +259,14 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
             Some(MotionSpectrum::of(&series, headline.cycles, headline.mesh_frequency_hz, window)?)
         }
     };
+    let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
     let mut warnings = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if motion.ramp.is_none() {
-        warnings.extend(unresolved(&series.dte_um, headline.cycles));
+        let steps = match motion.error_tolerance {
+            None => 1.0 / (step_s * headline.mesh_frequency_hz),
+            Some(_) => f64::INFINITY,
+        };
+        warnings.extend(unresolved(&series.dte_um, headline.cycles, steps));
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks());

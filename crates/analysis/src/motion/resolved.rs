@@ -1,15 +1,22 @@
-//! Whether the rows of a motion show what moves.
+//! Whether the rows and the steps of a motion show what moves.
 
-use study::unresolved_share;
+use study::{mesh_harmonics, unresolved_share};
 
-/// Share of the vibration in the upper half of what rows can tell apart from which on a user should hear of it. Of
-/// motions with steps as long as their rows (maps (c) and (g) of `docs/envelope.md`) all whose peak to peak is off by
-/// more than a tenth lie above it.
+/// Share of the vibration in the upper half of what rows can tell apart from which on a user should hear of it.
 const UNRESOLVED: f64 = 0.05;
+/// Share of the sum of all mesh orders from which on one of them counts.
+const COUNTS: f64 = 0.05;
+/// Steps in the period of the highest order that counts: an implicit method takes it for 0.6 % slower than it is, which
+/// changes its size by a tenth next to a resonance with a damping ratio of 0.03 (map (g) of `docs/envelope.md`).
+const STEPS: f64 = 16.0;
 
-/// Rows, or steps as long, that are too few for what moves; `samples`: the transmission error row by row over so many
-/// whole mesh cycles.
-pub(crate) fn unresolved(samples: &[f64], cycles: u64) -> Option<String> {
+/// Rows, or steps, that are too few for what moves; `samples`: the transmission error row by row over so many whole mesh
+/// cycles, `steps` in each.
+pub(crate) fn unresolved(samples: &[f64], cycles: u64, steps: f64) -> Vec<String> {
+    rows(samples, cycles).into_iter().chain(orders(samples, cycles, steps)).collect()
+}
+
+fn rows(samples: &[f64], cycles: u64) -> Option<String> {
     let share = unresolved_share(samples, cycles as usize).ok().filter(|share| *share > UNRESOLVED)?;
     let rows = samples.len() as u64 / cycles.max(1);
     Some(format!(
@@ -20,4 +27,42 @@ pub(crate) fn unresolved(samples: &[f64], cycles: u64) -> Option<String> {
         rows / 2,
         100.0 * UNRESOLVED
     ))
+}
+
+fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
+    let rows = samples.len() / cycles.max(1) as usize;
+    let all = mesh_harmonics(samples, cycles as usize, rows / 2).ok()?;
+    let sum: f64 = all.iter().map(|h| h.amplitude).sum();
+    let highest = all.iter().rev().find(|h| h.amplitude > COUNTS * sum)?;
+    let in_period = steps / highest.order as f64;
+    (in_period < STEPS).then(|| {
+        format!(
+            "a step is 1/{in_period:.1} of the period of mesh order {}, which has {:.0} % of the vibration: near a resonance \
+             its size may be wrong by a tenth and more (told below 1/{STEPS:.0}): take more `steps_per_mesh_cycle` or \
+             `steps_per_resonance`",
+            highest.order,
+            100.0 * highest.amplitude / sum
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::unresolved;
+
+    /// One order with many steps is silent; the same with few, and one that the rows hardly show, are told.
+    #[test]
+    fn few_steps_and_few_rows_are_told() {
+        let wave = |rows: usize, order: f64| -> Vec<f64> {
+            (0..2 * rows).map(|i| 10.0 + (TAU * order * i as f64 / rows as f64).cos()).collect()
+        };
+        assert_eq!(unresolved(&wave(64, 2.0), 2, 64.0), [""; 0]);
+        assert_eq!(unresolved(&[3.0; 64], 2, 8.0), [""; 0], "nothing moves");
+        let few = unresolved(&wave(64, 2.0), 2, 24.0);
+        assert!(few.len() == 1 && few[0].contains("1/12.0 of the period of mesh order 2"), "{few:?}");
+        let coarse = unresolved(&wave(16, 7.0), 2, 1000.0);
+        assert!(coarse.len() == 1 && coarse[0].contains("16 rows a mesh cycle"), "{coarse:?}");
+    }
 }

@@ -10,7 +10,7 @@ pub(super) const MAP: EnvelopeMap = EnvelopeMap {
     name: "helix angle over total contact ratio",
     file: FILE,
     judged: "Mean static transmission error at 5 %, against the same at 1 %: solved where both bounds meet. The face width makes the contact ratio; where none does, there is no such pair.",
-    columns: ("total contact ratio", &["1.2", "1.5", "2.0", "2.5", "3.5", "5.0"]),
+    columns: ("total contact ratio", &["1.7", "2.0", "2.4", "3.0", "4.0", "5.0"]),
     rows: ("helix angle, degrees", &["0", "5", "10", "20", "30", "40"]),
     layers: &[""],
     cell,

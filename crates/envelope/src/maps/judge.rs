@@ -1,6 +1,10 @@
 //! What became of a cell.
 
-use std::path::PathBuf;
+use std::{
+    collections::BTreeMap,
+    path::PathBuf,
+    sync::{Mutex, PoisonError},
+};
 
 use analysis::{
     AnalysisError,
@@ -60,10 +64,27 @@ pub(super) fn scene(file: &str, text: &str, settings: &[String]) -> Result<Scene
     Scene::parse_with(text, &PathBuf::from(format!("scenes/envelope/{file}.toml")), &settings)
 }
 
+/// What no bound covers, of any scene.
+const ALWAYS: &str = "material data, load";
+
 /// A mean transmission error with its bounds, and what was said.
 struct Bounded {
     bound: Bound,
     warnings: Vec<String>,
+}
+
+/// References of cells that share one: by file and settings.
+static REFERENCES: Mutex<BTreeMap<String, Option<[f64; 2]>>> = Mutex::new(BTreeMap::new());
+
+/// The number that `found` gives, and its bound; from memory where it was asked for before.
+fn reference(file: &str, settings: &[String], found: impl FnOnce() -> Option<[f64; 2]>) -> Option<[f64; 2]> {
+    let key = format!("{file} {}", settings.join(" "));
+    let known = REFERENCES.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+    known.unwrap_or_else(|| {
+        let new = found();
+        REFERENCES.lock().unwrap_or_else(PoisonError::into_inner).insert(key, new);
+        new
+    })
 }
 
 fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, AnalysisError> {
@@ -74,7 +95,13 @@ fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, Analy
     let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
     let mut warnings = solved.result.history.warnings;
-    warnings.extend(accuracy.not_covered.iter().map(|n| format!("bounds are not calibrated for this: {n}")));
+    warnings.extend(
+        accuracy
+            .not_covered
+            .iter()
+            .filter(|n| !n.starts_with(ALWAYS))
+            .map(|n| format!("bounds are not calibrated for this: {n}")),
+    );
     let missed: Vec<String> = accuracy.missed().map(Bound::words).collect();
     warnings.extend(missed.iter().map(|words| format!("less exact than asked: {words}")));
     Ok(Bounded { bound, warnings })
@@ -95,20 +122,26 @@ pub(super) fn against(file: &str, text: &str, settings: &[String], better: &[Str
         Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
     };
     let said = found.warnings.first().cloned();
-    let reference = match bounded(file, text, better) {
-        Ok(reference) => reference.bound,
-        Err(error) => return Cell { outcome: Outcome::Warned, ..cell }.saying(format!("no finer answer: {error}")),
+    let finer = || bounded(file, text, better).ok().map(|b| [b.bound.corrected, b.bound.corrected_within]);
+    let Some([exact, within]) = reference(file, better, finer) else {
+        return Cell { outcome: Outcome::Warned, ..cell }.saying("there is no finer answer to hold it against");
     };
-    let off = found.bound.value - reference.corrected;
+    let off = found.bound.value - exact;
     // The finer answer has a bound of its own.
-    let most = if off > 0.0 { found.bound.below } else { found.bound.above } + reference.corrected_within;
-    let share = |x: f64| Some(100.0 * x / reference.corrected);
+    let most = if off > 0.0 { found.bound.below } else { found.bound.above } + within;
+    let share = |x: f64| Some(100.0 * x / exact);
     let outcome = match (off.abs() <= most, &said) {
         (true, None) => Outcome::Solved,
         (_, Some(_)) => Outcome::Warned,
         (false, None) => Outcome::Wrong,
     };
     Cell { outcome, off_percent: share(off), bound_percent: share(most), said, ..cell }
+}
+
+/// Settings without those that a later one of the same key replaces, in the order of their keys.
+fn last_of_each(settings: &[String]) -> Vec<String> {
+    let by_key: BTreeMap<&str, &String> = settings.iter().map(|s| (s.split('=').next().unwrap_or(s), s)).collect();
+    by_key.into_values().cloned().collect()
 }
 
 fn refusal(error: &AnalysisError) -> Outcome {
@@ -136,11 +169,13 @@ pub(super) fn in_motion(file: &str, text: &str, settings: &[String], finer: &[&s
     let said = found.warnings.first().cloned();
     let mut better: Vec<String> = settings.to_vec();
     better.extend(finer.iter().map(|s| (*s).to_owned()));
-    let reference = match moved(file, text, &better) {
-        Ok(reference) => reference.headline.peak_to_peak_dte_um,
-        Err(error) => return Cell { outcome: Outcome::Warned, ..cell }.saying(format!("no finer answer: {error}")),
+    let exact = reference(file, &last_of_each(&better), || {
+        moved(file, text, &better).ok().map(|r| [r.headline.peak_to_peak_dte_um, 0.0])
+    });
+    let Some([exact, _]) = exact else {
+        return Cell { outcome: Outcome::Warned, ..cell }.saying("there is no finer answer to hold it against");
     };
-    let off = 100.0 * (found.headline.peak_to_peak_dte_um / reference - 1.0);
+    let off = 100.0 * (found.headline.peak_to_peak_dte_um / exact - 1.0);
     let outcome = match (off.abs() <= tolerance, &said) {
         (_, Some(_)) => Outcome::Warned,
         (true, None) => Outcome::Solved,

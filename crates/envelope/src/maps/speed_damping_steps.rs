@@ -16,7 +16,10 @@ pub(super) const MAP: EnvelopeMap = EnvelopeMap {
     file: FILE,
     judged: "Peak to peak of the dynamic transmission error of eight coordinates, against steps of 1/256 mesh cycle: solved within 10 %.",
     columns: ("speed, 1/min", &["500", "1500", "3000", "4500", "6000", "9000"]),
-    rows: ("rows a mesh cycle (each a step), damping ratio", &["8, 0.02", "8, 0.1", "16, 0.02", "16, 0.1", "64, 0.02", "64, 0.1"]),
+    rows: (
+        "rows a mesh cycle (each a step), damping ratio",
+        &["8, 0.02", "8, 0.1", "16, 0.02", "16, 0.1", "64, 0.02", "64, 0.1"],
+    ),
     layers: &["energy", "generalised-alpha", "newmark", "rk4", "dormand-prince"],
     cell,
 };

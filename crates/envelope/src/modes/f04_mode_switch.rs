@@ -4,10 +4,7 @@ use geometry::Sense;
 use ltca::{StaticModel, StaticPosition};
 
 use super::FailureMode;
-use crate::{
-    EnvelopeError, Figure, Shown,
-    bench::Bench,
-};
+use crate::{EnvelopeError, Figure, Shown, bench::Bench};
 
 pub(super) const MODE: FailureMode = FailureMode {
     number: 4,
@@ -35,7 +32,8 @@ fn energies(position: &StaticPosition, model: &StaticModel) -> Result<[f64; 3], 
     let carried = gear.carry(from, &to, displacements).map_err(&fail)?;
     let mut naive = carried.clone();
     // Numbers of pairs and teeth grow together: the oncoming tooth is the last of the window, or its first.
-    let oncoming = if next.first() > model.window().first() { to.reduced.teeth.last() } else { to.reduced.teeth.first() };
+    let oncoming =
+        if next.first() > model.window().first() { to.reduced.teeth.last() } else { to.reduced.teeth.first() };
     let tooth = oncoming.copied().unwrap_or(0) % gear.gear().tooth_count();
     let faces = gear.gear().flank(tooth, model.options().side()).ok_or_else(|| missing("no such flank"))?;
     for at in faces.iter().flat_map(|f| f.nodes()).filter_map(|node| to.reduced.position(*node)) {
@@ -72,7 +70,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_most((carried / before - 1.0).abs(), 1e-9),
         )
         .beside(Shown::at_least((naive / before - 1.0).abs(), 1e-3)),
-        Figure::new("motion: jump of the contact force at a tooth change over the mean force", Shown::at_most(jump, 1e-6)),
+        Figure::new(
+            "motion: jump of the contact force at a tooth change over the mean force",
+            Shown::at_most(jump, 1e-6),
+        ),
         Figure::new(
             "motion: difference of successive mesh cycles over the peak to peak",
             Shown::at_most(repeats / headline.peak_to_peak_dte_um, 1e-6),

@@ -53,7 +53,8 @@ impl Turning {
         let material = Material::STEEL;
         let dofs = DofMap::new(mesh.nodes.len(), &[]);
         let mass = assemble_mass(&mesh, &material, &dofs).map_err(EnvelopeError::of(piece))?;
-        let parts = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
+        let parts =
+            GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
         let options =
             ReductionOptions { sides: vec![Side::Left], window: 3, first: 0, elements: ElementOptions::default() };
         let fail = EnvelopeError::of::<reduction::ReductionError>(piece);

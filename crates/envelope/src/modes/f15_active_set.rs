@@ -41,7 +41,8 @@ const TRIPLE_GAPS: [f64; 3] = [-2.0, -1.0, 3.0];
 
 fn problem(seed: u64) -> (DMatrix<f64>, DVector<f64>) {
     let mut random = Random(seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    let compliance = DMatrix::from_fn(ROWS, ROWS, |i, j| if i / 3 == j / 3 { 1e-6 * TRIPLE[i % 3][j % 3] } else { 0.0 });
+    let compliance =
+        DMatrix::from_fn(ROWS, ROWS, |i, j| if i / 3 == j / 3 { 1e-6 * TRIPLE[i % 3][j % 3] } else { 0.0 });
     let equal = seed.is_multiple_of(3);
     let gap = |i: usize, apart: f64| if equal { -0.01 } else { 5e-3 * TRIPLE_GAPS[i % 3] * (1.0 + 0.1 * apart) };
     let gaps = DVector::from_fn(ROWS, |i, _| gap(i, random.next() - 0.5));
@@ -68,7 +69,8 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         let mut answers: Vec<Vec<f64>> = Vec::new();
         for restart in 0..3 {
             let mut solver = DenseSolver::new(ROWS);
-            let begin = |i: usize| if restart == 0 { 0.0 } else { f64::from(restart) * 400.0 * f64::from(u8::from(start[i])) };
+            let begin =
+                |i: usize| if restart == 0 { 0.0 } else { f64::from(restart) * 400.0 * f64::from(u8::from(start[i])) };
             solver.solve(&held, |_, _| (0.0, 0.0), begin).map_err(EnvelopeError::of("active set"))?;
             worst = worst.max(solver.residual());
             answers.push(solver.forces().to_vec());

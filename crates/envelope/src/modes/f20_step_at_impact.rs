@@ -18,16 +18,23 @@ pub(super) const MODE: FailureMode = FailureMode {
 };
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let force = |settings: &[String]| Ok::<_, EnvelopeError>(bench.unchecked_motion(settings)?.headline.max_normal_force_n);
+    let force =
+        |settings: &[String]| Ok::<_, EnvelopeError>(bench.unchecked_motion(settings)?.headline.max_normal_force_n);
     let fine = force(&["motion.steps_per_mesh_cycle=256".to_owned()])?;
     let off = |f: f64| 100.0 * (f / fine - 1.0).abs();
     let usual = bench.in_motion(&AS_IT_IS)?;
     let events = force(&["motion.stop_at_events=true".to_owned()])?;
     let naive = force(&bench.naive(&[]))?;
     Ok(vec![
-        Figure::new("largest force against 256 steps a mesh cycle, % off", Shown::at_most(off(usual.headline.max_normal_force_n), 2.0))
-            .beside(Shown::at_least(off(naive), 5.0)),
+        Figure::new(
+            "largest force against 256 steps a mesh cycle, % off",
+            Shown::at_most(off(usual.headline.max_normal_force_n), 2.0),
+        )
+        .beside(Shown::at_least(off(naive), 5.0)),
         Figure::new("the same with steps that end at the moment of contact, % off", Shown::at_most(off(events), 2.0)),
-        Figure::new("losses of contact in the motion", Shown::at_least(usual.headline.certificate.contact_losses as f64, 1.0)),
+        Figure::new(
+            "losses of contact in the motion",
+            Shown::at_least(usual.headline.certificate.contact_losses as f64, 1.0),
+        ),
     ])
 }

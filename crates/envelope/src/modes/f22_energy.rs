@@ -27,8 +27,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let [keeps, loses] = [drift_of(Scheme::Energy)?, drift_of(Scheme::Newmark)?];
     let steps = robust.headline.certificate.steps;
     Ok(vec![
-        Figure::new("oscillator with clearance, 10^6 free steps: energy lost or made, parts", Shown::at_most(keeps, 1e-6))
-            .beside(Shown::at_least(loses, 1e-4)),
+        Figure::new(
+            "oscillator with clearance, 10^6 free steps: energy lost or made, parts",
+            Shown::at_most(keeps, 1e-6),
+        )
+        .beside(Shown::at_least(loses, 1e-4)),
         Figure::new(
             format!("undamped, {steps} steps with separation: energy not accounted for over what was turned over"),
             Shown::at_most(drift(&robust), 1e-8),

@@ -53,13 +53,19 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let (mild, harsh) = (band(rho(0.9), 32)?, band(rho(0.0), 12)?);
     let motion = bench.in_motion(&AS_IT_IS)?;
     Ok(vec![
-        Figure::new("oscillator with clearance: share of the speeds with two answers, 256 steps a period", Shown::at_least(exact, 0.05)),
+        Figure::new(
+            "oscillator with clearance: share of the speeds with two answers, 256 steps a period",
+            Shown::at_least(exact, 0.05),
+        ),
         Figure::new(
             "change of that band with 32 steps a period, parts; naive: generalised-alpha of radius 0, 12 steps",
             Shown::at_most((usual / exact - 1.0).abs(), 0.15),
         )
         .beside(Shown::at_least((harsh / exact - 1.0).abs(), 0.3)),
         Figure::new("the same with spectral radius 0.9, 32 steps", Shown::at_most((mild / exact - 1.0).abs(), 0.15)),
-        Figure::new("pair at resonance: losses of contact", Shown::at_least(motion.headline.certificate.contact_losses as f64, 1.0)),
+        Figure::new(
+            "pair at resonance: losses of contact",
+            Shown::at_least(motion.headline.certificate.contact_losses as f64, 1.0),
+        ),
     ])
 }

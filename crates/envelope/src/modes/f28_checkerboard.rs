@@ -50,8 +50,14 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let of_slices = 100.0 * (largest("64")? / largest("128")? - 1.0).abs();
     let of_points = 100.0 * (largest_of_points(bench, 4)? / largest_of_points(bench, 8)? - 1.0).abs();
     Ok(vec![
-        Figure::new("second difference of the load along a line over its mean", Shown::at_most(roughness(&slices), 0.1)),
-        Figure::new("largest pressure on half as many slices (naive: points an edge), % off", Shown::at_most(of_slices, 2.0))
-            .beside(Shown::at_least(of_points, 20.0)),
+        Figure::new(
+            "second difference of the load along a line over its mean",
+            Shown::at_most(roughness(&slices), 0.1),
+        ),
+        Figure::new(
+            "largest pressure on half as many slices (naive: points an edge), % off",
+            Shown::at_most(of_slices, 2.0),
+        )
+        .beside(Shown::at_least(of_points, 20.0)),
     ])
 }

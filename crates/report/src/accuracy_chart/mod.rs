@@ -6,4 +6,4 @@ mod work_precision;
 
 pub use csv::chart_csv;
 pub use tables::chart_tables;
-pub use work_precision::work_precision_svg;
+pub use work_precision::{work_precision_svg, write_work_precision};

@@ -4,7 +4,11 @@
 use plotters::prelude::*;
 use study::{AnswerError, Work};
 
-use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use super::chart_csv;
+use crate::{
+    ReportError, ResultFiles,
+    charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
+};
 use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
 const WIDTH: u32 = 1040;
@@ -97,4 +101,19 @@ fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Fail
     }
     root.present()?;
     Ok(())
+}
+
+/// `chart.csv`, `work_precision.svg`, `.png` and `chart.md` with the tables.
+///
+/// # Errors
+/// When the system refuses, or the picture cannot be drawn.
+pub fn write_work_precision(
+    name: &str,
+    points: &WorkPrecision,
+    tables: &str,
+    results: &dyn ResultFiles,
+) -> Result<(), ReportError> {
+    results.write("chart.csv", chart_csv(points).as_bytes())?;
+    write_picture("work_precision", work_precision_svg(name, points), results)?;
+    results.write("chart.md", format!("# {name}\n\n{tables}").as_bytes())
 }

@@ -17,3 +17,4 @@ pub use heat_map::{contact_pattern_figure, contact_pattern_svg};
 pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
 pub use plot_data::{Numbers, embedded};
 pub use png::svg_to_png;
+pub(crate) use png::write_picture;

@@ -7,6 +7,8 @@ use resvg::{
     usvg::{Options, Tree, fontdb::Database},
 };
 
+use crate::{ReportError, ResultFiles};
+
 /// Pixels of the picture over those of the drawing: sharp on a dense screen and in print.
 const SCALE: f32 = 2.0;
 
@@ -25,4 +27,19 @@ pub fn svg_to_png(svg: &str) -> Result<Vec<u8>, String> {
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("a drawing without size")?;
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixels.as_mut());
     pixels.encode_png().map_err(|e| e.to_string())
+}
+
+/// A drawn picture as `STEM.svg` and `STEM.png`.
+///
+/// # Errors
+/// When the system refuses, or the picture was not drawn.
+pub(crate) fn write_picture(
+    stem: &'static str,
+    drawn: Result<String, String>,
+    results: &dyn ResultFiles,
+) -> Result<(), ReportError> {
+    let fault = |cause: String| ReportError::Page { file: stem, cause };
+    let svg = drawn.map_err(fault)?;
+    results.write(&format!("{stem}.svg"), svg.as_bytes())?;
+    results.write(&format!("{stem}.png"), &svg_to_png(&svg).map_err(fault)?)
 }

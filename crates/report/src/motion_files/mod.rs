@@ -12,7 +12,7 @@ mod write;
 pub use campbell::campbell_csv;
 pub use charts::{MotionPictures, SHOWN_CYCLES, SweepPictures, motion_charts, sweep_charts};
 pub use passage::{cycles_csv, order_cuts_csv};
-pub use precision::{motion_precision_csv, motion_precision_svg, motion_precision_table};
+pub use precision::{motion_precision_csv, motion_precision_svg, motion_precision_table, write_motion_precision};
 pub use resonance::resonance_csv;
 pub use sink::MotionFileSink;
 pub use spectrum::{SPECTRA, spectra, spectrum_csv, waterfall_csv};

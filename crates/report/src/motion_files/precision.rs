@@ -5,7 +5,10 @@ use std::fmt::Write;
 use analysis::motion::{MotionPrecision, MotionPrecisionPoint};
 use plotters::prelude::*;
 
-use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use crate::{
+    ReportError, ResultFiles,
+    charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
+};
 
 const SIZE: (u32, u32) = (1040, 470);
 const HEAD: u32 = 84;
@@ -95,4 +98,21 @@ pub fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
     }
     t.push('\n');
     t
+}
+
+/// `motion_precision.csv`, `.svg`, `.png` and `.md`; what comes back is the table.
+///
+/// # Errors
+/// When the system refuses, or the picture cannot be drawn.
+pub fn write_motion_precision(
+    name: &str,
+    found: &MotionPrecision,
+    command: &str,
+    results: &dyn ResultFiles,
+) -> Result<String, ReportError> {
+    let table = motion_precision_table(found, command);
+    results.write("motion_precision.csv", motion_precision_csv(found).as_bytes())?;
+    write_picture("motion_precision", motion_precision_svg(name, found), results)?;
+    results.write("motion_precision.md", format!("# {name}\n\n{table}").as_bytes())?;
+    Ok(table)
 }

@@ -23,6 +23,7 @@ pub fn render(name: &str, context: Value) -> Result<String, ReportError> {
         ("ladder_sweep.html", include_str!("ladder_sweep.html")),
         ("study.html", include_str!("study.html")),
         ("compare.html", include_str!("compare.html")),
+        ("envelope.html", include_str!("envelope.html")),
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
         ("warnings.html", include_str!("warnings.html")),

@@ -1,0 +1,65 @@
+//! `ale-gear envelope`: every way in which such solvers fail, and maps of where.
+
+use std::{path::PathBuf, time::Instant};
+
+use envelope::{FailureMode, MAPS, MODES, chosen};
+use report::envelope_files::{EnvelopeResult, envelope_table, replace_envelope_tables, write_envelope};
+
+use crate::{command::Answer, error::CommandError, output::ResultDirectory, phases::Phases, talk};
+
+/// Words of `ale-gear envelope`.
+#[derive(Debug, clap::Args)]
+pub(super) struct EnvelopeArgs {
+    /// Folder for envelope.csv, maps.csv and report.html; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+    /// These alone, with commas between: failure modes (F7) and maps (c) [default: all failure modes]
+    #[arg(long, value_delimiter = ',', value_name = "CASES", conflicts_with = "quick")]
+    only: Vec<String>,
+    /// Draw all maps as well: some ten minutes
+    #[arg(long)]
+    maps: bool,
+    /// Failure modes that take a few seconds alone
+    #[arg(long)]
+    quick: bool,
+    /// Replace the tables between `<!-- chart failure modes -->`, `<!-- chart maps -->` and `<!-- end -->` in this file
+    #[arg(long, value_name = "FILE")]
+    into: Option<PathBuf>,
+}
+
+impl EnvelopeArgs {
+    /// Looks at all; the text is the closing table.
+    pub(super) fn execute(self) -> Result<Answer, CommandError> {
+        let (modes, maps) = chosen(&self.only, self.quick, self.maps).map_err(|word| {
+            let hint = format!("F1 .. F{}, or a map: a .. {}", MODES.len(), MAPS.last().map_or("", |m| m.key));
+            CommandError::input(format_args!("`--only {word}`: there is no such case"), Some(hint))
+        })?;
+        let results = ResultDirectory::create(&self.out)?;
+        let mut phases = Phases::with_bars();
+        let examined = phases.run_steps("failure modes", modes.len() as u64, |progress| {
+            let look = |mode: &&FailureMode| {
+                progress.say(format!("{} {}", mode.label(), mode.name));
+                let found = (**mode, mode.examine());
+                progress.tick();
+                found
+            };
+            modes.iter().map(look).collect()
+        });
+        let mut found = EnvelopeResult { modes: examined, ..EnvelopeResult::default() };
+        for map in maps {
+            let start = Instant::now();
+            let drawn = phases.run_steps(map.name, map.count() as u64, |progress| map.draw(&|| progress.tick()));
+            found.maps.push((*map, drawn, start.elapsed().as_secs_f64()));
+        }
+        write_envelope(&found, "ale-gear envelope --maps --out DIR", &results)?;
+        results.finish(talk::note)?;
+        self.into.iter().try_for_each(|file| replace_envelope_tables(&found, file))?;
+        let failure = found.missed().map(|missed| {
+            CommandError::failed(
+                format_args!("of the envelope do not hold: {missed}"),
+                Some("the table says why".into()),
+            )
+        });
+        Ok(Answer { text: format!("{}\nresults: {}\n", envelope_table(&found), self.out.display()), failure })
+    }
+}
