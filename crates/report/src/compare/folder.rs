@@ -13,6 +13,9 @@ const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
 /// The first column of words behind the numbers of a sweep.
 const WORDS: &str = "start";
 
+/// What those are told who gave another folder.
+const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
+
 /// What a run has left in its folder.
 #[derive(Debug, Clone)]
 pub struct ResultFolder {
@@ -28,19 +31,28 @@ impl ResultFolder {
     /// # Errors
     /// [`ReportError::NoResult`] when the folder is no result of this program, or of a version with other summaries.
     pub fn read(path: &Path) -> Result<Self, ReportError> {
-        let summary = summary(path)?;
-        let mut parts = Vec::new();
+        let mut new = Self { path: path.to_owned(), summary: summary(path)?, parts: Vec::new() };
         for name in ROWS {
             let file = path.join(name);
             match std::fs::read_to_string(&file) {
                 Ok(text) => {
-                    parts = by_way(&text).ok_or_else(|| damaged(&file, "holds what is no number"))?;
+                    new.parts = parts(&text, &file)?;
                     break;
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::NotFound => {}
                 Err(e) => return Err(damaged(&file, &e.to_string())),
             }
         }
+        Ok(new)
+    }
+
+    /// The same from the texts of `summary.json` and of the file of rows; `path` is what messages name.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::read`].
+    pub fn parse(path: &Path, summary: &str, rows: Option<&str>) -> Result<Self, ReportError> {
+        let summary = summary_in(summary, path)?;
+        let parts = rows.map_or_else(|| Ok(Vec::new()), |text| parts(text, &path.join(ROWS[0])))?;
         Ok(Self { path: path.to_owned(), summary, parts })
     }
 
@@ -81,7 +93,6 @@ fn damaged(file: &Path, what: &str) -> ReportError {
 /// [`ReportError::NoResult`] when it has none that this version reads.
 pub fn summary(folder: &Path) -> Result<Value, ReportError> {
     let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
-    const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
     if !folder.is_dir() {
         return refuse(if folder.exists() { "is no folder" } else { "there is no such folder" }.into(), MAKE_ONE);
     }
@@ -90,7 +101,13 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return refuse("has no summary.json".into(), MAKE_ONE),
         Err(e) => return refuse(format!("summary.json cannot be read: {e}"), MAKE_ONE),
     };
-    let summary: Value = match serde_json::from_str(&text) {
+    summary_in(&text, folder)
+}
+
+/// The summary in the text of its file.
+fn summary_in(text: &str, folder: &Path) -> Result<Value, ReportError> {
+    let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
+    let summary: Value = match serde_json::from_str(text) {
         Ok(summary) => summary,
         Err(e) => return refuse(format!("summary.json is no JSON: {e}"), "run the scene again into this folder"),
     };
@@ -108,6 +125,11 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
         );
     }
     Ok(summary)
+}
+
+/// Rows of a file in parts.
+fn parts(text: &str, file: &Path) -> Result<Vec<(String, Columns)>, ReportError> {
+    by_way(text).ok_or_else(|| damaged(file, "holds what is no number"))
 }
 
 /// Rows in parts by the words of a column `way`, in the order in which they appear; all in one where there is none.
