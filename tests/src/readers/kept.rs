@@ -1,18 +1,20 @@
 //! What the program keeps in files and reads back.
 
-use std::path::Path;
+use std::{path::Path, sync::OnceLock};
 
-use analysis::motion::MotionLayout;
+use analysis::motion::{MotionCheckpoint, MotionLayout};
 use reduction::{RecordKey, ReductionRecord};
 use report::{
+    checkpoint::{Stored, parse_rows, sealed_state},
     columns_to_csv,
     compare::{
-        Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv, write_curves_csv,
+        Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
+        write_curves_csv,
     },
-    checkpoint::{Stored, parse_rows, sealed_state},
     parse_columns,
 };
 use scene::Scene;
+use study::Touch;
 
 use super::halves;
 
@@ -51,11 +53,27 @@ pub fn sealed_record(payload: &[u8]) -> Vec<u8> {
 pub fn checkpoint(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let read = |text: &str| match Stored::parse(text, Path::new("state.json"), Path::new("fuzz.toml")) {
-        Ok(stored) => drop(stored.checkpoint()),
+        Ok(stored) => gone_on_from(stored.checkpoint()),
         Err(e) => drop((e.to_string(), e.hint())),
     };
     read(text);
     read(&sealed_state(text));
+}
+
+/// What a run does with a checkpoint before it moves anything.
+fn gone_on_from(checkpoint: MotionCheckpoint) {
+    let Some(scene) = small_scene() else { return };
+    drop(MotionLayout::of(scene, checkpoint.window).pairs().collect::<Vec<_>>());
+    let touch = Touch { z: 0.0, engagement: 0.5, roll: 0.3, pressure: 1.0, line_load: 1.0 };
+    for mut pattern in checkpoint.patterns {
+        let _ = pattern.press(&[touch, Touch { roll: 0.5, ..touch }], 1.0);
+    }
+}
+
+/// A scene to lay out rows by.
+fn small_scene() -> Option<&'static Scene> {
+    static SCENE: OnceLock<Option<Scene>> = OnceLock::new();
+    SCENE.get_or_init(|| Scene::default_scene().ok()).as_ref()
 }
 
 /// Rows: `history.csv` before the first zero byte, `energy.csv` behind it.
@@ -67,8 +85,8 @@ pub fn rows(bytes: &[u8]) {
         let _ = columns.is_finite();
     }
     let Some(Ok(energy)) = energy.map(std::str::from_utf8) else { return };
-    let Ok(scene) = Scene::default_scene() else { return };
-    let _ = parse_rows(&MotionLayout::of(&scene, 3), [history, energy], Path::new("out")).map_err(|e| e.to_string());
+    let Some(scene) = small_scene() else { return };
+    let _ = parse_rows(&MotionLayout::of(scene, 3), [history, energy], Path::new("out")).map_err(|e| e.to_string());
 }
 
 /// Two result folders beside each other: `summary.json` before the first zero byte, rows behind it, both runs alike

@@ -17,7 +17,7 @@ mod measured;
 mod meshes;
 mod scenes;
 
-pub use kept::{checkpoint, record, results, rows};
+pub use kept::{checkpoint, record, results, rows, sealed_record};
 pub use measured::{pitch_errors, topography};
 pub use meshes::{gear_mesh, mesh};
 pub use scenes::{rexs, scene, setting, study};

@@ -139,7 +139,8 @@ pub fn parse_rows(
     [history, energy]: [&str; 2],
     folder: &Path,
 ) -> Result<Vec<MotionRow>, ReportError> {
-    let columns = |text: &str, name| parse_columns(text).ok_or_else(|| ReportError::NoNumber { file: folder.join(name) });
+    let columns =
+        |text: &str, name| parse_columns(text).ok_or_else(|| ReportError::NoNumber { file: folder.join(name) });
     Ok(motion_rows(layout, &columns(history, HISTORY)?, &columns(energy, ENERGY_FILE)?)?)
 }
 

@@ -29,6 +29,11 @@ const IN_USE: &str = "in_use";
 /// Grows with every change of what is stored.
 const VERSION: u32 = 3;
 
+/// Teeth of a window at the most; scenes ask for 25 or fewer.
+const WIDEST: usize = 1000;
+/// Farthest pair of a window: mesh cycles are counted exactly up to here.
+const FARTHEST: u64 = 1 << 53;
+
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]
 pub struct Checkpoints<'a> {
@@ -102,7 +107,25 @@ impl Stored {
         if writer != Writer::this() {
             return Err(foreign(scene, "another version of this program"));
         }
-        serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))
+        let stored: Self = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
+        stored.consistent().map_err(|what| refuse(format!("is no checkpoint: {what}")))?;
+        Ok(stored)
+    }
+
+    /// Whether its parts go together: what a run goes on from is indexed by them.
+    fn consistent(&self) -> Result<(), &'static str> {
+        if !(1..=WIDEST).contains(&self.window) {
+            return Err("a window of so many teeth");
+        }
+        let Checkpoint { state, place, .. } = &self.motion;
+        if [&state.v, &state.a, &state.averaged].iter().any(|part| part.len() != state.q.len()) {
+            return Err("velocities of other coordinates");
+        }
+        let sides = [Some(&place.driving), place.coast.as_ref()];
+        if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
+            return Err("a window beyond all cycles");
+        }
+        Ok(())
     }
 
     /// What the analysis goes on from.

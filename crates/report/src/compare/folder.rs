@@ -12,6 +12,10 @@ use crate::{ReportError, SUMMARY_SCHEMA, parse_columns};
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
 /// The first column of words behind the numbers of a sweep.
 const WORDS: &str = "start";
+/// Ways of a sweep: up and down, and some to spare.
+const MOST_WAYS: usize = 16;
+/// Columns of a file: some hundred with those of single pairs. Each becomes a picture.
+const MOST_COLUMNS: usize = 2000;
 
 /// What those are told who gave another folder.
 const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
@@ -135,6 +139,9 @@ fn parts(text: &str, file: &Path) -> Result<Vec<(String, Columns)>, ReportError>
 /// Rows in parts by the words of a column `way`, in the order in which they appear; all in one where there is none.
 fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
     let (header, rows) = text.split_once('\n')?;
+    if header.matches(',').count() >= MOST_COLUMNS {
+        return None;
+    }
     let Some(header) = header.strip_prefix("way,") else {
         return Some(vec![(String::new(), parse_columns(text)?)]);
     };
@@ -154,6 +161,10 @@ fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
             parts.push((way.to_owned(), format!("{header}\n")));
             parts.len() - 1
         });
+        // Each way has a header of its own.
+        if parts.len() > MOST_WAYS {
+            return None;
+        }
         parts[at].1.push_str(&numbers);
         parts[at].1.push('\n');
     }
@@ -174,5 +185,7 @@ mod tests {
         assert_eq!((parts.len(), parts[0].1.find("a"), parts[0].1.find("status")), (1, Some(&[10.0][..]), None));
         assert_eq!(by_way("x,y\n1,NaN\n").unwrap()[0].1.find("x"), Some(&[1.0][..]));
         assert!(by_way("x,y\n1,word\n").is_none());
+        let many: String = (0..=MOST_WAYS).map(|i| format!("w{i},1\n")).collect();
+        assert!(by_way(&format!("way,a\n{many}")).is_none());
     }
 }
