@@ -210,3 +210,18 @@ fn counts_of_records_that_promise_too_much() {
     }
     within_bounds("zeros", readers::record, &vec![0; SIZE]);
 }
+
+#[test]
+fn elements_about_one_edge() {
+    let elements = many(0.55, |i| format!("{} 4 0 1 2 {} {}\n", i + 1, i + 3, i + 4));
+    let count = elements.lines().count();
+    let nodes = many(0.4, |i| format!("{} 0 0 {}\n", i + 1, i % 10));
+    let there = nodes.lines().count();
+    let elements: String = elements.lines().take(there - 4).map(|line| format!("{line}\n")).collect();
+    let count = count.min(there - 4);
+    let text = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{there}\n{nodes}$EndNodes\n$Elements\n{count}\n{elements}\
+         $EndElements\n"
+    );
+    within_bounds("elements about one edge", readers::gear_mesh, text.as_bytes());
+}
