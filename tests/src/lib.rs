@@ -11,6 +11,7 @@ pub mod pair_law_fit;
 pub mod pairs_done;
 pub mod random_motion;
 pub mod random_scene;
+pub mod readers;
 
 use std::path::PathBuf;
 

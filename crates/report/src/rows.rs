@@ -22,11 +22,15 @@ pub fn read_columns(path: &Path) -> Result<Columns, ReportError> {
     parse_columns(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
 }
 
-/// The columns of a file's text; `None` where it holds what is no number.
+/// The columns of a file's text; `None` where it holds what is no number, or two columns of one name.
 pub fn parse_columns(text: &str) -> Option<Columns> {
     let mut lines = text.lines();
-    let mut columns = Columns::named(lines.next()?.split(','));
-    let count = columns.names().len();
+    let names = lines.next()?.split(',');
+    let count = names.clone().count();
+    let mut columns = Columns::named(names);
+    if columns.names().len() < count {
+        return None;
+    }
     for line in lines {
         let row = line.split(',').take(count).map(str::parse).collect::<Result<Vec<f64>, _>>().ok()?;
         if row.len() < count {
@@ -35,4 +39,16 @@ pub fn parse_columns(text: &str) -> Option<Columns> {
         columns.push(row);
     }
     Some(columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A second column of one name was once looked for beyond the last one.
+    #[test]
+    fn columns_of_one_name_are_no_table() {
+        assert!(parse_columns("a,b,a\n1,2,3\n").is_none());
+        assert_eq!(parse_columns("a,b\n1,2\n").unwrap().find("b"), Some(&[2.0][..]));
+    }
 }

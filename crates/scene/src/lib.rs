@@ -171,6 +171,7 @@ impl Scene {
     }
 
     fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
+        setting::few_enough(text, settings)?;
         let (all, ranges) = setting::below(text, settings);
         let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
         let scene = check::scene(&source, raw::read(&source)?)?;

@@ -138,6 +138,21 @@ fn toml_value(written: &str) -> Option<String> {
         .then(|| format!("\"{}\"", written.replace('\\', "\\\\")))
 }
 
+/// What the settings of a scene take at the most, bytes: each is read as far from the beginning as its line is.
+const MOST: usize = 256 << 20;
+
+/// Refuses more settings than any scene has keys, which would take memory without bound.
+pub(super) fn few_enough(text: &str, settings: &[Setting]) -> Result<(), SceneError> {
+    let length = settings.iter().fold(text.len(), |sum, s| sum.saturating_add(s.key.len() + s.value.len() + 4));
+    match settings.last() {
+        Some(last) if length.saturating_mul(settings.len()) > MOST => {
+            let what = format!("is the last of {} settings, which is more than can be taken in", settings.len());
+            Err(complaint(&last.label, &what))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The file's text, and below it a line for each setting, so that every place in either has an offset of its own.
 pub(super) fn below(text: &str, settings: &[Setting]) -> (String, Vec<Range<usize>>) {
     let mut all = text.to_owned();
@@ -215,6 +230,14 @@ mod tests {
         for wrong in ["a", "=3", "a b=3", "a=", "a=[1", "a=1\nb=2", "a#=3", "[a]b=3", "a..b=3"] {
             assert!(Setting::parse(wrong).is_err(), "`{wrong}` is taken");
         }
+    }
+
+    #[test]
+    fn settings_without_end_are_refused() {
+        let many = vec![Setting::parse("operation.torque_nm=1").unwrap(); 20_000];
+        let said = few_enough("", &many).unwrap_err().to_string();
+        assert!(said.contains("the last of 20000 settings"), "{said}");
+        assert!(few_enough("", &many[..1000]).is_ok());
     }
 
     #[test]

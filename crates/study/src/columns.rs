@@ -12,10 +12,11 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Columns without rows.
+    /// Columns without rows; of one name that stands twice the last column is found.
     pub fn named<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
-        let places: BTreeMap<String, usize> = names.into_iter().enumerate().map(|(i, n)| (n.into(), i)).collect();
-        let values = vec![Vec::new(); places.len()];
+        let mut count = 0;
+        let places = names.into_iter().map(Into::into).zip(0..).inspect(|_| count += 1).collect();
+        let values = vec![Vec::new(); count];
         Self { places, values }
     }
 

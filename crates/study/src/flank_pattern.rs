@@ -31,12 +31,34 @@ pub struct Touch {
 /// so the largest value of the grid is the largest of all touches, and what no path comes within half a step of is 0.
 /// The band reaches its half-width farther; a path ends at the last solved position that carries load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct FlankPattern {
     rolls: Vec<f64>,
     stations: Vec<f64>,
     /// Station by station, ascending in roll angle.
     max_pressure: Vec<f64>,
     max_line_load: Vec<f64>,
+}
+
+/// A pattern as it stands in a file, nothing checked yet.
+#[derive(Deserialize)]
+struct Written {
+    rolls: Vec<f64>,
+    stations: Vec<f64>,
+    max_pressure: Vec<f64>,
+    max_line_load: Vec<f64>,
+}
+
+impl TryFrom<Written> for FlankPattern {
+    type Error = &'static str;
+
+    fn try_from(Written { rolls, stations, max_pressure, max_line_load }: Written) -> Result<Self, Self::Error> {
+        let cells = rolls.len().saturating_mul(stations.len());
+        if rolls.len() < 2 || stations.is_empty() || max_pressure.len() != cells || max_line_load.len() != cells {
+            return Err("a flank pattern of another size than its grid");
+        }
+        Ok(Self { rolls, stations, max_pressure, max_line_load })
+    }
 }
 
 impl FlankPattern {

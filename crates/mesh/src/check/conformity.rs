@@ -58,6 +58,10 @@ fn of_other_nodes(mesh: &Mesh, table: &FaceTable) -> Vec<FaceOwner> {
         .collect()
 }
 
+/// Triangles of an edge that are compared with each other: a boundary has two, and a crowd of thousands needs no more
+/// pairs than these to be reported.
+const CROWD: usize = 64;
+
 /// Boundary triangles over four nodes that are there with both diagonals; one of each four, in the order of their
 /// nodes.
 fn crossed(triangles: &BTreeMap<[u32; 4], FaceOwner>) -> Vec<FaceOwner> {
@@ -72,6 +76,7 @@ fn crossed(triangles: &BTreeMap<[u32; 4], FaceOwner>) -> Vec<FaceOwner> {
     // The same four is met from each of its six edges.
     let mut found: BTreeMap<[u32; 4], FaceOwner> = BTreeMap::new();
     for (&[a, b], opposite) in &edges {
+        let opposite = &opposite[..opposite.len().min(CROWD)];
         for (i, &c) in opposite.iter().enumerate() {
             for &d in &opposite[i + 1..] {
                 let owners = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]].map(|t| triangles.get(&corner_key(&t)));

@@ -118,8 +118,12 @@ fn choose_volumes(raw: &Raw) -> (Vec<usize>, Vec<String>) {
     let is_volume = |b: &RawBlock| matches!(b.shape, Shape::Volume(_)) && !b.tags.is_empty();
     let all: Vec<usize> = (0..raw.blocks.len()).filter(|&i| is_volume(&raw.blocks[i])).collect();
     let grouped: Vec<usize> = all.iter().copied().filter(|&i| !groups(raw, &raw.blocks[i]).is_empty()).collect();
+    // Blocks of one entity are in the same groups: each entity once.
+    let mut owners: Vec<&RawBlock> = grouped.iter().map(|&i| &raw.blocks[i]).collect();
+    owners.sort_unstable_by_key(|b| b.owner);
+    owners.dedup_by_key(|b| b.owner);
     let names: BTreeSet<String> =
-        grouped.iter().flat_map(|&i| groups(raw, &raw.blocks[i])).map(|&tag| name(raw, 3, tag)).collect();
+        owners.into_iter().flat_map(|b| groups(raw, b)).map(|&tag| name(raw, 3, tag)).collect();
     (if grouped.is_empty() { all } else { grouped }, names.into_iter().collect())
 }
 
@@ -167,6 +171,12 @@ fn surfaces(
     new_number: &[u32],
     cursor: &Cursor,
 ) -> Result<Vec<SurfaceGroup>, MshError> {
+    // A face has a place for each group that it is in: more of them than bytes are no mesh.
+    let in_groups: u64 = raw.blocks.iter().map(|b| in_groups(raw, b)).sum();
+    let room = cursor.length();
+    if in_groups > room {
+        return Err(cursor.error(MshProblem::TooMany { what: "faces in groups", declared: in_groups, room }));
+    }
     // Faces by group as (kind, tag, block, element), with the sign of the group.
     let mut by_name: BTreeMap<String, Vec<_>> = BTreeMap::new();
     for (b, block) in raw.blocks.iter().enumerate() {
@@ -212,6 +222,15 @@ fn surfaces(
         }
     }
     Ok(surfaces)
+}
+
+/// Faces of a block, each as often as there are groups that it is in.
+fn in_groups(raw: &Raw, block: &RawBlock) -> u64 {
+    match block.shape {
+        // To look through the groups of an empty block takes time as well.
+        Shape::Face(_) => block.tags.len().max(1) as u64 * groups(raw, block).len() as u64,
+        _ => 0,
+    }
 }
 
 /// Leaves each face once, where it stood first.

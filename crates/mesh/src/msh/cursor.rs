@@ -28,6 +28,11 @@ impl<'a> Cursor<'a> {
         self.at
     }
 
+    /// Bytes of the file.
+    pub fn length(&self) -> u64 {
+        self.bytes.len() as u64
+    }
+
     /// Error at the present place.
     pub fn error(&self, problem: MshProblem) -> MshError {
         self.error_at(self.at, problem)

@@ -43,7 +43,7 @@ pub(super) struct RawBlock {
 }
 
 /// Where the physical groups of a block are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Owner {
     /// At the entity of that dimension and tag (format 4.1).
     Entity(i64, i64),

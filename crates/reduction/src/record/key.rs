@@ -7,12 +7,20 @@ use fem::Material;
 use geometry::{Gear, Side};
 use mesh::GearMesh;
 
-use super::RECORD_VERSION;
+use super::{MAGIC, RECORD_VERSION};
 use crate::ReductionOptions;
 
 /// Names a record: equal for equal meshes, materials, gears and options, in practice different for any others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RecordKey(pub(super) [u8; 32]);
+
+impl RecordKey {
+    /// The key that a file bears, of whatever gear it is; `None` of what is no record.
+    pub fn in_file(bytes: &[u8]) -> Option<Self> {
+        let header = bytes.strip_prefix(&MAGIC)?;
+        Some(Self(*header.get(4..)?.first_chunk()?))
+    }
+}
 
 impl fmt::Display for RecordKey {
     /// 64 hexadecimal digits.

@@ -3,17 +3,20 @@
 //! | module | what it does |
 //! |---|---|
 //! | `store` | the folder beside the results' and its state |
+//! | `seal` | the digest around the state |
 //! | `rows` | files of rows, which a later run takes up again |
 //! | `inputs` | digests of what the run is made of |
 
 mod error;
 mod inputs;
 mod rows;
+mod seal;
 mod store;
 
 pub use error::CheckpointError;
 pub(crate) use inputs::Change;
 pub use inputs::InputDigests;
 pub(crate) use rows::Rows;
-pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, read_rows};
+pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, parse_rows, read_rows};
+pub use seal::sealed_state;
 pub use store::{CheckpointFolder, Checkpoints, Stored};

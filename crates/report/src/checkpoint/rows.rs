@@ -130,6 +130,20 @@ pub fn read_rows(
     Ok(motion_rows(layout, &history, &energy)?)
 }
 
+/// The same from the texts of both files, `history.csv` first; `folder` is what messages name.
+///
+/// # Errors
+/// When a file holds what is no row.
+pub fn parse_rows(
+    layout: &MotionLayout,
+    [history, energy]: [&str; 2],
+    folder: &Path,
+) -> Result<Vec<MotionRow>, ReportError> {
+    let columns =
+        |text: &str, name| parse_columns(text).ok_or_else(|| ReportError::NoNumber { file: folder.join(name) });
+    Ok(motion_rows(layout, &columns(history, HISTORY)?, &columns(energy, ENERGY_FILE)?)?)
+}
+
 /// Both files of rows.
 #[derive(Debug)]
 pub(crate) struct Rows {

@@ -18,6 +18,7 @@ use study::FlankPattern;
 use super::{
     Change, CheckpointError, InputDigests,
     rows::{self, Kept, Rows},
+    seal::{sealed_state, unsealed},
 };
 use crate::ReportError;
 
@@ -28,10 +29,10 @@ const IN_USE: &str = "in_use";
 /// Grows with every change of what is stored.
 const VERSION: u32 = 3;
 
-/// Around the state: its own digest before it, BLAKE3 of the bytes between.
-const BEFORE_DIGEST: &str = "{\"blake3\":\"";
-const BEFORE_STATE: &str = "\",\"state\":";
-const AFTER_STATE: &str = "}\n";
+/// Teeth of a window at the most; scenes ask for 25 or fewer.
+const WIDEST: usize = 1000;
+/// Farthest pair of a window: mesh cycles are counted exactly up to here.
+const FARTHEST: u64 = 1 << 53;
 
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]
@@ -94,6 +95,39 @@ impl Stored {
         Self { writer: Writer::this(), inputs: inputs.clone(), meshes, window, motion, course, rows, patterns }
     }
 
+    /// The state in the text of `file`, without a look at its rows; messages name `scene`, too.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote it.
+    pub fn parse(text: &str, file: &Path, scene: &Path) -> Result<Self, CheckpointError> {
+        let refuse = |what: String| CheckpointError::Damaged { file: file.to_owned(), what };
+        let damaged = || refuse("is not as it was written: changed, damaged or of another version".to_owned());
+        let state = unsealed(text).ok_or_else(damaged)?;
+        let Head { writer } = serde_json::from_str(state).map_err(|_| damaged())?;
+        if writer != Writer::this() {
+            return Err(foreign(scene, "another version of this program"));
+        }
+        let stored: Self = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
+        stored.consistent().map_err(|what| refuse(format!("is no checkpoint: {what}")))?;
+        Ok(stored)
+    }
+
+    /// Whether its parts go together: what a run goes on from is indexed by them.
+    fn consistent(&self) -> Result<(), &'static str> {
+        if !(1..=WIDEST).contains(&self.window) {
+            return Err("a window of so many teeth");
+        }
+        let Checkpoint { state, place, .. } = &self.motion;
+        if [&state.v, &state.a, &state.averaged].iter().any(|part| part.len() != state.q.len()) {
+            return Err("velocities of other coordinates");
+        }
+        let sides = [Some(&place.driving), place.coast.as_ref()];
+        if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
+            return Err("a window beyond all cycles");
+        }
+        Ok(())
+    }
+
     /// What the analysis goes on from.
     pub fn checkpoint(&self) -> MotionCheckpoint {
         let Self { window, motion, course, patterns, .. } = self.clone();
@@ -107,7 +141,7 @@ impl Stored {
     pub fn check_inputs(&self, scene: &Scene, now: &InputDigests) -> Result<(), CheckpointError> {
         match self.inputs.change(now) {
             None => Ok(()),
-            Some(Change::Scene) => Err(foreign(scene, "another scene")),
+            Some(Change::Scene) => Err(foreign(&scene.file, "another scene")),
             Some(Change::File(path)) => Err(CheckpointError::OtherFile { file: scene.resolve(Path::new(&path)) }),
         }
     }
@@ -117,12 +151,12 @@ impl Stored {
     /// # Errors
     /// [`CheckpointError::Foreign`].
     pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CheckpointError> {
-        if self.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(scene, "other meshes")) }
+        if self.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(&scene.file, "other meshes")) }
     }
 }
 
-fn foreign(scene: &Scene, what: &'static str) -> CheckpointError {
-    CheckpointError::Foreign { scene: scene.file.clone(), what }
+fn foreign(scene: &Path, what: &'static str) -> CheckpointError {
+    CheckpointError::Foreign { scene: scene.to_owned(), what }
 }
 
 fn text_of_meshes(meshes: &[MeshFacts]) -> String {
@@ -195,14 +229,7 @@ impl CheckpointFolder {
     pub fn read(&self, scene: &Scene) -> Result<Stored, CheckpointError> {
         let path = self.0.join(STATE);
         let text = fs::read_to_string(&path).map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;
-        let refuse = |what: String| CheckpointError::Damaged { file: path.clone(), what };
-        let damaged = || refuse("is not as it was written: changed, damaged or of another version".to_owned());
-        let state = unwrapped(&text).ok_or_else(damaged)?;
-        let Head { writer } = serde_json::from_str(state).map_err(|_| damaged())?;
-        if writer != Writer::this() {
-            return Err(foreign(scene, "another version of this program"));
-        }
-        let stored: Stored = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
+        let stored = Stored::parse(&text, &path, &scene.file)?;
         Rows::check(&self.0, &stored.rows)?;
         Ok(stored)
     }
@@ -215,8 +242,7 @@ impl CheckpointFolder {
         let path = self.0.join(STATE);
         let unwritten = |cause| ReportError::Write { file: path.clone(), cause };
         let state = serde_json::to_string(stored).map_err(|e| unwritten(e.into()))?;
-        let digest = blake3::hash(state.as_bytes()).to_hex();
-        let text = format!("{BEFORE_DIGEST}{digest}{BEFORE_STATE}{state}{AFTER_STATE}");
+        let text = sealed_state(&state);
         let new = self.0.join(NEW_STATE);
         let write = || -> std::io::Result<()> {
             fs::write(&new, &text)?;
@@ -243,11 +269,4 @@ impl CheckpointFolder {
             let _ = self.without(&[IN_USE]).map(|()| fs::remove_dir(&self.0));
         }
     }
-}
-
-/// The state in a file's text, if the digest before it is its own.
-fn unwrapped(text: &str) -> Option<&str> {
-    let (digest, rest) = text.strip_prefix(BEFORE_DIGEST)?.split_once(BEFORE_STATE)?;
-    let state = rest.strip_suffix(AFTER_STATE)?;
-    (blake3::hash(state.as_bytes()).to_hex().as_str() == digest).then_some(state)
 }

@@ -1,5 +1,7 @@
 //! Columns that runs share, laid over each other.
 
+use std::collections::HashSet;
+
 use super::ResultFolder;
 use study::Columns;
 
@@ -44,10 +46,11 @@ pub fn overlays(runs: &[ResultFolder], axis: Axis) -> Vec<Overlay> {
     let curves: Vec<Curves<'_>> = runs.iter().enumerate().flat_map(|(i, run)| Curves::of(i, run, axis)).collect();
     let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| c.rows.find(name).is_some_and(|all| !all.is_empty())));
     let mut quantities: Vec<(String, &'static str)> = Vec::new();
+    let mut seen: HashSet<(&str, &'static str)> = HashSet::new();
     for c in &curves {
         for name in c.rows.names_from("").into_iter().filter(|n| !PLACES.contains(n)) {
             let name = if mixed && ERRORS.contains(&name) { ERROR } else { name };
-            if !quantities.iter().any(|(n, over)| n == name && *over == c.over) {
+            if seen.insert((name, c.over)) {
                 quantities.push((name.to_owned(), c.over));
             }
         }

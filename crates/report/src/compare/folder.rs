@@ -12,6 +12,13 @@ use crate::{ReportError, SUMMARY_SCHEMA, parse_columns};
 const ROWS: [&str; 2] = ["history.csv", "resonance.csv"];
 /// The first column of words behind the numbers of a sweep.
 const WORDS: &str = "start";
+/// Ways of a sweep: up and down, and some to spare.
+const MOST_WAYS: usize = 16;
+/// Columns of a file: some hundred with those of single pairs. Each becomes a picture.
+const MOST_COLUMNS: usize = 2000;
+
+/// What those are told who gave another folder.
+const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
 
 /// What a run has left in its folder.
 #[derive(Debug, Clone)]
@@ -28,19 +35,28 @@ impl ResultFolder {
     /// # Errors
     /// [`ReportError::NoResult`] when the folder is no result of this program, or of a version with other summaries.
     pub fn read(path: &Path) -> Result<Self, ReportError> {
-        let summary = summary(path)?;
-        let mut parts = Vec::new();
+        let mut new = Self { path: path.to_owned(), summary: summary(path)?, parts: Vec::new() };
         for name in ROWS {
             let file = path.join(name);
             match std::fs::read_to_string(&file) {
                 Ok(text) => {
-                    parts = by_way(&text).ok_or_else(|| damaged(&file, "holds what is no number"))?;
+                    new.parts = parts(&text, &file)?;
                     break;
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::NotFound => {}
                 Err(e) => return Err(damaged(&file, &e.to_string())),
             }
         }
+        Ok(new)
+    }
+
+    /// The same from the texts of `summary.json` and of the file of rows; `path` is what messages name.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::read`].
+    pub fn parse(path: &Path, summary: &str, rows: Option<&str>) -> Result<Self, ReportError> {
+        let summary = summary_in(summary, path)?;
+        let parts = rows.map_or_else(|| Ok(Vec::new()), |text| parts(text, &path.join(ROWS[0])))?;
         Ok(Self { path: path.to_owned(), summary, parts })
     }
 
@@ -81,7 +97,6 @@ fn damaged(file: &Path, what: &str) -> ReportError {
 /// [`ReportError::NoResult`] when it has none that this version reads.
 pub fn summary(folder: &Path) -> Result<Value, ReportError> {
     let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
-    const MAKE_ONE: &str = "give folders that `ale-gear run SCENE.toml --out DIR` has made";
     if !folder.is_dir() {
         return refuse(if folder.exists() { "is no folder" } else { "there is no such folder" }.into(), MAKE_ONE);
     }
@@ -90,7 +105,13 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return refuse("has no summary.json".into(), MAKE_ONE),
         Err(e) => return refuse(format!("summary.json cannot be read: {e}"), MAKE_ONE),
     };
-    let summary: Value = match serde_json::from_str(&text) {
+    summary_in(&text, folder)
+}
+
+/// The summary in the text of its file.
+fn summary_in(text: &str, folder: &Path) -> Result<Value, ReportError> {
+    let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
+    let summary: Value = match serde_json::from_str(text) {
         Ok(summary) => summary,
         Err(e) => return refuse(format!("summary.json is no JSON: {e}"), "run the scene again into this folder"),
     };
@@ -110,9 +131,17 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
     Ok(summary)
 }
 
+/// Rows of a file in parts.
+fn parts(text: &str, file: &Path) -> Result<Vec<(String, Columns)>, ReportError> {
+    by_way(text).ok_or_else(|| damaged(file, "holds what is no number"))
+}
+
 /// Rows in parts by the words of a column `way`, in the order in which they appear; all in one where there is none.
 fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
     let (header, rows) = text.split_once('\n')?;
+    if header.matches(',').count() >= MOST_COLUMNS {
+        return None;
+    }
     let Some(header) = header.strip_prefix("way,") else {
         return Some(vec![(String::new(), parse_columns(text)?)]);
     };
@@ -132,6 +161,10 @@ fn by_way(text: &str) -> Option<Vec<(String, Columns)>> {
             parts.push((way.to_owned(), format!("{header}\n")));
             parts.len() - 1
         });
+        // Each way has a header of its own.
+        if parts.len() > MOST_WAYS {
+            return None;
+        }
         parts[at].1.push_str(&numbers);
         parts[at].1.push('\n');
     }
@@ -152,5 +185,7 @@ mod tests {
         assert_eq!((parts.len(), parts[0].1.find("a"), parts[0].1.find("status")), (1, Some(&[10.0][..]), None));
         assert_eq!(by_way("x,y\n1,NaN\n").unwrap()[0].1.find("x"), Some(&[1.0][..]));
         assert!(by_way("x,y\n1,word\n").is_none());
+        let many: String = (0..=MOST_WAYS).map(|i| format!("w{i},1\n")).collect();
+        assert!(by_way(&format!("way,a\n{many}")).is_none());
     }
 }

@@ -1,5 +1,7 @@
 //! Headline numbers and inputs of several runs, row by row.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -38,24 +40,36 @@ pub struct WordRow {
 /// Parts of the summary beside the headline that are worth a row.
 const BESIDE: [&str; 5] = ["/geometry/eps_gamma", "/dof_before", "/dof_after", "/cost/wall_s", "/cost/peak_memory_mb"];
 
+/// Bytes of a path that is shown: those of this program are far shorter, and a table has a column as wide as the longest.
+const LONGEST: usize = 200;
+
 /// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that
 /// has them.
 pub fn headline_rows(runs: &[ResultFolder]) -> Vec<NumberRow> {
-    let found: Vec<Vec<(String, f64)>> = runs.iter().map(numbers).collect();
-    let mut keys: Vec<&str> = Vec::new();
-    for (key, _) in found.iter().flatten() {
-        if !keys.contains(&key.as_str()) {
-            keys.push(key);
-        }
-    }
-    let row = |key: &str| {
-        let values: Vec<Option<f64>> =
-            found.iter().map(|run| run.iter().find(|(k, _)| k == key).map(|(_, v)| *v)).collect();
+    let row = |(key, values): (String, Vec<Option<f64>>)| {
         let first = values.first().copied().flatten();
         let differences = values.iter().skip(1).map(|v| Some(difference(first?, (*v)?))).collect();
-        NumberRow { key: key.to_owned(), values, differences }
+        NumberRow { key, values, differences }
     };
-    keys.into_iter().map(row).collect()
+    by_key(runs.iter().map(numbers)).into_iter().map(row).collect()
+}
+
+/// A row for each key, in the order in which they first appear, with the value of every run that has it: of one that
+/// has it twice the first.
+fn by_key<T: Clone>(runs: impl ExactSizeIterator<Item = Vec<(String, T)>>) -> Vec<(String, Vec<Option<T>>)> {
+    let count = runs.len();
+    let mut places: HashMap<String, usize> = HashMap::new();
+    let mut rows: Vec<(String, Vec<Option<T>>)> = Vec::new();
+    for (run, values) in runs.enumerate() {
+        for (key, value) in values {
+            let place = *places.entry(key).or_insert_with_key(|key| {
+                rows.push((key.clone(), vec![None; count]));
+                rows.len() - 1
+            });
+            rows[place].1[run].get_or_insert(value);
+        }
+    }
+    rows
 }
 
 fn difference(first: f64, other: f64) -> Difference {
@@ -80,13 +94,15 @@ fn numbers(run: &ResultFolder) -> Vec<(String, f64)> {
     all
 }
 
-/// Visits every leaf of a JSON value with its path.
+/// Visits every leaf of a JSON value with its path; what lies at a path longer than [`LONGEST`] is left out.
 fn walk(path: &str, value: &Value, visit: &mut impl FnMut(&str, &Value)) {
     match value {
         Value::Object(map) => {
             for (key, value) in map {
-                let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-                walk(&inner, value, visit);
+                if path.len() + key.len() < LONGEST {
+                    let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                    walk(&inner, value, visit);
+                }
             }
         }
         Value::Array(list) => {
@@ -100,18 +116,8 @@ fn walk(path: &str, value: &Value, visit: &mut impl FnMut(&str, &Value)) {
 
 /// Keys of the scenes that differ in value or that not all scenes have, in the order of the first run.
 pub fn input_rows(runs: &[ResultFolder]) -> Vec<WordRow> {
-    let found: Vec<Vec<(String, String)>> = runs.iter().map(inputs).collect();
-    let mut keys: Vec<&str> = Vec::new();
-    for (key, _) in found.iter().flatten() {
-        if !keys.contains(&key.as_str()) {
-            keys.push(key);
-        }
-    }
-    let row = |key: &str| WordRow {
-        key: key.to_owned(),
-        values: found.iter().map(|run| run.iter().find(|(k, _)| k == key).map(|(_, v)| v.clone())).collect(),
-    };
-    keys.into_iter().map(row).filter(|row| row.values.iter().any(|v| *v != row.values[0])).collect()
+    let rows = by_key(runs.iter().map(inputs)).into_iter().map(|(key, values)| WordRow { key, values });
+    rows.filter(|row| row.values.iter().any(|v| *v != row.values[0])).collect()
 }
 
 fn inputs(run: &ResultFolder) -> Vec<(String, String)> {

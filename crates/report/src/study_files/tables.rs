@@ -55,12 +55,15 @@ pub fn study_csv(study: &Study, findings: &Findings) -> String {
     csv
 }
 
+/// Width of a column at the most: longer labels stand out, and none of 65536 characters can be a width at all.
+const WIDEST: usize = 200;
+
 /// The closing table: a column a case, what the whole model took, phases, warnings.
 pub fn study_table(of: StudyResult<'_>) -> String {
     let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
     let lines = lines(study, findings);
-    let label_width = lines.iter().map(|l| l.name.len()).max().unwrap_or(0).max(study.parameter.len());
-    let width = study.cases.iter().map(|c| c.label.chars().count()).max().unwrap_or(0).max(11);
+    let label_width = lines.iter().map(|l| l.name.len()).max().unwrap_or(0).max(study.parameter.len()).min(WIDEST);
+    let width = study.cases.iter().map(|c| c.label.chars().count()).max().unwrap_or(0).clamp(11, WIDEST);
     let mut t = format!("{}\n\n  {:<label_width$}", study.name, "");
     // Writing to a String cannot fail.
     for case in &study.cases {

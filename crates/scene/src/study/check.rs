@@ -13,6 +13,8 @@ type Checked<T> = Result<T, SceneError>;
 /// The cases so far, and which columns their rows will have.
 type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 
+/// Keys that a case sets at the most; a scene has a third of them.
+const SETTINGS: usize = 1000;
 /// Mesh cycles of a figure at the most.
 const CYCLES: u32 = 100_000_000;
 
@@ -57,6 +59,10 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
     }
     let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
+    if let Some(word) = raw.set.get(SETTINGS) {
+        let what = format!("a case sets {} keys", raw.set.len());
+        return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
+    }
     let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
         SceneError::Read { file, source } => {

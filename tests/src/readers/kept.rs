@@ -1,0 +1,114 @@
+//! What the program keeps in files and reads back.
+
+use std::{path::Path, sync::OnceLock};
+
+use analysis::motion::{MotionCheckpoint, MotionLayout};
+use reduction::{RecordKey, ReductionRecord};
+use report::{
+    checkpoint::{Stored, parse_rows, sealed_state},
+    columns_to_csv,
+    compare::{
+        Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
+        write_curves_csv,
+    },
+    parse_columns,
+};
+use scene::Scene;
+use study::Touch;
+
+use super::halves;
+
+/// Bytes before the payload of a record, as `docs/cache.md` has them: length and checksum stand last.
+const HEADER: usize = 92;
+
+/// The payload of a record. Length and checksum are made to fit, else nothing would ever come past them; what bears
+/// a header of its own is read as it is, too.
+pub fn record(bytes: &[u8]) {
+    let read = |file: &[u8]| {
+        let key = RecordKey::in_file(file)?;
+        let record = ReductionRecord::from_bytes(file, &key).map_err(|e| drop((e.to_string(), e.hint()))).ok()?;
+        // What was read is what is written again.
+        assert!(record.to_bytes(&key).len() == file.len(), "a record of another length");
+        Some(())
+    };
+    read(bytes);
+    read(&sealed_record(bytes));
+}
+
+/// The file of a payload: version 2, a key of zeros, length and checksum.
+pub fn sealed_record(payload: &[u8]) -> Vec<u8> {
+    let mut file = b"ale-gear reduced".to_vec();
+    file.extend(reduction::RECORD_VERSION.to_le_bytes());
+    file.extend([0; 32]);
+    file.extend((payload.len() as u64).to_le_bytes());
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&file).update(payload);
+    file.extend(hasher.finalize().as_bytes());
+    assert_eq!(file.len(), HEADER);
+    file.extend(payload);
+    file
+}
+
+/// The state of a checkpoint, with the digest that it should have; as it is, too.
+pub fn checkpoint(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let read = |text: &str| match Stored::parse(text, Path::new("state.json"), Path::new("fuzz.toml")) {
+        Ok(stored) => gone_on_from(stored.checkpoint()),
+        Err(e) => drop((e.to_string(), e.hint())),
+    };
+    read(text);
+    read(&sealed_state(text));
+}
+
+/// What a run does with a checkpoint before it moves anything.
+fn gone_on_from(checkpoint: MotionCheckpoint) {
+    let Some(scene) = small_scene() else { return };
+    drop(MotionLayout::of(scene, checkpoint.window).pairs().collect::<Vec<_>>());
+    let touch = Touch { z: 0.0, engagement: 0.5, roll: 0.3, pressure: 1.0, line_load: 1.0 };
+    for mut pattern in checkpoint.patterns {
+        let _ = pattern.press(&[touch, Touch { roll: 0.5, ..touch }], 1.0);
+    }
+}
+
+/// A scene to lay out rows by.
+fn small_scene() -> Option<&'static Scene> {
+    static SCENE: OnceLock<Option<Scene>> = OnceLock::new();
+    SCENE.get_or_init(|| Scene::default_scene().ok()).as_ref()
+}
+
+/// Rows: `history.csv` before the first zero byte, `energy.csv` behind it.
+pub fn rows(bytes: &[u8]) {
+    let (history, energy) = halves(bytes);
+    let Ok(history) = std::str::from_utf8(history) else { return };
+    if let Some(columns) = parse_columns(history) {
+        drop(columns_to_csv(&columns));
+        let _ = columns.is_finite();
+    }
+    let Some(Ok(energy)) = energy.map(std::str::from_utf8) else { return };
+    let Some(scene) = small_scene() else { return };
+    let _ = parse_rows(&MotionLayout::of(scene, 3), [history, energy], Path::new("out")).map_err(|e| e.to_string());
+}
+
+/// Two result folders beside each other: `summary.json` before the first zero byte, rows behind it, both runs alike
+/// but for the second one's rows, which stand behind a second zero byte.
+pub fn results(bytes: &[u8]) {
+    let (summary, rest) = halves(bytes);
+    let (first, second) = rest.map_or((None, None), |rest| {
+        let (first, second) = halves(rest);
+        (Some(first), second.or(Some(first)))
+    });
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).ok();
+    let Some(summary) = text(summary) else { return };
+    let folder = |name: &str, rows: Option<&[u8]>| {
+        let rows = rows.and_then(text);
+        ResultFolder::parse(Path::new(name), &summary, rows.as_deref()).map_err(|e| drop((e.to_string(), e.hint())))
+    };
+    let (Ok(first), Ok(second)) = (folder("a", first), folder("b", second)) else { return };
+    let runs = [first, second];
+    let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
+    drop((compare_table(&runs, &numbers, &inputs), write_compare_csv(&runs, &numbers)));
+    for axis in [Axis::Phase, Axis::Time] {
+        let curves = overlays(&runs, axis);
+        drop((write_curves_csv(&curves), compare_charts(&curves)));
+    }
+}

@@ -1,0 +1,50 @@
+//! Every reader of files, each behind one function that takes bytes: what fuzzing and the replay of its corpora share.
+//!
+//! A reader may refuse whatever it is given; it must not panic, hang or take memory without bound. So these functions
+//! return nothing: they go on from what was read as far as a command would before it begins to compute.
+//!
+//! | file | readers |
+//! |---|---|
+//! | `meshes` | `.msh` of Gmsh, and the gear in it |
+//! | `scenes` | scenes, words of `--set`, studies, REXS |
+//! | `measured` | topographies, pitch errors |
+//! | `kept` | records of reduced gears, checkpoints, rows, result folders |
+//! | `limited` | an allocator that ends the program at too much memory |
+
+mod kept;
+pub mod limited;
+mod measured;
+mod meshes;
+mod scenes;
+
+pub use kept::{checkpoint, record, results, rows, sealed_record};
+pub use measured::{pitch_errors, topography};
+pub use meshes::{gear_mesh, mesh};
+pub use scenes::{rexs, scene, setting, study};
+
+/// A reader of bytes.
+pub type Reader = fn(&[u8]);
+
+/// All of them, by the name of their target and of the folder of their corpus.
+pub const READERS: [(&str, Reader); 12] = [
+    ("mesh", mesh),
+    ("gear_mesh", gear_mesh),
+    ("scene", scene),
+    ("setting", setting),
+    ("study", study),
+    ("rexs", rexs),
+    ("topography", topography),
+    ("pitch_errors", pitch_errors),
+    ("record", record),
+    ("checkpoint", checkpoint),
+    ("rows", rows),
+    ("results", results),
+];
+
+/// The bytes before the first zero byte and those behind it: two files in one input.
+fn halves(bytes: &[u8]) -> (&[u8], Option<&[u8]>) {
+    match bytes.iter().position(|b| *b == 0) {
+        Some(at) => (&bytes[..at], Some(&bytes[at + 1..])),
+        None => (bytes, None),
+    }
+}
