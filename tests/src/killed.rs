@@ -17,7 +17,7 @@ use crate::{program::ale_gear, small_scenes};
 /// Kills of one run at the most before it is left alone.
 const PATIENCE: u32 = 4;
 /// Keys of `summary.json` that tell of the run and not of its result.
-const OF_THE_RUN: [&str; 2] = ["cost", "first_result_s"];
+const OF_THE_RUN: [&str; 4] = ["cost", "first_result_s", "gears_from_cache", "wall_s"];
 
 /// Something that runs for a while.
 #[derive(Debug, Clone)]
@@ -197,11 +197,17 @@ pub fn files_of(folder: &Path) -> io::Result<Files> {
 /// A summary without times, memory and where gears came from.
 fn of_summary(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut summary: Json = serde_json::from_slice(bytes).map_err(io::Error::other)?;
-    if let Json::Object(map) = &mut summary {
-        OF_THE_RUN.iter().for_each(|key| drop(map.remove(*key)));
-        if let Some(Json::Object(model)) = map.get_mut("model") {
-            model.remove("gears_from_cache");
-        }
-    }
+    strip(&mut summary);
     serde_json::to_vec_pretty(&summary).map_err(io::Error::other)
+}
+
+fn strip(value: &mut Json) {
+    match value {
+        Json::Object(map) => {
+            OF_THE_RUN.iter().for_each(|key| drop(map.remove(*key)));
+            map.values_mut().for_each(strip);
+        }
+        Json::Array(list) => list.iter_mut().for_each(strip),
+        _ => {}
+    }
 }

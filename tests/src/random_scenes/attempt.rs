@@ -97,7 +97,7 @@ pub fn try_scene(
     let attempt = run(program, folder, &words("scene.toml", "o"), limits)?;
     let mut verdict = Verdict::of(index, scene, &attempt, refusals);
     if folder.join("o/summary.json").exists() {
-        let judged = judge::judge(&folder.join("o"), &scene.draft);
+        let judged = judge::judge(&folder.join("o"));
         verdict.warnings = judged.warnings;
         verdict.wrong.extend(judged.wrong);
         if let (0, Some((other, turned))) = (index % MIRRORED, mirror::mirrored(index, scene))

@@ -25,22 +25,23 @@ pub struct Sizes {
     pub pair: Option<GearPair>,
 }
 
-/// Keys of the geometry: teeth, rack, shifts, tips, centre distance.
-pub fn draw_pair(d: &mut Draft) -> Sizes {
+/// Keys of the geometry: teeth, rack, shifts, tips, centre distance; up to so many teeth.
+pub fn draw_pair(d: &mut Draft, most_teeth: f64) -> Sizes {
     let tried = !d.chance(UNTRIED);
-    let mut sizes = one_pair(d);
+    let mut sizes = one_pair(d, most_teeth);
     for _ in 0..DRAWS {
         if !tried || sizes.pair.is_some() {
             break;
         }
         ["pinion", "wheel", "pair"].iter().for_each(|table| d.unset(table));
-        sizes = one_pair(d);
+        sizes = one_pair(d, most_teeth);
     }
     sizes
 }
 
-fn one_pair(d: &mut Draft) -> Sizes {
-    let teeth = [(); 2].map(|()| if d.chance(0.92) { d.log(9.0, 121.0) } else { d.log(5.0, 2000.0) } as u32);
+fn one_pair(d: &mut Draft, most_teeth: f64) -> Sizes {
+    let usual = most_teeth.min(121.0);
+    let teeth = [(); 2].map(|()| if d.chance(0.92) { d.log(9.0, usual) } else { d.log(5.0, most_teeth) } as u32);
     let helix_deg = if d.chance(0.2) { 0.0 } else { d.mostly([-40.0, 40.0], [-60.0, 60.0]) };
     let module = d.mostly_log([0.5, 12.0], [0.01, 200.0]);
     let width = (module * d.mostly_log([2.0, 20.0], [0.05, 100.0])).clamp(0.01, 1e4);

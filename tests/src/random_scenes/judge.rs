@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value as Json;
 
 use super::{
-    Csv, Draft,
+    Csv,
     balance::{equilibrium, ledger, pull, torque},
 };
 
@@ -41,7 +41,7 @@ impl Case<'_> {
 }
 
 /// Judges a folder of results.
-pub fn judge(folder: &Path, draft: &Draft) -> Judged {
+pub fn judge(folder: &Path) -> Judged {
     let mut judged = Judged::default();
     let summary: Json = match std::fs::read(folder.join("summary.json")).map(|bytes| serde_json::from_slice(&bytes)) {
         Ok(Ok(summary)) => summary,
@@ -68,14 +68,14 @@ pub fn judge(folder: &Path, draft: &Draft) -> Judged {
         return judged;
     };
     let case = Case { inputs: &summary["inputs"], summary: &summary, history: &history };
-    judged.wrong.extend(no_numbers(&case, draft));
+    judged.wrong.extend(no_numbers(&case));
     judged.wrong.extend(rows(&case));
     judged.wrong.extend(equilibrium(&case));
     judged.wrong.extend(pull(&case));
     if case.is_static() {
         judged.wrong.extend(torque(&case));
     } else if let Ok(energy) = Csv::read(&folder.join("energy.csv")) {
-        judged.wrong.extend(ledger(&energy));
+        judged.wrong.extend(ledger(&case, &energy));
     } else {
         judged.wrong.push("energy.csv is not there".into());
     }
@@ -117,7 +117,7 @@ fn has_no_value(case: &Case<'_>, column: &str, row: usize) -> bool {
 }
 
 /// Every number is one, but where there is no value.
-fn no_numbers(case: &Case<'_>, _: &Draft) -> Vec<String> {
+fn no_numbers(case: &Case<'_>) -> Vec<String> {
     let mut wrong = Vec::new();
     for name in &case.history.names {
         let Some(column) = case.history.column(name) else { continue };

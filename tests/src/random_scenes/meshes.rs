@@ -24,13 +24,13 @@ const FOREIGN: [&str; 14] = [
 const TURN_DEG: f64 = 8.0;
 
 /// Numbers of elements of the built-in mesher; now and then its sectors.
-pub fn draw_mesher(d: &mut Draft, sizes: &Sizes) {
+pub fn draw_mesher(d: &mut Draft, sizes: &Sizes, rich: bool) {
     for (i, gear) in ["pinion", "wheel"].into_iter().enumerate() {
         let turn = (2.0 * sizes.width * sizes.helix_deg.to_radians().tan() / sizes.reference[i]).abs().to_degrees();
         let layers = (turn / TURN_DEG).ceil().clamp(2.0, 60.0) as u32;
-        let small = if d.chance(0.5) { 2 } else { 3 };
+        let small = if d.chance(0.5) || !rich { 2 } else { 3 };
         let counts = [
-            ("order", d.whole(1, 2)),
+            ("order", d.whole(1, if rich { 2 } else { 1 })),
             ("elements_profile", d.whole(1, small)),
             ("elements_fillet", d.whole(2, small)),
             ("elements_thickness", d.whole(1, small)),
@@ -40,7 +40,7 @@ pub fn draw_mesher(d: &mut Draft, sizes: &Sizes) {
         for (key, count) in counts {
             d.set(&format!("{gear}.mesher.{key}"), i64::from(count));
         }
-        if d.chance(0.2) {
+        if d.chance(0.15) {
             let most = sizes.teeth[i] - 1;
             let teeth = if d.chance(0.4) { 1 } else { d.whole(2, 9.min(most)) };
             d.set(&format!("{gear}.mesher.sector_teeth"), i64::from(teeth));
@@ -82,7 +82,7 @@ pub fn draw_foreign(d: &mut Draft) -> Sizes {
     }
     let sizes = Sizes { teeth, width: 20.0, helix_deg: 20.0, reference: [95.78; 2], pair: None };
     if d.get("wheel.mesh").is_none() {
-        draw_mesher(d, &sizes);
+        draw_mesher(d, &sizes, true);
         d.unset("pinion.mesher");
         d.set("wheel.bore_diameter_mm", 60.0);
     }

@@ -81,7 +81,8 @@ fn upside_down(d: &mut Draft) {
 }
 
 fn other_way_round(d: &mut Draft) {
-    turn(d, "pair.misalignment.deviation_um");
+    // Across the plane of action the mirrored driving flanks have the other direction.
+    ["deviation_um", "across_plane_of_action_um"].iter().for_each(|key| turn(d, &format!("pair.misalignment.{key}")));
     let cw = d.get("operation.rotation").and_then(Value::as_str) == Some("cw");
     d.set("operation.rotation", if cw { "ccw" } else { "cw" });
     for gear in ["pinion", "wheel"] {

@@ -64,10 +64,12 @@ pub struct RandomScene {
 pub fn draw(seed: u64, index: u64) -> RandomScene {
     let mut d = Draft::new(seed, index);
     let asked = model::draw_model(&mut d);
-    let foreign = asked.meshed && d.chance(FOREIGN / 0.7);
-    let sizes = if foreign { meshes::draw_foreign(&mut d) } else { gears::draw_pair(&mut d) };
+    let foreign = asked.meshed && d.chance(FOREIGN);
+    // The factor of all degrees of freedom takes minutes for gears of many teeth.
+    let most_teeth = if asked.model == "full" { 24.0 } else { 2000.0 };
+    let sizes = if foreign { meshes::draw_foreign(&mut d) } else { gears::draw_pair(&mut d, most_teeth) };
     if asked.meshed && !foreign {
-        meshes::draw_mesher(&mut d, &sizes);
+        meshes::draw_mesher(&mut d, &sizes, asked.model != "full");
     }
     gears::draw_materials(&mut d);
     if asked.ground {

@@ -94,7 +94,12 @@ fn draw_bodies(d: &mut Draft, sizes: &Sizes, asked: &Asked) {
 }
 
 fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Asked) {
+    // As soft as keeps the teeth in mesh under the load, most of the time.
+    let radius = 0.5 * d.number("pair.normal_module_mm").unwrap_or(1.0) * d.number(&format!("{gear}.teeth")).unwrap_or(20.0);
+    let force = 1e3 * d.number("operation.torque_nm").unwrap_or(0.0) / radius;
+    let least = force / (0.02 * d.number("pair.normal_module_mm").unwrap_or(1.0));
     let stiffness = 1e-3 * mass * (TAU * d.log(50.0, 5e3)).powi(2);
+    let stiffness = if d.chance(0.9) { stiffness.max(least) } else { stiffness };
     let of = |name: &str| if name.starts_with('r') { 1e3 } else { 1.0 };
     let lumped = matches!(asked.model, "lumped8" | "lumped12");
     let turning = lumped && d.chance(0.3);
@@ -148,7 +153,9 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
     let rpm = if wild { d.log(1e-6, 1e7) } else { rpm };
     d.set("operation.speed_rpm", rpm);
     if asked.model != "impact" || d.chance(0.02) {
-        let per_resonance = if wild || d.chance(0.3) { 0 } else { d.whole(8, 16) };
+        // The highest kept mode makes many more steps.
+        let most = if asked.model == "reduced+modes" { 4 } else { 16 };
+        let per_resonance = if wild || d.chance(0.3) { 0 } else { d.whole(most / 2, most) };
         d.set("motion.steps_per_resonance", i64::from(per_resonance));
     }
     let cycle_s = 60.0 / (rpm * f64::from(sizes.teeth[driver]));
