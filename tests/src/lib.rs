@@ -2,6 +2,7 @@
 #![allow(missing_docs, reason = "for tests and benches alone")]
 
 pub mod judged;
+pub mod killed;
 #[allow(clippy::print_stdout, reason = "the figures of a fit are what commands call it for")]
 pub mod law_fit;
 pub mod measured_motion;
@@ -9,9 +10,13 @@ pub mod measured_pair;
 pub mod moving;
 pub mod pair_law_fit;
 pub mod pairs_done;
+pub mod program;
 pub mod random_motion;
 pub mod random_scene;
 pub mod readers;
+pub mod random_scenes;
+pub mod recorded;
+pub mod small_scenes;
 
 use std::path::PathBuf;
 

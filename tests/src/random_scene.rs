@@ -104,7 +104,7 @@ impl Draw {
     }
 
     fn loaded(&self, pair: &GearPair, index: u64) -> Result<Scene, SceneError> {
-        let mut scene = self.builder(1e-3 * self.torque(pair)).set("name", format!("pair {index}"));
+        let mut scene = self.builder(1e-3 * torque_of_pressure(pair, self.pressure_mpa)).set("name", format!("pair {index}"));
         if let Some([amount, start]) = self.relief {
             for (gear, whose) in [(&pair.pinion, "pinion"), (&pair.wheel, "wheel")] {
                 let flank = gear.flank(geometry::Side::Left);
@@ -122,15 +122,15 @@ impl Draw {
         }
         scene.build()
     }
+}
 
-    /// Torque on the wheel (N mm) at which Hertz gives the pressure on lines of mean length, curved as at the pitch
-    /// point.
-    fn torque(&self, pair: &GearPair) -> f64 {
-        let (young, poisson) = (2.06e5, 0.3f64);
-        let contact_modulus = young / (2.0 * (1.0 - poisson.powi(2)));
-        let [r1, r2] = pair.working_radii().map(|r| r * pair.working_pressure_angle().sin());
-        let radius = r1 * r2 / ((r1 + r2) * pair.base_helix_angle().cos());
-        let line_load = self.pressure_mpa.powi(2) * PI * radius / contact_modulus;
-        line_load * pair.mean_contact_line_length() * pair.base_helix_angle().cos() * pair.wheel.base_radius()
-    }
+/// Torque on the wheel (N mm) at which Hertz gives the pressure on lines of mean length, curved as at the pitch point,
+/// of gears of steel.
+pub fn torque_of_pressure(pair: &GearPair, pressure_mpa: f64) -> f64 {
+    let (young, poisson) = (2.06e5, 0.3f64);
+    let contact_modulus = young / (2.0 * (1.0 - poisson.powi(2)));
+    let [r1, r2] = pair.working_radii().map(|r| r * pair.working_pressure_angle().sin());
+    let radius = r1 * r2 / ((r1 + r2) * pair.base_helix_angle().cos());
+    let line_load = pressure_mpa.powi(2) * PI * radius / contact_modulus;
+    line_load * pair.mean_contact_line_length() * pair.base_helix_angle().cos() * pair.wheel.base_radius()
 }

@@ -9,6 +9,8 @@ use integrate::{Forces, Mechanism, MotionError, State};
 const STEPS: usize = 200;
 /// Residual force over the force of the load that is equilibrium.
 const TOLERANCE: f64 = 1e-9;
+/// The same where no step lowers it any more.
+const ROUND_OFF: f64 = 1e3 * TOLERANCE;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
@@ -53,7 +55,9 @@ pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<
     q
 }
 
-/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness.
+/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness. Where flanks are apart
+/// and nothing but the load acts, the residual is the same before and after a step: such a step is taken, or a gap of
+/// some deflections would lie between steps that do not reach the teeth and those that overlap too far.
 pub(super) fn balance(
     system: &mut PairMechanism,
     time: f64,
@@ -100,13 +104,14 @@ pub(super) fn balance(
         let tried = &q + &step;
         let kept = forces.clone();
         let there = residual(system, &tried, &mut forces)?;
-        if size(&there) < now {
+        let found = size(&there);
+        if found < now || (found == now && now > ROUND_OFF * load) {
             change = step.component_div(scale).amax();
             (q, r, added) = (tried, there, added * 0.1);
         } else if added > 1e6 {
             // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is
             // near.
-            if now <= 1e3 * TOLERANCE * load {
+            if now <= ROUND_OFF * load {
                 return Ok(q);
             }
             break;

@@ -1,0 +1,147 @@
+//! What must hold of the files of a result, found from these files alone.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use super::{
+    Csv,
+    balance::{equilibrium, ledger, pull, torque},
+};
+
+/// What was found.
+#[derive(Debug, Default)]
+pub struct Judged {
+    /// Warnings of the result.
+    pub warnings: usize,
+    /// What does not hold.
+    pub wrong: Vec<String>,
+}
+
+/// A result with the scene as it was solved.
+pub struct Case<'a> {
+    /// The scene with every default.
+    pub inputs: &'a Json,
+    /// Facts of the pair.
+    pub summary: &'a Json,
+    /// Rows, with columns.
+    pub history: &'a Csv,
+}
+
+impl Case<'_> {
+    /// Word of a key of the scene.
+    pub fn word(&self, table: &str, key: &str) -> &str {
+        self.inputs[table][key].as_str().unwrap_or_default()
+    }
+
+    /// Whether the pair stands still.
+    pub fn is_static(&self) -> bool {
+        self.word("analysis", "kind") == "static"
+    }
+}
+
+/// Judges a folder of results.
+pub fn judge(folder: &Path) -> Judged {
+    let mut judged = Judged::default();
+    let summary: Json = match std::fs::read(folder.join("summary.json")).map(|bytes| serde_json::from_slice(&bytes)) {
+        Ok(Ok(summary)) => summary,
+        other => {
+            judged.wrong.push(format!("summary.json cannot be read: {other:?}"));
+            return judged;
+        }
+    };
+    judged.warnings = summary["warnings"].as_array().map_or(0, Vec::len);
+    if summary["certificate"] == "failed" {
+        // Exit status 1, with the reason: it is counted there.
+        return judged;
+    }
+    for name in summary["files"].as_array().into_iter().flatten().filter_map(Json::as_str) {
+        if !folder.join(name).exists() {
+            judged.wrong.push(format!("{name} is in `files`, and not there"));
+        }
+    }
+    let Ok(history) = Csv::read(&folder.join("history.csv")) else {
+        if !folder.join("resonance.csv").exists() && !folder.join("sweep.csv").exists() {
+            judged.wrong.push("there is neither history.csv nor rows of a sweep".into());
+        }
+        judged.wrong.extend(sweep(folder));
+        return judged;
+    };
+    let case = Case { inputs: &summary["inputs"], summary: &summary, history: &history };
+    judged.wrong.extend(no_numbers(&case));
+    judged.wrong.extend(rows(&case));
+    judged.wrong.extend(equilibrium(&case));
+    judged.wrong.extend(pull(&case));
+    if case.is_static() {
+        judged.wrong.extend(torque(&case));
+    } else if let Ok(energy) = Csv::read(&folder.join("energy.csv")) {
+        judged.wrong.extend(ledger(&case, &energy));
+    } else {
+        judged.wrong.push("energy.csv is not there".into());
+    }
+    judged
+}
+
+/// As many rows as were asked for, in the order of time.
+fn rows(case: &Case<'_>) -> Vec<String> {
+    let mut wrong = Vec::new();
+    if let Some(time) = case.history.column("time_s") {
+        if time.windows(2).any(|w| w[1] <= w[0]) {
+            wrong.push("time_s does not grow from row to row".into());
+        }
+    }
+    let analysis = &case.inputs["analysis"];
+    let wanted = |of: &Json| Some(of.as_u64()? * analysis["cycles"].as_u64().filter(|c| *c > 0)?);
+    let wanted = if case.is_static() {
+        wanted(&analysis["positions_per_cycle"])
+    } else {
+        wanted(&case.inputs["motion"]["steps_per_mesh_cycle"])
+    };
+    if let Some(wanted) = wanted.filter(|n| *n != case.history.rows.len() as u64) {
+        wrong.push(format!("{} rows, {wanted} were asked for", case.history.rows.len()));
+    }
+    wrong
+}
+
+/// Columns that have no value in some rows, as `docs/outputs.md` says, and the column that tells which.
+fn has_no_value(case: &Case<'_>, column: &str, row: usize) -> bool {
+    let is = |name: &str, value: f64| case.history.column(name).is_some_and(|c| c[row] == value);
+    let coast = || case.history.column("coast_normal_force_n").is_some_and(|c| c[row] > 0.0);
+    match column {
+        "max_pressure_z_mm" | "max_pressure_pinion_diameter_mm" => is("max_pressure_place", 0.0),
+        c if c.contains("_root_stress_") && c.contains("_pair_") => true,
+        c if c.contains("_root_stress_") => coast(),
+        "mesh_stiffness_n_per_um" => case.inputs["operation"]["torque_nm"] == 0.0,
+        _ => false,
+    }
+}
+
+/// Every number is one, but where there is no value.
+fn no_numbers(case: &Case<'_>) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for name in &case.history.names {
+        let Some(column) = case.history.column(name) else { continue };
+        let bad = |(row, value): &(usize, &f64)| !value.is_finite() && !has_no_value(case, name, *row);
+        if let Some((row, value)) = column.iter().enumerate().find(bad) {
+            wrong.push(format!("history.csv: {name} is {value} in row {row}"));
+        }
+    }
+    wrong
+}
+
+/// Speeds that have a result have numbers.
+fn sweep(folder: &Path) -> Vec<String> {
+    let Ok(table) = Csv::read(&folder.join("resonance.csv")) else { return Vec::new() };
+    let status = table.names.iter().position(|n| n == "status");
+    let mut wrong = Vec::new();
+    for row in &table.rows {
+        let failed = status.and_then(|at| row.get(at)).is_some_and(|s| s == "failed");
+        for (name, cell) in table.names.iter().zip(row) {
+            if !failed && matches!(cell.as_str(), "NaN" | "inf" | "-inf") {
+                wrong.push(format!("resonance.csv: {name} is {cell} of a speed that has not failed"));
+            }
+        }
+    }
+    wrong.truncate(3);
+    wrong
+}

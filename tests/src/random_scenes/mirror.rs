@@ -1,0 +1,132 @@
+//! A scene in a mirror: what a mirror does not change must stay the same to round-off.
+
+use std::path::Path;
+
+use scene::Value;
+
+use super::{Csv, Draft, RandomScene, csv::largest};
+
+/// Largest difference over the largest value of a column.
+const SAME: f64 = 1e-5;
+
+/// Where the mirror stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mirror {
+    /// Across the axes: up is down, the other hand, the same sense of rotation.
+    AcrossAxes,
+    /// Through both axes: the other hand, the other sense of rotation.
+    ThroughAxes,
+}
+
+impl Mirror {
+    /// Signs of forces along x, y, z in the mirror.
+    fn signs(self) -> [f64; 3] {
+        match self {
+            Self::AcrossAxes => [1.0, 1.0, -1.0],
+            Self::ThroughAxes => [1.0, -1.0, 1.0],
+        }
+    }
+}
+
+/// The scene in one of both mirrors; `None` where files stand for what cannot be turned here, or nothing stands still.
+pub fn mirrored(index: u64, scene: &RandomScene) -> Option<(Draft, Mirror)> {
+    let d = &scene.draft;
+    let at_rest = matches!(scene.model, "reduced" | "full" | "iso")
+        && d.get("analysis.kind").is_none_or(|k| k.as_str() != Some("dynamic"));
+    // Flat faces of a mesh are cut along diagonals, which have a hand of their own.
+    let flat = d.get("contact.gap").is_some_and(|g| g.as_str() == Some("facet"));
+    if !at_rest || scene.foreign || scene.anything || flat || !d.files.is_empty() || d.get("accuracy").is_some() {
+        return None;
+    }
+    let mirror = if index % 8 == 0 { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
+    let mut other = scene.draft.copy();
+    for key in ["pinion.helix_angle_deg", "wheel.helix_angle_deg"] {
+        turn(&mut other, key);
+    }
+    match mirror {
+        Mirror::AcrossAxes => upside_down(&mut other),
+        Mirror::ThroughAxes => other_way_round(&mut other),
+    }
+    Some((other, mirror))
+}
+
+/// Changes the sign of a number, if it is there.
+fn turn(d: &mut Draft, key: &str) {
+    if let Some(value) = d.number(key) {
+        d.set(key, 0.0 - value);
+    }
+}
+
+fn upside_down(d: &mut Draft) {
+    for key in ["deviation_um", "inclination_um", "in_plane_of_action_um", "across_plane_of_action_um"] {
+        turn(d, &format!("pair.misalignment.{key}"));
+    }
+    for gear in ["pinion", "wheel"] {
+        for flank in ["", "drive.", "coast."] {
+            let table = format!("{gear}.modification.{flank}");
+            turn(d, &format!("{table}lead_slope_um"));
+            turn(d, &format!("{table}bias_um"));
+            for what in ["um", "length_mm"] {
+                let keys = ["lower", "upper"].map(|end| format!("{table}end_relief_{end}_{what}"));
+                let values = [0, 1].map(|i| d.number(&keys[i]));
+                for (key, value) in keys.iter().zip([values[1], values[0]]) {
+                    match value {
+                        Some(value) => d.set(key, value),
+                        None => d.unset(key),
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn other_way_round(d: &mut Draft) {
+    // Across the plane of action the mirrored driving flanks have the other direction.
+    ["deviation_um", "across_plane_of_action_um"].iter().for_each(|key| turn(d, &format!("pair.misalignment.{key}")));
+    let cw = d.get("operation.rotation").and_then(Value::as_str) == Some("cw");
+    d.set("operation.rotation", if cw { "ccw" } else { "cw" });
+    for gear in ["pinion", "wheel"] {
+        let key = format!("{gear}.pitch_errors_um");
+        let Some(errors) = d.get(&key).and_then(Value::as_array) else { continue };
+        // Teeth count the other way round, and stand too far the other way.
+        let mut turned: Vec<f64> = errors.iter().filter_map(Value::as_float).map(|e| -e).collect();
+        turned.get_mut(1..).unwrap_or_default().reverse();
+        d.set(&key, turned);
+    }
+}
+
+/// Columns that a mirror leaves as they are.
+const STAYS: [&str; 8] = [
+    "ste_um",
+    "kinematic_te_um",
+    "mesh_stiffness_n_per_um",
+    "mesh_stiffness_tangent_n_per_um",
+    "contact_line_length_mm",
+    "geometric_line_length_mm",
+    "strain_energy_nmm",
+    "max_pressure_mpa",
+];
+
+/// What is not the same in both folders.
+pub fn compare(folder: &Path, other: &Path, mirror: Mirror) -> Vec<String> {
+    let (Ok(here), Ok(there)) = (Csv::read(&folder.join("history.csv")), Csv::read(&other.join("history.csv"))) else {
+        return vec!["mirrored: no history.csv".into()];
+    };
+    let stays = STAYS.iter().map(|name| ((*name).to_owned(), 1.0));
+    let forces = ["pinion", "wheel"].into_iter().flat_map(|gear| {
+        ["x", "y", "z"].into_iter().zip(mirror.signs()).map(move |(axis, sign)| (format!("{gear}_force_{axis}_n"), sign))
+    });
+    let total = largest(&here.column("wheel_force_x_n").unwrap_or_default())
+        .max(largest(&here.column("wheel_force_y_n").unwrap_or_default()));
+    let mut wrong = Vec::new();
+    for (name, sign) in stays.chain(forces) {
+        let (Some(a), Some(b)) = (here.column(&name), there.column(&name)) else { continue };
+        let scale = if name.contains("_force_") { total } else { largest(&a) };
+        let off = a.iter().zip(&b).position(|(a, b)| (a - sign * b).abs() > SAME * scale + f64::MIN_POSITIVE);
+        if let Some(row) = off.or((a.len() != b.len()).then_some(0)) {
+            wrong.push(format!("{mirror:?}: {name} is {} and {} in row {row}", a[row], b[row]));
+        }
+    }
+    wrong.truncate(3);
+    wrong
+}

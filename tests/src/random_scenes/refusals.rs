@@ -1,0 +1,91 @@
+//! Which reasons of refusals are known, why each is legitimate, and whether one that can be recomputed is true.
+
+use serde::Deserialize;
+
+use super::Draft;
+
+/// The list, committed.
+const LIST: &str = include_str!("../../data/refusals.toml");
+
+/// Reasons by which a scene may be refused or may have no answer.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Refusals {
+    reason: Vec<Reason>,
+}
+
+/// One kind of message.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Reason {
+    /// The message; a star stands for anything.
+    pattern: String,
+    /// Exit status that goes with it.
+    status: i32,
+    /// Why it is legitimate.
+    why: String,
+}
+
+impl Refusals {
+    /// The committed list.
+    ///
+    /// # Errors
+    /// Where it is not readable, or a reason has no word of why.
+    pub fn committed() -> Result<Self, String> {
+        let list: Self = toml::from_str(LIST).map_err(|e| e.to_string())?;
+        match list.reason.iter().find(|r| r.why.split_whitespace().count() < 4) {
+            Some(bare) => Err(format!("refusals.toml does not say why `{}` is legitimate", bare.pattern)),
+            None => Ok(list),
+        }
+    }
+
+    /// The pattern of a message.
+    pub(super) fn explain(&self, message: &str, status: i32, scene: &Draft) -> Result<String, String> {
+        range_is_left(message, scene)?;
+        let fits = |r: &&Reason| r.status == status && matches(&r.pattern, message);
+        match self.reason.iter().find(fits) {
+            Some(reason) => Ok(reason.pattern.clone()),
+            None => Err(format!("unexplained, status {status}: {message}")),
+        }
+    }
+}
+
+/// Whether a text is a pattern with something for every star.
+fn matches(pattern: &str, text: &str) -> bool {
+    let Some((begin, rest)) = pattern.split_once('*') else { return pattern == text };
+    let Some(mut text) = text.strip_prefix(begin) else { return false };
+    let mut parts: Vec<&str> = rest.split('*').collect();
+    let Some(last) = parts.pop() else { return false };
+    for part in parts {
+        let Some(at) = text.find(part) else { return false };
+        text = &text[at + part.len()..];
+    }
+    text.ends_with(last)
+}
+
+/// "`key` is 3, allowed is 4 .. 9": the scene has that number behind such a key, and it is not within that range.
+fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
+    let Some((key, rest)) = message.strip_prefix('`').and_then(|m| m.split_once("` is ")) else { return Ok(()) };
+    let Some((value, range)) = rest.split_once(", allowed is ") else { return Ok(()) };
+    let (Ok(value), Some((low, high))) = (value.parse::<f64>(), range.split_once(" .. ")) else { return Ok(()) };
+    let (Ok(low), Ok(high)) = (low.parse::<f64>(), high.parse::<f64>()) else {
+        return Err(format!("a range that is none: {message}"));
+    };
+    if (low..=high).contains(&value) {
+        return Err(format!("refused, though it is within the range: {message}"));
+    }
+    let mut of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
+    let there = of_key.any(|k| scene.number(&k).is_some_and(|n| (n - value).abs() <= 1e-9 * value.abs()));
+    if there { Ok(()) } else { Err(format!("the scene has no such value: {message}")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_anything() {
+        assert!(matches("a * b", "a 12.5 b") && matches("*", "") && matches("a*", "a: `x`"));
+        assert!(!matches("a * b", "a 12.5 c") && !matches("a", "ab") && !matches("*x", "y"));
+    }
+}

@@ -1,0 +1,192 @@
+//! What became of a scene, and the table of all.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value as Json, json};
+
+use super::{Attempt, RandomScene, Refusals};
+
+/// What became of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Outcome {
+    /// A result that holds.
+    Solved,
+    /// The same, with something to be said of it.
+    SolvedWithWarnings,
+    /// A result that is less exact than was asked.
+    LessExact,
+    /// The scene is wrong, and why.
+    Refused,
+    /// There is no answer, and why.
+    NoSolution,
+    /// A result whose certificate does not hold, marked so.
+    Failed,
+    /// Beyond its limit of time.
+    Hung,
+    /// The program has broken off.
+    Broken,
+}
+
+impl Outcome {
+    /// All of them, in the order of the table.
+    pub const ALL: [Self; 8] = [
+        Self::Solved,
+        Self::SolvedWithWarnings,
+        Self::LessExact,
+        Self::Refused,
+        Self::NoSolution,
+        Self::Failed,
+        Self::Hung,
+        Self::Broken,
+    ];
+
+    /// In the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::SolvedWithWarnings => "solved with warnings",
+            Self::LessExact => "less exact than asked",
+            Self::Refused => "refused",
+            Self::NoSolution => "no solution",
+            Self::Failed => "certificate failed",
+            Self::Hung => "hung",
+            Self::Broken => "broke off",
+        }
+    }
+}
+
+/// What became of a scene.
+#[derive(Debug, Clone)]
+pub struct Verdict {
+    /// Its number.
+    pub index: u64,
+    /// Word of its model.
+    pub model: String,
+    /// In one word.
+    pub outcome: Outcome,
+    /// The pattern of its refusal in the list.
+    pub reason: Option<String>,
+    /// The message without the place.
+    pub message: String,
+    /// Warnings of the result.
+    pub warnings: usize,
+    /// Whether it was compared with its mirror image.
+    pub mirrored: bool,
+    /// What is wrong: with any of these the program is at fault.
+    pub wrong: Vec<String>,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+impl Verdict {
+    /// Of the process; files are judged elsewhere.
+    pub(super) fn of(index: u64, scene: &RandomScene, attempt: &Attempt, refusals: &Refusals) -> Self {
+        let message = message(&attempt.said);
+        let mut wrong = Vec::new();
+        let outcome = match attempt.status {
+            _ if attempt.late => Outcome::Hung,
+            Some(0) => Outcome::Solved,
+            Some(3) => Outcome::LessExact,
+            Some(1) if message.contains("the result does not hold") => Outcome::Failed,
+            Some(1) => Outcome::NoSolution,
+            Some(2) => Outcome::Refused,
+            _ => Outcome::Broken,
+        };
+        let mut reason = None;
+        match outcome {
+            Outcome::Hung => wrong.push(format!("no end after {:.0} s", attempt.seconds)),
+            Outcome::Broken => {
+                let said: String = attempt.said.lines().take(40).collect::<Vec<_>>().join(" | ");
+                wrong.push(format!("status {:?}: {said}", attempt.status));
+            }
+            Outcome::Solved | Outcome::SolvedWithWarnings => {}
+            _ => match refusals.explain(&message, attempt.status.unwrap_or(0), &scene.draft) {
+                Ok(pattern) => reason = Some(pattern),
+                Err(said) => wrong.push(said),
+            },
+        }
+        if attempt.said.contains("panicked at") && outcome != Outcome::Broken {
+            wrong.push(format!("a panic on the way: {}", attempt.said));
+        }
+        let model = scene.model.to_owned();
+        let seconds = attempt.seconds;
+        Self { index, model, outcome, reason, message, warnings: 0, mirrored: false, wrong, seconds }
+    }
+
+    /// In one word, warnings known.
+    pub fn outcome(&self) -> Outcome {
+        if self.outcome == Outcome::Solved && self.warnings > 0 { Outcome::SolvedWithWarnings } else { self.outcome }
+    }
+
+    /// As a line of JSON.
+    pub fn to_json(&self) -> Json {
+        json!({
+            "index": self.index,
+            "model": self.model,
+            "outcome": self.outcome().name(),
+            "reason": self.reason,
+            "message": self.message,
+            "warnings": self.warnings,
+            "mirrored": self.mirrored,
+            "wrong": self.wrong,
+            "seconds": (1e3 * self.seconds).round() / 1e3,
+        })
+    }
+}
+
+/// The first line without the program's name and the place in the scene.
+fn message(said: &str) -> String {
+    let first = said.lines().find_map(|l| l.strip_prefix("ale-gear: ")).unwrap_or_default();
+    let Some(rest) = first.strip_prefix("scene.toml") else { return first.to_owned() };
+    let rest = rest.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
+    rest.strip_prefix(' ').unwrap_or(rest).to_owned()
+}
+
+/// How many of each model ended how.
+#[derive(Debug, Default)]
+pub struct Tally {
+    counts: BTreeMap<String, BTreeMap<Outcome, usize>>,
+    reasons: BTreeMap<String, usize>,
+    wrong: usize,
+    mirrored: usize,
+    slowest: f64,
+}
+
+impl Tally {
+    /// Counts one more.
+    pub fn add(&mut self, verdict: &Verdict) {
+        let outcome = verdict.outcome();
+        for row in [verdict.model.as_str(), "all"] {
+            *self.counts.entry(row.into()).or_default().entry(outcome).or_default() += 1;
+        }
+        if let Some(reason) = &verdict.reason {
+            *self.reasons.entry(format!("{}: {reason}", outcome.name())).or_default() += 1;
+        }
+        self.wrong += usize::from(!verdict.wrong.is_empty());
+        self.mirrored += usize::from(verdict.mirrored);
+        self.slowest = self.slowest.max(verdict.seconds);
+    }
+
+    /// Scenes with something wrong.
+    pub fn wrong(&self) -> usize {
+        self.wrong
+    }
+
+    /// The table at the end.
+    pub fn table(&self) -> String {
+        let mut text = format!("{:16}", "model");
+        Outcome::ALL.iter().for_each(|o| text += &format!(" | {:>21}", o.name()));
+        for (model, counts) in &self.counts {
+            text += &format!("\n{model:16}");
+            Outcome::ALL.iter().for_each(|o| text += &format!(" | {:>21}", counts.get(o).unwrap_or(&0)));
+        }
+        text += "\n\n";
+        let mut reasons: Vec<_> = self.reasons.iter().collect();
+        reasons.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+        reasons.iter().for_each(|(reason, count)| text += &format!("{count:6} {reason}\n"));
+        text + &format!(
+            "\n{} compared with their mirror images, slowest {:.1} s, wrong: {}\n",
+            self.mirrored, self.slowest, self.wrong
+        )
+    }
+}

@@ -1,0 +1,87 @@
+//! The same bytes whatever the threads, whatever the cache, in one piece or two; the same numbers as were recorded.
+
+use std::{fs, path::Path};
+
+use verification::{
+    killed::{Files, files_of},
+    program::ale_gear,
+    recorded::{Record, of_folder},
+    small_scenes,
+};
+
+use crate::program;
+
+/// Runs `scene.toml` of a folder; words are further ones.
+fn run(folder: &Path, out: &str, words: &[&str]) -> Files {
+    let all = [&["run", "scene.toml", "--out", out, "--quiet"], words].concat();
+    let run = ale_gear(program(), folder, &all).output().unwrap();
+    assert!(run.status.success(), "{words:?}: {}", String::from_utf8_lossy(&run.stderr));
+    files_of(&folder.join(out)).unwrap()
+}
+
+/// Names of the files that differ.
+fn other(a: &Files, b: &Files) -> Vec<String> {
+    let names = a.keys().chain(b.keys());
+    let mut names: Vec<String> =
+        names.filter(|n| a.get(*n) != b.get(*n)).map(|n| n.display().to_string()).collect();
+    names.dedup();
+    names
+}
+
+#[test]
+fn bytes_depend_on_neither_threads_nor_cache() {
+    for (name, text) in small_scenes::all() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path();
+        fs::write(at.join("scene.toml"), text).unwrap();
+        let base = run(at, "base", &["--no-cache", "--threads", "1"]);
+        for (what, words) in [
+            ("2 threads", &["--no-cache", "--threads", "2"][..]),
+            ("7 threads", &["--no-cache", "--threads", "7"]),
+            ("16 threads", &["--no-cache", "--threads", "16"]),
+            ("a cold cache", &["--cache", "kept", "--threads", "2"]),
+            ("a warm cache", &["--cache", "kept", "--threads", "1"]),
+        ] {
+            let files = run(at, "again", words);
+            assert!(files == base, "{name}: with {what} other bytes in {:?}", other(&base, &files));
+        }
+    }
+}
+
+#[test]
+fn bytes_do_not_depend_on_a_stop_on_the_way() {
+    let stops = ["motion_steady", "motion_free", "motion_explicit", "motion_tolerance", "motion_ramp", "motion_modes"];
+    for (name, text) in small_scenes::all().into_iter().filter(|(name, _)| stops.contains(name)) {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path();
+        fs::write(at.join("scene.toml"), text).unwrap();
+        let base = run(at, "base", &["--no-cache", "--threads", "1"]);
+        let words = ["run", "scene.toml", "--out", "o", "--no-cache", "--quiet", "--stop-after-cycles", "1"];
+        let stopped = ale_gear(program(), at, &words).output().unwrap();
+        assert!(stopped.status.success(), "{name}: {}", String::from_utf8_lossy(&stopped.stderr));
+        assert!(at.join("o.checkpoint").exists(), "{name}: no checkpoint");
+        let files = run(at, "o", &["--no-cache", "--resume", "--threads", "2"]);
+        assert!(files == base, "{name}: taken up again other bytes in {:?}", other(&base, &files));
+    }
+}
+
+const AGAIN: &str = "results changed: if someone decided that, run `cargo run --profile test -p verification --bin \
+                     digests` to write tests/data/digests.toml again";
+
+#[test]
+fn results_are_those_that_were_recorded() {
+    let record: Record = toml::from_str(include_str!("../../data/digests.toml")).unwrap();
+    let scenes = small_scenes::all();
+    let (mut names, mut recorded): (Vec<&str>, Vec<&str>) =
+        (scenes.iter().map(|(name, _)| *name).collect(), record.keys().map(String::as_str).collect());
+    names.sort_unstable();
+    recorded.sort_unstable();
+    assert_eq!(names, recorded, "scenes and recorded results; {AGAIN}");
+    for (name, text) in scenes {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.toml"), text).unwrap();
+        run(folder.path(), "o", &["--no-cache", "--threads", "2"]);
+        let changes = record[name].changes(&of_folder(&folder.path().join("o")).unwrap());
+        assert!(changes.is_empty(), "{name}: {}\n{AGAIN}", changes.join("\n"));
+    }
+}

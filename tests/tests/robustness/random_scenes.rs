@@ -1,0 +1,68 @@
+//! The short form of `random_scenes`, and that it leaves no key out.
+
+use std::{collections::BTreeSet, time::Instant};
+
+use scene::Scene;
+use verification::random_scenes::{Limits, Refusals, draw, keys_of_schema, try_scene};
+
+use crate::program;
+
+/// The seed of the long runs: docs/robustness.md.
+const SEED: u64 = 2026;
+/// Scenes of the short form.
+const SCENES: u64 = 40;
+/// Scenes are drawn, not run, until every key has been in one that fits together.
+const DRAWN: u64 = 6000;
+
+#[test]
+fn every_scene_is_solved_or_refused_for_a_known_reason() {
+    let refusals = Refusals::committed().unwrap();
+    let (start, mut wrong) = (Instant::now(), Vec::new());
+    for index in 0..SCENES {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = draw(SEED, index);
+        let verdict =
+            try_scene(program(), folder.path(), index, &scene, (Limits::default(), &refusals)).unwrap();
+        wrong.extend(verdict.wrong.iter().map(|w| format!("scene {index} ({}): {w}", verdict.model)));
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    assert!(wrong.is_empty(), "of {SCENES} scenes of seed {SEED}, {seconds:.0} s:\n{}", wrong.join("\n"));
+}
+
+/// A scene is its seed and its number: drawn twice it is the same text.
+#[test]
+fn a_scene_is_determined_by_seed_and_number() {
+    for index in 0..50 {
+        let [a, b] = [(); 2].map(|()| draw(SEED, index).draft.text().unwrap());
+        assert_eq!(a, b, "scene {index}");
+        assert_ne!(a, draw(SEED + 1, index).draft.text().unwrap(), "scene {index} of another seed");
+    }
+}
+
+/// Every key of the table of keys is in some scene that is accepted; what is left out would never be tried.
+#[test]
+fn no_key_is_left_out() {
+    let all: BTreeSet<String> = scene::all_keys().into_iter().collect();
+    let of_schema: BTreeSet<String> = keys_of_schema().into_iter().map(|k| k.name).collect();
+    assert_eq!(all, of_schema, "keys of the table and of the schema");
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(verification::meshes_folder(), folder.path().join("meshes")).unwrap();
+    let mut left = all;
+    for index in 0..DRAWN {
+        if left.is_empty() {
+            return;
+        }
+        let drawn = draw(SEED, index).draft;
+        let keys: Vec<String> = drawn.keys().into_iter().filter(|k| left.contains(k)).collect();
+        if keys.is_empty() {
+            continue;
+        }
+        for (name, content) in &drawn.files {
+            std::fs::write(folder.path().join(name), content).unwrap();
+        }
+        if Scene::parse(&drawn.text().unwrap(), &folder.path().join("scene.toml")).is_ok() {
+            keys.iter().for_each(|k| drop(left.remove(k)));
+        }
+    }
+    assert!(left.is_empty(), "in none of {DRAWN} accepted scenes: {left:?}");
+}
