@@ -1,5 +1,7 @@
 //! Names that differ in a number only: teeth, counted.
 
+use std::collections::BTreeMap;
+
 /// A name with its last number taken out.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Numbered {
@@ -35,23 +37,26 @@ impl Numbered {
 /// first.
 pub(crate) fn folded(names: &[String]) -> Vec<String> {
     let parsed: Vec<Option<Numbered>> = names.iter().map(|n| Numbered::of(n)).collect();
-    let numbers = |pattern: &str| -> Vec<i64> {
-        let mut all: Vec<i64> = parsed.iter().flatten().filter(|p| p.pattern == pattern).map(|p| p.number).collect();
-        all.sort_unstable();
-        all
-    };
+    // Of each pattern how many names it has, and its least and largest number.
+    let mut ranges: BTreeMap<&str, (usize, i64, i64)> = BTreeMap::new();
+    for p in parsed.iter().flatten() {
+        let range = ranges.entry(&p.pattern).or_insert((0, p.number, p.number));
+        *range = (range.0 + 1, range.1.min(p.number), range.2.max(p.number));
+    }
     let mut folded: Vec<String> = Vec::new();
-    let mut done: Vec<&str> = Vec::new();
     for (name, parsed) in names.iter().zip(&parsed) {
-        let pattern = parsed.as_ref().map(|p| p.pattern.as_str()).filter(|p| numbers(p).len() > 1);
-        match pattern {
-            None => folded.push(format!("`{name}`")),
-            Some(pattern) if !done.contains(&pattern) => {
-                let all = numbers(pattern);
-                folded.push(format!("`{pattern}` with k from {} to {}", all[0], all[all.len() - 1]));
-                done.push(pattern);
+        let Some(pattern) = parsed.as_ref().map(|p| p.pattern.as_str()) else {
+            folded.push(format!("`{name}`"));
+            continue;
+        };
+        // Told where the first of its names stands; the others find nothing left.
+        match ranges.get(pattern) {
+            Some((1, ..)) => folded.push(format!("`{name}`")),
+            Some((_, least, largest)) => {
+                folded.push(format!("`{pattern}` with k from {least} to {largest}"));
+                ranges.remove(pattern);
             }
-            Some(_) => {}
+            None => {}
         }
     }
     folded

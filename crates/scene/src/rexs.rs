@@ -14,6 +14,12 @@ pub enum RexsError {
     /// It is no XML.
     #[error("is no XML: {0}")]
     Xml(#[from] roxmltree::Error),
+    /// An element that the reader of XML would take hours for.
+    #[error("has an element of more than {ATTRIBUTES} attributes in line {line}")]
+    Crowded {
+        /// Line in which it begins, from 1.
+        line: usize,
+    },
     /// It is XML of another kind.
     #[error("is no REXS file: its root is <{root}>, not <model>")]
     Root {
@@ -92,7 +98,7 @@ impl RexsError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::Xml(_) | Self::Root { .. } => {
+            Self::Xml(_) | Self::Crowded { .. } | Self::Root { .. } => {
                 "export the model as REXS in XML (`.rexs`), not packed (`.rexsz`) and not as JSON".into()
             }
             Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
@@ -105,11 +111,29 @@ impl RexsError {
     }
 }
 
+/// Attributes of an element at the most: each is compared with all before it. REXS has a handful.
+const ATTRIBUTES: usize = 10_000;
+
+/// Line of the first element with more attributes than that, by its equals signs: no `<` stands within an element.
+fn crowded(text: &str) -> Option<usize> {
+    let mut line = 1;
+    for part in text.split('<') {
+        if part.matches('=').nth(ATTRIBUTES).is_some() {
+            return Some(line);
+        }
+        line += part.matches('\n').count();
+    }
+    None
+}
+
 /// The pair of stage `stage` (counted from 1) of a REXS file; torque and speed are those of `from`.
 ///
 /// # Errors
 /// [`RexsError`].
 pub fn read_pair(text: &str, stage: usize, from: &Starter) -> Result<Starter, RexsError> {
+    if let Some(line) = crowded(text) {
+        return Err(RexsError::Crowded { line });
+    }
     let document = Document::parse(text.trim_start_matches('\u{feff}'))?;
     let root = document.root_element();
     if root.tag_name().name() != "model" {
@@ -343,6 +367,11 @@ mod tests {
         }
         let metres = MODEL.replacen("id=\"support_vector\" unit=\"mm\"", "id=\"support_vector\" unit=\"m\"", 1);
         assert_eq!(said(&metres, 1), "gear 5: `support_vector` is not three finite numbers in mm");
+        let many: String = (0..=ATTRIBUTES).map(|i| format!("a{i}='' ")).collect();
+        assert_eq!(
+            said(&format!("<model>\n<a {many}/></model>"), 1),
+            "has an element of more than 10000 attributes in line 2"
+        );
         let none = MODEL.replacen("number_of_teeth", "teeth", 1);
         assert_eq!(said(&none, 1), "gear 5 has no `number_of_teeth`");
         assert_eq!(

@@ -4,6 +4,8 @@ mod conformity;
 mod cuts;
 mod nodes;
 
+use std::collections::BTreeSet;
+
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -207,6 +209,7 @@ fn group_list(mesh: &Mesh) -> String {
 fn groups(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
     let kind = FindingKind::MissingGroup;
     let flanks: Vec<_> = mesh.surfaces.iter().filter_map(|s| names.parse(&s.name)).collect();
+    let there: BTreeSet<_> = flanks.iter().copied().collect();
     if mesh.surface(&names.bore).is_none() {
         let text = format!(
             "no physical group `{}`: which nodes are held by the shaft? The mesh has {}",
@@ -224,7 +227,7 @@ fn groups(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
         findings.push(Finding::new(Severity::Warning, kind, 1, text));
     }
     for &(side, tooth) in &flanks {
-        if !flanks.contains(&(side.opposite(), tooth)) {
+        if !there.contains(&(side.opposite(), tooth)) {
             let text = format!("no physical group `{}`", names.flank_of(side.opposite(), tooth));
             findings.push(Finding::new(Severity::Note, kind, 1, text));
         }

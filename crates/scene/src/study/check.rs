@@ -13,12 +13,18 @@ type Checked<T> = Result<T, SceneError>;
 /// The cases so far, and which columns their rows will have.
 type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 
+/// Cases of a study at the most: each is a run.
+const CASES: usize = 1000;
 /// Keys that a case sets at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
 /// Mesh cycles of a figure at the most.
 const CYCLES: u32 = 100_000_000;
 
 pub(super) fn check(s: &Source<'_>, raw: RawStudy, columns: ColumnsOf<'_>) -> Checked<Study> {
+    if let Some(table) = raw.case.get(CASES) {
+        let what = format!("a study of {} cases", raw.case.len());
+        return Err(s.conflict(&table.span(), what, format!("list {CASES} at the most")));
+    }
     let mut cases: Vec<StudyCase> = Vec::new();
     for table in &raw.case {
         let new = case(s, table)?;
