@@ -2,6 +2,7 @@
 
 mod chart;
 mod compare;
+mod envelope;
 mod ladder;
 mod study;
 mod sweep;

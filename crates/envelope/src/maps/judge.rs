@@ -77,7 +77,7 @@ struct Bounded {
 static REFERENCES: Mutex<BTreeMap<String, Option<[f64; 2]>>> = Mutex::new(BTreeMap::new());
 
 /// The number that `found` gives, and its bound; from memory where it was asked for before.
-fn reference(file: &str, settings: &[String], found: impl FnOnce() -> Option<[f64; 2]>) -> Option<[f64; 2]> {
+pub(super) fn reference(file: &str, settings: &[String], found: impl FnOnce() -> Option<[f64; 2]>) -> Option<[f64; 2]> {
     let key = format!("{file} {}", settings.join(" "));
     let known = REFERENCES.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
     known.unwrap_or_else(|| {

@@ -3,7 +3,7 @@
 use fem::{ElementOptions, locks_from};
 use mesh::ElementKind;
 
-use super::{Cell, EnvelopeMap, Outcome};
+use super::{Cell, EnvelopeMap, Outcome, judge};
 use crate::pieces::block::{Test, compliance};
 
 /// Parts of its compliance that a pressed cube may lose by its elements, %: what 4 x 4 x 4 of them lose at 0.3 but for the
@@ -27,9 +27,13 @@ fn cell(_: &str, kind: &str, poisson: &str) -> Cell {
     let (Some(kind), Ok(nu)) = (found, poisson.parse::<f64>()) else { return empty };
     let options = ElementOptions::default();
     let pressed = |kind, cells: usize| compliance(Test::Pressed, kind, [cells; 3], nu, &options);
-    let (coarse, fine) = match (pressed(kind, 4), pressed(ElementKind::Hex20, 8)) {
-        (Ok(coarse), Ok(fine)) => (coarse, fine),
-        (Err(error), _) | (_, Err(error)) => return Cell { outcome: Outcome::Refused, ..empty }.saying(error),
+    let coarse = match pressed(kind, 4) {
+        Ok(coarse) => coarse,
+        Err(error) => return Cell { outcome: Outcome::Refused, ..empty }.saying(error),
+    };
+    let finer = || pressed(ElementKind::Hex20, 8).ok().map(|fine| [fine, 0.0]);
+    let Some([fine, _]) = judge::reference("cube", &[poisson.to_owned()], finer) else {
+        return Cell { outcome: Outcome::Refused, ..empty }.saying("the finer cube has no answer");
     };
     let off = 100.0 * (coarse / fine - 1.0);
     let linear = matches!(kind, ElementKind::Tet4 | ElementKind::Wedge6);

@@ -24,11 +24,35 @@ fn examine(mode: &FailureMode) -> Option<String> {
     (!examined.holds()).then(|| format!("{}: {:?}", mode.label(), examined.figures))
 }
 
-/// All of them; `ENVELOPE_ONLY` names one.
-#[test]
-fn every_mode_is_shown() {
-    let only = std::env::var("ENVELOPE_ONLY").ok();
-    let chosen = |m: &&FailureMode| only.as_ref().is_none_or(|o| o.split(',').any(|o| o == m.label()));
+fn examine_all(chosen: impl Fn(&&FailureMode) -> bool) {
     let missed: Vec<String> = MODES.iter().filter(chosen).filter_map(examine).collect();
     assert!(missed.is_empty(), "{} of {} modes: {}", missed.len(), MODES.len(), missed.join("\n"));
+}
+
+/// Those that take seconds.
+#[test]
+fn quick_modes_are_shown() {
+    examine_all(|mode| mode.is_quick());
+}
+
+/// All of them; `ENVELOPE_ONLY` names some, as `F7,F12`.
+#[test]
+#[ignore = "minutes; `ale-gear envelope` looks at all"]
+fn every_mode_is_shown() {
+    let only = std::env::var("ENVELOPE_ONLY").ok();
+    examine_all(|mode| only.as_ref().is_none_or(|o| o.split(',').any(|word| mode.is_named(word))));
+}
+
+/// Numbers run from 1, every mode has a file of its own, and the text that is built in is the file's.
+#[test]
+fn modes_are_numbered_and_have_their_scenes() {
+    for (i, mode) in MODES.iter().enumerate() {
+        assert_eq!(mode.number as usize, i + 1, "{}", mode.name);
+        assert!(mode.file.starts_with(&format!("F{:02}-", mode.number)), "{}: {}", mode.label(), mode.file);
+        let path = format!("{}/../../scenes/envelope/{}.toml", env!("CARGO_MANIFEST_DIR"), mode.file);
+        let scene = scene::Scene::read(path.as_ref()).unwrap_or_else(|e| panic!("{}: {e}", mode.label()));
+        assert!(scene.name.starts_with(&format!("F{} ", mode.number)), "{}: named {}", mode.label(), scene.name);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), mode.scene, "{path}");
+    }
+    assert_eq!(MODES.len(), 35);
 }

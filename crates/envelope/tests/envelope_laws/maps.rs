@@ -2,10 +2,10 @@
 
 use envelope::{MAPS, Outcome};
 
-/// Named by `ENVELOPE_MAPS`, as `c` or `a,d`; else the two that take seconds.
+/// Named by `ENVELOPE_MAPS`, as `c` or `a,d`; else the one that takes seconds.
 #[test]
 fn no_cell_is_wrong_without_a_word() {
-    let asked = std::env::var("ENVELOPE_MAPS").unwrap_or_else(|_| "d,g".to_owned());
+    let asked = std::env::var("ENVELOPE_MAPS").unwrap_or_else(|_| "d".to_owned());
     for map in MAPS.iter().filter(|m| asked.split(',').any(|k| k == m.key)) {
         let start = std::time::Instant::now();
         let drawn = map.draw(&|| ());
