@@ -38,13 +38,20 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         let [coarse, fine] = solved;
         let (coarse, fine) = (coarse?, fine?);
         let error = mean(&errors_um(&coarse)) / mean(&errors_um(&fine)) - 1.0;
-        let pressure = |r: &analysis::StaticResult| r.history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
+        let pressure =
+            |r: &analysis::StaticResult| r.history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
         Ok::<_, EnvelopeError>([error, pressure(&coarse) / pressure(&fine) - 1.0].map(|x| 100.0 * x.abs()))
     };
     let [[error, pressure], [naive_error, _]] = [changes(false)?, changes(true)?];
     Ok(vec![
-        Figure::new("mean transmission error on three elements along the profile against five, % off", Shown::at_most(error, 1.0))
-            .beside(Shown::at_least(naive_error, 2.5)),
-        Figure::new("largest pressure on three elements along the profile against five, % off", Shown::at_most(pressure, 1.0)),
+        Figure::new(
+            "mean transmission error on three elements along the profile against five, % off",
+            Shown::at_most(error, 1.0),
+        )
+        .beside(Shown::at_least(naive_error, 2.5)),
+        Figure::new(
+            "largest pressure on three elements along the profile against five, % off",
+            Shown::at_most(pressure, 1.0),
+        ),
     ])
 }

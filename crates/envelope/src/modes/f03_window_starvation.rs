@@ -22,8 +22,14 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let result = bench.at_rest(&AS_IT_IS)?;
     let jump = result.history.tooth_changes.iter().map(|c| c.error_jump).fold(0.0, f64::max);
     Ok(vec![
-        Figure::new("what is said of a window of three teeth", Shown::warned(&result.history.warnings, "the window was widened"))
-            .beside(Shown::refused(&fixed, "window")),
-        Figure::new("jump of the transmission error at a tooth change of the wider window, um", Shown::at_most(1e3 * jump, 1e-6)),
+        Figure::new(
+            "what is said of a window of three teeth",
+            Shown::warned(&result.history.warnings, "the window was widened"),
+        )
+        .beside(Shown::refused(&fixed, "window")),
+        Figure::new(
+            "jump of the transmission error at a tooth change of the wider window, um",
+            Shown::at_most(1e3 * jump, 1e-6),
+        ),
     ])
 }

@@ -71,7 +71,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_most((carried / before - 1.0).abs(), 1e-9),
         )
         .beside(Shown::at_least((naive / before - 1.0).abs(), 1e-3)),
-        Figure::new("motion: jump of the contact force at a tooth change over the mean force", Shown::at_most(jump, 1e-6)),
+        Figure::new(
+            "motion: jump of the contact force at a tooth change over the mean force",
+            Shown::at_most(jump, 1e-6),
+        ),
         Figure::new(
             "motion: difference of successive mesh cycles over the peak to peak",
             Shown::at_most(repeats / headline.peak_to_peak_dte_um, 1e-6),

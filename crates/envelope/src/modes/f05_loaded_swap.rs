@@ -42,8 +42,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let changes = &result.history.tooth_changes;
     let jump = changes.iter().map(|c| c.force_jump).fold(0.0, f64::max);
     Ok(vec![
-        Figure::new("force that a tooth change takes away, N; naive: on teeth outside of a window by geometry", Shown::at_most(jump, 1e-3))
-            .beside(Shown::at_least(dropped, 100.0)),
+        Figure::new(
+            "force that a tooth change takes away, N; naive: on teeth outside of a window by geometry",
+            Shown::at_most(jump, 1e-3),
+        )
+        .beside(Shown::at_least(dropped, 100.0)),
         Figure::new("tooth changes in a cycle", Shown::at_least(changes.len() as f64, 1.0)),
         Figure::new("what is said of a window of two teeth", Shown::refused(&fixed, "window")),
     ])

@@ -1,10 +1,7 @@
 //! F7: quasi-static elasticity beyond its limit.
 
 use super::FailureMode;
-use crate::{
-    EnvelopeError, Figure, Shown,
-    bench::Bench,
-};
+use crate::{EnvelopeError, Figure, Shown, bench::Bench};
 
 pub(super) const MODE: FailureMode = FailureMode {
     number: 7,
@@ -18,14 +15,18 @@ pub(super) const MODE: FailureMode = FailureMode {
 };
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let modes = |count: &str| bench.in_motion(&["analysis.model=reduced+modes".to_owned(), format!("modes.count={count}")]);
+    let modes =
+        |count: &str| bench.in_motion(&["analysis.model=reduced+modes".to_owned(), format!("modes.count={count}")]);
     let (with, more) = (modes("12")?, modes("24")?);
     let without = bench.in_motion(&bench.naive(&[]))?;
     let size = |r: &analysis::motion::MotionResult| r.headline.peak_to_peak_dte_um;
     let off = |r: &analysis::motion::MotionResult| 100.0 * (size(r) / size(&more) - 1.0).abs();
     Ok(vec![
-        Figure::new("peak to peak of the DTE against 24 modes, %; 12 modes; naive: none", Shown::at_most(off(&with), 5.0))
-            .beside(Shown::at_least(off(&without), 5.0)),
+        Figure::new(
+            "peak to peak of the DTE against 24 modes, %; 12 modes; naive: none",
+            Shown::at_most(off(&with), 5.0),
+        )
+        .beside(Shown::at_least(off(&without), 5.0)),
         Figure::new("what is said without modes", Shown::warned(&without.warnings, "elasticity is quasi-static there")),
         Figure::new(
             "change that is foreseen without modes, over the one found",

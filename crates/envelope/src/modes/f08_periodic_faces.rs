@@ -43,7 +43,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let whole = errors_um(&bench.at_rest(&["pinion.mesher.sector_teeth=0", "wheel.mesher.sector_teeth=0"])?);
     Ok(vec![
         Figure::new("a node of a cut face 10 um beside its partner", Shown::refused(&refused, "cut")),
-        Figure::new("matched sector against the whole gear, transmission error, parts off", Shown::at_most(farthest(&sector, &whole) / mean(&whole), 1e-9)),
+        Figure::new(
+            "matched sector against the whole gear, transmission error, parts off",
+            Shown::at_most(farthest(&sector, &whole) / mean(&whole), 1e-9),
+        ),
     ])
 }
 

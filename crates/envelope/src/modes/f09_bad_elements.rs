@@ -42,8 +42,14 @@ fn sweep(bench: &Bench) -> Result<(usize, usize, f64), EnvelopeError> {
                 let helix_angle = f64::to_radians(helix_deg);
                 let reference = f64::from(teeth) * sample.normal_module / helix_angle.cos();
                 let (bore_diameter, tip_diameter) = (0.45 * reference, None);
-                let data =
-                    geometry::GearData { teeth, profile_shift, helix_angle, bore_diameter, tip_diameter, ..sample.clone() };
+                let data = geometry::GearData {
+                    teeth,
+                    profile_shift,
+                    helix_angle,
+                    bore_diameter,
+                    tip_diameter,
+                    ..sample.clone()
+                };
                 let made = geometry::Gear::new(data).ok().and_then(|gear| generate(&gear, &options).ok());
                 let Some(mesh) = made else {
                     refused += 1;

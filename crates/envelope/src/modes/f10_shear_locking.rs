@@ -29,13 +29,17 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         compliance(Test::Bent, kind, cells, 0.3, &options)
     };
     let exact = bent(ElementKind::Hex20, [20, 4, 4], IncompatibleModes::Taylor)?;
-    let off = |modes| Ok::<_, EnvelopeError>(100.0 * (1.0 - bent(ElementKind::Hex8, ONE_THROUGH, modes)? / exact).abs());
+    let off =
+        |modes| Ok::<_, EnvelopeError>(100.0 * (1.0 - bent(ElementKind::Hex8, ONE_THROUGH, modes)? / exact).abs());
     let (robust, plain) = (off(IncompatibleModes::Taylor)?, off(IncompatibleModes::Off)?);
     let linear = mean(&errors_um(&bench.at_rest(&AS_IT_IS)?));
     let quadratic = mean(&errors_um(&bench.at_rest(&["pinion.mesher.order=2", "wheel.mesher.order=2"])?));
     Ok(vec![
-        Figure::new("deflection of a cantilever of ten hex8, % off; naive: without incompatible modes", Shown::at_most(robust, 3.0))
-            .beside(Shown::at_least(plain, 25.0)),
+        Figure::new(
+            "deflection of a cantilever of ten hex8, % off; naive: without incompatible modes",
+            Shown::at_most(robust, 3.0),
+        )
+        .beside(Shown::at_least(plain, 25.0)),
         Figure::new(
             "mean transmission error on linear elements against quadratic ones, % off",
             Shown::at_most(100.0 * (linear / quadratic - 1.0).abs(), 5.0),

@@ -32,11 +32,18 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let mut figures = Vec::new();
     for kind in ElementKind::ALL {
         let [metal, rubber] = [off(kind, 4, 0.3)?, off(kind, 4, 0.499)?];
-        figures.push(Figure::new(format!("{}: {metal} {rubber}", kind.name()), Shown::at_most((rubber - metal).abs(), 10.0)));
+        figures.push(Figure::new(
+            format!("{}: {metal} {rubber}", kind.name()),
+            Shown::at_most((rubber - metal).abs(), 10.0),
+        ));
     }
     let error = |nu: &str, order: u32| {
         let orders = ["pinion", "wheel"].map(|g| format!("{g}.mesher.order={order}"));
-        Ok::<_, EnvelopeError>(mean(&errors_um(&bench.at_rest(&[format!("material.poisson={nu}"), orders[0].clone(), orders[1].clone()])?)))
+        Ok::<_, EnvelopeError>(mean(&errors_um(&bench.at_rest(&[
+            format!("material.poisson={nu}"),
+            orders[0].clone(),
+            orders[1].clone(),
+        ])?)))
     };
     for nu in ["0.3", "0.45", "0.49", "0.499"] {
         let ratio = error(nu, 1)? / error(nu, 2)? - 1.0;

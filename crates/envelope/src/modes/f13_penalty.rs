@@ -33,8 +33,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let stiffest = off[off.len() - 1].abs();
     let falls = off.windows(2).filter(|w| w[1].abs() > w[0].abs().max(1e-6)).count();
     Ok(vec![
-        Figure::new("mean transmission error against exact contact, % (10^11 MPa/mm; naive: 10^5)", Shown::at_most(stiffest, 1.5))
-            .beside(Shown::at_least(off[0], 5.0)),
+        Figure::new(
+            "mean transmission error against exact contact, % (10^11 MPa/mm; naive: 10^5)",
+            Shown::at_most(stiffest, 1.5),
+        )
+        .beside(Shown::at_least(off[0], 5.0)),
         Figure::new("plateau: change over the last decade, %", Shown::at_most((off[5] - off[6]).abs(), 0.2)),
         Figure::new("decades of penalty, of six, in which the error does not fall", Shown::at_most(falls as f64, 0.0)),
     ])

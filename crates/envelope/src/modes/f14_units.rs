@@ -35,7 +35,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     }
     let metres = bench.at_rest(&bench.naive(&[]));
     Ok(vec![
-        Figure::new("a pair of 1/100 and of 50 times the size, transmission error over size, parts off", Shown::at_most(worst, 1e-9))
-            .beside(Shown::refused(&metres, "allowed is 0.01")),
+        Figure::new(
+            "a pair of 1/100 and of 50 times the size, transmission error over size, parts off",
+            Shown::at_most(worst, 1e-9),
+        )
+        .beside(Shown::refused(&metres, "allowed is 0.01")),
     ])
 }

@@ -64,7 +64,8 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         let mut answers: Vec<Vec<f64>> = Vec::new();
         for restart in 0..3 {
             let mut solver = DenseSolver::new(ROWS);
-            let begin = |i: usize| if restart == 0 { 0.0 } else { f64::from(restart) * 400.0 * f64::from(u8::from(start[i])) };
+            let begin =
+                |i: usize| if restart == 0 { 0.0 } else { f64::from(restart) * 400.0 * f64::from(u8::from(start[i])) };
             solver.solve(&held, |_, _| (0.0, 0.0), begin).map_err(EnvelopeError::of("active set"))?;
             worst = worst.max(solver.residual());
             answers.push(solver.forces().to_vec());

@@ -40,9 +40,21 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let certificate = &reversal.headline.certificate;
     Ok(vec![
         Figure::new("largest transmission error without load, um", Shown::at_most(largest[0], 1e-9)),
-        Figure::new("torques of 0 to 1 N m in which the transmission error does not grow", Shown::at_most(f64::from(u8::from(!falls)), 0.0)),
-        Figure::new("load that reverses through the backlash: steps in which no flank touches", Shown::at_least(certificate.steps_without_contact as f64, 1.0)),
-        Figure::new("load that reverses: largest force on the coast flanks, N", Shown::at_least(reversal.headline.max_coast_normal_force_n, 1.0)),
-        Figure::new("load that reverses: energy not accounted for, over what was turned over", Shown::at_most(certificate.ledger_residual_over_turnover.abs(), 1e-6)),
+        Figure::new(
+            "torques of 0 to 1 N m in which the transmission error does not grow",
+            Shown::at_most(f64::from(u8::from(!falls)), 0.0),
+        ),
+        Figure::new(
+            "load that reverses through the backlash: steps in which no flank touches",
+            Shown::at_least(certificate.steps_without_contact as f64, 1.0),
+        ),
+        Figure::new(
+            "load that reverses: largest force on the coast flanks, N",
+            Shown::at_least(reversal.headline.max_coast_normal_force_n, 1.0),
+        ),
+        Figure::new(
+            "load that reverses: energy not accounted for, over what was turned over",
+            Shown::at_most(certificate.ledger_residual_over_turnover.abs(), 1e-6),
+        ),
     ])
 }

@@ -34,7 +34,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let over = bench.in_motion(&OVER_SPEED);
     Ok(vec![
         Figure::new("centre distance 0.3 m_n too small", Shown::refused(&jammed, "teeth jam")),
-        Figure::new("back flanks kept and free: transmission error, parts off", Shown::at_most((te(&both) / te(&driving) - 1.0).abs(), 1e-9)),
+        Figure::new(
+            "back flanks kept and free: transmission error, parts off",
+            Shown::at_most((te(&both) / te(&driving) - 1.0).abs(), 1e-9),
+        ),
         Figure::new("a torque that carries teeth past each other", Shown::refused(&over, "passed through each other")),
     ])
 }

@@ -1,6 +1,8 @@
 //! F19: the coarse stage of the search.
 
-use contact::{Candidates, GapSource, LinePoints, Pose, Scene as Search, Vec3, closest_points, contact_points, contact_row};
+use contact::{
+    Candidates, GapSource, LinePoints, Pose, Scene as Search, Vec3, closest_points, contact_points, contact_row,
+};
 use geometry::{GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
 use nalgebra::{Translation3, UnitQuaternion};
@@ -63,7 +65,8 @@ fn missed(pair: &GearPair) -> Result<[usize; 3], EnvelopeError> {
     let mut patches = Vec::new();
     for gear in [&pair.pinion, &pair.wheel] {
         let mesh = generate(gear, &options).map_err(EnvelopeError::of(piece))?;
-        let parts = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
+        let parts =
+            GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
         let surface = Box::new(gear.flank_of(Side::Left, 0));
         let faces = parts.flank(0, Side::Left).ok_or_else(|| EnvelopeError::piece(piece, "tooth 0 has none"))?;
         let patch = contact::FlankPatch::new(0, surface, &parts.mesh().nodes, faces, Some, 1e-9);
@@ -101,7 +104,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     bench.at_rest(&AS_IT_IS)?;
     Ok(vec![
         Figure::new(
-            format!("contacts missed of {all} in {POSES} poses, misaligned ones among them; naive: boxes without reach"),
+            format!(
+                "contacts missed of {all} in {POSES} poses, misaligned ones among them; naive: boxes without reach"
+            ),
             Shown::at_most(robust as f64, 0.0),
         )
         .beside(Shown::at_least(naive as f64, 1.0)),

@@ -25,9 +25,15 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let events = force(&["motion.stop_at_events=true".to_owned()])?;
     let naive = force(&bench.naive(&[]))?;
     Ok(vec![
-        Figure::new("largest force against 512 steps a mesh cycle, % off", Shown::at_most(off(usual.headline.max_normal_force_n), 2.0))
-            .beside(Shown::at_least(off(naive), 5.0)),
+        Figure::new(
+            "largest force against 512 steps a mesh cycle, % off",
+            Shown::at_most(off(usual.headline.max_normal_force_n), 2.0),
+        )
+        .beside(Shown::at_least(off(naive), 5.0)),
         Figure::new("the same with steps that end at the moment of contact, % off", Shown::at_most(off(events), 2.0)),
-        Figure::new("losses of contact in the motion", Shown::at_least(usual.headline.certificate.contact_losses as f64, 1.0)),
+        Figure::new(
+            "losses of contact in the motion",
+            Shown::at_least(usual.headline.certificate.contact_losses as f64, 1.0),
+        ),
     ])
 }

@@ -26,11 +26,17 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let result = bench.in_motion(&AS_IT_IS)?;
     let certificate = &result.headline.certificate;
     Ok(vec![
-        Figure::new("bar against a wall: force about its exact value, root mean square; naive: consistent mass, Newmark", Shown::at_most(massless.ringing, 0.12))
-            .beside(Shown::at_least(consistent.ringing, 0.5)),
+        Figure::new(
+            "bar against a wall: force about its exact value, root mean square; naive: consistent mass, Newmark",
+            Shown::at_most(massless.ringing, 0.12),
+        )
+        .beside(Shown::at_least(consistent.ringing, 0.5)),
         Figure::new("bar: largest force over the exact one", Shown::at_most(massless.largest, 1.7))
             .beside(Shown::at_least(consistent.largest, 2.0)),
         Figure::new("bar: energy not accounted for", Shown::at_most(massless.energy, 1e-9)),
-        Figure::new("pair with modes: least force of a slice in contact, N", Shown::at_least(certificate.least_contact_force_n.unwrap_or(0.0), 0.0)),
+        Figure::new(
+            "pair with modes: least force of a slice in contact, N",
+            Shown::at_least(certificate.least_contact_force_n.unwrap_or(0.0), 0.0),
+        ),
     ])
 }

@@ -24,7 +24,8 @@ pub(super) const MODE: FailureMode = FailureMode {
 
 /// Peak to peak of the vibration near its resonance, by spectral radius and step.
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let size = |settings: &[&str]| Ok::<_, EnvelopeError>(bench.unchecked_motion(settings)?.headline.peak_to_peak_dte_um);
+    let size =
+        |settings: &[&str]| Ok::<_, EnvelopeError>(bench.unchecked_motion(settings)?.headline.peak_to_peak_dte_um);
     let fine = size(&["motion.steps_per_mesh_cycle=512"])?;
     let off = |x: f64| 100.0 * (x / fine - 1.0).abs();
     let usual = bench.in_motion(&AS_IT_IS)?.headline.peak_to_peak_dte_um;
@@ -38,6 +39,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("peak to peak at resonance against 512 steps a mesh cycle, % off", Shown::at_most(off(usual), 2.0))
             .beside(Shown::at_least(off(naive.headline.peak_to_peak_dte_um), 10.0)),
         Figure::new("spectral radius 0.9 at the usual steps, % off", Shown::at_most(radii[2], 5.0)),
-        Figure::new("spectral radii of 0, 0.5, 0.9 whose error does not fall", Shown::at_most(f64::from(u8::from(!falls)), 0.0)),
+        Figure::new(
+            "spectral radii of 0, 0.5, 0.9 whose error does not fall",
+            Shown::at_most(f64::from(u8::from(!falls)), 0.0),
+        ),
     ])
 }

@@ -61,7 +61,8 @@ fn forces(bench: &Bench, start: f64) -> Result<Vec<f64>, EnvelopeError> {
     for k in 0..PHASES {
         let mut q = DVector::zeros(n);
         q[system.coordinates().lag()] = lag;
-        let instant = system.instant(k as f64 / PHASES as f64, &q, &DVector::zeros(n)).map_err(EnvelopeError::of(piece))?;
+        let instant =
+            system.instant(k as f64 / PHASES as f64, &q, &DVector::zeros(n)).map_err(EnvelopeError::of(piece))?;
         all.push(instant.normal_forces[0]);
     }
     Ok(all)
@@ -82,7 +83,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let exact = (STEPS % 1920) as f64 * step;
     let drift = 1e3 * base_radius * (angle - (STEPS / 1920) as f64 * std::f64::consts::TAU - exact).abs();
     Ok(vec![
-        Figure::new("force of the pair at eight phases, now and a million turns later, parts off", Shown::at_most(off, 1e-6)),
+        Figure::new(
+            "force of the pair at eight phases, now and a million turns later, parts off",
+            Shown::at_most(off, 1e-6),
+        ),
         Figure::new(
             "drift of the clock on the base circle, um; naive: steps added up over 70 000 turns",
             Shown::at_most(1e3 * off * 0.01, 1e-4),

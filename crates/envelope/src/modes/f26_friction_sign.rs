@@ -38,6 +38,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("least work of friction of 32 positions, N mm/rad", Shown::at_least(least, 0.0)),
         Figure::new("mean work of friction, N mm/rad", Shown::at_least(sliding / 32.0, 1.0)),
         Figure::new("work without friction, N mm/rad", Shown::at_most(none.abs(), 0.0)),
-        Figure::new("changes of sign along a contact line, most", Shown::at_most(most_changes_of_sign(&result) as f64, 1.0)),
+        Figure::new(
+            "changes of sign along a contact line, most",
+            Shown::at_most(most_changes_of_sign(&result) as f64, 1.0),
+        ),
     ])
 }

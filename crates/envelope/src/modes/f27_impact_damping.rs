@@ -25,11 +25,17 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let least = result.headline.least_slice_force_n.unwrap_or(0.0);
     let lost = result.headline.certificate.rows_without_contact;
     Ok(vec![
-        Figure::new("a mass thrown at a contact: least force over the largest", Shown::at_least(robust.least_over_largest, 0.0))
-            .beside(Shown::at_most(naive.least_over_largest, -0.02)),
+        Figure::new(
+            "a mass thrown at a contact: least force over the largest",
+            Shown::at_least(robust.least_over_largest, 0.0),
+        )
+        .beside(Shown::at_most(naive.least_over_largest, -0.02)),
         Figure::new("force at first touch over the largest", Shown::at_most(robust.first_over_largest, 0.05))
             .beside(Shown::at_least(naive.first_over_largest, 0.1)),
-        Figure::new("restitution against the energy that the damper took, parts off", Shown::at_most(robust.energy_off, 1e-4)),
+        Figure::new(
+            "restitution against the energy that the damper took, parts off",
+            Shown::at_most(robust.energy_off, 1e-4),
+        ),
         Figure::new("pair: least force of a slice, N", Shown::at_least(least, 0.0)),
         Figure::new("pair: rows without contact", Shown::at_least(lost as f64, 1.0)),
     ])

@@ -35,7 +35,8 @@ fn roughness(result: &analysis::StaticResult) -> f64 {
 /// Largest pressure of a point at the first position, MPa: its force over its share of the face.
 fn largest_of_points(bench: &Bench, per_edge: u32) -> Result<f64, EnvelopeError> {
     let points = format!("contact.points_per_face_edge={per_edge}");
-    let mut model = bench.at_rest(&bench.naive(&[&points]))?.model.ok_or_else(|| EnvelopeError::piece("points", "no model"))?;
+    let mut model =
+        bench.at_rest(&bench.naive(&[&points]))?.model.ok_or_else(|| EnvelopeError::piece("points", "no model"))?;
     model.solve(Station { cycle: 0, phase: 0.0 }).map_err(EnvelopeError::of("points"))?;
     let last = model.last().ok_or_else(|| EnvelopeError::piece("points", "no equilibrium"))?;
     let pressures = last.rows.iter().zip(&last.solution.forces).filter(|(row, _)| row.area > 0.0);
@@ -51,8 +52,14 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let of_slices = 100.0 * (largest("64")? / largest("128")? - 1.0).abs();
     let of_points = 100.0 * (largest_of_points(bench, 4)? / largest_of_points(bench, 8)? - 1.0).abs();
     Ok(vec![
-        Figure::new("second difference of the load along a line over its mean", Shown::at_most(roughness(&slices), 0.1)),
-        Figure::new("largest pressure on half as many slices (naive: points an edge), % off", Shown::at_most(of_slices, 2.0))
-            .beside(Shown::at_least(of_points, 20.0)),
+        Figure::new(
+            "second difference of the load along a line over its mean",
+            Shown::at_most(roughness(&slices), 0.1),
+        ),
+        Figure::new(
+            "largest pressure on half as many slices (naive: points an edge), % off",
+            Shown::at_most(of_slices, 2.0),
+        )
+        .beside(Shown::at_least(of_points, 20.0)),
     ])
 }

@@ -20,7 +20,13 @@ pub(super) const MODE: FailureMode = FailureMode {
 };
 
 const THREADS: [usize; 4] = [1, 2, 7, 16];
-const MOTION: [&str; 5] = ["analysis.kind=dynamic", "analysis.cycles=2", "operation.speed_rpm=6000", "motion.run=span", "motion.steps_per_mesh_cycle=16"];
+const MOTION: [&str; 5] = [
+    "analysis.kind=dynamic",
+    "analysis.cycles=2",
+    "operation.speed_rpm=6000",
+    "motion.run=span",
+    "motion.steps_per_mesh_cycle=16",
+];
 
 /// Everything that was found, at rest and in motion, as text that has every bit.
 fn all_bits(bench: &Bench, threads: usize) -> Result<String, EnvelopeError> {
@@ -43,8 +49,14 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let forces: Vec<f64> = position.pairs.iter().flat_map(|p| p.slices.iter().map(|s| s.line_load)).collect();
     let (ahead, back): (f64, f64) = (forces.iter().sum(), forces.iter().rev().sum());
     Ok(vec![
-        Figure::new("answers with 2, 7 and 16 threads that differ from that with one, in any bit", Shown::at_most(others as f64, 0.0)),
-        Figure::new("sum of a position's forces in the other order, last bits off", Shown::at_most(ahead.to_bits().abs_diff(ahead.to_bits()) as f64, 0.0))
-            .beside(Shown::at_least(ahead.to_bits().abs_diff(back.to_bits()) as f64, 1.0)),
+        Figure::new(
+            "answers with 2, 7 and 16 threads that differ from that with one, in any bit",
+            Shown::at_most(others as f64, 0.0),
+        ),
+        Figure::new(
+            "sum of a position's forces in the other order, last bits off",
+            Shown::at_most(ahead.to_bits().abs_diff(ahead.to_bits()) as f64, 0.0),
+        )
+        .beside(Shown::at_least(ahead.to_bits().abs_diff(back.to_bits()) as f64, 1.0)),
     ])
 }

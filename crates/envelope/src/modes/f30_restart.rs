@@ -67,6 +67,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_most(differ, 0.0),
         )
         .beside(Shown::at_least(naive_differ, 1.0)),
-        Figure::new("naive restart: transmission error off, parts of its peak to peak", Shown::at_least(naive_most, 1e-12)),
+        Figure::new(
+            "naive restart: transmission error off, parts of its peak to peak",
+            Shown::at_least(naive_most, 1e-12),
+        ),
     ])
 }

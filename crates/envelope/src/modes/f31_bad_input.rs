@@ -93,7 +93,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     }
     let nan = bench.at_rest(&bench.naive(&[]));
     Ok(vec![
-        Figure::new(format!("panics on {SCENES} damaged scenes, {} refused", of_scenes[1]), Shown::at_most(of_scenes[0], 0.0)),
+        Figure::new(
+            format!("panics on {SCENES} damaged scenes, {} refused", of_scenes[1]),
+            Shown::at_most(of_scenes[0], 0.0),
+        ),
         Figure::new("panics on damaged meshes in every format", Shown::at_most(of_meshes[0], 0.0)),
         Figure::new("longest reading, s", Shown::at_most(of_scenes[2].max(of_meshes[2]), 1.0)),
         Figure::new("a module that is no number", Shown::refused(&nan, "normal_module_mm")),

@@ -20,7 +20,15 @@ const MUST_FAIL: [(&[&str], &str); 6] = [
     (&["contact.method=nodal", "contact.penalty_mpa_per_mm=1", "operation.torque_nm=1e4"], ""),
     (&["analysis.window_teeth=1"], "window"),
     (&["pair.face_width_mm=1.0", "pinion.profile_shift=0.6", "pair.centre_distance_mm=99.5"], ""),
-    (&["analysis.kind=dynamic", "motion.method=rk4", "motion.steps_per_mesh_cycle=8", "motion.steps_per_resonance=0"], "step"),
+    (
+        &[
+            "analysis.kind=dynamic",
+            "motion.method=rk4",
+            "motion.steps_per_mesh_cycle=8",
+            "motion.steps_per_resonance=0",
+        ],
+        "step",
+    ),
     (&["pair.centre_distance_mm=91"], "teeth jam"),
 ];
 
@@ -40,7 +48,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let first = bench.at_rest(&bench.naive(&[]));
     let count = silent.len() as f64;
     let mut figures = vec![
-        Figure::new("scenes without a solution, of six, that are solved or fail for another reason", Shown::at_most(count, 0.0)),
+        Figure::new(
+            "scenes without a solution, of six, that are solved or fail for another reason",
+            Shown::at_most(count, 0.0),
+        ),
         Figure::new("what is said under 10 MN m", Shown::refused(&first, "torque")),
     ];
     if !silent.is_empty() {

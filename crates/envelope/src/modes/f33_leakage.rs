@@ -33,7 +33,8 @@ fn record(turns: f64) -> Vec<f64> {
 
 /// Largest line between the sidebands (order 30 +- 1) and the next ones, where there is nothing, over the carrier.
 fn floor(turns: f64) -> Result<f64, EnvelopeError> {
-    let found = spectrum(&record(turns), (TEETH * ROWS) as f64, Window::Rectangular).map_err(EnvelopeError::of("record"))?;
+    let found =
+        spectrum(&record(turns), (TEETH * ROWS) as f64, Window::Rectangular).map_err(EnvelopeError::of("record"))?;
     Ok(found.amplitude_at(TEETH as f64 + 2.0).max(found.amplitude_at(TEETH as f64 - 2.0)))
 }
 
@@ -58,10 +59,19 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let shaft = order(&last, 1, 1);
     let between = [7, 11, 13, 17, 19, 23].map(|k| order(&last, 1, k)).into_iter().fold(0.0, f64::max);
     Ok(vec![
-        Figure::new("floor beside the sidebands over the carrier, whole turns; naive: 8.37 turns", Shown::at_most(whole, 1e-12))
-            .beside(Shown::at_least(broken, 1e-3)),
-        Figure::new("sideband of a thousandth of the carrier: its error, parts", Shown::at_most((sideband / 1e-3 - 1.0).abs(), 1e-9)),
-        Figure::new("pair with an index deviation of 5 um over a turn: shaft's order in the transmission error, um", Shown::at_least(shaft, 3.0)),
+        Figure::new(
+            "floor beside the sidebands over the carrier, whole turns; naive: 8.37 turns",
+            Shown::at_most(whole, 1e-12),
+        )
+        .beside(Shown::at_least(broken, 1e-3)),
+        Figure::new(
+            "sideband of a thousandth of the carrier: its error, parts",
+            Shown::at_most((sideband / 1e-3 - 1.0).abs(), 1e-9),
+        ),
+        Figure::new(
+            "pair with an index deviation of 5 um over a turn: shaft's order in the transmission error, um",
+            Shown::at_least(shaft, 3.0),
+        ),
         Figure::new("orders between shaft and mesh over it", Shown::at_most(between / shaft, 0.02)),
     ])
 }

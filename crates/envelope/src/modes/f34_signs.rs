@@ -23,8 +23,9 @@ fn axial_force(result: &analysis::StaticResult) -> f64 {
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let [right, left, mirror] = [&[][..], &["pinion.helix_angle_deg=-20"], &["pinion.helix_angle_deg=-20", "operation.rotation=cw"]]
-        .map(|settings: &[&str]| bench.at_rest(settings));
+    let [right, left, mirror] =
+        [&[][..], &["pinion.helix_angle_deg=-20"], &["pinion.helix_angle_deg=-20", "operation.rotation=cw"]]
+            .map(|settings: &[&str]| bench.at_rest(settings));
     let (right, left, mirror) = (right?, left?, mirror?);
     let te = errors_um(&right);
     let off = farthest(&te, &errors_um(&mirror)) / mean(&te);
@@ -33,8 +34,17 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let wanted = base_force * pair.base_helix_angle().tan();
     Ok(vec![
         Figure::new("mirror image: transmission error, parts off", Shown::at_most(off, 1e-8)),
-        Figure::new("mirror image: axial force, parts off", Shown::at_most((axial_force(&mirror) / axial_force(&right) - 1.0).abs(), 1e-6)),
-        Figure::new("other hand alone: axial force over that of this hand, plus 1", Shown::at_most((axial_force(&left) / axial_force(&right) + 1.0).abs(), 1e-3)),
-        Figure::new("axial force over torque / r_b tan beta_b, less 1", Shown::at_most((axial_force(&right).abs() / wanted - 1.0).abs(), 1e-3)),
+        Figure::new(
+            "mirror image: axial force, parts off",
+            Shown::at_most((axial_force(&mirror) / axial_force(&right) - 1.0).abs(), 1e-6),
+        ),
+        Figure::new(
+            "other hand alone: axial force over that of this hand, plus 1",
+            Shown::at_most((axial_force(&left) / axial_force(&right) + 1.0).abs(), 1e-3),
+        ),
+        Figure::new(
+            "axial force over torque / r_b tan beta_b, less 1",
+            Shown::at_most((axial_force(&right).abs() / wanted - 1.0).abs(), 1e-3),
+        ),
     ])
 }

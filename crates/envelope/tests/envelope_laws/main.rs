@@ -11,7 +11,11 @@ fn examine(mode: &FailureMode) -> Option<String> {
         Ok(figures) => figures.iter().for_each(|f| {
             println!("    {} {}: {:?}", if f.holds() { "   " } else { "NOT" }, f.what, f.robust.value);
             if let Some(naive) = &f.naive {
-                println!("        naive ({}): {:?}", if naive.holds() { "fails" } else { "DOES NOT FAIL" }, naive.value);
+                println!(
+                    "        naive ({}): {:?}",
+                    if naive.holds() { "fails" } else { "DOES NOT FAIL" },
+                    naive.value
+                );
             }
         }),
     }
