@@ -35,7 +35,8 @@ pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// Positions at rest with a cache, a motion with checkpoints, a sweep, a study.
 pub fn tasks() -> Vec<Task> {
-    let run = |rest: &[&'static str]| [&["run", "scene.toml", "--out", "o", "--quiet", "--threads", "2"], rest].concat();
+    let run =
+        |rest: &[&'static str]| [&["run", "scene.toml", "--out", "o", "--quiet", "--threads", "2"], rest].concat();
     let study = "[[case]]\nscene = \"a.toml\"\nvalue = 1\n[[case]]\nscene = \"b.toml\"\nvalue = 2\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     let rest = small_scenes::long_rest(24);

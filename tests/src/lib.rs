@@ -13,8 +13,8 @@ pub mod pairs_done;
 pub mod program;
 pub mod random_motion;
 pub mod random_scene;
-pub mod readers;
 pub mod random_scenes;
+pub mod readers;
 pub mod recorded;
 pub mod small_scenes;
 

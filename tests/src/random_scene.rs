@@ -104,7 +104,8 @@ impl Draw {
     }
 
     fn loaded(&self, pair: &GearPair, index: u64) -> Result<Scene, SceneError> {
-        let mut scene = self.builder(1e-3 * torque_of_pressure(pair, self.pressure_mpa)).set("name", format!("pair {index}"));
+        let mut scene =
+            self.builder(1e-3 * torque_of_pressure(pair, self.pressure_mpa)).set("name", format!("pair {index}"));
         if let Some([amount, start]) = self.relief {
             for (gear, whose) in [(&pair.pinion, "pinion"), (&pair.wheel, "wheel")] {
                 let flank = gear.flank(geometry::Side::Left);

@@ -83,7 +83,10 @@ pub fn all() -> Vec<SmallScene> {
         ("rest_nodal", at_rest(3, "[contact]\nmethod = \"nodal\"\npoints_per_face_edge = 3\n")),
         (
             "rest_penalty",
-            at_rest(3, "[contact]\nmethod = \"nodal\"\npenalty_mpa_per_mm = 1e5\ngap = \"facet\"\npoints_per_face_edge = 3\n"),
+            at_rest(
+                3,
+                "[contact]\nmethod = \"nodal\"\npenalty_mpa_per_mm = 1e5\ngap = \"facet\"\npoints_per_face_edge = 3\n",
+            ),
         ),
         ("rest_general", at_rest(2, "reduction = \"general\"\n[contact]\nslices = 6\n")),
         ("rest_full", at_rest(2, "model = \"full\"\n[contact]\nslices = 6\n")),
@@ -91,19 +94,31 @@ pub fn all() -> Vec<SmallScene> {
         ("motion_steady", moving("cycles = 2\n", SETTLES)),
         (
             "motion_free",
-            moving("cycles = 3\n", &format!("run = \"span\"\nmethod = \"generalised-alpha\"\n{free}{}", bearings(SPRINGS))),
+            moving(
+                "cycles = 3\n",
+                &format!("run = \"span\"\nmethod = \"generalised-alpha\"\n{free}{}", bearings(SPRINGS)),
+            ),
         ),
-        ("motion_explicit", moving("cycles = 2\n", "run = \"span\"\nmethod = \"dormand-prince\"\n").replace("= 16", "= 64")),
+        (
+            "motion_explicit",
+            moving("cycles = 2\n", "run = \"span\"\nmethod = \"dormand-prince\"\n").replace("= 16", "= 64"),
+        ),
         ("motion_tolerance", moving("cycles = 2\n", "run = \"span\"\nerror_tolerance = 1e-4\nstop_at_events = true\n")),
         ("motion_shooting", moving("cycles = 1\n", "run = \"shooting\"\nperiodic_tolerance = 1e-5\n")),
         (
             "motion_ramp",
-            moving("", "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 1500.0\nto_rpm = 4000.0\nduration_s = 0.01\nwaterfall_cycles = 4\n"),
+            moving(
+                "",
+                "run = \"ramp\"\n[motion.ramp]\nfrom_rpm = 1500.0\nto_rpm = 4000.0\nduration_s = 0.01\nwaterfall_cycles = 4\n",
+            ),
         ),
         ("motion_sweep", long_sweep(3)),
         (
             "motion_modes",
-            moving("model = \"reduced+modes\"\ncycles = 2\n", "run = \"span\"\n[modes]\ncount = 3\ndamping_ratio = 0.02\n"),
+            moving(
+                "model = \"reduced+modes\"\ncycles = 2\n",
+                "run = \"span\"\n[modes]\ncount = 3\ndamping_ratio = 0.02\n",
+            ),
         ),
         ("lumped8", lumped("lumped8", &format!("{SERIES}{}", bearings(SPRINGS)))),
         ("lumped12", lumped("lumped12", &format!("{SERIES}{}", bearings(&format!("{SPRINGS}{TILTS}"))))),

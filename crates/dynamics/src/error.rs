@@ -20,6 +20,18 @@ pub enum PairMotionError {
         /// Last change, relative.
         change: f64,
     },
+    /// A load below what round-off of places makes of the stiffness of teeth.
+    #[error(
+        "at {time:.9} s: a load of {load_n:.3e} N on the flanks is too light: round-off of places alone makes {lost_n:.3e} N of the stiffness of the teeth"
+    )]
+    LostLoad {
+        /// Time, s.
+        time: f64,
+        /// Force of the load on the flanks, N.
+        load_n: f64,
+        /// Force that round-off makes, N.
+        lost_n: f64,
+    },
     /// A checkpoint of a pair with another number of coordinates.
     #[error(
         "the checkpoint belongs to a motion with other free coordinates: it has {checkpoint}, this motion has {motion}"
@@ -83,6 +95,9 @@ impl PairMotionError {
             }
             Self::NoStart { .. } => {
                 "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks".into()
+            }
+            Self::LostLoad { .. } => {
+                "give a larger torque: teeth that bear next to nothing are not known well enough to move under it".into()
             }
             Self::OtherCoordinates { .. } => "go on with the scene that the checkpoint was written for".into(),
             Self::StandsStill { .. } => "ask for fewer mesh cycles, or let the speed end above zero".into(),

@@ -11,6 +11,14 @@ const STEPS: usize = 200;
 const TOLERANCE: f64 = 1e-9;
 /// The same where no step lowers it any more.
 const ROUND_OFF: f64 = 1e3 * TOLERANCE;
+/// The same where round-off of places is what is left, and no more can be had.
+const UNFELT: f64 = 1e-4;
+/// So many of the last bits of places are not known.
+const LAST_BITS: f64 = 64.0;
+/// How often the reach towards the mating flank is doubled, from the size of the lag on.
+const DOUBLINGS: usize = 40;
+/// How often the way between flanks apart and flanks that overlap is halved: to the last bit of a number.
+const HALVINGS: usize = 60;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
@@ -55,9 +63,8 @@ pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<
     q
 }
 
-/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness. Where flanks are apart
-/// and nothing but the load acts, the residual is the same before and after a step: such a step is taken, or a gap of
-/// some deflections would lie between steps that do not reach the teeth and those that overlap too far.
+/// Levenberg-Marquardt: Newton's method where it lowers the residual, else with added stiffness. Flanks that are apart are
+/// closed first: a residual that is the load alone has no slope that leads to the teeth.
 pub(super) fn balance(
     system: &mut PairMechanism,
     time: f64,
@@ -81,7 +88,27 @@ pub(super) fn balance(
     // Work of the residual over the coordinates' sizes: one number for forces and moments.
     let size = |r: &DVector<f64>| r.component_mul(scale).norm();
     let mut r = residual(system, &q, &mut forces)?;
-    let load = system.load_on_lag(time).abs() * scale[lag];
+    // Against the load nothing but a flank resists: where a way back changes nothing, none does.
+    let moved = |q: &DVector<f64>, reach: f64, r: f64| {
+        let mut there = q.clone();
+        there[lag] += reach * scale[lag] * r.signum();
+        there
+    };
+    let alone = r[lag];
+    let further = residual(system, &moved(&q, -1.0, alone), &mut forces)?[lag];
+    if further == alone {
+        let mut touches = |reach: f64| {
+            let there = moved(&q, reach, alone);
+            let r = residual(system, &there, &mut forces)?;
+            Ok::<_, PairMotionError>((r[lag] != alone).then(|| (size(&r), there)))
+        };
+        if let Some(closed) = closed(&mut touches, size(&r))? {
+            q = closed;
+        }
+    }
+    r = residual(system, &q, &mut forces)?;
+    let load_n = system.load_on_lag(time).abs();
+    let load = load_n * scale[lag];
     let mut added = 1e-3;
     let mut change = 0.0;
     for _ in 0..STEPS {
@@ -104,15 +131,19 @@ pub(super) fn balance(
         let tried = &q + &step;
         let kept = forces.clone();
         let there = residual(system, &tried, &mut forces)?;
-        let found = size(&there);
-        if found < now || (found == now && now > ROUND_OFF * load) {
+        if size(&there) < now {
             change = step.component_div(scale).amax();
             (q, r, added) = (tried, there, added * 0.1);
         } else if added > 1e6 {
             // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is
             // near.
-            if now <= ROUND_OFF * load {
+            // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
+            let lost = LAST_BITS * f64::EPSILON * system.pair().centre_distance() * kept.stiffness[(lag, lag)].abs();
+            if now <= ROUND_OFF * load || now <= (lost * scale[lag]).min(UNFELT * load) {
                 return Ok(q);
+            }
+            if now <= lost * scale[lag] {
+                return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
             }
             break;
         } else {
@@ -121,4 +152,34 @@ pub(super) fn balance(
         }
     }
     Err(PairMotionError::NoStart { time, change })
+}
+
+/// Coordinates at which flanks begin to touch: further and further until they do, then half way back as long as they
+/// press by much more than the load, whose residual is `alone`. `touches` tells for a reach (sizes of the lag) the
+/// residual and the coordinates there, if flanks touch; `None` where they never do.
+fn closed(
+    touches: &mut impl FnMut(f64) -> Result<Option<(f64, DVector<f64>)>, PairMotionError>,
+    alone: f64,
+) -> Result<Option<DVector<f64>>, PairMotionError> {
+    let (mut apart, mut reach) = (0.0, 1.0);
+    let mut found = None;
+    for _ in 0..DOUBLINGS {
+        found = touches(reach)?.map(|(residual, q)| (reach, residual, q));
+        if found.is_some() {
+            break;
+        }
+        (apart, reach) = (reach, 2.0 * reach);
+    }
+    let Some((mut touching, mut residual, mut q)) = found else { return Ok(None) };
+    for _ in 0..HALVINGS {
+        if residual <= 2.0 * alone {
+            break;
+        }
+        let middle = 0.5 * (apart + touching);
+        match touches(middle)? {
+            Some((less, there)) => (touching, residual, q) = (middle, less, there),
+            None => apart = middle,
+        }
+    }
+    Ok(Some(q))
 }

@@ -26,7 +26,8 @@ fn draw_mesh(d: &mut Draft, sizes: &Sizes, asked: &Asked, from: &str) {
         d.set("mesh.stiffness_n_per_um", mean.clamp(1e-6, 1e9));
         for key in ["stiffness_cos_n_per_um", "stiffness_sin_n_per_um"] {
             if d.chance(0.6) {
-                let list: Vec<f64> = (0..d.whole(1, 4)).map(|k| mean * d.between(-0.2, 0.2) / f64::from(k + 1)).collect();
+                let list: Vec<f64> =
+                    (0..d.whole(1, 4)).map(|k| mean * d.between(-0.2, 0.2) / f64::from(k + 1)).collect();
                 d.set(&format!("mesh.{key}"), list);
             }
         }

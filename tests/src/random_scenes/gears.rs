@@ -44,7 +44,8 @@ fn one_pair(d: &mut Draft, most_teeth: f64) -> Sizes {
     let teeth = [(); 2].map(|()| if d.chance(0.92) { d.log(9.0, usual) } else { d.log(5.0, most_teeth) } as u32);
     let helix_deg = if d.chance(0.2) { 0.0 } else { d.mostly([-40.0, 40.0], [-60.0, 60.0]) };
     let module = d.mostly_log([0.5, 12.0], [0.01, 200.0]);
-    let width = (module * d.mostly_log([2.0, 20.0], [0.05, 100.0])).clamp(0.01, 1e4);
+    let width = if d.chance(0.06) { d.log(0.05, 60.0) } else { d.log(2.0, 8.0) };
+    let width = (module * width).clamp(0.01, 1e4);
     for (key, value) in [("normal_module_mm", module), ("face_width_mm", width)] {
         d.set(&format!("pair.{key}"), value);
     }

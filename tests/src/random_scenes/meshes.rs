@@ -28,13 +28,13 @@ pub fn draw_mesher(d: &mut Draft, sizes: &Sizes, rich: bool) {
     for (i, gear) in ["pinion", "wheel"].into_iter().enumerate() {
         let turn = (2.0 * sizes.width * sizes.helix_deg.to_radians().tan() / sizes.reference[i]).abs().to_degrees();
         let layers = (turn / TURN_DEG).ceil().clamp(2.0, 60.0) as u32;
-        let small = if d.chance(0.5) || !rich { 2 } else { 3 };
+        let small = if d.chance(0.75) || !rich { 2 } else { 3 };
         let counts = [
-            ("order", d.whole(1, if rich { 2 } else { 1 })),
+            ("order", if rich && d.chance(0.3) { 2 } else { 1 }),
             ("elements_profile", d.whole(1, small)),
             ("elements_fillet", d.whole(2, small)),
             ("elements_thickness", d.whole(1, small)),
-            ("elements_face", layers + d.whole(0, 2)),
+            ("elements_face", layers + d.whole(0, 1)),
             ("elements_rim", d.whole(1, 2)),
         ];
         for (key, count) in counts {

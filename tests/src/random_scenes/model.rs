@@ -23,15 +23,15 @@ pub struct Asked {
 
 /// Share of each model, in time or not.
 const SHARES: [(&str, bool, f64); 9] = [
-    ("reduced", false, 0.40),
-    ("reduced", true, 0.16),
-    ("reduced+modes", true, 0.06),
-    ("full", false, 0.05),
-    ("iso", false, 0.06),
-    ("lumped8", true, 0.08),
-    ("lumped12", true, 0.07),
-    ("shaft18", true, 0.06),
-    ("impact", true, 0.06),
+    ("reduced", false, 0.34),
+    ("reduced", true, 0.13),
+    ("reduced+modes", true, 0.04),
+    ("full", false, 0.03),
+    ("iso", false, 0.10),
+    ("lumped8", true, 0.11),
+    ("lumped12", true, 0.10),
+    ("shaft18", true, 0.08),
+    ("impact", true, 0.07),
 ];
 
 /// Which model, and what it takes.
@@ -43,7 +43,7 @@ pub fn draw_model(d: &mut Draft) -> Asked {
     });
     let (model, in_time, _) = found.unwrap_or(SHARES[0]);
     let stiff = matches!(model, "lumped8" | "lumped12" | "shaft18");
-    let from = stiff.then(|| d.pick(&["series", "series", "iso", "iso", "reduced"]));
+    let from = stiff.then(|| d.pick(&["series", "series", "series", "iso", "iso", "iso", "reduced"]));
     let meshed = matches!(model, "reduced" | "reduced+modes" | "full") || from == Some("reduced");
     Asked {
         model,

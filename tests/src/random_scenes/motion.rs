@@ -95,7 +95,8 @@ fn draw_bodies(d: &mut Draft, sizes: &Sizes, asked: &Asked) {
 
 fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Asked) {
     // As soft as keeps the teeth in mesh under the load, most of the time.
-    let radius = 0.5 * d.number("pair.normal_module_mm").unwrap_or(1.0) * d.number(&format!("{gear}.teeth")).unwrap_or(20.0);
+    let radius =
+        0.5 * d.number("pair.normal_module_mm").unwrap_or(1.0) * d.number(&format!("{gear}.teeth")).unwrap_or(20.0);
     let force = 1e3 * d.number("operation.torque_nm").unwrap_or(0.0) / radius;
     let least = force / (0.02 * d.number("pair.normal_module_mm").unwrap_or(1.0));
     let stiffness = 1e-3 * mass * (TAU * d.log(50.0, 5e3)).powi(2);
@@ -112,7 +113,10 @@ fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Ask
                 (0, 4) | (4, 0) => coupling * (diagonal(0) * diagonal(4)).sqrt(),
                 _ => 0.0,
             };
-            d.set_rows(&format!("{gear}.bearing.{key}"), (0..5).map(|i| (0..5).map(|j| entry(i, j)).collect()).collect());
+            d.set_rows(
+                &format!("{gear}.bearing.{key}"),
+                (0..5).map(|i| (0..5).map(|j| entry(i, j)).collect()).collect(),
+            );
         }
         return;
     }
@@ -146,7 +150,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
     let driver = if d.get("operation.driver").and_then(|w| w.as_str()) == Some("wheel") { 1 } else { 0 };
     let hz = resonance_hz(d, sizes) * d.log(0.05, 1.6);
     let rpm = (60.0 * hz / f64::from(sizes.teeth[driver])).clamp(1e-6, 1e7);
-    let steps = d.whole(8, 24);
+    let steps = d.whole(8, 14);
     d.set("motion.steps_per_mesh_cycle", i64::from(steps));
     // Any speed at all where the number of steps does not follow it.
     let wild = d.chance(0.05);
@@ -154,7 +158,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
     d.set("operation.speed_rpm", rpm);
     if asked.model != "impact" || d.chance(0.02) {
         // The highest kept mode makes many more steps.
-        let most = if asked.model == "reduced+modes" { 4 } else { 16 };
+        let most = if asked.model == "reduced+modes" { 4 } else { 10 };
         let per_resonance = if wild || d.chance(0.3) { 0 } else { d.whole(most / 2, most) };
         d.set("motion.steps_per_resonance", i64::from(per_resonance));
     }
@@ -163,16 +167,16 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
         "ramp" => draw_ramp(d, rpm, cycle_s, elastic),
         "sweep" => draw_sweep(d, rpm, elastic),
         "span" if d.chance(0.4) => {
-            let cycles = f64::from(d.whole(1, 5));
+            let cycles = f64::from(d.whole(1, 3));
             d.set("motion.duration_s", (cycles * cycle_s).clamp(1e-9, 1e9));
         }
         _ => {
-            let cycles = d.whole(1, 4);
+            let cycles = d.whole(1, 2);
             d.set("analysis.cycles", i64::from(cycles));
         }
     }
     if matches!(run, "steady" | "shooting" | "sweep") {
-        let waits = d.whole(0, 25);
+        let waits = d.whole(0, 8);
         d.set("motion.warm_up_cycles", i64::from(waits));
         let tolerance = d.mostly_log([1e-5, 1e-2], [1e-12, 0.5]);
         d.set("motion.periodic_tolerance", tolerance);
@@ -186,18 +190,18 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
 
 fn draw_ramp(d: &mut Draft, rpm: f64, cycle_s: f64, elastic: bool) {
     let from = if d.chance(0.2) { 0.0 } else { rpm * d.between(0.5, 1.0) };
-    let (to, length) = (rpm * d.between(0.5, 1.5), cycle_s * d.between(6.0, 20.0));
+    let (to, length) = (rpm * d.between(0.5, 1.5), cycle_s * d.between(5.0, 10.0));
     d.set("motion.ramp.from_rpm", from.clamp(0.0, 1e7));
     d.set("motion.ramp.to_rpm", to.clamp(1e-3, 1e7));
     d.set("motion.ramp.duration_s", length.clamp(1e-6, 1e6));
     for key in ["before_s", "after_s"] {
         if d.chance(0.3) {
-            let length = cycle_s * d.between(0.0, 5.0);
+            let length = cycle_s * d.between(0.0, 2.0);
             d.set(&format!("motion.ramp.{key}"), length.clamp(0.0, 1e6));
         }
     }
     if elastic {
-        let cycles = d.whole(4, 8);
+        let cycles = d.whole(4, 5);
         d.set("motion.ramp.waterfall_cycles", i64::from(cycles));
     }
 }
@@ -206,7 +210,7 @@ fn draw_sweep(d: &mut Draft, rpm: f64, elastic: bool) {
     let [from, to] = [rpm * d.between(0.6, 0.95), rpm * d.between(1.05, 1.5)];
     d.set("motion.sweep.from_rpm", from.clamp(1e-3, 1e7));
     d.set("motion.sweep.to_rpm", to.clamp(1e-3, 1e7));
-    let speeds = d.whole(2, 4);
+    let speeds = d.whole(2, 3);
     d.set("motion.sweep.speeds", i64::from(speeds));
     if d.chance(0.6) {
         let ways = d.some_of(&["up", "down", "apart"]);
@@ -259,7 +263,7 @@ fn one_torque(d: &mut Draft, table: &str, torque: f64, asked: &Asked) {
 
 fn draw_modes(d: &mut Draft) {
     if d.chance(0.7) {
-        let count = d.whole(1, 8);
+        let count = d.whole(1, 4);
         d.set("modes.count", i64::from(count));
     } else {
         let below = d.log(100.0, 5e4);

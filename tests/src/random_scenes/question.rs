@@ -38,7 +38,7 @@ pub fn draw_contact(d: &mut Draft, asked: &Asked) {
     let nodal = !asked.in_time && asked.meshed && d.chance(0.2);
     if nodal {
         d.set("contact.method", "nodal");
-        let points = d.whole(1, 6);
+        let points = d.whole(1, 4);
         d.set("contact.points_per_face_edge", i64::from(points));
         if d.chance(0.35) {
             let penalty = d.mostly_log([1e4, 1e8], [1.0, 1e15]);
@@ -52,8 +52,8 @@ pub fn draw_contact(d: &mut Draft, asked: &Asked) {
         if d.chance(0.1) {
             d.set("contact.method", "slice");
         }
-        if asked.sliced && d.chance(0.85) {
-            let slices = if d.chance(0.8) { d.whole(4, 12) } else { d.whole(13, 48) };
+        if asked.sliced && d.chance(0.93) {
+            let slices = if d.chance(0.9) { d.whole(4, 9) } else { d.whole(10, 48) };
             d.set("contact.slices", i64::from(slices));
         }
         if asked.sliced && asked.meshed && d.chance(0.15) {
@@ -86,10 +86,10 @@ pub fn draw_analysis(d: &mut Draft, sizes: &Sizes, asked: &Asked) {
     } else if d.chance(0.1) {
         d.set("analysis.kind", if asked.in_time { "dynamic" } else { "static" });
     }
-    let positions = if asked.model == "iso" { d.whole(1, 200) } else { d.whole(1, 6) };
+    let positions = if asked.model == "iso" { d.whole(1, 200) } else { d.whole(1, 4) };
     d.set("analysis.positions_per_cycle", i64::from(positions));
     if !asked.in_time && d.chance(0.4) {
-        let cycles = d.whole(1, 3);
+        let cycles = d.whole(1, 2);
         d.set("analysis.cycles", i64::from(cycles));
     }
     if asked.meshed && d.chance(0.12) {
@@ -101,7 +101,7 @@ pub fn draw_analysis(d: &mut Draft, sizes: &Sizes, asked: &Asked) {
 /// Which files are written beside the three.
 pub fn draw_output(d: &mut Draft, asked: &Asked) {
     let stress = asked.meshed && matches!(asked.model, "reduced" | "full") || d.chance(0.02);
-    if stress && d.chance(0.2) {
+    if stress && d.chance(0.1) {
         d.set("output.root_stress", true);
     }
     let lines = asked.meshed && !asked.in_time && d.get("contact.method").is_none_or(|m| m.as_str() == Some("slice"));
@@ -111,7 +111,7 @@ pub fn draw_output(d: &mut Draft, asked: &Asked) {
     if d.chance(0.1) {
         d.set("output.parquet", true);
     }
-    if asked.meshed && !asked.in_time && d.chance(0.08) {
+    if asked.meshed && !asked.in_time && d.chance(0.05) {
         d.set("output.vtu", true);
         let fields = d.some_of(&["displacement", "pressure", "stress"]);
         d.set("output.fields", fields);
@@ -126,7 +126,7 @@ pub fn draw_output(d: &mut Draft, asked: &Asked) {
 
 /// How exact some number is to be; the model stays that of the scene, which is small.
 pub fn draw_accuracy(d: &mut Draft, asked: &Asked) {
-    if !asked.meshed || !d.chance(0.02) {
+    if !asked.meshed || !d.chance(0.012) {
         return;
     }
     let of_motion = |q: Quantity| q.is_of_motion() == asked.in_time;

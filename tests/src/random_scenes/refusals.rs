@@ -42,6 +42,7 @@ impl Refusals {
     /// The pattern of a message.
     pub(super) fn explain(&self, message: &str, status: i32, scene: &Draft) -> Result<String, String> {
         range_is_left(message, scene)?;
+        something_is_free(message, scene)?;
         let fits = |r: &&Reason| r.status == status && matches(&r.pattern, message);
         match self.reason.iter().find(fits) {
             Some(reason) => Ok(reason.pattern.clone()),
@@ -77,6 +78,16 @@ fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
     let mut of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
     let there = of_key.any(|k| scene.number(&k).is_some_and(|n| (n - value).abs() <= 1e-9 * value.abs()));
     if there { Ok(()) } else { Err(format!("the scene has no such value: {message}")) }
+}
+
+/// "no equilibrium": teeth alone hold the driven gear under any load; only bearings can be too soft.
+fn something_is_free(message: &str, scene: &Draft) -> Result<(), String> {
+    if !message.contains("no equilibrium to begin with") {
+        return Ok(());
+    }
+    let free =
+        |gear: &str| scene.get(&format!("{gear}.body.free")).and_then(|f| f.as_array()).is_some_and(|f| !f.is_empty());
+    if free("pinion") || free("wheel") { Ok(()) } else { Err(format!("teeth alone hold the gears: {message}")) }
 }
 
 #[cfg(test)]

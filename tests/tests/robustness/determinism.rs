@@ -22,8 +22,7 @@ fn run(folder: &Path, out: &str, words: &[&str]) -> Files {
 /// Names of the files that differ.
 fn other(a: &Files, b: &Files) -> Vec<String> {
     let names = a.keys().chain(b.keys());
-    let mut names: Vec<String> =
-        names.filter(|n| a.get(*n) != b.get(*n)).map(|n| n.display().to_string()).collect();
+    let mut names: Vec<String> = names.filter(|n| a.get(*n) != b.get(*n)).map(|n| n.display().to_string()).collect();
     names.dedup();
     names
 }

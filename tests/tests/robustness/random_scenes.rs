@@ -21,8 +21,7 @@ fn every_scene_is_solved_or_refused_for_a_known_reason() {
     for index in 0..SCENES {
         let folder = tempfile::tempdir().unwrap();
         let scene = draw(SEED, index);
-        let verdict =
-            try_scene(program(), folder.path(), index, &scene, (Limits::default(), &refusals)).unwrap();
+        let verdict = try_scene(program(), folder.path(), index, &scene, (Limits::default(), &refusals)).unwrap();
         wrong.extend(verdict.wrong.iter().map(|w| format!("scene {index} ({}): {w}", verdict.model)));
     }
     let seconds = start.elapsed().as_secs_f64();

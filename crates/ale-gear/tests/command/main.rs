@@ -2,6 +2,7 @@
 
 mod cache;
 mod command_line;
+mod faults;
 mod folders;
 mod messages;
 mod resume;
