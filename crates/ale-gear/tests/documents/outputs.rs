@@ -81,6 +81,7 @@ fn every_kind() -> Scratch {
     ];
     run(&[&["sweep", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
     run(&["study", "study.toml", "--out", "out-study"]);
+    run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
     scratch
 }

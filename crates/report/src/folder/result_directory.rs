@@ -166,6 +166,8 @@ const OURS: [&str; 32] = [
     "motion_precision.md",
     "motion_precision.png",
     "motion_precision.svg",
+    "envelope.csv",
+    "maps.csv",
     "work_precision.svg",
     "work_precision.png",
     "compare.html",
