@@ -36,7 +36,7 @@ mod whole_range;
 pub use attempt::{Attempt, Limits, try_scene};
 pub use csv::Csv;
 pub use draft::Draft;
-pub use refusals::Refusals;
+pub use refusals::{Refusals, matches};
 pub use verdict::{Outcome, Tally, Verdict};
 pub use whole_range::keys_of_schema;
 

@@ -65,3 +65,11 @@ fn no_key_is_left_out() {
     }
     assert!(left.is_empty(), "in none of {DRAWN} accepted scenes: {left:?}");
 }
+
+/// Patterns of known reasons: a star stands for anything, and the ends are held.
+#[test]
+fn a_star_stands_for_anything() {
+    use verification::random_scenes::matches;
+    assert!(matches("a * b", "a 12.5 b") && matches("*", "") && matches("a*", "a: `x`"));
+    assert!(!matches("a * b", "a 12.5 c") && !matches("a", "ab") && !matches("*x", "y"));
+}

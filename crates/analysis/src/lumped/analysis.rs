@@ -205,7 +205,7 @@ fn result(
             None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
             Some(_) => f64::INFINITY,
         };
-        warnings.extend(motion::unresolved(&judged.dte_um, run.judged as u64, steps));
+        warnings.extend(motion::unresolved(&judged.dte_um, run.judged, steps));
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
             warnings.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
