@@ -5,7 +5,7 @@ use crate::util::Scratch;
 /// A case and a map leave a row a figure and a row a cell, a page, and their tables where the marks are.
 #[test]
 fn cases_leave_rows_a_page_and_tables() {
-    let marks = "a\n<!-- chart failure modes -->\nold\n<!-- end -->\nb\n<!-- chart maps -->\n<!-- end -->\n";
+    let marks = "a\n<!-- chart failure modes -->\nof before\n<!-- end -->\nb\n<!-- chart maps -->\n<!-- end -->\n";
     let scratch = Scratch::new().file("page.md", marks);
     let run = scratch.ale_gear(["envelope", "--only", "F14,f8", "--out", "out", "--into", "page.md"]);
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
@@ -16,7 +16,7 @@ fn cases_leave_rows_a_page_and_tables() {
     assert!(rows.contains("\nF8,") && rows.contains("\nF14,") && !rows.contains("\nF1,"), "{rows}");
     assert!(scratch.read("out/report.html").contains("F14 dependence on units"));
     let page = scratch.read("page.md");
-    assert!(page.contains("| [F14](#f14) dependence on units |") && !page.contains("old"), "{page}");
+    assert!(page.contains("| [F14](#f14) dependence on units |") && !page.contains("of before"), "{page}");
     assert!(page.starts_with("a\n") && page.contains("\nb\n<!-- chart maps -->\n<!-- end -->"), "{page}");
 }
 
