@@ -1,6 +1,3 @@
 #![no_main]
 
-#[global_allocator]
-static LIMITED: verification::readers::limited::Limited = verification::readers::limited::Limited::new();
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| verification::readers::gear_mesh(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| fuzz::watched(verification::readers::gear_mesh, bytes));

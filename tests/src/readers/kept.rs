@@ -1,8 +1,9 @@
 //! What the program keeps in files and reads back.
 
-use std::{path::Path, sync::OnceLock};
+use std::{io::Write, path::Path, sync::OnceLock};
 
 use analysis::motion::{MotionCheckpoint, MotionLayout};
+use flate2::{Compression, write::GzEncoder};
 use reduction::{RecordKey, ReductionRecord};
 use report::{
     checkpoint::{Stored, parse_rows, sealed_state},
@@ -11,6 +12,7 @@ use report::{
         Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
         write_curves_csv,
     },
+    page::report_from,
     parse_columns,
 };
 use scene::Scene;
@@ -68,6 +70,23 @@ fn gone_on_from(checkpoint: MotionCheckpoint) {
     for mut pattern in checkpoint.patterns {
         let _ = pattern.press(&[touch, Touch { roll: 0.5, ..touch }], 1.0);
     }
+}
+
+/// The source of a report's page. It is packed first, else nothing would come past the checksum; as it is, too.
+pub fn page(bytes: &[u8]) {
+    for packed in [bytes, &packed(bytes)] {
+        if let Err(e) = report_from(packed, Path::new("report.json.gz")) {
+            drop((e.to_string(), e.hint()));
+        }
+    }
+}
+
+/// Bytes in gzip.
+fn packed(bytes: &[u8]) -> Vec<u8> {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+    // Writing to memory cannot fail.
+    let _ = packed.write_all(bytes);
+    packed.finish().unwrap_or_default()
 }
 
 /// A scene to lay out rows by.

@@ -8,7 +8,7 @@
 //! | `meshes` | `.msh` of Gmsh, and the gear in it |
 //! | `scenes` | scenes, words of `--set`, studies, REXS |
 //! | `measured` | topographies, pitch errors |
-//! | `kept` | records of reduced gears, checkpoints, rows, result folders |
+//! | `kept` | records of reduced gears, checkpoints, rows, result folders, sources of pages |
 //! | `limited` | an allocator that ends the program at too much memory |
 
 mod kept;
@@ -17,7 +17,7 @@ mod measured;
 mod meshes;
 mod scenes;
 
-pub use kept::{checkpoint, record, results, rows, sealed_record};
+pub use kept::{checkpoint, page, record, results, rows, sealed_record};
 pub use measured::{pitch_errors, topography};
 pub use meshes::{gear_mesh, mesh};
 pub use scenes::{rexs, scene, setting, study};
@@ -26,7 +26,7 @@ pub use scenes::{rexs, scene, setting, study};
 pub type Reader = fn(&[u8]);
 
 /// All of them, by the name of their target and of the folder of their corpus.
-pub const READERS: [(&str, Reader); 12] = [
+pub const READERS: [(&str, Reader); 13] = [
     ("mesh", mesh),
     ("gear_mesh", gear_mesh),
     ("scene", scene),
@@ -39,6 +39,7 @@ pub const READERS: [(&str, Reader); 12] = [
     ("checkpoint", checkpoint),
     ("rows", rows),
     ("results", results),
+    ("page", page),
 ];
 
 /// The bytes before the first zero byte and those behind it: two files in one input.

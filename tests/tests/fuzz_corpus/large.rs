@@ -225,3 +225,20 @@ fn elements_about_one_edge() {
     );
     within_bounds("elements about one edge", readers::gear_mesh, text.as_bytes());
 }
+
+/// What a page is made of unpacks from nothing: gzip makes a thousandth of it.
+#[test]
+fn pages_that_unpack_without_end() {
+    let page = |context: &str| format!("{{\"template\":\"page.html\",\"context\":{context}}}");
+    let texts = [
+        page(&format!("[{}0]", "0,".repeat(16 * SIZE))),
+        page(&format!("[{}0]", "{\"\":0},".repeat(SIZE))),
+        page(&format!("[{}0]", "[0],".repeat(SIZE))),
+        page(&format!("{}{}", "[".repeat(SIZE), "]".repeat(SIZE))),
+        page(&format!("{{{}\"a\":1}}", many(4.0, |i| format!("\"a{i}\":1,")))),
+        page(&format!("{{\"name\":\"{}\"}}", "<".repeat(6 * SIZE))),
+    ];
+    for (i, text) in texts.iter().enumerate() {
+        within_bounds(&format!("page {i}"), readers::page, text.as_bytes());
+    }
+}

@@ -7,7 +7,7 @@ mod static_page;
 mod template;
 
 pub use motion_page::{render_run, write_motion_report, write_sweep_report};
-pub use rendered::{Rendered, report_again};
+pub use rendered::{Rendered, report_again, report_from};
 pub use run_page::RunPage;
 pub use static_page::write_report;
 pub use template::render;

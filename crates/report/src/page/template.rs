@@ -1,5 +1,7 @@
 //! Pages from templates, with all that their scripts need.
 
+use std::sync::LazyLock;
+
 use minijinja::{Environment, Value};
 
 use crate::ReportError;
@@ -10,7 +12,16 @@ use crate::ReportError;
 /// # Errors
 /// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.
 pub fn render(name: &str, context: Value) -> Result<String, ReportError> {
-    let failed = |e: minijinja::Error| ReportError::Page { file: "report.html", cause: e.to_string() };
+    static PARTS: LazyLock<Result<Environment<'static>, String>> =
+        LazyLock::new(|| environment().map_err(|e| e.to_string()));
+    let failed = |cause: String| ReportError::Page { file: "report.html", cause };
+    let environment = PARTS.as_ref().map_err(|e| failed(e.clone()))?;
+    let page = environment.get_template(name).and_then(|page| page.render(context));
+    page.map(with_scripts).map_err(|e| failed(e.to_string()))
+}
+
+/// All templates, and what they call.
+fn environment() -> Result<Environment<'static>, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
     environment.add_function("number", number);
@@ -32,9 +43,9 @@ pub fn render(name: &str, context: Value) -> Result<String, ReportError> {
         ("tail.html", include_str!("tail.html")),
     ];
     for (part, text) in parts {
-        environment.add_template(part, text).map_err(failed)?;
+        environment.add_template(part, text)?;
     }
-    environment.get_template(name).and_then(|page| page.render(context)).map(with_scripts).map_err(failed)
+    Ok(environment)
 }
 
 /// The page with the scripts that its parts ask for: charts and maps, gears in space.
