@@ -156,7 +156,7 @@ pub(super) fn balance(
                 (added, approaches) = (1e-3, approaches + 1);
                 continue;
             }
-            if now <= lost * scale[lag] {
+            if now <= lost * scale[lag] || load_n <= lost {
                 return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
             }
             break;

@@ -85,10 +85,8 @@ pub fn judge(folder: &Path) -> Judged {
 /// As many rows as were asked for, in the order of time.
 fn rows(case: &Case<'_>) -> Vec<String> {
     let mut wrong = Vec::new();
-    if let Some(time) = case.history.column("time_s") {
-        if time.windows(2).any(|w| w[1] <= w[0]) {
-            wrong.push("time_s does not grow from row to row".into());
-        }
+    if case.history.column("time_s").is_some_and(|time| time.windows(2).any(|w| w[1] <= w[0])) {
+        wrong.push("time_s does not grow from row to row".into());
     }
     let analysis = &case.inputs["analysis"];
     let wanted = |of: &Json| Some(of.as_u64()? * analysis["cycles"].as_u64().filter(|c| *c > 0)?);

@@ -42,7 +42,7 @@ pub fn mirrored(index: u64, scene: &RandomScene) -> Option<(Draft, (Mirror, bool
     if !at_rest || scene.foreign || scene.anything || flat || !d.files.is_empty() || d.get("accuracy").is_some() {
         return None;
     }
-    let mirror = if index % 8 == 0 { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
+    let mirror = if index.is_multiple_of(8) { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
     let mut other = scene.draft.copy();
     for key in ["pinion.helix_angle_deg", "wheel.helix_angle_deg"] {
         turn(&mut other, key);

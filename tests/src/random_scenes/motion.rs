@@ -121,7 +121,7 @@ fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Ask
         return;
     }
     for (name, key, damping) in SUPPORT {
-        if !free.contains(&name) && !(name == "rz" && turning) {
+        if !(free.contains(&name) || name == "rz" && turning) {
             continue;
         }
         let value = if d.chance(0.03) { d.log(1e-6, 1e15) } else { stiffness * of(name) * d.between(0.5, 2.0) };
