@@ -35,7 +35,12 @@ pub fn stable_step(
         let cycles = f64::from(phase) / f64::from(PHASES);
         // A pair that stands still has one phase only.
         let Some(time) = own.nominal().time_at(own.pair(), &own.options().statics, cycles) else { break };
-        q = balance(&mut own, time, q, scale)?;
+        q = match balance(&mut own, time, q.clone(), scale) {
+            // The motion begins at the first phase. A later one where the search is lost tells nothing of the limit, which
+            // each step is held against as well.
+            Err(PairMotionError::NoStart { .. } | PairMotionError::LostLoad { .. }) if phase > 0 => continue,
+            found => found?,
+        };
         own.accepted(time, &q, &still).map_err(fail(time))?;
         forces.clear();
         own.forces(time, &q, &still, &mut forces).map_err(fail(time))?;

@@ -19,6 +19,8 @@ const LAST_BITS: f64 = 64.0;
 const DOUBLINGS: usize = 40;
 /// How often the way between flanks apart and flanks that overlap is halved: to the last bit of a number.
 const HALVINGS: usize = 60;
+/// How often flanks that came apart in the search are closed again.
+const APPROACHES: usize = 5;
 /// Share of a mesh cycle either way over which velocities are taken.
 const SPAN: f64 = 1e-3;
 
@@ -87,26 +89,29 @@ pub(super) fn balance(
     };
     // Work of the residual over the coordinates' sizes: one number for forces and moments.
     let size = |r: &DVector<f64>| r.component_mul(scale).norm();
-    let mut r = residual(system, &q, &mut forces)?;
     // Against the load nothing but a flank resists: where a way back changes nothing, none does.
-    let moved = |q: &DVector<f64>, reach: f64, r: f64| {
-        let mut there = q.clone();
-        there[lag] += reach * scale[lag] * r.signum();
-        there
-    };
-    let alone = r[lag];
-    let further = residual(system, &moved(&q, -1.0, alone), &mut forces)?[lag];
-    if further == alone {
-        let mut touches = |reach: f64| {
-            let there = moved(&q, reach, alone);
-            let r = residual(system, &there, &mut forces)?;
-            Ok::<_, PairMotionError>((r[lag] != alone).then(|| (size(&r), there)))
+    let approached = |system: &mut PairMechanism, q: &DVector<f64>, forces: &mut Forces| {
+        let alone = residual(system, q, forces)?;
+        let moved = |reach: f64| {
+            let mut there = q.clone();
+            there[lag] += reach * scale[lag] * alone[lag].signum();
+            there
         };
-        if let Some(closed) = closed(&mut touches, size(&r))? {
-            q = closed;
+        if residual(system, &moved(-1.0), forces)?[lag] != alone[lag] {
+            return Ok(None);
         }
+        let mut touches = |reach: f64| {
+            let there = moved(reach);
+            let r = residual(system, &there, forces)?;
+            Ok::<_, PairMotionError>((r[lag] != alone[lag]).then(|| (size(&r), there)))
+        };
+        closed(&mut touches, size(&alone))
+    };
+    let mut approaches = 0;
+    if let Some(there) = approached(system, &q, &mut forces)? {
+        q = there;
     }
-    r = residual(system, &q, &mut forces)?;
+    let mut r = residual(system, &q, &mut forces)?;
     let load_n = system.load_on_lag(time).abs();
     let load = load_n * scale[lag];
     let mut added = 1e-3;
@@ -142,7 +147,16 @@ pub(super) fn balance(
             if now <= ROUND_OFF * load || now <= (lost * scale[lag]).min(UNFELT * load) {
                 return Ok(q);
             }
-            if now <= lost * scale[lag] {
+            // What else moves may have taken the flanks apart.
+            if approaches < APPROACHES
+                && let Some(there) = approached(system, &q, &mut forces)?
+            {
+                q = there;
+                r = residual(system, &q, &mut forces)?;
+                (added, approaches) = (1e-3, approaches + 1);
+                continue;
+            }
+            if now <= lost * scale[lag] || load_n <= lost {
                 return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
             }
             break;

@@ -124,9 +124,10 @@ pub fn draw_output(d: &mut Draft, asked: &Asked) {
     }
 }
 
-/// How exact some number is to be; the model stays that of the scene, which is small.
+/// How exact some number is to be; the model stays that of the scene, which is small. Of a motion only a steady one at
+/// constant speed under a constant load has bounds.
 pub fn draw_accuracy(d: &mut Draft, asked: &Asked) {
-    if !asked.meshed || !d.chance(0.012) {
+    if !asked.meshed || asked.from.is_some() || !d.chance(0.025) {
         return;
     }
     let of_motion = |q: Quantity| q.is_of_motion() == asked.in_time;
@@ -139,5 +140,13 @@ pub fn draw_accuracy(d: &mut Draft, asked: &Asked) {
             format!("{} {}", d.log(1e-3, 10.0), quantity.unit())
         };
         d.set(&format!("accuracy.{}", quantity.key()), amount);
+        if quantity.key().ends_with("root_stress") {
+            d.set("output.root_stress", true);
+        }
+    }
+    if asked.in_time && d.chance(0.9) {
+        ["drive", "load", "motion.ramp", "motion.sweep", "motion.duration_s"].iter().for_each(|key| d.unset(key));
+        ["motion.error_tolerance", "motion.checkpoint_every_cycles"].iter().for_each(|key| d.unset(key));
+        d.set("motion.run", "steady");
     }
 }

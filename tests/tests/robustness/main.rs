@@ -3,6 +3,7 @@
 mod determinism;
 mod kills;
 mod random_scenes;
+mod starts;
 
 use std::path::Path;
 
