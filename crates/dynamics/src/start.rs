@@ -115,9 +115,12 @@ pub(super) fn balance(
     let load_n = system.load_on_lag(time).abs();
     let load = load_n * scale[lag];
     let mut added = 1e-3;
-    let mut change = 0.0;
+    // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
+    let place = LAST_BITS * f64::EPSILON * system.pair().centre_distance();
+    let (mut change, mut lost): (f64, f64) = (0.0, 0.0);
     for _ in 0..STEPS {
         let now = size(&r);
+        lost = lost.max(place * forces.stiffness[(lag, lag)].abs());
         if now <= TOLERANCE * load.max(f64::MIN_POSITIVE) {
             return Ok(q);
         }
@@ -142,8 +145,6 @@ pub(super) fn balance(
         } else if added > 1e6 {
             // Residuals of contact are good to some 1e-11 of its forces; what is left is round-off, or no balance is
             // near.
-            // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
-            let lost = LAST_BITS * f64::EPSILON * system.pair().centre_distance() * kept.stiffness[(lag, lag)].abs();
             if now <= ROUND_OFF * load || now <= (lost * scale[lag]).min(UNFELT * load) {
                 return Ok(q);
             }
@@ -156,14 +157,14 @@ pub(super) fn balance(
                 (added, approaches) = (1e-3, approaches + 1);
                 continue;
             }
-            if now <= lost * scale[lag] || load_n <= lost {
-                return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
-            }
             break;
         } else {
             forces = kept;
             added = (added * 10.0).max(1e-6);
         }
+    }
+    if size(&r) <= lost * scale[lag] || load_n <= lost {
+        return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
     }
     Err(PairMotionError::NoStart { time, change })
 }

@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+use ale::{Station, ToothWindow};
 use analysis::{
     AnalysisError, NoObserver, SinkResult, StaticAnalysis, StaticResult, StaticSink,
     lumped::{LumpedAnalysis, LumpedResult},
     motion::{MotionAnalysis, MotionResult},
     static_certificate,
 };
+use geometry::Sense;
 use ltca::{StaticModel, StaticPosition};
 use scene::{Scene, SceneError, Setting};
 
@@ -97,6 +99,17 @@ impl<T, F: FnMut(&StaticPosition, &StaticModel) -> T> StaticSink for FirstPositi
     fn finish(&mut self) -> SinkResult {
         Ok(())
     }
+}
+
+/// Force on pairs outside a window of so many teeth that follows the unloaded geometry, N, at the worst position.
+pub(crate) fn outside_of_window(result: &StaticResult, teeth: usize) -> f64 {
+    let outside = |p: &StaticPosition| {
+        let centre = Station { cycle: 0, phase: p.mesh_phase }.centre(Sense::Ccw);
+        let first = ToothWindow::nominal_first(centre, teeth);
+        let inside = first..first + teeth as i64;
+        p.pairs.iter().filter(|q| !inside.contains(&q.pair)).map(|q| q.normal_force).sum::<f64>()
+    };
+    result.history.positions.iter().map(outside).fold(0.0, f64::max)
 }
 
 /// No settings.

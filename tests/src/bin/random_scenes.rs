@@ -1,7 +1,7 @@
 //! Random scenes over the whole documented range: every one is solved, or refused for a reason that is true.
 //!
 //! `cargo run --profile test -p verification --bin random_scenes -- SEED FROM TO out.jsonl` runs scenes FROM .. TO of a
-//! seed, appends a line of JSON for each and prints a table; those that are in the file already are left out.
+//! seed, appends a line of JSON for each; those that are in the file already are left out. The table is of all of them.
 //! `... --bin random_scenes -- show SEED INDEX DIR` writes one scene with its files into a folder.
 #![allow(clippy::print_stdout, reason = "the table is what it is for")]
 
@@ -43,16 +43,19 @@ fn main() -> ExitCode {
 /// Runs scenes; gives how many of them show a fault of the program.
 fn run(seed: &str, from: &str, to: &str, out: &str) -> Result<usize, Box<dyn Error>> {
     let (seed, from, to): (u64, u64, u64) = (seed.parse()?, from.parse()?, to.parse()?);
-    let done = done(Path::new(out))?;
+    let before = before(Path::new(out))?;
+    let done: BTreeSet<u64> = before.iter().filter_map(|line| line["index"].as_u64()).collect();
     let mut file = fs::OpenOptions::new().create(true).append(true).open(out)?;
     let (program, refusals, mut tally) = (std::env::current_exe()?, Refusals::committed()?, Tally::default());
+    before.iter().for_each(|line| tally.add(line));
     for index in (from..to).filter(|index| !done.contains(index)) {
         let folder = tempfile::tempdir()?;
         let scene = draw(seed, index);
         let verdict = try_scene(&program, folder.path(), index, &scene, (Limits::default(), &refusals))?;
-        writeln!(file, "{}", verdict.to_json())?;
+        let line = verdict.to_json();
+        writeln!(file, "{line}")?;
         file.flush()?;
-        tally.add(&verdict);
+        tally.add(&line);
         for wrong in &verdict.wrong {
             println!("{index} ({}): {wrong}", verdict.model);
         }
@@ -61,11 +64,10 @@ fn run(seed: &str, from: &str, to: &str, out: &str) -> Result<usize, Box<dyn Err
     Ok(tally.wrong())
 }
 
-/// Numbers of the scenes that are in a file of results.
-fn done(out: &Path) -> Result<BTreeSet<u64>, Box<dyn Error>> {
+/// What a file of results holds already.
+fn before(out: &Path) -> Result<Vec<serde_json::Value>, Box<dyn Error>> {
     let text = if out.exists() { fs::read_to_string(out)? } else { String::new() };
-    let index = |line: &str| serde_json::from_str::<serde_json::Value>(line).ok()?["index"].as_u64();
-    Ok(text.lines().filter_map(index).collect())
+    Ok(text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
 fn show(seed: &str, index: &str, folder: &str) -> Result<(), Box<dyn Error>> {

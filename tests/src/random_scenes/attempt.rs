@@ -96,6 +96,9 @@ pub fn try_scene(
     let words = |scene, out| ["run", scene, "--out", out, "--no-cache", "--quiet", "--threads", "1"];
     let attempt = run(program, folder, &words("scene.toml", "o"), limits)?;
     let mut verdict = Verdict::of(index, scene, &attempt, refusals);
+    if matches!(attempt.status, Some(0 | 3)) && !folder.join("o/summary.json").exists() {
+        verdict.wrong.push(format!("status {:?}, and there is no summary.json", attempt.status));
+    }
     if folder.join("o/summary.json").exists() {
         let judged = judge::judge(&folder.join("o"));
         verdict.warnings = judged.warnings;

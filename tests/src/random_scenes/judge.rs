@@ -9,6 +9,9 @@ use super::{
     balance::{equilibrium, ledger, pull, torque},
 };
 
+/// Figures of a headline that have no value in some results.
+const MAY_BE_NULL: [&str; 0] = [];
+
 /// What was found.
 #[derive(Debug, Default)]
 pub struct Judged {
@@ -60,6 +63,7 @@ pub fn judge(folder: &Path) -> Judged {
             judged.wrong.push(format!("{name} is in `files`, and not there"));
         }
     }
+    judged.wrong.extend(headline(&summary));
     let Ok(history) = Csv::read(&folder.join("history.csv")) else {
         if !folder.join("resonance.csv").exists() && !folder.join("sweep.csv").exists() {
             judged.wrong.push("there is neither history.csv nor rows of a sweep".into());
@@ -129,19 +133,42 @@ fn no_numbers(case: &Case<'_>) -> Vec<String> {
     wrong
 }
 
-/// Speeds that have a result have numbers.
+/// Values and speeds that have a result have numbers.
 fn sweep(folder: &Path) -> Vec<String> {
-    let Ok(table) = Csv::read(&folder.join("resonance.csv")) else { return Vec::new() };
+    ["resonance.csv", "sweep.csv"].iter().flat_map(|name| swept(folder, name)).collect()
+}
+
+fn swept(folder: &Path, file: &str) -> Vec<String> {
+    let Ok(table) = Csv::read(&folder.join(file)) else { return Vec::new() };
     let status = table.names.iter().position(|n| n == "status");
     let mut wrong = Vec::new();
     for row in &table.rows {
         let failed = status.and_then(|at| row.get(at)).is_some_and(|s| s == "failed");
         for (name, cell) in table.names.iter().zip(row) {
             if !failed && matches!(cell.as_str(), "NaN" | "inf" | "-inf") {
-                wrong.push(format!("resonance.csv: {name} is {cell} of a speed that has not failed"));
+                wrong.push(format!("{file}: {name} is {cell} where nothing has failed"));
             }
         }
     }
     wrong.truncate(3);
     wrong
+}
+
+/// Figures of the headline that are none, beside those that `docs/outputs.md` lets be `null`.
+fn headline(summary: &Json) -> Vec<String> {
+    let mut found = Vec::new();
+    nulls("headline", &summary["headline"], &mut found);
+    found.retain(|path| !MAY_BE_NULL.iter().any(|name| path.ends_with(name)));
+    found.dedup();
+    found.into_iter().map(|path| format!("summary.json: {path} is null")).collect()
+}
+
+/// Paths of the numbers that are none.
+fn nulls(path: &str, value: &Json, found: &mut Vec<String>) {
+    match value {
+        Json::Null => found.push(path.to_owned()),
+        Json::Object(of) => of.iter().for_each(|(key, v)| nulls(&format!("{path}.{key}"), v, found)),
+        Json::Array(of) => of.iter().for_each(|v| nulls(path, v, found)),
+        _ => {}
+    }
 }

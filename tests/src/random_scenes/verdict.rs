@@ -153,18 +153,20 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Counts one more.
-    pub fn add(&mut self, verdict: &Verdict) {
-        let outcome = verdict.outcome();
-        for row in [verdict.model.as_str(), "all"] {
+    /// Counts one more: a line of [`Verdict::to_json`]; a line of something else is none.
+    pub fn add(&mut self, line: &Json) {
+        let word = |key: &str| line[key].as_str();
+        let outcome = Outcome::ALL.into_iter().find(|o| word("outcome") == Some(o.name()));
+        let (Some(model), Some(outcome)) = (word("model"), outcome) else { return };
+        for row in [model, "all"] {
             *self.counts.entry(row.into()).or_default().entry(outcome).or_default() += 1;
         }
-        if let Some(reason) = &verdict.reason {
+        if let Some(reason) = word("reason") {
             *self.reasons.entry(format!("{}: {reason}", outcome.name())).or_default() += 1;
         }
-        self.wrong += usize::from(!verdict.wrong.is_empty());
-        self.mirrored += usize::from(verdict.mirrored);
-        self.slowest = self.slowest.max(verdict.seconds);
+        self.wrong += usize::from(line["wrong"].as_array().is_none_or(|w| !w.is_empty()));
+        self.mirrored += usize::from(line["mirrored"] == true);
+        self.slowest = self.slowest.max(line["seconds"].as_f64().unwrap_or(0.0));
     }
 
     /// Scenes with something wrong.

@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, outside_of_window},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -20,6 +20,7 @@ pub(super) const MODE: FailureMode = FailureMode {
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let fixed = bench.at_rest(&bench.naive(&[]));
     let result = bench.at_rest(&AS_IT_IS)?;
+    let teeth = result.facts.window_teeth.unwrap_or(0) as usize;
     let jump = result.history.tooth_changes.iter().map(|c| c.error_jump).fold(0.0, f64::max);
     Ok(vec![
         Figure::new(
@@ -27,6 +28,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::warned(&result.history.warnings, "the window was widened"),
         )
         .beside(Shown::refused(&fixed, "window")),
+        Figure::new(
+            "force outside of the window, N; naive: of three teeth",
+            Shown::at_most(outside_of_window(&result, teeth), 0.0),
+        )
+        .beside(Shown::at_least(outside_of_window(&result, 3), 100.0)),
         Figure::new(
             "jump of the transmission error at a tooth change of the wider window, um",
             Shown::at_most(1e3 * jump, 1e-6),

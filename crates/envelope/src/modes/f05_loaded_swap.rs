@@ -1,12 +1,9 @@
 //! F5: a tooth change while the tooth is loaded.
 
-use ale::{Station, ToothWindow};
-use geometry::Sense;
-
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, outside_of_window},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -23,22 +20,10 @@ pub(super) const MODE: FailureMode = FailureMode {
 /// Teeth of a window by geometry alone: as many as the unloaded contact ratio asks for.
 const BY_GEOMETRY: usize = 2;
 
-/// Force on pairs outside the window that geometry alone would take, N, at the worst position.
-fn left_out(bench: &Bench) -> Result<f64, EnvelopeError> {
-    let result = bench.at_rest(&AS_IT_IS)?;
-    let outside = |p: &ltca::StaticPosition| {
-        let centre = Station { cycle: 0, phase: p.mesh_phase }.centre(Sense::Ccw);
-        let first = ToothWindow::nominal_first(centre, BY_GEOMETRY);
-        let inside = first..first + BY_GEOMETRY as i64;
-        p.pairs.iter().filter(|q| !inside.contains(&q.pair)).map(|q| q.normal_force).sum::<f64>()
-    };
-    Ok(result.history.positions.iter().map(outside).fold(0.0, f64::max))
-}
-
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let dropped = left_out(bench)?;
     let fixed = bench.at_rest(&bench.naive(&[]));
     let result = bench.at_rest(&AS_IT_IS)?;
+    let dropped = outside_of_window(&result, BY_GEOMETRY);
     let changes = &result.history.tooth_changes;
     let jump = changes.iter().map(|c| c.force_jump).fold(0.0, f64::max);
     Ok(vec![
