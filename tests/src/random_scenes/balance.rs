@@ -58,7 +58,9 @@ pub fn torque(case: &Case<'_>) -> Vec<String> {
     });
     let across = case.history.vectors(&format!("{driven}_moment"), "nmm").unwrap_or_default();
     let leaned = |row: usize| across.get(row).map_or(0.0, |m| leans * (m[0].hypot(m[1]) + leans * m[2].abs()));
-    let off = (0..moment.len()).find(|&row| !((moment[row] - wanted).abs() <= BALANCE * torque + 2.0 * leaned(row)));
+    // A difference that is no number is off as well.
+    let held = |row: usize| (moment[row] - wanted).abs() <= BALANCE * torque + 2.0 * leaned(row);
+    let off = (0..moment.len()).find(|&row| !held(row));
     off.map(|row| format!("row {row}: {} N mm turn the {driven}, {wanted} N mm are wanted", moment[row]))
         .into_iter()
         .collect()

@@ -109,3 +109,38 @@ fn seed_003_made_wider_of_5_2() {
     assert!((5.1..5.4).contains(&case.pair.total_contact_ratio()));
     runs("seed 003, b 30", &case, 16, |mean, _| 0.01 * mean);
 }
+
+/// A window of seven teeth of a gear of eight reaches to its far side: what lies there is no contact, and changes
+/// nothing.
+#[test]
+fn teeth_on_the_far_side_do_not_touch() {
+    let data = GearData {
+        teeth: 10,
+        normal_module: 0.5,
+        helix_angle: (-7.7f64).to_radians(),
+        profile_shift: 0.47,
+        thickness_allowance: 0.02,
+        face_width: 2.0,
+        bore_diameter: 1.5,
+        ..GearData::default()
+    };
+    let wheel = GearData {
+        teeth: 8,
+        profile_shift: 0.07,
+        helix_angle: -data.helix_angle,
+        thickness_allowance: 0.0,
+        bore_diameter: 1.0,
+        ..data.clone()
+    };
+    let case = quadratic([data, wheel], None, 25.0, [2, 2, 1, 2, 1], Extent::Whole);
+    let [near, all] = [3, 7].map(|teeth| {
+        let mut options = case.slice_options();
+        options.window = Some(teeth);
+        let history = case.reduced(options).run(4, 1, |_, _, _| ());
+        history.unwrap_or_else(|e| panic!("window of {teeth} teeth: {e}")).positions
+    });
+    for (a, b) in near.iter().zip(&all) {
+        let off = (b.transmission_error / a.transmission_error - 1.0).abs();
+        assert!(off < 1e-8, "phase {}: {} and {} mm", a.mesh_phase, a.transmission_error, b.transmission_error);
+    }
+}

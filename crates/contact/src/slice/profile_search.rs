@@ -44,6 +44,8 @@ pub(crate) struct GapSample {
 /// How far beyond an end face of body 2 a foot point may lie, as a share of its width: foot points move by gap times
 /// sin(b_b).
 const BEYOND: f64 = 1e-3;
+/// Lengths of a profile by which flanks overlap at the most; twice that is more than a tooth is thick.
+const DEEPEST: f64 = 2.0;
 /// Sample points along a profile on which the gap may have several minima.
 const SCAN: usize = 16;
 /// Newton steps before the scan takes over; four are enough.
@@ -94,11 +96,15 @@ impl<'a> ProfilePair<'a> {
     }
 
     /// Point of least gap at height `z` (mm) of body 1, and the gap there. `None` where the flanks do not face each
-    /// other.
+    /// other: the surfaces go on beyond their flanks, and what lies deep behind one is another side of the gear, as a
+    /// tooth on the far side is.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
         let point = self.search(z, hint.roll)?;
         hint.roll = Some(point.roll());
         let sample = self.sample([point.roll(), z])?;
+        if sample.gap < -DEEPEST * self.patches[1].profile_length() {
+            return None;
+        }
         // Gears displaced along their axes face each other on a part of their width only.
         let [[_, low], [_, high]] = self.patches[1].range();
         let slack = BEYOND * (high - low);

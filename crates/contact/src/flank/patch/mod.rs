@@ -21,6 +21,7 @@ pub struct FlankPatch {
     nodes: Vec<PatchNode>,
     bins: Bins,
     range: [[f64; 2]; 2],
+    profile_length: f64,
 }
 
 /// A point on a finite-element face.
@@ -38,6 +39,11 @@ pub(crate) struct Interpolation {
     pub nodes: [u32; 9],
     pub weights: [f64; 9],
     pub count: usize,
+}
+
+fn profile_length(surface: &dyn Surface, [[low, z], [high, _]]: [[f64; 2]; 2]) -> f64 {
+    let [a, b, c] = [low, 0.5 * (low + high), high].map(|u| surface.point([u, z]));
+    (b - a).norm() + (c - b).norm()
 }
 
 impl FlankPatch {
@@ -89,13 +95,15 @@ impl FlankPatch {
             .collect();
         let bins = Bins::new(&faces, &nodes);
         let range = range(nodes.iter().map(|n| n.at));
-        Ok(Self { tooth, surface, faces, nodes, bins, range })
+        let profile_length = profile_length(&*surface, range);
+        Ok(Self { tooth, surface, faces, nodes, bins, range, profile_length })
     }
 
     /// A flank without a mesh, for rigid bodies: its smooth surface over a range [low, high] of surface coordinates.
     pub fn rigid(tooth: i64, surface: Box<dyn Surface>, range: [[f64; 2]; 2]) -> Self {
         let bins = Bins::new(&[], &[]);
-        Self { tooth, surface, faces: Vec::new(), nodes: Vec::new(), bins, range }
+        let profile_length = profile_length(&*surface, range);
+        Self { tooth, surface, faces: Vec::new(), nodes: Vec::new(), bins, range, profile_length }
     }
 
     /// The smooth surface.
@@ -212,6 +220,11 @@ impl FlankPatch {
     /// Range of surface coordinates of the whole patch.
     pub fn range(&self) -> [[f64; 2]; 2] {
         self.range
+    }
+
+    /// Length of the profile at the lower end of the width, by two chords, mm.
+    pub fn profile_length(&self) -> f64 {
+        self.profile_length
     }
 
     /// Surface coordinates of a boundary node of the patch.
