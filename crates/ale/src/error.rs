@@ -52,6 +52,18 @@ pub enum AleError {
         /// Torque, N m.
         torque_nm: f64,
     },
+    /// Tooth changes drop forces: the pair that comes into the window touched already.
+    #[error(
+        "tooth changes of the window of {window} teeth drop forces of up to {jump_n:.3} N, the flanks press with up to {largest_n:.3} N"
+    )]
+    Dropped {
+        /// Teeth of the window.
+        window: usize,
+        /// Largest jump of the normal force at a tooth change, N.
+        jump_n: f64,
+        /// Largest normal force, N.
+        largest_n: f64,
+    },
     /// The gears turn farther in a step than the window can follow.
     #[error(
         "at mesh phase {phase:.6} of cycle {cycle}: the gears have turned by {teeth:.3e} teeth in one step, the window has {window}"
@@ -75,7 +87,7 @@ impl AleError {
             Self::LoadedTooth { .. } => Some("use a wider window (analysis.window_teeth) or less torque".into()),
             Self::TooWide { teeth, .. } => Some(format!("use at most {teeth} teeth in the window")),
             Self::WrongCount { .. } => None,
-            Self::Starved { window, .. } => Some(format!(
+            Self::Starved { window, .. } | Self::Dropped { window, .. } => Some(format!(
                 "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
                 window + 1
             )),

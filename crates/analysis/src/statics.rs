@@ -180,7 +180,7 @@ impl<'a> StaticAnalysis<'a> {
             warnings.extend(iso_root::add(&mut facts, scene, &pair));
         }
         warnings.extend(body_warnings(&model));
-        warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm));
+        warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
         history.warnings.extend(warnings);
         Ok(StaticResult { pair, history, facts, model: Some(model) })
     }

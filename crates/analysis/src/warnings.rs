@@ -101,11 +101,22 @@ pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<String> {
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
 const LARGE_ERROR_MODULES: f64 = 0.05;
 
-/// What a solution says that a user should hear.
-pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64) -> Vec<String> {
+/// Approach over the round-off of places below which a result has fewer than three digits.
+const FEW_DIGITS: f64 = 1e3;
+
+/// What a solution says that a user should hear; module and centre distance in mm.
+pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64, centre_distance: f64) -> Vec<String> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
+    let round_off = f64::EPSILON * centre_distance;
+    if worst(|p| p.strain_energy) > 0.0 && error < FEW_DIGITS * round_off {
+        said.push(format!(
+            "the load is too light for its result: teeth approach each other by {error:.1e} mm at the most, and places \
+             are known to {round_off:.1e} mm only; transmission error, stiffness and contact lines have few digits or none; \
+             take a larger torque, or none"
+        ));
+    }
     if error > LARGE_ERROR_MODULES * module {
         said.push(format!(
             "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \

@@ -14,7 +14,7 @@ const ROUND_OFF: f64 = 1e3 * TOLERANCE;
 /// The same where round-off of places is what is left, and no more can be had.
 const UNFELT: f64 = 1e-4;
 /// So many of the last bits of places are not known.
-const LAST_BITS: f64 = 64.0;
+const LAST_BITS: f64 = 256.0;
 /// How often the reach towards the mating flank is doubled, from the size of the lag on.
 const DOUBLINGS: usize = 40;
 /// How often the way between flanks apart and flanks that overlap is halved: to the last bit of a number.

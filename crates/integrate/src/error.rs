@@ -36,6 +36,20 @@ pub enum MotionError<E> {
         /// Least step, s.
         least: f64,
     },
+    /// The error control goes on, in steps that are far shorter than what the motion is asked for.
+    #[error(
+        "at {time:.9} s: {steps} steps of {step:.3e} s in the mean bring the motion hardly on: rows ask for steps of {largest:.3e} s"
+    )]
+    Crawls {
+        /// Time, s.
+        time: f64,
+        /// Steps since the last row.
+        steps: u64,
+        /// Their mean length, s.
+        step: f64,
+        /// Largest step allowed, s.
+        largest: f64,
+    },
     /// An explicit method is far from stable with steps of given length.
     #[error(
         "at {time:.9} s: the explicit method is stable with steps of up to {longest:.3e} s here, a step is {step:.3e} s"
@@ -98,6 +112,9 @@ impl<E> MotionError<E> {
             }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"
+            }
+            Self::Crawls { .. } => {
+                "loosen the `error_tolerance`; take an implicit `method` where bearings, dampers or friction are stiff; solve statics where the gears hardly turn"
             }
             Self::Unstable { .. } => {
                 "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), let an `error_tolerance` choose them, or take an implicit `method`"

@@ -41,7 +41,9 @@ pub struct Equilibrium {
 /// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
 pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
-const POSE_STEPS: usize = 40;
+const POSE_STEPS: usize = 80;
+/// Steps of Newton's method alone; it wants less than ten.
+const NEWTON_STEPS: usize = 15;
 /// Last step of the pose relative to the approach.
 const POSE_TOLERANCE: f64 = 1e-10;
 /// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
@@ -83,6 +85,29 @@ impl Equilibrium {
     /// Opening of the gaps at the rows' normal approach, largest, mm.
     pub fn approach(&self, pair: &GearPair) -> f64 {
         self.elastic_error().abs() * pair.base_helix_angle().cos()
+    }
+}
+
+/// Rotations between which the equilibrium lies: more load than the contact carries turns the gear on, less back.
+#[derive(Default)]
+struct Between {
+    below: Option<f64>,
+    above: Option<f64>,
+}
+
+impl Between {
+    /// Where to go from `from`, which Newton's method would leave by `turn`; the middle where steps go to and fro
+    /// (`stays`), as they do over an edge at which a slice begins or ends to touch.
+    fn next(&mut self, from: f64, turn: f64, stays: bool) -> f64 {
+        if turn > 0.0 {
+            self.below = Some(from)
+        } else {
+            self.above = Some(from)
+        }
+        match (self.below, self.above) {
+            (Some(below), Some(above)) if stays && below < above => 0.5 * (below + above),
+            _ => from + turn,
+        }
     }
 }
 
@@ -130,7 +155,8 @@ pub(crate) fn equilibrium(
     let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
     let mut iterations = 0;
     let mut step_mm = f64::INFINITY;
-    for _ in 0..POSE_STEPS {
+    let mut between = Between::default();
+    for tried in 0..POSE_STEPS {
         let poses = poses(windowed, station, rotation);
         let (turn, steps) = match solver.step(windowed, &poses, reach).map_err(fail)? {
             PoseStep::Turn(turn, steps) => (turn, steps),
@@ -152,9 +178,10 @@ pub(crate) fn equilibrium(
             }
         };
         iterations += steps;
-        rotation += turn;
         let before = step_mm;
         step_mm = (turn * base_radius).abs();
+        let from = rotation;
+        rotation = between.next(from, turn, tried > NEWTON_STEPS && step_mm > 0.5 * before);
         let error = side.sign() * base_radius * rotation;
         let elastic = (error - kinematic).abs();
         // An angle of a few radians resolves no smaller steps.

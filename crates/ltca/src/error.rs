@@ -102,7 +102,7 @@ impl From<reduction::ReductionError> for StaticError {
 impl StaticError {
     /// Whether the window has too few teeth: a wider one may do.
     pub fn is_starved(&self) -> bool {
-        matches!(self, Self::Window(ale::AleError::Starved { .. }))
+        matches!(self, Self::Window(ale::AleError::Starved { .. } | ale::AleError::Dropped { .. }))
     }
 
     /// What the user can do next.

@@ -26,7 +26,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { seconds: 60.0, memory_kb: 6_000_000 }
+        Self { seconds: 300.0, memory_kb: 6_000_000 }
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
 
 /// Figures of a headline that have no value in some results: not asked for, of another model, or where nothing is to be
 /// measured (`docs/outputs.md`).
-const MAY_BE_NULL: [&str; 23] = [
+const MAY_BE_NULL: [&str; 24] = [
     ".root_stress",
     ".max_root_tension_mpa",
     ".max_root_tension_estimated_error_percent",
@@ -35,6 +35,7 @@ const MAY_BE_NULL: [&str; 23] = [
     ".certificate.shooting_periods",
     ".certificate.shooting_multiplier",
     ".mesh_resonance_hz",
+    ".ramp.pair_normal_force_n",
 ];
 
 /// Figures that lumped models fed by a number of their own have no value of, and a pair without a load.
@@ -193,6 +194,10 @@ fn headline(summary: &Json) -> Vec<String> {
     let meshed = inputs["analysis"]["model"].as_str().is_some_and(|m| m.starts_with("reduced") || m == "full");
     let loaded = inputs["operation"]["torque_nm"].as_f64().is_some_and(|torque| torque > 0.0);
     let none = |names: &[&str], path: &str| names.iter().any(|name| path.ends_with(name));
+    // Flanks that never touch have no least force.
+    let certificate = &summary["headline"]["certificate"];
+    let apart = certificate["steps_without_contact"].as_u64() == certificate["steps"].as_u64();
+    found.retain(|path| !apart || !path.ends_with(".least_contact_force_n"));
     found.retain(|path| !none(&MAY_BE_NULL, path) && ((meshed && loaded) || !none(&OF_A_LOADED_MESH, path)));
     found.dedup();
     found.into_iter().map(|path| format!("summary.json: {path} is null")).collect()

@@ -7,10 +7,14 @@ use scene::Value;
 use super::{Csv, Draft, RandomScene, csv::largest};
 
 /// Largest difference over the largest value of a column.
-const SAME: f64 = 1e-5;
+const SAME: f64 = 5e-5;
+/// The same of the contact lines: how much of a slice at their end counts is found from its gap.
+const SAME_LENGTH: f64 = 1e-3;
 
 /// Round-off of places of some hundred mm, um.
 const ROUND_OFF_UM: f64 = 1e-8;
+/// Approach over round-off below which stiffness and contact have no digits that could agree.
+const LOST: f64 = 30.0;
 
 /// Where the mirror stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +43,10 @@ pub fn mirrored(index: u64, scene: &RandomScene) -> Option<(Draft, (Mirror, bool
         && d.get("analysis.kind").is_none_or(|k| k.as_str() != Some("dynamic"));
     // Flat faces of a mesh are cut along diagonals, which have a hand of their own.
     let flat = d.get("contact.gap").is_some_and(|g| g.as_str() == Some("facet"));
-    if !at_rest || scene.foreign || scene.anything || flat || !d.files.is_empty() || d.get("accuracy").is_some() {
+    // The cuts of a sector of some teeth are free; its loaded teeth stand nearer to one of them than in the mirror.
+    let sector = ["pinion", "wheel"].iter().any(|gear| d.get(&format!("{gear}.mesher.sector_teeth")).is_some());
+    let one_handed = flat || sector || scene.foreign || !d.files.is_empty();
+    if !at_rest || scene.anything || one_handed || d.get("accuracy").is_some() {
         return None;
     }
     let mirror = if index.is_multiple_of(8) { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
@@ -127,16 +134,26 @@ pub fn compare(folder: &Path, other: &Path, (mirror, nodal): (Mirror, bool)) -> 
     let total = largest(&here.column("wheel_force_x_n").unwrap_or_default())
         .max(largest(&here.column("wheel_force_y_n").unwrap_or_default()));
     let mut wrong = Vec::new();
+    let approach = |csv: &Csv| {
+        let [ste, free] = ["ste_um", "kinematic_te_um"].map(|name| csv.column(name).unwrap_or_default());
+        ste.iter().zip(&free).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    // Teeth that hardly approach each other touch as round-off has it, and the result says so.
+    let lost = approach(&here) < LOST * ROUND_OFF_UM;
     for (name, sign) in stays.chain(forces) {
         let (Some(a), Some(b)) = (here.column(&name), there.column(&name)) else { continue };
         let scale = if name.contains("_force_") { total } else { largest(&a) };
         // A point that just touches, at an end of a flank, stiffens the teeth or does not, as round-off has it: twice the
         // same position has two tangents then, and two pressures where its neighbour carries more.
+        if lost && !name.ends_with("te_um") {
+            continue;
+        }
         if nodal && ["mesh_stiffness_tangent_n_per_um", "max_pressure_mpa"].contains(&name.as_str()) {
             continue;
         }
+        let same = if name == "contact_line_length_mm" { SAME_LENGTH } else { SAME };
         let floor = if name.ends_with("te_um") { ROUND_OFF_UM } else { f64::MIN_POSITIVE };
-        let off = a.iter().zip(&b).position(|(a, b)| (a - sign * b).abs() > SAME * scale + floor);
+        let off = a.iter().zip(&b).position(|(a, b)| (a - sign * b).abs() > same * scale + floor);
         if let Some(row) = off.or((a.len() != b.len()).then_some(0)) {
             wrong.push(format!("{mirror:?}: {name} is {} and {} in row {row}", a[row], b[row]));
         }

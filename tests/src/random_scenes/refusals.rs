@@ -43,6 +43,7 @@ impl Refusals {
     pub(super) fn explain(&self, message: &str, status: i32, scene: &Draft) -> Result<String, String> {
         range_is_left(message, scene)?;
         something_is_free(message, scene)?;
+        friction_is_high(message, scene)?;
         let fits = |r: &&Reason| r.status == status && matches(&r.pattern, message);
         match self.reason.iter().find(fits) {
             Some(reason) => Ok(reason.pattern.clone()),
@@ -78,6 +79,16 @@ fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
     let mut of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
     let there = of_key.any(|k| scene.number(&k).is_some_and(|n| (n - value).abs() <= 1e-9 * value.abs()));
     if there { Ok(()) } else { Err(format!("the scene has no such value: {message}")) }
+}
+
+/// "contact did not converge": without friction there is one solution, and with little; with much there may be none.
+fn friction_is_high(message: &str, scene: &Draft) -> Result<(), String> {
+    let high = scene.number("contact.friction").is_some_and(|friction| friction > 0.5);
+    if high || !message.contains("contact did not converge") {
+        Ok(())
+    } else {
+        Err(format!("little friction: {message}"))
+    }
 }
 
 /// "no equilibrium": teeth alone hold the driven gear under any load; only bearings can be too soft.

@@ -2,7 +2,7 @@
 
 use ::lumped::{
     LumpedError,
-    shaft18::{Shaft, ShaftSystem, continuum_modes},
+    shaft18::{ShaftSystem, continuum_modes},
 };
 use fem::beam::BeamTheory;
 use scene::Driver;
@@ -18,8 +18,8 @@ use crate::AnalysisError;
 const SPEEDS: u32 = 25;
 /// The diagram ends at so many times the scene's speed, or where the first mesh order has passed the mesh resonance.
 const BEYOND: f64 = 2.0;
-/// Beam elements on the shortest shaft.
-const ELEMENTS: f64 = 16.0;
+/// Beam elements on each shaft, at least.
+const ELEMENTS: u32 = 24;
 /// Frequencies below this share of the highest are free turns.
 const FREE: f64 = 1e-6;
 
@@ -89,8 +89,7 @@ fn orders(inputs: &LumpedInputs) -> Vec<(String, f64)> {
 
 /// Frequencies of the shafts in Timoshenko beams, Hz, as many as are worth a comparison.
 fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, LumpedError> {
-    let shortest = system.shafts.iter().map(Shaft::length).fold(f64::INFINITY, f64::min);
-    let modes = continuum_modes(system, shortest / ELEMENTS, BeamTheory::Timoshenko)?;
+    let modes = continuum_modes(system, ELEMENTS, BeamTheory::Timoshenko)?;
     Ok(modes.frequencies.iter().map(|w| w / TAU).collect())
 }
 

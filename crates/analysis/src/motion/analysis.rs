@@ -1,7 +1,8 @@
 //! One motion of a scene.
 
-use ale::solve_widening;
+use ale::{AleError, solve_widening};
 use geometry::GearPair;
+use ltca::StaticError;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
 use study::Window;
@@ -9,6 +10,7 @@ use study::Window;
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
     MotionSpectrum, NoMotionSink, Passage, WaterfallLine,
+    checks::force_jump_check,
     course::{self, FinishedMotion, ResumedState, Span},
     headline,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, fastest_hz, mesh_range_hz, prepare, speed},
@@ -162,7 +164,10 @@ impl<'a> MotionAnalysis<'a> {
                 let prepared = ready(&inputs, observer, sink, window)?;
                 let span = Span { from: from.take(), stop_after };
                 let done = course::run((&scene, motion), &prepared, observer, sink, span)?;
-                Ok((prepared, done))
+                match dropped(&prepared, &done).filter(|e| inputs.wider(window, e).is_some()) {
+                    Some(e) => Err(Failure::Static(e)),
+                    None => Ok((prepared, done)),
+                }
             },
             |window, failure| {
                 let Failure::Static(e) = failure else { return None };
@@ -176,6 +181,15 @@ impl<'a> MotionAnalysis<'a> {
         let (pair, motion) = (inputs.pair, motion.clone());
         Ok(FollowedMotion { scene, motion, pair, prepared, done })
     }
+}
+
+/// Tooth changes that dropped a force: a wider window may do.
+fn dropped(prepared: &PreparedMotion, done: &FinishedMotion) -> Option<StaticError> {
+    let system = done.motion.system();
+    let [jump_n, largest_n] = [system.changes().jump, system.extremes().largest_force];
+    let window = prepared.system.options().statics.window_teeth(prepared.system.pair());
+    let holds = force_jump_check(jump_n, largest_n).holds();
+    (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))
 }
 
 /// A motion as far as it was followed, and what it was made of.

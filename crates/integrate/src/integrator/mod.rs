@@ -10,6 +10,11 @@ use crate::{
     stability::StabilityGuard,
 };
 
+/// Steps in one go from which on it matters how short they are.
+const MANY_STEPS: u64 = 100_000;
+/// Mean step over the largest allowed below which a motion does not get on.
+const CRAWLING: f64 = 1e-3;
+
 /// What a caller sees of a motion after every step.
 #[derive(Debug)]
 pub struct Progress<'a> {
@@ -107,6 +112,7 @@ impl Integrator {
             self.open(system, &mass, state)?;
         }
         let mut values = event_values(system, state.time, &state.q, &state.v)?;
+        let (begun, before_it) = (state.time, self.steps);
         while until - state.time > 1e-12 * (until.abs() + self.first_step()) {
             let wanted = match self.control {
                 StepControl::Fixed(h) => h,
@@ -143,12 +149,23 @@ impl Integrator {
             self.ledger = Some(book);
             self.steps += 1;
             *state = to;
+            self.crawls(state.time - begun, self.steps - before_it, state.time)?;
             values = now;
             let time = state.time;
             system.accepted(time, &state.q, &state.v).map_err(|source| MotionError::Mechanism { time, source })?;
             seen(system, Progress { state, forces: &self.forces, ledger: &book, crossings: &crossed });
         }
         Ok(())
+    }
+
+    /// Whether an error control takes steps that lead nowhere: hours for one row of a motion are no answer.
+    fn crawls<E>(&self, way: f64, steps: u64, time: f64) -> Result<(), MotionError<E>> {
+        let StepControl::Adaptive { largest, .. } = self.control else { return Ok(()) };
+        let step = way / steps as f64;
+        if steps < MANY_STEPS || step >= CRAWLING * largest {
+            return Ok(());
+        }
+        Err(MotionError::Crawls { time, steps, step, largest })
     }
 
     fn first_step(&self) -> f64 {

@@ -20,17 +20,18 @@ pub struct Continuum {
 }
 
 impl Continuum {
-    /// Elements no longer than `longest` (mm); what sits at the stations is rigid and of no width, meshes have their
-    /// mean stiffness.
+    /// At least as many elements on each shaft as `elements` says, all no longer than its length over that; what sits at the stations is rigid and of no width, meshes have
+    /// their mean stiffness.
     ///
     /// # Errors
     /// [`LumpedError`] when data have no meaning.
-    pub fn new(system: &ShaftSystem, longest: f64, theory: BeamTheory) -> Result<Self, LumpedError> {
+    pub fn new(system: &ShaftSystem, elements: u32, theory: BeamTheory) -> Result<Self, LumpedError> {
         system.check()?;
         let mut lines = Vec::new();
         for shaft in &system.shafts {
             let mut places: Vec<f64> = shaft.stations.iter().map(|s| s.position).collect();
             places.extend(shaft.supports.iter().map(|s| s.position));
+            let longest = shaft.length() / f64::from(elements.max(1));
             lines.push(BeamLine::new(&shaft.pieces()?, &places, longest, theory)?);
         }
         let mut first = vec![0];
@@ -68,11 +69,11 @@ impl Continuum {
     }
 }
 
-/// Natural frequencies of a system in beam elements no longer than `longest` (mm).
+/// Natural frequencies of a system in beam elements, at least as many on each shaft as `elements` says.
 ///
 /// # Errors
 /// [`LumpedError`], also when there is no mass somewhere (a segment of density 0).
-pub fn continuum_modes(system: &ShaftSystem, longest: f64, theory: BeamTheory) -> Result<Modes, LumpedError> {
-    let continuum = Continuum::new(system, longest, theory)?;
+pub fn continuum_modes(system: &ShaftSystem, elements: u32, theory: BeamTheory) -> Result<Modes, LumpedError> {
+    let continuum = Continuum::new(system, elements, theory)?;
     Ok(natural_modes(&continuum.stiffness, &continuum.mass)?)
 }

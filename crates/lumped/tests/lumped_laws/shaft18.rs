@@ -7,8 +7,8 @@ use fem::beam::{BeamLine, BeamTheory};
 use geometry::{Gear, GearData, GearPair, Side};
 use integrate::{Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::shaft18::{
-    Influence, LumpedShaft, MeshGeometry, Shaft, ShaftMechanism, ShaftStation, ShaftSystem, Station, Support,
-    bending_influence, continuum_modes, equivalent_torsional_stiffness,
+    Continuum, Influence, LumpedShaft, MeshGeometry, Shaft, ShaftMechanism, ShaftStation, ShaftSystem, Station,
+    Support, bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
 use lumped::{Fourier, LumpedError, MeshCycle, Recording};
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
@@ -267,8 +267,8 @@ fn frequencies_agree_with_the_continuum() {
     let model = ShaftMechanism::new(&system).unwrap();
     assert_eq!(model.count(), 18);
     let lumped = model.modes().unwrap().frequencies;
-    let continuum = continuum_modes(&system, 6.0, BeamTheory::Timoshenko).unwrap().frequencies;
-    let slender = continuum_modes(&system, 6.0, BeamTheory::Euler).unwrap().frequencies;
+    let continuum = continuum_modes(&system, 38, BeamTheory::Timoshenko).unwrap().frequencies;
+    let slender = continuum_modes(&system, 38, BeamTheory::Euler).unwrap().frequencies;
     // The free turn of both shafts.
     assert!(lumped[0] < 1.0 && continuum[0] < 1.0, "{} and {} rad/s", lumped[0], continuum[0]);
     println!(
@@ -282,11 +282,25 @@ fn frequencies_agree_with_the_continuum() {
     }
 }
 
+/// A shaft of two metres beside one of a tenth of it has as many elements, not as short ones: the work is that of two
+/// shafts alike.
+#[test]
+fn a_long_shaft_beside_a_short_one_costs_no_more() {
+    let mut system = gearbox(0.0, 0.0);
+    let nodes = |system: &ShaftSystem| Continuum::new(system, 20, BeamTheory::Timoshenko).unwrap().mass.nrows();
+    let alike = nodes(&system);
+    let long = &mut system.shafts[1];
+    long.segments.iter_mut().for_each(|s| s.length *= 20.0);
+    long.stations.iter_mut().for_each(|s| s.position *= 20.0);
+    long.supports.iter_mut().for_each(|s| s.position *= 20.0);
+    assert!(nodes(&system) <= alike + 12, "{} coordinates, not {alike}", nodes(&system));
+}
+
 /// All stations kept and more of them: the lumped shaft tends to the continuum.
 #[test]
 fn more_stations_come_nearer_to_the_continuum() {
     let mut system = gearbox(0.0, 0.0);
-    let continuum = continuum_modes(&system, 3.0, BeamTheory::Timoshenko).unwrap().frequencies;
+    let continuum = continuum_modes(&system, 74, BeamTheory::Timoshenko).unwrap().frequencies;
     let mut last = f64::INFINITY;
     system.shafts.iter_mut().for_each(|s| s.stations.retain(|s| s.mass > 0.0));
     for parts in [2, 4, 8] {
@@ -341,7 +355,7 @@ fn three_shafts_make_a_train() {
     let at = |mesh: usize| model.row(mesh, 0.0, &q, &DVector::zeros(q.len())).unwrap().normal_force;
     assert!(at(0) > 1000.0 && (at(0) / at(1) - 1.0).abs() < 1e-6, "{} and {} N", at(0), at(1));
     let lumped = model.modes().unwrap().frequencies;
-    let continuum = continuum_modes(&system, 6.0, BeamTheory::Timoshenko).unwrap().frequencies;
+    let continuum = continuum_modes(&system, 38, BeamTheory::Timoshenko).unwrap().frequencies;
     // Nine modes: coordinates at one place a shaft cannot be without its ends for more.
     for mode in 1..=9 {
         let off = lumped[mode] / continuum[mode] - 1.0;
