@@ -1,5 +1,7 @@
 //! Where a motion begins: in quasi-static equilibrium, so that nothing rings that the motion itself does not set off.
 
+use std::cell::Cell;
+
 use nalgebra::DVector;
 
 use crate::{PairMechanism, PairMotionError};
@@ -15,6 +17,8 @@ const ROUND_OFF: f64 = 1e3 * TOLERANCE;
 const UNFELT: f64 = 1e-4;
 /// So many of the last bits of places are not known.
 const LAST_BITS: f64 = 256.0;
+/// A load that is not so many times what round-off makes has no digit.
+const ONE_DIGIT: f64 = 10.0;
 /// How often the reach towards the mating flank is doubled, from the size of the lag on.
 const DOUBLINGS: usize = 40;
 /// How often the way between flanks apart and flanks that overlap is halved: to the last bit of a number.
@@ -78,9 +82,13 @@ pub(super) fn balance(
     let lag = system.coordinates().lag();
     let still = DVector::zeros(n);
     let mut forces = Forces::zeros(n);
+    // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
+    let place = LAST_BITS * f64::EPSILON * system.pair().centre_distance();
+    let felt = Cell::new(0.0f64);
     let residual = |system: &mut PairMechanism, q: &DVector<f64>, forces: &mut Forces| {
         forces.clear();
         system.forces(time, q, &still, forces).map_err(|source| PairMotionError::contact(time, source))?;
+        felt.set(felt.get().max(place * forces.stiffness[(lag, lag)].abs()));
         let mut r = &forces.conservative + &forces.other;
         if let Some(i) = held {
             r[i] = 0.0;
@@ -115,12 +123,10 @@ pub(super) fn balance(
     let load_n = system.load_on_lag(time).abs();
     let load = load_n * scale[lag];
     let mut added = 1e-3;
-    // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
-    let place = LAST_BITS * f64::EPSILON * system.pair().centre_distance();
-    let (mut change, mut lost): (f64, f64) = (0.0, 0.0);
+    let mut change = 0.0;
     for _ in 0..STEPS {
         let now = size(&r);
-        lost = lost.max(place * forces.stiffness[(lag, lag)].abs());
+        let lost = felt.get();
         if now <= TOLERANCE * load.max(f64::MIN_POSITIVE) {
             return Ok(q);
         }
@@ -163,7 +169,8 @@ pub(super) fn balance(
             added = (added * 10.0).max(1e-6);
         }
     }
-    if size(&r) <= lost * scale[lag] || load_n <= lost {
+    let lost = felt.get();
+    if size(&r) <= lost * scale[lag] || load_n <= ONE_DIGIT * lost {
         return Err(PairMotionError::LostLoad { time, load_n, lost_n: lost });
     }
     Err(PairMotionError::NoStart { time, change })

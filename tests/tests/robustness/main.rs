@@ -1,6 +1,7 @@
 //! Scenes of chance, threads, caches, interruptions: results stand, or there is a true reason why there are none.
 
 mod determinism;
+mod found;
 mod kills;
 mod random_scenes;
 mod starts;

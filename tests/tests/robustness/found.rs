@@ -1,0 +1,40 @@
+//! Scenes that were drawn at random and went wrong once.
+
+use std::fs;
+
+use verification::program::ale_gear;
+
+use crate::program;
+
+/// Status and messages of a run.
+fn run(text: &str) -> (Option<i32>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    let words = ["run", "scene.toml", "--out", "o", "--no-cache", "--quiet"];
+    let output = ale_gear(program(), folder.path(), &words).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// A window that is too narrow for teeth as soft as these drops a force at a tooth change: the motion is begun again
+/// with a wider one, and says so.
+#[test]
+fn a_window_that_drops_forces_grows() {
+    let (status, said) = run(include_str!("../../data/found/dropped_force.toml"));
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("drop forces of up to") && said.contains("was widened to 4 teeth"), "{said}");
+}
+
+/// Newton's steps go to and fro over the edge of a tip; between them there is a pose that balances the load.
+#[test]
+fn a_pose_at_an_edge_is_found() {
+    let (status, said) = run(include_str!("../../data/found/over_an_edge.toml"));
+    assert_eq!(status, Some(0), "{said}");
+}
+
+/// Teeth that approach each other by less than places are known to have no stiffness that could be told.
+#[test]
+fn a_result_without_digits_says_so() {
+    let (status, said) = run(include_str!("../../data/found/light_load.toml"));
+    assert_eq!(status, Some(0), "{said}");
+    assert!(said.contains("the load is too light for its result"), "{said}");
+}
