@@ -6,9 +6,12 @@ use study::{mesh_harmonics, unresolved_share};
 const UNRESOLVED: f64 = 0.05;
 /// Share of the sum of all mesh orders from which on one of them counts.
 const COUNTS: f64 = 0.05;
-/// Steps in the period of the highest order that counts: an implicit method takes it for 0.6 % slower than it is, which
-/// changes its size by a tenth next to a resonance with a damping ratio of 0.03 (map (g) of `docs/envelope.md`).
-const STEPS: f64 = 16.0;
+/// Steps in the period of the highest order that counts: an implicit method takes it for 1 % slower than it is, which
+/// changes its size by a tenth next to a resonance.
+const STEPS: f64 = 18.0;
+/// Steps in the period of an order that is all of the vibration. One that is less wants fewer, as the error falls with the
+/// square of the step: a share of a fifth wants 20 (16 are off by 16 % in map (g) of `docs/envelope.md`).
+const STEPS_OF_ALL: f64 = 45.0;
 
 /// Rows, or steps, that are too few for what moves; `samples`: the transmission error row by row over so many whole mesh
 /// cycles, `steps` in each.
@@ -33,17 +36,18 @@ fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
     let rows = samples.len() / cycles.max(1) as usize;
     let all = mesh_harmonics(samples, cycles as usize, rows / 2).ok()?;
     let sum: f64 = all.iter().map(|h| h.amplitude).sum();
-    let highest = all.iter().rev().find(|h| h.amplitude > COUNTS * sum)?;
-    let in_period = steps / highest.order as f64;
-    (in_period < STEPS).then(|| {
-        format!(
-            "a step is 1/{in_period:.1} of the period of mesh order {}, which has {:.0} % of the vibration: near a resonance \
-             its size may be wrong by a tenth and more (told below 1/{STEPS:.0}): take more `steps_per_mesh_cycle` or \
-             `steps_per_resonance`",
-            highest.order,
-            100.0 * highest.amplitude / sum
-        )
-    })
+    let in_period = |order: usize| steps / order as f64;
+    let wanted = |share: f64| STEPS.max(STEPS_OF_ALL * share.sqrt());
+    let counts = all.iter().map(|h| (h.order as usize, h.amplitude / sum)).filter(|(_, share)| *share > COUNTS);
+    let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
+    Some(format!(
+        "a step is 1/{:.1} of the period of mesh order {order}, which has {:.0} % of the vibration: near a resonance its \
+         size may be wrong by a tenth and more (told below 1/{:.0}): take more `steps_per_mesh_cycle` or \
+         `steps_per_resonance`",
+        in_period(order),
+        100.0 * share,
+        wanted(share)
+    ))
 }
 
 #[cfg(test)]
