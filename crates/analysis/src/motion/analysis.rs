@@ -1,8 +1,7 @@
 //! One motion of a scene.
 
-use ale::{AleError, solve_widening};
+use ale::solve_widening;
 use geometry::GearPair;
-use ltca::StaticError;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
 use study::Window;
@@ -10,7 +9,7 @@ use study::Window;
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
     MotionSpectrum, NoMotionSink, Passage, WaterfallLine,
-    checks::force_jump_check,
+    checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
     headline,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, fastest_hz, mesh_range_hz, prepare, speed},
@@ -164,7 +163,11 @@ impl<'a> MotionAnalysis<'a> {
                 let prepared = ready(&inputs, observer, sink, window)?;
                 let span = Span { from: from.take(), stop_after };
                 let done = course::run((&scene, motion), &prepared, observer, sink, span)?;
-                match dropped(&prepared, &done).filter(|e| inputs.wider(window, e).is_some()) {
+                let system = done.motion.system();
+                let force = system.extremes().largest_force;
+                match dropped_by(&prepared.system, system.changes().jump, force)
+                    .filter(|e| inputs.wider(window, e).is_some())
+                {
                     Some(e) => Err(Failure::Static(e)),
                     None => Ok((prepared, done)),
                 }
@@ -181,15 +184,6 @@ impl<'a> MotionAnalysis<'a> {
         let (pair, motion) = (inputs.pair, motion.clone());
         Ok(FollowedMotion { scene, motion, pair, prepared, done })
     }
-}
-
-/// Tooth changes that dropped a force: a wider window may do.
-fn dropped(prepared: &PreparedMotion, done: &FinishedMotion) -> Option<StaticError> {
-    let system = done.motion.system();
-    let [jump_n, largest_n] = [system.changes().jump, system.extremes().largest_force];
-    let window = prepared.system.options().statics.window_teeth(prepared.system.pair());
-    let holds = force_jump_check(jump_n, largest_n).holds();
-    (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))
 }
 
 /// A motion as far as it was followed, and what it was made of.

@@ -1,5 +1,9 @@
 //! What must hold of any motion.
 
+use ale::AleError;
+use dynamics::PairMechanism;
+use ltca::StaticError;
+
 use crate::certificate::Check;
 
 /// Energy that an integrator may add or take, over the work done.
@@ -33,6 +37,13 @@ pub fn pulling_check(least_n: f64, largest_n: f64) -> Check {
 /// The largest jump of the normal force that a tooth change set off (N), over the largest normal force (N).
 pub fn force_jump_check(jump_n: f64, largest_n: f64) -> Check {
     Check { bound: JUMP, ..contact_check("force_jump", jump_n, largest_n) }
+}
+
+/// Tooth changes of a pair's window that set off such a jump, as an error: a wider window may do.
+pub fn dropped_by(system: &PairMechanism, jump_n: f64, largest_n: f64) -> Option<StaticError> {
+    let window = system.options().statics.window_teeth(system.pair());
+    let holds = force_jump_check(jump_n, largest_n).holds();
+    (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))
 }
 
 /// A force that should not be (N) over the largest normal force (N).

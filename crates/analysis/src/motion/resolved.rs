@@ -9,9 +9,9 @@ const COUNTS: f64 = 0.05;
 /// Steps in the period of the highest order that counts: an implicit method takes it for 1 % slower than it is, which
 /// changes its size by a tenth next to a resonance.
 const STEPS: f64 = 18.0;
-/// Steps in the period of an order that is all of the vibration. One that is less wants fewer, as the error falls with the
-/// square of the step: a share of a fifth wants 20 (16 are off by 16 % in map (g) of `docs/envelope.md`).
-const STEPS_OF_ALL: f64 = 45.0;
+/// So many more in that of an order that is all of the vibration, and its share of them where it is less. In map (g) of
+/// `docs/envelope.md` an order that is 0.29 of it is off by 16 % with 16 steps, by 4 % with 32.
+const MORE_STEPS: f64 = 14.0;
 
 /// Rows, or steps, that are too few for what moves; `samples`: the transmission error row by row over so many whole mesh
 /// cycles, `steps` in each.
@@ -37,7 +37,7 @@ fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
     let all = mesh_harmonics(samples, cycles as usize, rows / 2).ok()?;
     let sum: f64 = all.iter().map(|h| h.amplitude).sum();
     let in_period = |order: usize| steps / order as f64;
-    let wanted = |share: f64| STEPS.max(STEPS_OF_ALL * share.sqrt());
+    let wanted = |share: f64| STEPS + MORE_STEPS * share;
     let counts = all.iter().map(|h| (h.order as usize, h.amplitude / sum)).filter(|(_, share)| *share > COUNTS);
     let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
     Some(format!(

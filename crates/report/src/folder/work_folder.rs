@@ -23,6 +23,8 @@ use std::{
 use super::partial::{self, Partial};
 
 const MARK: &str = ".ale-gear-work";
+/// The mark while it is made.
+const UNSEEN: &str = ".ale-gear-work.new";
 const NEW: &str = "new";
 const OLD: &str = "old";
 /// First line of the mark.
@@ -55,19 +57,18 @@ impl WorkFolder {
         let own = format!("{}{}", beginning(target).to_string_lossy(), std::process::id());
         let mut path = folder.join(&own);
         let mut count = 0;
-        // Two machines on one disk may have processes of the same number.
-        while let Err(e) = fs::create_dir(&path) {
-            if e.kind() != ErrorKind::AlreadyExists || count > 1000 {
-                return Err(e);
+        loop {
+            match furnished(path) {
+                Ok((partial, mark)) => return Ok(Self { target: target.to_owned(), ours, _mark: mark, partial }),
+                // Two machines on one disk may have processes of the same number; and one that cleans up may take a
+                // folder without a mark away.
+                Err(e) if matches!(e.kind(), ErrorKind::AlreadyExists | ErrorKind::NotFound) && count < 1000 => {
+                    count += 1
+                }
+                Err(e) => return Err(e),
             }
-            count += 1;
             path = folder.join(format!("{own}-{count}"));
         }
-        let partial = Partial::new(path);
-        fs::create_dir(partial.path().join(NEW))?;
-        // Without a lock (not every file system has them) nobody may ever take the folder for a dead one.
-        let mark = mark(partial.path()).ok();
-        Ok(Self { target: target.to_owned(), ours, _mark: mark, partial })
     }
 
     /// Where the result grows.
@@ -93,6 +94,16 @@ impl WorkFolder {
         take_away_left_over(&self.target, self.ours, Some(self.partial.path()));
         Ok(())
     }
+}
+
+/// A work folder with its mark, locked, and room for the new result.
+fn furnished(path: PathBuf) -> io::Result<(Partial, Option<File>)> {
+    fs::create_dir(&path)?;
+    let partial = Partial::new(path);
+    // Without a lock (not every file system has them) nobody may ever take the folder for a dead one.
+    let mark = mark(partial.path()).ok();
+    fs::create_dir(partial.path().join(NEW))?;
+    Ok((partial, mark))
 }
 
 /// `new` takes the place of `target`, which becomes `old`.
@@ -136,7 +147,7 @@ fn beginning(target: &Path) -> OsString {
 
 /// Makes the mark of a folder and locks it before anybody can see it under its name.
 fn mark(folder: &Path) -> io::Result<File> {
-    let unseen = folder.join(format!("{MARK}.new"));
+    let unseen = folder.join(UNSEEN);
     let mut file = File::options().read(true).write(true).create_new(true).open(&unseen)?;
     file.try_lock()?;
     write!(file, "{HEADING}\nhost {}\nprocess {}\n", this_host().unwrap_or_default(), std::process::id())?;
@@ -192,7 +203,26 @@ fn take_away_left_over(target: &Path, ours: Judge, own: Option<&Path>) {
     }
 }
 
+/// Removes a folder whose process died before it had a mark: there is nothing in it, or an unlocked mark in the making.
+/// A process that lives and has come no farther takes another folder.
+fn take_away_bare(folder: &Path) -> io::Result<()> {
+    if !fs::symlink_metadata(folder)?.is_dir() {
+        return Ok(());
+    }
+    if let Ok(file) = File::options().read(true).write(true).open(folder.join(UNSEEN)) {
+        if file.try_lock().is_err() || fs::read_dir(folder)?.count() != 1 {
+            return Ok(());
+        }
+        fs::remove_file(folder.join(UNSEEN))?;
+    }
+    // Of an empty folder only.
+    fs::remove_dir(folder)
+}
+
 fn take_away(folder: &Path, target: &Path, ours: Judge) -> io::Result<()> {
+    if !is_work_folder(folder) {
+        return take_away_bare(folder);
+    }
     let Some(_held) = dead(folder) else { return Ok(()) };
     if stranger(folder, ours)?.is_some() {
         return Ok(());

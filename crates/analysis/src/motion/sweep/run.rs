@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{PairMotionError, SteadyOptions, SweepDirection, SweepOutcome, SweepPlan};
+use dynamics::{PairMotionError, SteadyOptions, SweepDirection, SweepOutcome, SweepPlan, SweepPoint};
 use ltca::StaticError;
 use scene::{MotionScene, Scene, SweepScene, SweepWay};
 
@@ -10,6 +10,7 @@ use crate::{
     Observer, PhaseWork,
     failure::Failure,
     motion::{
+        checks::dropped_by,
         course::failure,
         setup::{PreparedMotion, RPM, steady_by},
     },
@@ -52,6 +53,10 @@ pub(super) fn run(
     };
     let steps = (plan.speeds.len() * plan.ways.len()) as u64;
     let curable = |error: &PairMotionError| starved(error).is_some_and(wider);
+    let dropped = |point: &SweepPoint| {
+        let force = point.extremes.largest_force.max(point.coast_force);
+        dropped_by(&prepared.system, point.changes.jump, force).filter(wider)
+    };
     let outcomes = run_phase(observer, "sweep", PhaseWork::Steps(steps), |progress| {
         dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
             progress.tick();
@@ -61,11 +66,15 @@ pub(super) fn run(
             }
             match outcome {
                 Err(miss) if curable(&miss.error) => ControlFlow::Break(()),
+                Ok(point) if dropped(point).is_some() => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
         })
     })
     .map_err(|e| failure(scene, e))?;
+    if let Some(error) = outcomes.iter().filter_map(|o| o.as_ref().ok()).find_map(dropped) {
+        return Err(Failure::Static(error));
+    }
     let mut misses = outcomes.iter().filter_map(|o| o.as_ref().err());
     if let Some(miss) = misses.clone().find(|m| curable(&m.error)) {
         return Err(failure(scene, miss.error.clone()));
