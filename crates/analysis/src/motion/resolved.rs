@@ -38,7 +38,7 @@ fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
     let sum: f64 = all.iter().map(|h| h.amplitude).sum();
     let in_period = |order: usize| steps / order as f64;
     let wanted = |share: f64| STEPS + MORE_STEPS * share;
-    let counts = all.iter().map(|h| (h.order as usize, h.amplitude / sum)).filter(|(_, share)| *share > COUNTS);
+    let counts = all.iter().map(|h| (h.order, h.amplitude / sum)).filter(|(_, share)| *share > COUNTS);
     let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
     Some(format!(
         "a step is 1/{:.1} of the period of mesh order {order}, which has {:.0} % of the vibration: near a resonance its \

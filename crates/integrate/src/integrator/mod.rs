@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Steps in one go from which on it matters how short they are.
-const MANY_STEPS: u64 = 100_000;
+const MANY_STEPS: u64 = 30_000;
 /// Mean step over the largest allowed below which a motion does not get on.
 const CRAWLING: f64 = 1e-3;
 

@@ -381,7 +381,7 @@ fn what_cannot_be_integrated_is_an_error() {
     let small = StepControl::Adaptive { tolerance: 1e-30, first: 0.1, least: 1e-3, largest: 1.0 };
     let mut thrown = Oscillator { frequency: 3.0, amplitude: 1.0, ..system.clone() };
     assert!(run(&mut thrown, Scheme::Energy, small, 1.0).unwrap_err().contains("is needed for the tolerance"));
-    // A second of a motion whose period takes microseconds: 100,000 steps do not get on, and so it is said.
+    // A second of a motion whose period takes microseconds: 30,000 steps do not get on, and so it is said.
     let tiny = StepControl::Adaptive { tolerance: 1e-6, first: 1e-6, least: 1e-15, largest: 1.0 };
     let mut stiff = Oscillator { frequency: 3e6, amplitude: 1e6, ..system.clone() };
     stiff.mass[(0, 0)] = 1e-12;
