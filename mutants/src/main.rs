@@ -16,6 +16,8 @@ use std::{error::Error, path::PathBuf, time::Duration};
 
 use clap::{Parser, Subcommand};
 
+use outcome::Wanted;
+
 /// Crates whose sources are changed.
 const CRATES: [&str; 6] = ["geometry", "reduction", "ale", "contact", "ltca", "dynamics"];
 
@@ -60,6 +62,12 @@ enum Step {
         /// Seconds of tests after which a mutant that none has noticed counts as a survivor.
         #[arg(long, default_value_t = 120.0)]
         budget: f64,
+        /// Tests whose names hold this come first, whatever their time.
+        #[arg(long)]
+        first: Option<String>,
+        /// Survivors once more.
+        #[arg(long)]
+        survivors: bool,
         /// These alone, once more.
         #[arg(long, value_delimiter = ',')]
         only: Vec<usize>,
@@ -73,7 +81,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     match words.step {
         Step::Prepare { seed, sample, root } => build::prepare(&root, &words.work, seed, sample),
         Step::Cover { longest, leave_out } => cover::cover(&words.work, Duration::from_secs(longest), &leave_out),
-        Step::Run { jobs, budget, only } => outcome::run(&words.work, jobs, budget, &only),
+        Step::Run { jobs, budget, first, survivors, only } => {
+            outcome::run(&words.work, jobs, budget, first.as_deref(), &Wanted { survivors, only })
+        }
         Step::List => outcome::list(&words.work),
     }
 }

@@ -36,14 +36,27 @@ fn outcomes(work: &Path) -> BTreeMap<usize, Outcome> {
     text.lines().filter_map(|l| serde_json::from_str::<Outcome>(l).ok()).map(|o| (o.mutant, o)).collect()
 }
 
+/// Which mutants are tried: those without an outcome, and others on request.
+pub struct Wanted {
+    pub survivors: bool,
+    pub only: Vec<usize>,
+}
+
 /// `mutants run`.
-pub fn run(work: &Path, jobs: usize, budget: f64, only: &[usize]) -> Result<(), Box<dyn Error>> {
+pub fn run(work: &Path, jobs: usize, budget: f64, first: Option<&str>, wanted: &Wanted) -> Result<(), Box<dyn Error>> {
     let drawn = Drawn::read(work)?;
     let binaries: Vec<Binary> = serde_json::from_slice(&fs::read(work.join("binaries.json"))?)?;
     let mut tests = found(work);
     tests.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let done = outcomes(work);
-    let wanted = |n: usize| if only.is_empty() { !done.contains_key(&n) } else { only.contains(&n) };
+    if let Some(first) = first {
+        tests.sort_by_key(|test| !test.name.contains(first));
+    }
+    let wanted = |n: usize| match done.get(&n) {
+        _ if !wanted.only.is_empty() => wanted.only.contains(&n),
+        Some(outcome) => wanted.survivors && outcome.killed_by.is_none() && outcome.reached_by > 0,
+        None => !wanted.survivors,
+    };
     // In an order that mixes the crates, so that a run that is cut short has seen all of them.
     let mut numbers: Vec<usize> = drawn.viable().map(|(n, _)| n).filter(|n| wanted(*n)).collect();
     numbers.sort_by_key(|n| n.wrapping_mul(2_654_435_761) % 1_000_003);

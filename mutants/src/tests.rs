@@ -7,6 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use rustix::process::{Pid, Signal, kill_process_group};
 use serde::{Deserialize, Serialize};
 
 use crate::build::Binary;
@@ -69,7 +70,9 @@ pub fn run(binary: &Binary, name: &str, chosen: &str, seen: Option<&str>, limit:
         }
         if start.elapsed() > limit {
             // The group: programs that the test has started go with it.
-            _ = Command::new("kill").args(["-KILL", &format!("-{}", child.id())]).status();
+            if let Some(group) = Pid::from_raw(child.id() as i32) {
+                _ = kill_process_group(group, Signal::KILL);
+            }
             child.wait()?;
             return Ok(Ended::TooLong);
         }
