@@ -10,9 +10,10 @@ use crate::program;
 fn run(text: &str) -> (Option<i32>, String) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.toml"), text).unwrap();
-    let words = ["run", "scene.toml", "--out", "o", "--no-cache", "--quiet"];
+    let words = ["run", "scene.toml", "--out", "o", "--no-cache"];
     let output = ale_gear(program(), folder.path(), &words).output().unwrap();
-    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    let said = [output.stdout, output.stderr].concat();
+    (output.status.code(), String::from_utf8_lossy(&said).into_owned())
 }
 
 /// A window that is too narrow for teeth as soft as these drops a force at a tooth change: the motion is begun again

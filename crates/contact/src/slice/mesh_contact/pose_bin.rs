@@ -3,9 +3,6 @@
 //!
 //! The centre depends on the bin alone, not on the pose that came first. A cached solution is therefore the value of a
 //! pure function: with the cache or without it, results are the same to the last bit.
-//!
-//! The middle depends on the cell alone and not on who came first. So what is kept is memory of a pure function: with
-//! it or without, results are the same to the last bit.
 
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 
