@@ -5,9 +5,10 @@ use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, So
 use geometry::GearPair;
 
 use crate::{
-    StaticError, WindowedPair,
+    DeflectionCourse, StaticError, WindowedPair,
     kinematic::Unloaded,
     pose_solver::{PoseSolution, PoseSolver, PoseStep},
+    pose_steps::PoseSteps,
 };
 
 /// Solved contact at one station.
@@ -36,22 +37,20 @@ pub struct Equilibrium {
     pub displacements: [Vec<f64>; 2],
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
+    /// Rotation due to load here and at the stations before.
+    pub course: DeflectionCourse,
 }
 
 /// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
 pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 80;
-/// Steps of Newton's method alone; it wants less than ten.
-const NEWTON_STEPS: usize = 15;
-/// Last step of the pose relative to the approach.
-const POSE_TOLERANCE: f64 = 1e-10;
+/// Gap over the approach up to which rows are candidates: what loads on other teeth may close.
+const NEIGHBOURS_CLOSE: f64 = 0.25;
 /// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
 /// Estimated deflection of steel teeth over the module beyond which no search is begun.
 const HOPELESS: f64 = 10.0;
-/// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
-const POSE_ROUND_OFF: f64 = 1e-9;
 
 /// Frames of the matrices when the driven gear is turned by `rotation` from the unloaded position.
 pub(crate) fn poses(windowed: &WindowedPair, station: Station, rotation: f64) -> [Pose; 2] {
@@ -65,10 +64,11 @@ impl Equilibrium {
     /// Displacements of both gears' boundary coordinates, mm, in the frames of the matrices of `set`, the window that
     /// the equilibrium was found on.
     pub fn displacements_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
-        if self.displacements.iter().all(Vec::is_empty)
-            && let Some(found) = set.displacements_under(&self.rows, &self.solution.forces)
-        {
-            return found;
+        if self.displacements.iter().all(Vec::is_empty) {
+            let rows = set.supported_rows(&self.poses, &self.rows, &self.slices, &self.solution.forces);
+            if let Some(found) = set.displacements_under(&rows, &self.solution.forces) {
+                return found;
+            }
         }
         self.displacements.clone()
     }
@@ -88,34 +88,11 @@ impl Equilibrium {
     }
 }
 
-/// Rotations between which the equilibrium lies: more load than the contact carries turns the gear on, less back.
-#[derive(Default)]
-struct Between {
-    below: Option<f64>,
-    above: Option<f64>,
-}
-
-impl Between {
-    /// Where to go from `from`, which Newton's method would leave by `turn`; the middle where steps go to and fro
-    /// (`stays`), as they do over an edge at which a slice begins or ends to touch.
-    fn next(&mut self, from: f64, turn: f64, stays: bool) -> f64 {
-        if turn > 0.0 {
-            self.below = Some(from)
-        } else {
-            self.above = Some(from)
-        }
-        match (self.below, self.above) {
-            (Some(below), Some(above)) if stays && below < above => 0.5 * (below + above),
-            _ => from + turn,
-        }
-    }
-}
-
 /// Turns the driven gear until contact balances its torque.
 ///
 /// Newton's method on the pose. At each step the gaps are computed from the smooth flanks at the current pose, and the
-/// contact problem with its one rotation is solved exactly. The levers are exact, so convergence is quadratic. `mesh`
-/// solves the contact of slices on reduced gears.
+/// contact problem with its one rotation is solved exactly. Compliance and levers are those of the pose, so that a step
+/// is a small part of the one before: see [`PoseSteps`]. `mesh` solves the contact of slices on reduced gears.
 pub(crate) fn equilibrium(
     windowed: &WindowedPair,
     mesh: Option<&mut MeshContact>,
@@ -137,8 +114,8 @@ pub(crate) fn equilibrium(
         },
     };
     let force = options.torque / base_radius;
-    // Start: the position where the flanks touch, turned by the deflection of the station before.
-    let deflection = guess.map_or(0.0, |g| g.rotation - g.unloaded_rotation);
+    // Start: the position where the flanks touch, turned by the deflection of the stations before as it goes on.
+    let deflection = guess.map_or(0.0, |g| g.course.at(station));
     let mut rotation = unloaded.rotation + deflection;
     let guessed = force / (GUESSED_LINE_STIFFNESS * pair.face_width());
     let module_mm = pair.pinion.data().normal_module;
@@ -152,14 +129,14 @@ pub(crate) fn equilibrium(
     }
     // Facets lie up to their sagitta above the smooth flanks: search as far as the mesh may be off.
     let facets = if options.contact.gap == contact::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
-    let mut reach = facets + if guess.is_some() { 0.5 * guessed } else { 2.5 * guessed };
+    let of_guess = NEIGHBOURS_CLOSE * base_radius * deflection.abs();
+    let mut reach = facets + if deflection == 0.0 { 2.5 * guessed } else { of_guess };
     let mut iterations = 0;
-    let mut step_mm = f64::INFINITY;
-    let mut between = Between::default();
-    for tried in 0..POSE_STEPS {
+    let mut steps = PoseSteps::new(base_radius, pair.centre_distance());
+    for _ in 0..POSE_STEPS {
         let poses = poses(windowed, station, rotation);
-        let (turn, steps) = match solver.step(windowed, &poses, reach).map_err(fail)? {
-            PoseStep::Turn(turn, steps) => (turn, steps),
+        let (turn, newton) = match solver.step(windowed, &poses, reach).map_err(fail)? {
+            PoseStep::Turn(turn, newton) => (turn, newton),
             PoseStep::OutOfReach => {
                 if reach > module_mm {
                     let turned = base_radius * (rotation - unloaded.rotation).abs();
@@ -177,20 +154,19 @@ pub(crate) fn equilibrium(
                 continue;
             }
         };
-        iterations += steps;
-        let before = step_mm;
-        step_mm = (turn * base_radius).abs();
-        let from = rotation;
-        rotation = between.next(from, turn, tried > NEWTON_STEPS && step_mm > 0.5 * before);
-        let error = side.sign() * base_radius * rotation;
-        let elastic = (error - kinematic).abs();
-        // An angle of a few radians resolves no smaller steps.
-        let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
-        let stays = step_mm > 0.5 * before && step_mm.max(before) <= POSE_ROUND_OFF * elastic;
-        if (step_mm <= (POSE_TOLERANCE * elastic).max(round_off) || stays)
-            && let Some(found) = solver.take_solution(&poses)
+        iterations += newton;
+        rotation = steps.next(rotation, turn);
+        let elastic_mm = base_radius * (rotation - unloaded.rotation).abs();
+        if steps.is_last(elastic_mm)
+            && let Some(found) = solver.take_solution()
         {
-            let PoseSolution { rows, slices, solution, displacements } = *found;
+            rotation += steps.remainder();
+            let error = side.sign() * base_radius * rotation;
+            let course = guess.map(|g| g.course.clone()).unwrap_or_default();
+            let PoseSolution { mut rows, slices, solution, displacements } = *found;
+            // Poses and gaps as they are after the last step, which no search follows any more.
+            let poses = self::poses(windowed, station, rotation);
+            rows.iter_mut().for_each(|row| row.gap += row.levers[options.driven()] * solution.rotation);
             return Ok(Equilibrium {
                 station,
                 poses,
@@ -203,9 +179,11 @@ pub(crate) fn equilibrium(
                 solution,
                 displacements,
                 iterations,
+                course: course.and(station, rotation - unloaded.rotation),
             });
         }
-        reach = facets + (0.25 * elastic).max(2.0 * step_mm);
+        reach = facets + NEIGHBOURS_CLOSE * elastic_mm.max(steps.step_mm());
     }
-    Err(StaticError::NoEquilibrium { cycle: station.cycle, phase: station.phase, iterations: POSE_STEPS, step_mm })
+    let Station { cycle, phase } = station;
+    Err(StaticError::NoEquilibrium { cycle, phase, iterations: POSE_STEPS, step_mm: steps.step_mm() })
 }

@@ -5,6 +5,7 @@
 
 mod cycle;
 mod cycle_solver;
+mod deflection_course;
 mod equilibrium;
 mod error;
 mod flank_gap;
@@ -13,12 +14,14 @@ mod line;
 mod loads;
 mod options;
 mod pose_solver;
+mod pose_steps;
 mod result;
 mod root_stress;
 mod slice_count;
 mod statics;
 mod windowed_pair;
 
+pub use deflection_course::DeflectionCourse;
 pub use equilibrium::Equilibrium;
 pub use error::StaticError;
 pub use kinematic::kinematic_transmission_error;

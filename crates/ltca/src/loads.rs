@@ -6,14 +6,14 @@ use contact::{
 
 use crate::{Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line};
 
-/// Difference between the nodal forces on the two gears, relative to the larger: action = reaction as the meshes see
-/// it.
+/// Difference between the forces on the two gears, relative to the larger: action = reaction. Where rows rest on nodes
+/// (points, and gears whose compliance has no table) it is that of the nodal forces, as the meshes see it.
 fn action_reaction(e: &Equilibrium) -> f64 {
     let total = |body: usize| {
         let mut sum = Vec3::zeros();
         for (row, &f) in e.rows.iter().zip(&e.solution.forces) {
             let s = &row.supports[body];
-            let weight: f64 = s.weights[..s.count].iter().sum();
+            let weight = if row.is_supported() { s.weights[..s.count].iter().sum() } else { 1.0 };
             sum += f * weight * (e.poses[body].rotation * s.load);
         }
         sum

@@ -74,11 +74,11 @@ impl PoseSolver<'_> {
         }
     }
 
-    pub fn take_solution(&mut self, poses: &[Pose; 2]) -> Option<Box<PoseSolution>> {
+    pub fn take_solution(&mut self) -> Option<Box<PoseSolution>> {
         match self {
             Self::General { last, .. } => last.take(),
             Self::Mesh(mesh) => {
-                let rows = mesh.supported_rows(poses);
+                let rows = mesh.rows().to_vec();
                 let solver = mesh.solver();
                 let solution = Solution {
                     forces: solver.forces().to_vec(),

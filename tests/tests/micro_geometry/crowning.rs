@@ -45,3 +45,33 @@ fn crowned_flanks_end_their_pressure_before_the_edge() {
     assert!(spans[3] < 0.9 * outermost, "120 um of crowning: pressed up to {} mm", spans[3]);
     assert!(spans.windows(2).all(|w| w[1] <= w[0]), "more crowning, shorter lines: {spans:?}");
 }
+
+/// Flanks that just touch do so where the crown is within a nanometre of its top: on
+///
+/// ```text
+/// l = b sqrt(1 nm / C) / cos b_b     of a crown C over the face width b
+/// ```
+/// of every pair whose line passes the middle of the face, however the stations of the search lie about it.
+#[test]
+fn unloaded_crowns_touch_on_the_length_of_a_nanometre() {
+    const TOUCHING_MM: f64 = 1e-6;
+    for (beta_deg, crowning) in [(0.0, 0.05), (20.0, 4e-5), (20.0, 0.05), (20.0, 0.8)] {
+        let case = quadratic(default_data(beta_deg), None, 0.0, [1, 2, 1, 2, 1], Extent::Sector(5));
+        let crowned = GearModifications::both(FlankModification { lead_crowning: crowning, ..Default::default() });
+        let options = case.slice_options();
+        let pair = modified(&case.pair, [crowned, Default::default()]);
+        let expected = case.pair.face_width() * (TOUCHING_MM / crowning).sqrt() / pair.base_helix_angle().cos();
+        let mut model = StaticModel::new(pair, case.reduced_gears(&options), options).unwrap();
+        let positions = model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}")).positions;
+        for position in &positions {
+            let lengths: Vec<f64> =
+                position.pairs.iter().map(|p| p.contact_line_length).filter(|length| *length > 0.0).collect();
+            let off = lengths.iter().map(|length| (length / expected - 1.0).abs()).fold(0.0, f64::max);
+            assert!(
+                !lengths.is_empty() && off < 0.01,
+                "beta {beta_deg}, crown {crowning} mm, phase {}: lines of {lengths:?} mm, expected {expected}",
+                position.mesh_phase
+            );
+        }
+    }
+}

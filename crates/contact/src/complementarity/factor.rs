@@ -2,13 +2,16 @@
 
 use dyn_stack::MemStack;
 use faer::{
-    MatMut, MatRef, Par,
+    Auto, MatMut, MatRef, Par, Spec,
     linalg::{cholesky::llt, lu::partial_pivoting as lu, triangular_solve},
     perm::PermRef,
 };
 
 use super::{DenseProblem, DenseSolver, dense::RIGID};
 use crate::ContactError;
+
+/// Right-hand sides up to which each is solved for by itself.
+const FEW: usize = 2;
 
 impl DenseSolver {
     /// Factor of S + diag(slopes) on the active rows.
@@ -17,8 +20,10 @@ impl DenseSolver {
         self.saved = false;
         self.factor.clear();
         for &j in &self.active {
-            let column = problem.compliance.col(j);
-            self.factor.extend(self.active.iter().map(|&i| column[i]));
+            match problem.compliance.col(j).try_as_col_major() {
+                Some(column) => gather(column.as_slice(), &self.active, &mut self.factor),
+                None => self.factor.extend(self.active.iter().map(|&i| problem.compliance[(i, j)])),
+            }
         }
         for (a, &i) in self.active.iter().enumerate() {
             self.factor[a * (m + 1)] += self.slopes[i];
@@ -26,7 +31,7 @@ impl DenseSolver {
         let matrix = MatMut::from_column_major_slice_mut(&mut self.factor, m, m);
         let stack = MemStack::new(&mut self.scratch);
         if self.symmetric {
-            llt::factor::cholesky_in_place(matrix, Default::default(), Par::Seq, stack, Default::default())
+            llt::factor::cholesky_in_place(matrix, Default::default(), Par::Seq, stack, in_one_go())
                 .map_err(|_| ContactError::NotPositiveDefinite { points: m })?;
         } else {
             let [forward, backward] = &mut self.permutation;
@@ -41,8 +46,8 @@ impl DenseSolver {
 
     /// Solves with the factor for the first `columns` columns of `x`, m rows each.
     pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
-        if self.symmetric && columns == 1 {
-            return solve_one(&self.factor, &mut self.x[..m]);
+        if self.symmetric && columns <= FEW {
+            return self.x[..m * columns].chunks_exact_mut(m).for_each(|x| solve_one(&self.factor, x));
         }
         let factor = MatRef::from_column_major_slice(&self.factor, m, m);
         if self.symmetric {
@@ -60,6 +65,19 @@ impl DenseSolver {
                 lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
             }
         }
+    }
+}
+
+/// Factors as large as contact has them without recursion, whose small blocks cost four times as much.
+fn in_one_go() -> Spec<llt::factor::LltParams, f64> {
+    let usual = <llt::factor::LltParams as Auto<f64>>::auto();
+    Spec::new(llt::factor::LltParams { recursion_threshold: usual.block_size, ..usual })
+}
+
+/// The entries of the active rows: most of these follow each other.
+fn gather(column: &[f64], active: &[usize], out: &mut Vec<f64>) {
+    for run in active.chunk_by(|a, b| a + 1 == *b) {
+        out.extend_from_slice(&column[run[0]..][..run.len()]);
     }
 }
 

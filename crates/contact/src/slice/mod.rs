@@ -6,6 +6,7 @@ mod mesh_contact;
 mod profile_search;
 mod rigid;
 mod set;
+mod supported;
 mod tooth_layer;
 
 pub use flank_pair::{FlankPair, Slice, SliceFlank, SlicePoint, slice};

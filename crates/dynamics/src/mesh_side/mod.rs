@@ -118,10 +118,10 @@ impl MeshSide {
         poses: &[Pose; 2],
         roots: &RootStress,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
-        let rows = self.contact.supported_rows(poses);
-        let set = self.contact.contact_set();
-        let displacements =
-            (!rows.is_empty()).then(|| set.displacements_under(&rows, self.contact.solver().forces())).flatten();
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let forces = contact.solver().forces();
+        let rows = set.supported_rows(poses, contact.rows(), contact.slices(), forces);
+        let displacements = (!rows.is_empty()).then(|| set.displacements_under(&rows, forces)).flatten();
         let parts =
             WindowedPair { pair, gears: &self.gears, set, window: self.window.window(), options: &self.options };
         roots.of(&parts, displacements.as_ref())

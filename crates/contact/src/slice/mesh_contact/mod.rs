@@ -18,9 +18,9 @@ use reduction::{ElasticGear, GearModes};
 use std::sync::Arc;
 
 use crate::{
-    Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, FlankPair, Friction,
-    LocalState, MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, covered,
-    line_station, opening_by_motion, slice_line, wrenches,
+    Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, Friction, LocalState,
+    MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, covered, line_station,
+    opening_by_motion, slice_line, wrenches,
 };
 
 pub use near::EvaluationLevel;
@@ -288,21 +288,6 @@ impl MeshContact {
     /// Rows of the last solution, in order of pair and height.
     pub fn rows(&self) -> &[ContactRow] {
         &self.contact.rows
-    }
-
-    /// The rows with their nodes and weights, at the poses of the last evaluation.
-    pub fn supported_rows(&mut self, poses: &[Pose; 2]) -> Vec<ContactRow> {
-        let Self { set, pairs, hints, contact: PoseContact { keys, rows, slices, .. }, .. } = self;
-        let mut rows = rows.clone();
-        let Some(slice_set) = set.slices() else { return rows };
-        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
-        for ((row, slice), &key) in
-            rows.iter_mut().zip(slices.iter()).zip(keys.iter()).filter(|((r, _), _)| !r.is_supported())
-        {
-            let numbers = pairs[key / slice_set.stations().len()];
-            FlankPair::new(slice_set.flanks(patches, numbers), poses).support(row, slice, &mut hints[key]);
-        }
-        rows
     }
 
     /// Slices of the rows.

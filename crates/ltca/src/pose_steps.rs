@@ -1,0 +1,87 @@
+//! Steps of the pose towards equilibrium, and when they have come near enough.
+
+/// Steps of Newton's method alone; it wants less than ten.
+const NEWTON_STEPS: usize = 15;
+/// Last step relative to the approach.
+const TOLERANCE: f64 = 1e-10;
+/// Sum of the steps that are not taken any more, relative to the approach.
+const REMAINDER: f64 = 1e-12;
+/// Ratio of steps that follow each other below which they are a geometric series.
+const GEOMETRIC: f64 = 0.05;
+/// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Steps of a rotation.
+///
+/// Compliance and levers move with the pose, and the tangent leaves that out: each step is some 3e-4 of the one before,
+///
+/// ```text
+/// t_k = r t_(k-1),   t_(k+1) + t_(k+2) + ... = t_k r / (1 - r)
+/// ```
+/// so that two steps tell where the others lead (Aitken). The forces of the last step lack what these change, some ten
+/// times their sum over the approach; the ends of contact lines some hundred times.
+pub(crate) struct PoseSteps {
+    radius: f64,
+    /// Round-off of places, mm.
+    round_off: f64,
+    taken: usize,
+    /// The last step and the one before, rad; none where the middle was taken in place of a step.
+    turns: [Option<f64>; 2],
+    step_mm: f64,
+    before_mm: f64,
+    /// Rotations between which the equilibrium lies: more load than the contact carries turns the gear on, less back.
+    below: Option<f64>,
+    above: Option<f64>,
+}
+
+impl PoseSteps {
+    /// Of a gear with this base radius in a pair with this centre distance, mm.
+    pub fn new(radius: f64, centre_distance: f64) -> Self {
+        // An angle of a few radians resolves no smaller steps.
+        let round_off = 16.0 * f64::EPSILON * centre_distance;
+        let (turns, step_mm, before_mm) = ([None; 2], f64::INFINITY, f64::INFINITY);
+        Self { radius, round_off, taken: 0, turns, step_mm, before_mm, below: None, above: None }
+    }
+
+    /// Where to go from `from`, which Newton's method would leave by `turn`; the middle where steps go to and fro, as
+    /// they do over an edge at which a slice begins or ends to touch.
+    pub fn next(&mut self, from: f64, turn: f64) -> f64 {
+        (self.before_mm, self.step_mm) = (self.step_mm, (turn * self.radius).abs());
+        self.taken += 1;
+        if turn > 0.0 {
+            self.below = Some(from)
+        } else {
+            self.above = Some(from)
+        }
+        let stays = self.taken > NEWTON_STEPS && self.step_mm > 0.5 * self.before_mm;
+        let (next, newton) = match (self.below, self.above) {
+            (Some(below), Some(above)) if stays && below < above => (0.5 * (below + above), false),
+            _ => (from + turn, true),
+        };
+        self.turns = [newton.then_some(turn), self.turns[0]];
+        next
+    }
+
+    /// The last step, mm.
+    pub fn step_mm(&self) -> f64 {
+        self.step_mm
+    }
+
+    /// What the steps after the last one come to, rad; 0 where they are no series.
+    pub fn remainder(&self) -> f64 {
+        self.series().unwrap_or(0.0)
+    }
+
+    fn series(&self) -> Option<f64> {
+        let [Some(now), Some(before)] = self.turns else { return None };
+        let ratio = now / before;
+        (ratio.abs() < GEOMETRIC).then(|| now * ratio / (1.0 - ratio))
+    }
+
+    /// Whether no further step is needed, at an approach (mm) as large as this.
+    pub fn is_last(&self, approach: f64) -> bool {
+        let stays = self.step_mm > 0.5 * self.before_mm && self.step_mm.max(self.before_mm) <= ROUND_OFF * approach;
+        let told = self.series().is_some_and(|rest| (rest * self.radius).abs() <= REMAINDER * approach);
+        stays || told || self.step_mm <= (TOLERANCE * approach).max(self.round_off)
+    }
+}

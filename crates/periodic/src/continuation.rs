@@ -1,0 +1,280 @@
+//! A branch of periodic motions over a parameter, around its folds. Pseudo-arclength (Keller, 1977). Theory (70).
+
+use nalgebra::DVector;
+
+use crate::{
+    BalanceOptions, Floquet, FourierSeries, Loss, PeriodicError, PeriodicFamily, PeriodicMotion,
+    series::Basis,
+    solution::{Condition, Equations, Point, Solved, solved, unknowns},
+};
+
+/// What is asked of a branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BranchOptions {
+    /// The branch ends where the parameter leaves this range.
+    pub range: [f64; 2],
+    /// First step of the parameter, signed: the way to go.
+    pub first_step: f64,
+    /// Largest step along the branch, in ranges of the parameter and scales of the coordinates.
+    pub longest_step: f64,
+    /// Largest number of motions.
+    pub most: usize,
+}
+
+/// Where a branch changes its stability.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bifurcation {
+    /// How.
+    pub loss: Loss,
+    /// The motion there.
+    pub motion: PeriodicMotion,
+}
+
+/// A branch of periodic motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// Motions along it.
+    pub motions: Vec<PeriodicMotion>,
+    /// Folds, period doublings and torus bifurcations, in order.
+    pub bifurcations: Vec<Bifurcation>,
+    /// Newton steps in all.
+    pub iterations: usize,
+}
+
+/// Newton steps for which the step along the branch is kept.
+const WANTED: f64 = 4.0;
+/// Shortest step over the longest.
+const SHORTEST: f64 = 1e-5;
+/// Steps to a bifurcation.
+const REFINEMENTS: usize = 40;
+/// How near to a bifurcation is near enough, over the step that passed it.
+const NEAR: f64 = 1e-7;
+/// Largest growth and decrease of a step.
+const CHANGE: [f64; 2] = [0.5, 1.6];
+
+/// Follows motions of one family.
+pub struct Tracer<'a, S> {
+    system: &'a mut S,
+    options: BalanceOptions,
+    basis: Basis,
+    unit: f64,
+    iterations: usize,
+}
+
+/// A motion with the direction of its branch.
+struct Place {
+    motion: PeriodicMotion,
+    x: DVector<f64>,
+    tangent: DVector<f64>,
+}
+
+impl<'a, S: PeriodicFamily> Tracer<'a, S> {
+    /// For a system; `unit`: what counts as a large change of its parameter, > 0.
+    ///
+    /// # Errors
+    /// [`PeriodicError::OutOfRange`].
+    pub fn new(system: &'a mut S, options: BalanceOptions, unit: f64) -> Result<Self, PeriodicError<S::Error>> {
+        let check = |name, value: f64, fine: bool, expected| {
+            if fine { Ok(()) } else { Err(PeriodicError::OutOfRange { name, value, expected }) }
+        };
+        check("scale of the parameter", unit, unit.is_finite() && unit > 0.0, "above 0")?;
+        check("harmonics", options.harmonics as f64, options.harmonics >= 1, "1 or more")?;
+        let most = options.most_harmonics;
+        check("most harmonics", most as f64, most >= options.harmonics, "no less than the first number")?;
+        let samples = options.samples_per_harmonic;
+        check("samples per harmonic", samples as f64, samples >= 8, "8 or more")?;
+        let basis = basis_of(&options, options.harmonics);
+        Ok(Self { system, options, basis, unit, iterations: 0 })
+    }
+
+    fn equations(&mut self) -> Equations<'_, S> {
+        Equations { system: &mut *self.system, basis: &self.basis, unit: self.unit, tolerance: self.options.tolerance }
+    }
+
+    /// The periodic motion at a value of the parameter, from a near-by one.
+    ///
+    /// # Errors
+    /// [`PeriodicError`] where none is found, or where it has too many harmonics.
+    pub fn motion_at(
+        &mut self,
+        parameter: f64,
+        start: &FourierSeries,
+    ) -> Result<PeriodicMotion, PeriodicError<S::Error>> {
+        let scale = self.system.scale();
+        let series = start.with_harmonics(self.basis.harmonics());
+        let x = unknowns(&Point { parameter, series }, &scale, self.unit);
+        let mut normal = DVector::zeros(x.len());
+        normal[x.len() - 1] = 1.0;
+        Ok(self.corrected(&x, normal)?.0)
+    }
+
+    /// The motion that keeps a condition, with as many harmonics as it needs.
+    fn corrected(
+        &mut self,
+        x: &DVector<f64>,
+        normal: DVector<f64>,
+    ) -> Result<(PeriodicMotion, DVector<f64>), PeriodicError<S::Error>> {
+        let (mut x, mut normal) = (widened(x, self.unknowns()), widened(&normal, self.unknowns()));
+        loop {
+            let condition = Condition { normal: normal.clone(), at: x.clone() };
+            let Solved { point, balance, iterations } = self.equations().solve(&x, &condition)?;
+            self.iterations += iterations;
+            let scale = self.system.scale();
+            let Point { parameter, series } = point;
+            let harmonics = self.basis.harmonics();
+            if balance.tail > self.options.tail {
+                let allowed = self.options.tail;
+                if harmonics >= self.options.most_harmonics {
+                    return Err(PeriodicError::Harmonics { parameter, harmonics, tail: balance.tail, allowed });
+                }
+                let more = (harmonics + harmonics.div_ceil(2)).min(self.options.most_harmonics);
+                self.basis = basis_of(&self.options, more);
+                x = unknowns(&Point { parameter, series: series.with_harmonics(more) }, &scale, self.unit);
+                normal = widened(&normal, x.len());
+                continue;
+            }
+            let period = self.system.period();
+            let floquet = Floquet::of(self.system.mass(), &balance.stiffness, &balance.damping, period)
+                .ok_or(PeriodicError::Singular { parameter })?;
+            let residual = balance.residual.norm() / balance.size.max(f64::MIN_POSITIVE);
+            let x = unknowns(&Point { parameter, series: series.clone() }, &scale, self.unit);
+            let motion =
+                PeriodicMotion { parameter, series, period, floquet, residual, tail: balance.tail, iterations };
+            return Ok((motion, x));
+        }
+    }
+
+    /// Direction of the branch at unknowns that solve the equations, the way `before` goes.
+    fn tangent(&mut self, x: &DVector<f64>, before: &DVector<f64>) -> Result<DVector<f64>, PeriodicError<S::Error>> {
+        let mut equations = self.equations();
+        let (point, balance) = equations.at(x, true)?;
+        let matrix = equations.matrix(x, &balance, before)?;
+        let mut right = DVector::zeros(matrix.nrows());
+        right[x.len() - 1] = 1.0;
+        let tangent = solved(matrix, right).ok_or(PeriodicError::Singular { parameter: point.parameter })?;
+        let tangent = tangent.rows(0, x.len()).into_owned();
+        Ok(&tangent / tangent.norm())
+    }
+
+    fn place(&mut self, x: &DVector<f64>, normal: DVector<f64>) -> Result<Place, PeriodicError<S::Error>> {
+        let (motion, x) = self.corrected(x, normal.clone())?;
+        let tangent = self.tangent(&x, &widened(&normal, x.len()))?;
+        Ok(Place { motion, x, tangent })
+    }
+
+    /// The branch through a motion near `start`, from one end of the range to where it leaves it. `seen` gets each
+    /// motion and may end it.
+    ///
+    /// # Errors
+    /// [`PeriodicError`] where the first motion is not found, or where steps as short as allowed lead nowhere.
+    pub fn branch(
+        &mut self,
+        parameter: f64,
+        start: &FourierSeries,
+        options: &BranchOptions,
+        mut seen: impl FnMut(&PeriodicMotion) -> std::ops::ControlFlow<()>,
+    ) -> Result<Branch, PeriodicError<S::Error>> {
+        let first = self.motion_at(parameter, start)?;
+        let scale = self.system.scale();
+        let at = Point { parameter, series: first.series.clone() };
+        let x = unknowns(&at, &scale, self.unit);
+        let mut along = DVector::zeros(x.len());
+        along[x.len() - 1] = options.first_step.signum();
+        let tangent = self.tangent(&x, &along)?;
+        let mut here = Place { motion: first, x, tangent };
+        let mut step = (options.first_step / self.unit).abs().min(options.longest_step);
+        let mut branch = Branch { motions: vec![here.motion.clone()], bifurcations: Vec::new(), iterations: 0 };
+        let shortest = SHORTEST * options.longest_step;
+        while branch.motions.len() < options.most && seen(&here.motion).is_continue() {
+            let guess = &here.x + &here.tangent * step;
+            let next = match self.place(&guess, here.tangent.clone()) {
+                Ok(next) if widened(&here.tangent, next.x.len()).dot(&next.tangent) > 0.5 => next,
+                Err(error) if step <= shortest => return Err(error),
+                _ if step <= shortest => return Err(PeriodicError::Singular { parameter: here.motion.parameter }),
+                _ => {
+                    step *= CHANGE[0];
+                    continue;
+                }
+            };
+            if let Some(bifurcation) = self.between(&here, &next, step)? {
+                branch.bifurcations.push(bifurcation);
+            }
+            let growth = WANTED / next.motion.iterations.max(1) as f64;
+            step = (step * growth.clamp(CHANGE[0], CHANGE[1])).min(options.longest_step);
+            here = next;
+            branch.motions.push(here.motion.clone());
+            let inside = (options.range[0]..=options.range[1]).contains(&here.motion.parameter);
+            if !inside {
+                break;
+            }
+        }
+        branch.iterations = self.iterations;
+        Ok(branch)
+    }
+
+    /// What the branch passed between two of its places, found to a small part of the step.
+    fn between(
+        &mut self,
+        here: &Place,
+        next: &Place,
+        step: f64,
+    ) -> Result<Option<Bifurcation>, PeriodicError<S::Error>> {
+        let slope = |place: &Place| place.tangent[place.tangent.len() - 1];
+        let folds = slope(here) * slope(next) < 0.0;
+        let changes = here.motion.floquet.is_stable() != next.motion.floquet.is_stable();
+        if !folds && !changes {
+            return Ok(None);
+        }
+        let measure = |place: &Place| if folds { slope(place) } else { place.motion.floquet.largest() - 1.0 };
+        let (mut a, mut b) = ((0.0, measure(here)), (step, measure(next)));
+        let mut found: Option<Place> = None;
+        for turn in 0..REFINEMENTS {
+            if (b.0 - a.0).abs() <= NEAR * step {
+                break;
+            }
+            // False position, every third time the middle: a measure with a kink would stay on one side.
+            let at = if turn % 3 == 2 { 0.5 * (a.0 + b.0) } else { a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1) };
+            let Ok(place) = self.place(&(&here.x + &here.tangent * at), here.tangent.clone()) else { break };
+            let value = measure(&place);
+            if value * a.1 > 0.0 {
+                a = (at, value)
+            } else {
+                b = (at, value)
+            }
+            found = Some(place);
+            if value == 0.0 {
+                break;
+            }
+        }
+        let loss = match &found {
+            _ if folds => Loss::Fold,
+            Some(place) => place.motion.floquet.loss(),
+            None => next.motion.floquet.loss(),
+        };
+        Ok(Some(Bifurcation { loss, motion: found.map_or_else(|| next.motion.clone(), |place| place.motion) }))
+    }
+
+    fn unknowns(&self) -> usize {
+        self.system.mass().nrows() * (2 * self.basis.harmonics() + 1) + 1
+    }
+}
+
+fn basis_of(options: &BalanceOptions, harmonics: usize) -> Basis {
+    Basis::new(harmonics, (options.samples_per_harmonic * harmonics).max(LEAST_SAMPLES))
+}
+
+/// Samples of a period whatever the harmonics: multipliers are exact to the square of their distance, and where contact
+/// is lost between two of them the tangent is that of the nearer one.
+const LEAST_SAMPLES: usize = 1024;
+
+/// A list of unknowns with more harmonics; the parameter stays last.
+fn widened(x: &DVector<f64>, len: usize) -> DVector<f64> {
+    if x.len() >= len {
+        return x.clone();
+    }
+    let last = x.len() - 1;
+    let mut all = DVector::zeros(len);
+    all.rows_mut(0, last).copy_from(&x.rows(0, last));
+    all[len - 1] = x[last];
+    all
+}

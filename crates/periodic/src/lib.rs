@@ -1,0 +1,22 @@
+//! Which periodic motions does a driven mechanism have? Harmonic balance, continuation and stability; no gear in it.
+//!
+//! ```text
+//! M q'' = f(t, q, q'),   f(t + T) = f(t):   q(t + T) = q(t)
+//! ```
+//! Waiting shows the motions that are stable, and of these the ones that the start leads to. Here periodic motions are
+//! solutions of equations: all of a branch, stable or not, around its folds.
+
+mod balance;
+mod continuation;
+mod error;
+mod family;
+mod series;
+mod solution;
+mod stability;
+
+pub use continuation::{Bifurcation, Branch, BranchOptions, Tracer};
+pub use error::PeriodicError;
+pub use family::PeriodicFamily;
+pub use series::FourierSeries;
+pub use solution::{BalanceOptions, PeriodicMotion};
+pub use stability::{Floquet, Loss};

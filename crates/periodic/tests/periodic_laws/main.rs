@@ -1,0 +1,5 @@
+//! Laws of periodic motions.
+
+mod clearance;
+mod linear;
+mod oscillator;
