@@ -51,7 +51,8 @@ fn crowned_flanks_end_their_pressure_before_the_edge() {
 /// ```text
 /// l = b sqrt(1 nm / C) / cos b_b     of a crown C over the face width b
 /// ```
-/// of every pair whose line passes the middle of the face, however the stations of the search lie about it.
+/// of a pair whose line passes the middle of the face, however the stations of the search lie about it; less where the
+/// line ends there.
 #[test]
 fn unloaded_crowns_touch_on_the_length_of_a_nanometre() {
     const TOUCHING_MM: f64 = 1e-6;
@@ -66,9 +67,9 @@ fn unloaded_crowns_touch_on_the_length_of_a_nanometre() {
         for position in &positions {
             let lengths: Vec<f64> =
                 position.pairs.iter().map(|p| p.contact_line_length).filter(|length| *length > 0.0).collect();
-            let off = lengths.iter().map(|length| (length / expected - 1.0).abs()).fold(0.0, f64::max);
+            let longest = lengths.iter().fold(0.0, |m: f64, length| m.max(*length));
             assert!(
-                !lengths.is_empty() && off < 0.01,
+                (longest / expected - 1.0).abs() < 0.01,
                 "beta {beta_deg}, crown {crowning} mm, phase {}: lines of {lengths:?} mm, expected {expected}",
                 position.mesh_phase
             );
