@@ -71,6 +71,18 @@ pub enum PairMotionError {
         "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load"
     )]
     SweepByTorque,
+    /// A map of the contact of something that no map holds.
+    #[error("no map of the contact holds {what}")]
+    Unmapped {
+        /// What, and why.
+        what: &'static str,
+    },
+    /// No map of the contact was made.
+    #[error("no map of the contact: {source}")]
+    Map {
+        /// Why.
+        source: Box<contact_map::MapError<StaticError>>,
+    },
 }
 
 impl PairMotionError {
@@ -104,6 +116,8 @@ impl PairMotionError {
             Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
                 "wait for the motion to settle instead of shooting for its periodic state".into()
             }
+            Self::Unmapped { .. } => "use the model \"reduced\", which solves the contact itself".into(),
+            Self::Map { .. } => "allow a larger error of the map, or use the model \"reduced\"".into(),
             Self::SweepByTorque => "give the driver a speed, or let its torque balance the load".into(),
         }
     }

@@ -61,6 +61,18 @@ pub fn quasi_static_start(
     Ok(State::new(time, q, v))
 }
 
+/// Coordinates at `time` (s) in which forces balance without motion, sought from `from`, or from a lag of `guess` (mm).
+pub(super) fn quasi_static_balance(
+    system: &mut PairMechanism,
+    time: f64,
+    guess: f64,
+    from: Option<DVector<f64>>,
+    scale: &DVector<f64>,
+) -> Result<DVector<f64>, PairMotionError> {
+    let from = from.unwrap_or_else(|| guessed(system, time, guess));
+    balance(system, time, from, scale)
+}
+
 /// Where the search for balance begins: the driven gear lags by `guess` (mm), or as much beyond the backlash.
 pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<f64> {
     let mut q = DVector::zeros(system.count());

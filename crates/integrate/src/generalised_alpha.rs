@@ -53,24 +53,33 @@ impl Coefficients {
         let time = from.time + h;
         // The averaged acceleration belongs to a place within the step: a new step moves it.
         let stretch = if from.last_step > 0.0 { h / from.last_step } else { 1.0 };
-        let b0 = &from.a + (&from.averaged - &from.a) * stretch;
+        let b0 = from.a.zip_map(&from.averaged, |a, averaged| a + (averaged - a) * stretch);
         let mut to = from.clone();
         to.time = time;
-        to.q = &from.q + h * &from.v + 0.5 * h * h * &b0;
+        for i in 0..b0.len() {
+            to.q[i] = from.q[i] + h * from.v[i] + 0.5 * h * h * b0[i];
+        }
         let mass_share = (1.0 - a_m) / ((1.0 - a_f) * beta * h * h);
         let mut newton = Newton::new(forces);
+        let mut rest = b0.clone();
         for iteration in 0..ITERATIONS {
-            to.averaged = (&to.q - &from.q - h * &from.v) / (beta * h * h) - (0.5 - beta) / beta * &b0;
-            to.v = &from.v + h * ((1.0 - gamma) * &b0 + gamma * &to.averaged);
-            to.a = ((1.0 - a_m) * &to.averaged + a_m * &b0 - a_f * &from.a) / (1.0 - a_f);
+            for i in 0..b0.len() {
+                let b1 = (to.q[i] - from.q[i] - h * from.v[i]) / (beta * h * h) - (0.5 - beta) / beta * b0[i];
+                to.averaged[i] = b1;
+                to.v[i] = from.v[i] + h * ((1.0 - gamma) * b0[i] + gamma * b1);
+                to.a[i] = ((1.0 - a_m) * b1 + a_m * b0[i] - a_f * from.a[i]) / (1.0 - a_f);
+            }
             if newton.settled() {
-                let error = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h * (&to.a - &from.a);
+                let share = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h;
                 to.last_step = h;
+                let error = to.a.zip_map(&from.a, |after, before| share * (after - before));
                 return Ok((to, error));
             }
             newton.prepare(forces);
             system.forces(time, &to.q, &to.v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
-            let rest = system.mass() * &to.a - &forces.conservative - &forces.other;
+            rest.gemv(1.0, system.mass(), &to.a, 0.0);
+            rest -= &forces.conservative;
+            rest -= &forces.other;
             let matrix =
                 |forces: &Forces| mass_share * system.mass() + gamma / (beta * h) * &forces.damping + &forces.stiffness;
             let singular = MotionError::Singular { time, which: "iteration" };

@@ -55,5 +55,5 @@ impl Ledger {
 }
 
 fn kinetic(mass: &DMatrix<f64>, v: &DVector<f64>) -> f64 {
-    0.5 * v.dot(&(mass * v))
+    0.5 * (0..v.len()).map(|j| v[j] * mass.column(j).dot(v)).sum::<f64>()
 }

@@ -1,6 +1,7 @@
 //! The pair in motion: quasi-static and linear limits, jumps, tooth changes, integrators, modes, cheaper models.
 
 mod both_free;
+mod mapped;
 mod ladder;
 mod modes_in_motion;
 mod motion_cells;

@@ -13,7 +13,7 @@ impl PairMechanism {
     }
 
     /// Loads and drive torque as forces on the twelve coordinates, and inertia of a nominal motion that is not steady.
-    pub(super) fn external(&self, t: f64, nominal: &NominalState) -> Displacement {
+    pub(crate) fn external(&self, t: f64, nominal: &NominalState) -> Displacement {
         let contact = &self.options.statics;
         let driven = contact.driven();
         let turn = |g: usize| COORDINATES * (g + 1) - 1;
@@ -29,7 +29,7 @@ impl PairMechanism {
         f
     }
 
-    pub(super) fn gyroscopic(&self, nominal: &NominalState) -> SMatrix<f64, 12, 12> {
+    pub(crate) fn gyroscopic(&self, nominal: &NominalState) -> SMatrix<f64, 12, 12> {
         let mut g = SMatrix::<f64, 12, 12>::zeros();
         for (i, body) in self.options.bodies.iter().enumerate() {
             let at = COORDINATES * i + 3;
@@ -43,7 +43,7 @@ impl PairMechanism {
     /// ratio of their teeth; normal forces do no work there. Theory (45b).
     ///
     /// `other`: all forces but those, on the twelve coordinates. Nothing with another drive.
-    pub(super) fn balancing_torque(&self, other: &Displacement) -> f64 {
+    pub(crate) fn balancing_torque(&self, other: &Displacement) -> f64 {
         if !matches!(self.options.drive, Drive::Balanced(_)) {
             return 0.0;
         }

@@ -191,11 +191,53 @@ impl PairMechanism {
         &self.pair
     }
 
-    fn cycles(&self, t: f64) -> f64 {
+    /// Whether normal modes are among the coordinates.
+    pub(crate) fn has_modes(&self) -> bool {
+        self.modal.is_some()
+    }
+
+    /// Whether the teeth of a gear stand unevenly.
+    pub(crate) fn has_pitch_errors(&self) -> bool {
+        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.modifications().has_pitch_errors())
+    }
+
+    /// Stiffness and damping of the bearings on the twelve coordinates.
+    pub(crate) fn bearings(&self) -> [SMatrix<f64, 12, 12>; 2] {
+        self.bearing
+    }
+
+    /// Driving flanks, and coast flanks where these may touch.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = &MeshSide> {
+        std::iter::once(&self.drive_side).chain(&self.coast_side)
+    }
+
+    /// Gyroscopic matrix with the pinion at 1 rad/s.
+    pub(crate) fn gyroscopic_at_unit_speed(&self) -> SMatrix<f64, 12, 12> {
+        let ratio = f64::from(self.pair.pinion.teeth()) / f64::from(self.pair.wheel.teeth());
+        let nominal = self.nominal_state(0.0);
+        self.gyroscopic(&NominalState { velocity: [1.0, -ratio], ..nominal })
+    }
+
+    /// Mesh damping per length of contact line, N s/mm^2.
+    pub(crate) fn damping_per_length(&self) -> f64 {
+        self.damping
+    }
+
+    /// Time (s) at which the nominal motion has turned so many mesh cycles since the start.
+    pub(crate) fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
+        self.nominal.time_at(&self.pair, &self.options.statics, cycles)
+    }
+
+    /// Mesh cycles a second at time `t` (s), of the nominal motion.
+    pub(crate) fn cycles_per_second(&self, t: f64) -> f64 {
+        self.nominal.cycles_per_second(&self.pair, &self.options.statics, t)
+    }
+
+    pub(crate) fn cycles(&self, t: f64) -> f64 {
         self.nominal.cycles(&self.pair, &self.options.statics, t)
     }
 
-    fn nominal_state(&self, t: f64) -> NominalState {
+    pub(crate) fn nominal_state(&self, t: f64) -> NominalState {
         self.nominal.at(&self.pair, &self.options.statics, t)
     }
 

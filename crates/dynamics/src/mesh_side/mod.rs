@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{ContactSet, MeshContact, Pose, frames, reference_angle, slice_result};
-use geometry::GearPair;
+use geometry::{GearPair, Side};
 use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use reduction::{ElasticGear, GearModes};
@@ -86,6 +86,33 @@ impl MeshSide {
             copy_at_start.keep_modes(modes.clone())?;
         }
         Ok(copy_at_start)
+    }
+
+    /// The pinion's flanks of this side.
+    pub fn flank_side(&self) -> Side {
+        self.options.side()
+    }
+
+    /// The same side at a phase, in mesh cycles, with the same gears and tables.
+    pub fn copy_at(&self, pair: &GearPair, cycles: f64) -> Result<Self, StaticError> {
+        let mut copy = self.copy_at_start(pair)?;
+        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+        let (count, sense) = (self.window.window().count(), self.options.contact.sense);
+        let window = SlidingWindow::at(Station::at_cycles(cycles + self.ahead), count, teeth, sense)?;
+        let first = window.window().first();
+        copy.restore(pair, SideState { first, changes: ToothChanges::default() })?;
+        Ok(copy)
+    }
+
+    /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
+    pub fn undeformed_overlap(&mut self, poses: &[Pose; 2]) -> f64 {
+        self.contact.overlap(poses)
+    }
+
+    /// Place (mm), normal force (N) and length (mm) of the slices that carried load in the last evaluation.
+    pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, f64)> {
+        let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
+        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| (row.position, f, slice.length))
     }
 
     /// Forgets forces and places of the last solution: what comes then depends on the state alone.

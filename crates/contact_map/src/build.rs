@@ -1,0 +1,295 @@
+//! Making a map: samples, finer and finer, until it agrees with the contact between them. Theory (73).
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::{
+    ContactMap, MapError, PhaseContact, column::{Node, column}, damping::DampingTable, load_axis::{LoadAxis, MOST_LOADS},
+    map::{MapCertificate, Wanted}, spline::Axis,
+};
+
+/// What a map has to hold, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapPlan {
+    /// Force that the pair carries on average, N: errors are relative to the mean approach under it.
+    pub mean_force: f64,
+    /// Largest force, N.
+    pub largest_force: f64,
+    /// Least and largest tilt, rad; `None` where the scene has none.
+    pub tilt: Option<[f64; 2]>,
+    /// Width of face, mm.
+    pub width: f64,
+    /// Root mean square of the approach's error, over the mean approach.
+    pub tolerance: f64,
+}
+
+/// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.
+const PHASES: [usize; 2] = [32, 256];
+const LOADS: [usize; 2] = [12, 24];
+const TILTS: usize = 6;
+const SHARES: usize = 16;
+/// Places at which a map is held against the contact.
+const CHECKS: usize = 64;
+
+/// All nodes of a map, by phase as a fraction of [`PHASES`]'s largest.
+type Columns = BTreeMap<usize, Vec<Vec<Node>>>;
+
+impl ContactMap {
+    /// A map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1).
+    ///
+    /// Phases and forces are doubled, whichever the error comes from, until the check at random places is within the
+    /// tolerance.
+    ///
+    /// # Errors
+    /// [`MapError`].
+    pub fn build<C, E>(plan: &MapPlan, at: impl Fn(f64) -> Result<C, E> + Sync) -> Result<Self, MapError<E>>
+    where
+        C: PhaseContact<Error = E>,
+        E: Send,
+    {
+        check_plan(plan)?;
+        let [mut phases, mut loads] = [PHASES[0], LOADS[0]];
+        let (mut columns, mut contacts) = (Columns::new(), 0);
+        loop {
+            contacts += sample(&mut columns, plan, &at, (phases, loads))?;
+            let mut map = assemble(plan, &columns, (phases, loads));
+            let [all, of_phases, of_loads] = errors(&map, plan, &at, &mut contacts)?;
+            let deflection = deflection(&map, plan);
+            map.certificate = MapCertificate {
+                contacts,
+                checks: CHECKS,
+                rms_error_mm: all[0],
+                largest_error_mm: all[1],
+                deflection_mm: deflection,
+                ..map.certificate
+            };
+            let error = all[0] / deflection;
+            if error <= plan.tolerance {
+                return Ok(map);
+            }
+            if of_phases[0] >= of_loads[0] && phases < PHASES[1] {
+                phases *= 2;
+            } else if loads < LOADS[1] {
+                loads *= 2;
+                columns.clear();
+            } else if phases < PHASES[1] {
+                phases *= 2;
+            } else {
+                return Err(MapError::Coarse { phases, loads, error, allowed: plan.tolerance });
+            }
+        }
+    }
+}
+
+fn check_plan<E>(plan: &MapPlan) -> Result<(), MapError<E>> {
+    let positive = [
+        ("mean force [N]", plan.mean_force),
+        ("largest force [N]", plan.largest_force),
+        ("width of face [mm]", plan.width),
+        ("tolerance of the contact map", plan.tolerance),
+    ];
+    for (name, value) in positive {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(MapError::OutOfRange { name, value, expected: "a number > 0" });
+        }
+    }
+    match plan.tilt {
+        Some([low, high]) if !(low.is_finite() && high.is_finite() && low < high) => {
+            Err(MapError::OutOfRange { name: "largest tilt [rad]", value: high, expected: "above the least one" })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn tilts(plan: &MapPlan) -> Vec<f64> {
+    match plan.tilt {
+        None => vec![0.0],
+        Some([low, high]) => (0..=TILTS).map(|i| low + (high - low) * i as f64 / TILTS as f64).collect(),
+    }
+}
+
+/// Samples the phases that are not there yet; gives how many contacts that took.
+fn sample<C, E>(
+    columns: &mut Columns,
+    plan: &MapPlan,
+    at: &(impl Fn(f64) -> Result<C, E> + Sync),
+    (phases, loads): (usize, usize),
+) -> Result<usize, MapError<E>>
+where
+    C: PhaseContact<Error = E>,
+    E: Send,
+{
+    let step = PHASES[1] / phases;
+    let missing: Vec<usize> = (0..phases).map(|i| i * step).filter(|key| !columns.contains_key(key)).collect();
+    let axis = LoadAxis::new(loads, plan.largest_force);
+    let sampled: Vec<_> = missing
+        .par_iter()
+        .map(|&key| {
+            let phase = key as f64 / PHASES[1] as f64;
+            let mut contact = at(phase).map_err(|source| MapError::Contact { phase, approach_um: 0.0, source })?;
+            let mut solved = 0;
+            let mut all = Vec::new();
+            for tilt in tilts(plan) {
+                let (nodes, count) = column(&mut contact, (phase, tilt), (axis, SHARES), plan.width)?;
+                all.push(nodes);
+                solved += count;
+            }
+            Ok((key, all, solved))
+        })
+        .collect::<Result<_, MapError<E>>>()?;
+    let mut solved = 0;
+    for (key, nodes, count) in sampled {
+        columns.insert(key, nodes);
+        solved += count;
+    }
+    Ok(solved)
+}
+
+/// The map that goes through all nodes.
+fn assemble(plan: &MapPlan, columns: &Columns, (phases, loads): (usize, usize)) -> ContactMap {
+    let step = PHASES[1] / phases;
+    let tilts = if plan.tilt.is_some() { TILTS } else { 0 };
+    let tilt_axis = if tilts == 0 { Axis::Single } else { Axis::Open(tilts) };
+    let axes = [Axis::Periodic(phases), tilt_axis, Axis::Open(loads)];
+    let of = |value: &dyn Fn(&Node) -> f64| {
+        let values: Vec<f64> =
+            (0..phases).flat_map(|i| columns[&(i * step)].iter().flatten().map(value)).collect();
+        coefficients(values, &axes)
+    };
+    let lengths: [Vec<f64>; 3] = [0, 1, 2].map(|k| of(&|node: &Node| node.lengths[k]));
+    // Where a damper is held to the force hardly depends on the tilt: the middle one serves.
+    let shares: Vec<f64> = (0..phases)
+        .flat_map(|i| columns[&(i * step)][tilts / 2].iter().flat_map(|node| node.shares.iter().copied()))
+        .collect();
+    ContactMap {
+        phases,
+        loads,
+        tilts,
+        force: plan.largest_force,
+        tilt: plan.tilt.unwrap_or([0.0, 1.0]),
+        approach: of(&|node: &Node| node.approach),
+        damping: DampingTable {
+            lengths,
+            share: coefficients(shares, &[axes[0], axes[2], Axis::Open(SHARES)]),
+            shares: SHARES,
+        },
+        certificate: MapCertificate {
+            phases,
+            loads: loads + 1,
+            tilts: tilt_axis.places(),
+            contacts: 0,
+            checks: 0,
+            rms_error_mm: f64::NAN,
+            largest_error_mm: f64::NAN,
+            deflection_mm: f64::NAN,
+        },
+    }
+}
+
+/// Coefficients of the tensor product of splines through values, the last axis running fastest.
+fn coefficients(mut values: Vec<f64>, axes: &[Axis]) -> Vec<f64> {
+    let mut shape: Vec<usize> = axes.iter().map(|a| a.places()).collect();
+    for (k, axis) in axes.iter().enumerate() {
+        // All axes have as many places as a map is made with, so there is always an interpolation.
+        let Some(matrix) = axis.interpolation() else { return Vec::new() };
+        let inner: usize = shape[k + 1..].iter().product();
+        let outer: usize = shape[..k].iter().product();
+        let (n, m) = (shape[k], axis.coefficients());
+        let mut next = vec![0.0; outer * m * inner];
+        for o in 0..outer {
+            for c in 0..m {
+                for p in 0..n {
+                    let weight = matrix[(c, p)];
+                    for i in 0..inner {
+                        next[(o * m + c) * inner + i] += weight * values[(o * n + p) * inner + i];
+                    }
+                }
+            }
+        }
+        values = next;
+        shape[k] = m;
+    }
+    values
+}
+
+/// Mean approach from first touch under the mean force, mm.
+fn deflection(map: &ContactMap, plan: &MapPlan) -> f64 {
+    let tilt = map.tilt.iter().sum::<f64>() * if map.tilts == 0 { 0.0 } else { 0.5 };
+    let of = |i: usize| {
+        let phase = i as f64 / map.phases as f64;
+        map.approach(phase, tilt, plan.mean_force) - map.approach(phase, tilt, 0.0)
+    };
+    (0..map.phases).map(of).sum::<f64>() / map.phases as f64
+}
+
+/// Root mean square and largest error of the approach (mm) at places all over the map, at places between its phases
+/// alone, and between its forces alone.
+fn errors<C, E>(
+    map: &ContactMap,
+    plan: &MapPlan,
+    at: &(impl Fn(f64) -> Result<C, E> + Sync),
+    contacts: &mut usize,
+) -> Result<[[f64; 2]; 3], MapError<E>>
+where
+    C: PhaseContact<Error = E>,
+    E: Send,
+{
+    let mut all = [[0.0; 2]; 3];
+    for (kind, out) in all.iter_mut().enumerate() {
+        let off: Vec<f64> = (0..CHECKS)
+            .into_par_iter()
+            .map(|i| {
+                let [p, l, t] = [2, 3, 5].map(|base| halton(i + 1, base));
+                let on_grid = |part: f64, n: usize| (part * n as f64).floor().max(1.0);
+                // Forces as they occur: around the mean, up to twice that, seldom more.
+                let places = map.loads as f64;
+                let reach = map.load_axis().place((2.0 * plan.mean_force).min(plan.largest_force));
+                let load = if i % 4 == 0 { l * places } else { (0.25 + 0.75 * l) * reach };
+                let phase = if kind == 2 { on_grid(p, map.phases) / map.phases as f64 } else { p };
+                let load = if kind == 1 { on_grid(load / places, map.loads) } else { load };
+                let tilt = map.tilts().map_or(0.0, |[low, high]| low + t * (high - low));
+                error_at(map, at, (phase, load, tilt))
+            })
+            .collect::<Result<_, MapError<E>>>()?;
+        *contacts += CHECKS;
+        let squares = off.iter().map(|e| e * e).sum::<f64>() / CHECKS as f64;
+        *out = [squares.sqrt(), off.iter().fold(0.0, |m: f64, e| m.max(e.abs()))];
+    }
+    Ok(all)
+}
+
+/// How far the approach is off at one place, mm.
+fn error_at<C, E>(
+    map: &ContactMap,
+    at: &(impl Fn(f64) -> Result<C, E> + Sync),
+    (phase, load, tilt): (f64, f64, f64),
+) -> Result<f64, MapError<E>>
+where
+    C: PhaseContact<Error = E>,
+{
+    let force = map.load_axis().force(load);
+    let approach = map.approach(phase, tilt, force);
+    let fail = |source| MapError::Contact { phase, approach_um: 1e3 * approach, source };
+    let mut contact = at(phase).map_err(fail)?;
+    let sample = contact.sample(approach, tilt).map_err(fail)?;
+    if sample.stiffness > 0.0 {
+        return Ok((sample.force - force) / sample.stiffness);
+    }
+    // Apart where the map presses: by the gap, and what its own force needs.
+    let own = map.at(phase, approach, tilt, Wanted::default());
+    Ok(contact.overlap(approach, tilt) - own.force / own.stiffness[0][0].max(f64::MIN_POSITIVE))
+}
+
+/// Van der Corput's sequence: places that fill 0 .. 1 evenly, whatever their number.
+fn halton(mut i: usize, base: usize) -> f64 {
+    let (mut sum, mut part) = (0.0, 1.0);
+    while i > 0 {
+        part /= base as f64;
+        sum += part * (i % base) as f64;
+        i /= base;
+    }
+    sum
+}
+
+const _: () = assert!(LOADS[1] <= MOST_LOADS, "curves over load hold the finest map");

@@ -1,0 +1,112 @@
+//! Damping between flanks that carry force. Theory (74).
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    map::{ContactMap, CutPlace, MapContact},
+    spline::Axis,
+};
+
+/// Loaded lengths, and how far a damper on each of them is held to the force there.
+///
+/// ```text
+/// L_k = sum over loaded slices of h zeta^k,   k = 0, 1, 2
+/// sum of min(w h, F_i) = F e(phase, F, sigma) sigma,   sigma = w L_0 / (F + w L_0)
+/// ```
+/// w: damping per length times the rate of approach, N/mm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DampingTable {
+    /// Coefficients of L_0, L_1, L_2 over the places of the map.
+    pub(crate) lengths: [Vec<f64>; 3],
+    /// Coefficients of e over phase, load and sigma.
+    pub(crate) share: Vec<f64>,
+    /// Intervals over sigma.
+    pub(crate) shares: usize,
+}
+
+/// Force of dampers along approach and tilt.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MapDamping {
+    /// Against the rates: N, N mm.
+    pub force: [f64; 2],
+    /// Slopes of the force over the rates: N s/mm, N s, N mm s.
+    pub rate_slope: [[f64; 2]; 2],
+    /// Slope of the force along the approach over the approach, N/mm.
+    pub approach_slope: f64,
+    /// Loaded length, mm.
+    pub length: f64,
+}
+
+impl ContactMap {
+    /// Length of the loaded contact lines, mm.
+    pub fn loaded_length(&self, place: &CutPlace, contact: &MapContact) -> f64 {
+        contact.load.map_or(0.0, |load| self.lengths(place, load[0])[0][0].max(0.0))
+    }
+
+    /// Damping of `per_length` (N s/mm^2) at rates of approach (mm/s) and tilt (rad/s).
+    pub fn damping(&self, place: &CutPlace, contact: &MapContact, rates: [f64; 2], per_length: f64) -> MapDamping {
+        let Some([load, by_approach]) = contact.load else { return MapDamping::default() };
+        let [[l0, l1, l2], [d0, ..]] = self.lengths(place, load);
+        let force = contact.force;
+        if l0 <= 0.0 || force <= 0.0 || per_length == 0.0 {
+            return MapDamping { length: l0.max(0.0), ..MapDamping::default() };
+        }
+        // The rate where the loaded length has its middle stands for all.
+        let rate = rates[0] + l1 / l0 * rates[1];
+        let w = per_length * rate.abs();
+        let sigma = w * l0 / (force + w * l0);
+        let [e, by_sigma, by_load] = self.share(place, load, sigma);
+        let damped = force * e * sigma;
+        // Of w L_0, how much comes through; one where nothing is held.
+        let through = if w > 0.0 { damped / (w * l0) } else { e };
+        let scale = per_length * through;
+        let matrix = [[l0, l1], [l1, l2]].map(|row| row.map(|l| scale * l));
+        let along = [0, 1].map(|i| matrix[i][0] * rates[0] + matrix[i][1] * rates[1]);
+        // d damped / dw = F (e + sigma e') dsigma/dw.
+        let rest = force / (force + w * l0);
+        let by_w = force * (e + sigma * by_sigma) * rest * rest * l0 / force;
+        let slope = per_length * by_w;
+        let of_length = slope / l0.max(f64::MIN_POSITIVE);
+        let rate_slope = [[l0, l1], [l1, l2]].map(|row| row.map(|l| of_length * l));
+        // Over the load: the force itself, sigma and the table.
+        let axis = self.load_axis();
+        let df = axis.force_slope(load);
+        let sigma_by_load = (w * d0 * force - w * l0 * df) / (force + w * l0).powi(2);
+        let by_place = df * e * sigma + force * (by_load * sigma + (e + sigma * by_sigma) * sigma_by_load);
+        MapDamping {
+            force: along,
+            rate_slope,
+            approach_slope: by_place * by_approach * rate.signum(),
+            length: l0,
+        }
+    }
+
+    /// L_0, L_1, L_2 and their slopes over the load's place.
+    fn lengths(&self, place: &CutPlace, load: f64) -> [[f64; 3]; 2] {
+        let axis = self.load_axis();
+        let at = load.min(self.loads as f64);
+        let [first, second] = place.levers.as_deref().map_or([[0.0; 2]; 2], |both| both.map(|of| axis.value(&of, at)));
+        let all = [axis.value(&place.length, at), first, second];
+        [0, 1].map(|i| all.map(|l| l[i]))
+    }
+
+    /// e, its slope over sigma and over the load's place.
+    fn share(&self, place: &CutPlace, load: f64, sigma: f64) -> [f64; 3] {
+        let (loads, shares) = (self.loads + 3, self.damping.shares + 3);
+        let load = self.load_axis().axis().splines_at(load.min(self.loads as f64));
+        let own = Axis::Open(self.damping.shares).splines_at(sigma * self.damping.shares as f64);
+        let mut sums = [0.0; 3];
+        for i in 0..4 {
+            for k in 0..4 {
+                let at = ((place.phase.first + i) * loads + load.first + k) * shares + own.first;
+                let [of, slope] = [load.values[k], load.slopes[k]].map(|w| w * place.phase.values[i]);
+                for (c, e) in self.damping.share[at..at + 4].iter().enumerate() {
+                    sums[0] += of * own.values[c] * e;
+                    sums[1] += of * own.slopes[c] * e;
+                    sums[2] += slope * own.values[c] * e;
+                }
+            }
+        }
+        [sums[0], sums[1] * self.damping.shares as f64, sums[2]]
+    }
+}

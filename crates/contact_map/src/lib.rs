@@ -1,0 +1,17 @@
+//! What force does the mesh give at a phase, an approach and a tilt? A table of the contact, made to a stated error,
+//! in place of the contact itself.
+
+mod build;
+mod column;
+mod damping;
+mod error;
+mod load_axis;
+mod map;
+mod sampler;
+mod spline;
+
+pub use build::MapPlan;
+pub use damping::MapDamping;
+pub use error::MapError;
+pub use map::{ContactMap, CutPlace, MapCertificate, MapContact, Wanted};
+pub use sampler::{ContactSample, LoadedSlice, PhaseContact};

@@ -1,0 +1,214 @@
+//! The map and what it says of a state.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    damping::DampingTable,
+    load_axis::{Curve, Knots, LoadAxis, MOST_LOADS},
+    spline::{Axis, Splines},
+};
+
+/// The contact of one side of the teeth as a function of the phase of the mesh cycle, the approach of the flanks along
+/// their normal (mm) and their tilt in the plane of action (rad). Theory (72).
+///
+/// ```text
+/// X(phase, tilt, F): approach under the force F;   U* = integral of X dF from 0 to F,   V = F X - U*
+/// ```
+/// The map holds X. Forces, the moment, the energy and their tangents are all taken from it, so that forces are the
+/// exact derivative of the energy. Flanks whose approach is below X(F = 0) are apart, and nothing acts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ContactMap {
+    pub(crate) phases: usize,
+    pub(crate) loads: usize,
+    /// Intervals over tilt; 0: no tilt.
+    pub(crate) tilts: usize,
+    /// Largest force, N.
+    pub(crate) force: f64,
+    /// Ends of the tilt, rad.
+    pub(crate) tilt: [f64; 2],
+    /// Coefficients of X, phase by phase, tilt by tilt, mm.
+    pub(crate) approach: Vec<f64>,
+    pub(crate) damping: DampingTable,
+    pub(crate) certificate: MapCertificate,
+}
+
+/// How good a map is, and what it cost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MapCertificate {
+    /// Phases of a mesh cycle.
+    pub phases: usize,
+    /// Forces.
+    pub loads: usize,
+    /// Tilts.
+    pub tilts: usize,
+    /// Contacts that were solved for it.
+    pub contacts: usize,
+    /// Places at which it was held against the contact itself.
+    pub checks: usize,
+    /// Root mean square of the approach's error there, mm.
+    pub rms_error_mm: f64,
+    /// Largest error of the approach there, mm.
+    pub largest_error_mm: f64,
+    /// Mean approach under the mean force, from first touch, mm: what errors are relative to.
+    pub deflection_mm: f64,
+}
+
+/// The contact at one state.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MapContact {
+    /// Force along the approach, N, >= 0.
+    pub force: f64,
+    /// Moment along the tilt, -dV/d tilt, N mm.
+    pub moment: f64,
+    /// Elastic energy V, N mm.
+    pub energy: f64,
+    /// dV/d phase with approach and tilt held, N mm.
+    pub phase_rate: f64,
+    /// Second derivatives of V over approach and tilt: N/mm, N, N mm.
+    pub stiffness: [[f64; 2]; 2],
+    /// Place over load and d place / d approach; none where flanks are apart.
+    pub(crate) load: Option<[f64; 2]>,
+}
+
+/// What is wanted of a state beside the force and its stiffness.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// [`MapContact::energy`].
+    pub energy: bool,
+    /// [`MapContact::phase_rate`].
+    pub phase_rate: bool,
+}
+
+/// A map at one phase and tilt: what is left is a function of the approach. Whoever asks for several approaches there
+/// has most of the work done once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutPlace {
+    /// Phase (mesh cycles) and tilt (rad) that it was made for.
+    pub at: [f64; 2],
+    pub(crate) phase: Splines,
+    pub(crate) tilt: Splines,
+    curve: Curve,
+    knots: Knots,
+    /// Slope of the curve over tilt and its second derivative, per unit of the spacing, where the map has a tilt.
+    by_tilt: Option<Box<[Curve; 2]>>,
+    pub(crate) length: Curve,
+    /// L_1 and L_2, where the map has a tilt.
+    pub(crate) levers: Option<Box<[Curve; 2]>>,
+}
+
+impl ContactMap {
+    pub(crate) fn load_axis(&self) -> LoadAxis {
+        LoadAxis::new(self.loads, self.force)
+    }
+
+    pub(crate) fn tilt_axis(&self) -> Axis {
+        if self.tilts == 0 { Axis::Single } else { Axis::Open(self.tilts) }
+    }
+
+    /// How good it is, and what it cost.
+    pub fn certificate(&self) -> &MapCertificate {
+        &self.certificate
+    }
+
+    /// Largest force of the map, N. Beyond it approaches grow with their last slope.
+    pub fn largest_force(&self) -> f64 {
+        self.force
+    }
+
+    /// Least and largest tilt of the map, rad; none where it has no tilt.
+    pub fn tilts(&self) -> Option<[f64; 2]> {
+        (self.tilts > 0).then_some(self.tilt)
+    }
+
+    fn per_tilt(&self) -> f64 {
+        self.tilts as f64 / (self.tilt[1] - self.tilt[0])
+    }
+
+    /// All that belongs to a phase (mesh cycles) and a tilt (rad).
+    pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
+        let tilt_place = if self.tilts == 0 { 0.0 } else { (tilt - self.tilt[0]) * self.per_tilt() };
+        let p = Axis::Periodic(self.phases).splines_at((phase - phase.floor()) * self.phases as f64);
+        let t = self.tilt_axis().splines_at(tilt_place);
+        let curve = self.sum(&self.approach, [&p, &t], [&p.values, &t.values]);
+        let by_tilt = (self.tilts > 0).then(|| {
+            let of = |weights| self.sum(&self.approach, [&p, &t], [&p.values, weights]);
+            Box::new([of(&t.slopes), of(&t.curvatures)])
+        });
+        let length = |k: usize| self.sum(&self.damping.lengths[k], [&p, &t], [&p.values, &t.values]);
+        CutPlace {
+            at: [phase, tilt],
+            knots: self.load_axis().knots(&curve),
+            curve,
+            by_tilt,
+            length: length(0),
+            // Without a tilt nobody asks for the levers.
+            levers: (self.tilts > 0).then(|| Box::new([length(1), length(2)])),
+            phase: p,
+            tilt: t,
+        }
+    }
+
+    /// Sum of a table over phases and tilts with weights: the coefficients over load.
+    fn sum(&self, table: &[f64], [phase, tilt]: [&Splines; 2], weights: [&[f64; 4]; 2]) -> Curve {
+        let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
+        let mut curve = [0.0; MOST_LOADS + 3];
+        for (i, of_phase) in weights[0].iter().enumerate() {
+            for (j, of_tilt) in weights[1].iter().enumerate().take(tilt.count) {
+                let at = ((phase.first + i) * tilts + tilt.first + j) * loads;
+                let weight = of_phase * of_tilt;
+                for (c, value) in curve.iter_mut().zip(&table[at..at + loads]) {
+                    *c += weight * value;
+                }
+            }
+        }
+        curve
+    }
+
+    /// Approach (mm) under a force (N) at a phase (mesh cycles) and tilt (rad).
+    pub fn approach(&self, phase: f64, tilt: f64, force: f64) -> f64 {
+        let axis = self.load_axis();
+        axis.value(&self.place(phase, tilt).curve, axis.place(force))[0]
+    }
+
+    /// The contact at a phase (mesh cycles), an approach (mm) and a tilt (rad).
+    pub fn at(&self, phase: f64, approach: f64, tilt: f64, wanted: Wanted) -> MapContact {
+        self.contact(&self.place(phase, tilt), approach, wanted)
+    }
+
+    /// Approach (mm) at which flanks touch first, at a place of this map.
+    pub fn first_touch(&self, place: &CutPlace) -> f64 {
+        place.knots.values[0]
+    }
+
+    /// The contact at a place of this map and an approach (mm).
+    pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
+        let axis = self.load_axis();
+        let CutPlace { curve, knots, .. } = place;
+        let Some(load) = axis.solve(curve, knots, approach) else { return MapContact::default() };
+        let (force, by_load) = (axis.force(load), axis.value(curve, load)[1]);
+        let stiff = axis.force_slope(load) / by_load;
+        let mut contact = MapContact { force, ..MapContact::default() };
+        contact.stiffness[0][0] = stiff;
+        contact.load = Some([load, 1.0 / by_load]);
+        let integral = |curve: &Curve| axis.integral(curve, &axis.knots(curve), load);
+        if wanted.energy {
+            contact.energy = force * approach - axis.integral(curve, knots, load);
+        }
+        if wanted.phase_rate {
+            let by_phase =
+                self.sum(&self.approach, [&place.phase, &place.tilt], [&place.phase.slopes, &place.tilt.values]);
+            contact.phase_rate = -(self.phases as f64) * integral(&by_phase);
+        }
+        if let Some(by_tilt) = &place.by_tilt {
+            let per_tilt = self.per_tilt();
+            let [first, second] = &**by_tilt;
+            contact.moment = per_tilt * integral(first);
+            // F at held approach falls as the tilt adds to the approach that it needs.
+            let shift = per_tilt * axis.value(first, load)[0];
+            contact.stiffness[0][1] = -shift * stiff;
+            contact.stiffness[1][0] = -shift * stiff;
+            contact.stiffness[1][1] = shift * shift * stiff - per_tilt * per_tilt * integral(second);
+        }
+        contact
+    }
+}

@@ -1,0 +1,38 @@
+//! What a map is made from: the contact itself.
+
+/// The contact of one side of the teeth at one phase, as a map asks for it.
+pub trait PhaseContact {
+    /// What can go wrong in it.
+    type Error;
+
+    /// Deepest overlap of the undeformed flanks along their normal, mm; negative where they are apart.
+    fn overlap(&mut self, approach: f64, tilt: f64) -> f64;
+
+    /// The contact at an approach (mm) and a tilt (rad).
+    ///
+    /// # Errors
+    /// Its own.
+    fn sample(&mut self, approach: f64, tilt: f64) -> Result<ContactSample, Self::Error>;
+}
+
+/// The contact at one approach and tilt.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactSample {
+    /// Force along the approach, -dV/d approach turned round, N.
+    pub force: f64,
+    /// dF/d approach, N/mm.
+    pub stiffness: f64,
+    /// Slices that carry load.
+    pub slices: Vec<LoadedSlice>,
+}
+
+/// A slice that carries load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadedSlice {
+    /// Normal force, N.
+    pub force: f64,
+    /// Length of contact line, mm.
+    pub length: f64,
+    /// Lever about the axis of the tilt, mm: approach of the slice per tilt.
+    pub lever: f64,
+}

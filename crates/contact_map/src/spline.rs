@@ -1,0 +1,136 @@
+//! Cubic splines over one axis of a table. Theory (73).
+
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+/// An axis of a table with evenly spaced places, and the cubic B-splines on it.
+///
+/// ```text
+/// f(s) = sum over k = 0 .. 3 of c_(i + k) B_k(s - i),   s: place in units of the spacing, i = floor(s)
+/// ```
+/// f has two continuous derivatives and goes through the values at the places; between them it is off by O(h^4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Axis {
+    /// One value, and no dependence.
+    Single,
+    /// Places 0 .. n of a period, the n-th being the first again; n >= 4.
+    Periodic(usize),
+    /// Places 0 ..= n between two ends, n >= 3. The third derivative does not jump next to the ends ("not a knot").
+    Open(usize),
+}
+
+/// The splines that do not vanish at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Splines {
+    /// Number of the first one's coefficient.
+    pub first: usize,
+    /// How many: 4, or 1 on an axis with a single value.
+    pub count: usize,
+    /// Their values, slopes and second derivatives, per unit of the spacing.
+    pub values: [f64; 4],
+    /// Slopes.
+    pub slopes: [f64; 4],
+    /// Second derivatives.
+    pub curvatures: [f64; 4],
+}
+
+impl Axis {
+    /// Number of places with a value of their own.
+    pub fn places(self) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Periodic(n) => n,
+            Self::Open(n) => n + 1,
+        }
+    }
+
+    /// Number of coefficients; those of a period are written on over its end, so that no place has to wrap.
+    pub fn coefficients(self) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Periodic(n) | Self::Open(n) => n + 3,
+        }
+    }
+
+    /// Number of intervals.
+    pub fn cells(self) -> usize {
+        match self {
+            Self::Single => 1,
+            Self::Periodic(n) | Self::Open(n) => n,
+        }
+    }
+
+    /// Coefficients from values, coefficients x places; `None` for an axis with too few places.
+    pub fn interpolation(self) -> Option<DMatrix<f64>> {
+        let n = self.cells();
+        match self {
+            Self::Single => Some(DMatrix::identity(1, 1)),
+            Self::Periodic(_) if n >= 4 => {
+                let mut collocation = DMatrix::zeros(n, n);
+                for i in 0..n {
+                    for (k, b) in splines(0.0).values.into_iter().enumerate() {
+                        collocation[(i, (i + k) % n)] += b;
+                    }
+                }
+                let inverse = collocation.try_inverse()?;
+                Some(DMatrix::from_fn(n + 3, n, |c, i| inverse[(c % n, i)]))
+            }
+            Self::Open(_) if n >= 3 => {
+                let mut collocation = DMatrix::zeros(n + 3, n + 3);
+                for i in 0..=n {
+                    // The last place is the end of the last interval.
+                    let (cell, s) = if i < n { (i, 0.0) } else { (n - 1, 1.0) };
+                    for (k, b) in splines(s).values.into_iter().enumerate() {
+                        collocation[(i, cell + k)] = b;
+                    }
+                }
+                // Third derivatives of neighbouring intervals: differences of the coefficients, -1 3 -3 1.
+                for (row, cell) in [(n + 1, 0), (n + 2, n - 2)] {
+                    for (k, d) in [1.0, -4.0, 6.0, -4.0, 1.0].into_iter().enumerate() {
+                        collocation[(row, cell + k)] = d;
+                    }
+                }
+                Some(collocation.try_inverse()?.columns(0, n + 1).into_owned())
+            }
+            Self::Periodic(_) | Self::Open(_) => None,
+        }
+    }
+
+    /// The splines at a place in units of the spacing. A period has no ends; beyond the ends of an open axis the
+    /// polynomials of its outermost intervals go on.
+    pub fn splines_at(self, place: f64) -> Splines {
+        match self {
+            Self::Single => Splines { first: 0, count: 1, values: [1.0, 0.0, 0.0, 0.0], ..Splines::NONE },
+            Self::Periodic(n) => {
+                let period = n as f64;
+                let place = if (0.0..period).contains(&place) { place } else { place.rem_euclid(period) };
+                // Whole numbers of floats beyond their range are the ends of theirs.
+                let cell = (place as usize).min(n - 1);
+                Splines { first: cell, ..splines(place - cell as f64) }
+            }
+            Self::Open(n) => {
+                let cell = (place as usize).min(n - 1);
+                Splines { first: cell, ..splines(place - cell as f64) }
+            }
+        }
+    }
+}
+
+impl Splines {
+    const NONE: Self = Self { first: 0, count: 0, values: [0.0; 4], slopes: [0.0; 4], curvatures: [0.0; 4] };
+}
+
+/// The four cubic B-splines of an interval at `s`, 0 .. 1.
+#[inline]
+fn splines(s: f64) -> Splines {
+    let r = 1.0 - s;
+    let middle = |s: f64| (4.0 + s * s * (3.0 * s - 6.0)) / 6.0;
+    let slope = |s: f64| s * (1.5 * s - 2.0);
+    Splines {
+        first: 0,
+        count: 4,
+        values: [r * r * r / 6.0, middle(s), middle(r), s * s * s / 6.0],
+        slopes: [-0.5 * r * r, slope(s), -slope(r), 0.5 * s * s],
+        curvatures: [r, 3.0 * s - 2.0, 3.0 * r - 2.0, s],
+    }
+}

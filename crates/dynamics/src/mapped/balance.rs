@@ -1,0 +1,98 @@
+//! The balance of forces on the free coordinates, from maps.
+
+use std::convert::Infallible;
+
+use contact_map::Wanted;
+use integrate::{Forces, Mechanism};
+use nalgebra::{DMatrix, DVector};
+
+use super::MappedPair;
+
+impl Mechanism for MappedPair {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        let nominal = self.system.nominal_state(t);
+        let external = self.system.external(t, &nominal);
+        out.conservative.gemv(-1.0, &self.bearing, q, 1.0);
+        out.other.gemv(1.0, &self.loading, &external, 1.0);
+        out.supplied += self.system.coordinates().power(&external, v);
+        out.other.gemv(-1.0, &self.damping, v, 1.0);
+        out.other.gemv(-nominal.velocity[0], &self.gyroscopic, v, 1.0);
+        out.dissipated += power(&self.damping, v);
+        if out.tangents {
+            out.stiffness += &self.bearing;
+            out.damping += &self.damping;
+            out.damping.zip_apply(&self.gyroscopic, |c, g| *c += nominal.velocity[0] * g);
+        }
+        let phase = self.phase(t, q);
+        let wanted = Wanted { energy: false, phase_rate: out.rates || self.phase_of_driver.is_some() };
+        for (side, kept) in self.sides.iter().zip(&mut self.kept) {
+            let contact = side.contact(kept, phase, q, wanted);
+            let rates = side.motion(v);
+            let damping = side.map.damping(kept.last(), &contact, rates, self.system.damping_per_length());
+            let along = [&side.approach, &side.tilt];
+            let used = if side.map.tilts().is_some() { 2 } else { 1 };
+            out.conservative.axpy(-contact.force, &side.approach, 1.0);
+            out.conservative.axpy(contact.moment, &side.tilt, 1.0);
+            if let Some((i, per_turn)) = self.phase_of_driver {
+                out.conservative[i] -= per_turn * contact.phase_rate;
+            }
+            for k in 0..used {
+                out.other.axpy(-damping.force[k], &side.damped[k], 1.0);
+                out.dissipated += damping.force[k] * rates[k];
+            }
+            if out.rates {
+                let speed = self.system.cycles_per_second(t);
+                out.parametric += speed * contact.phase_rate;
+            }
+            if out.tangents {
+                for i in 0..used {
+                    for j in 0..used {
+                        out.stiffness.ger(contact.stiffness[i][j], along[i], along[j], 1.0);
+                        out.damping.ger(damping.rate_slope[i][j], &side.damped[i], along[j], 1.0);
+                    }
+                }
+                out.stiffness.ger(damping.approach_slope, &side.damped[0], &side.approach, 1.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
+        let phase = self.phase(t, q);
+        let wanted = Wanted { energy: true, phase_rate: false };
+        let sides = self.sides.iter().zip(&mut self.kept);
+        let of_sides: f64 = sides.map(|(side, kept)| side.contact(kept, phase, q, wanted).energy).sum();
+        Ok(of_sides + 0.5 * power(&self.bearing, q))
+    }
+
+    fn events(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// Overlap of the undeformed flanks of each side, mm: positive in contact.
+    fn event_values(
+        &mut self,
+        t: f64,
+        q: &DVector<f64>,
+        _: &DVector<f64>,
+        out: &mut [f64],
+    ) -> Result<(), Infallible> {
+        let phase = self.phase(t, q);
+        for ((side, kept), value) in self.sides.iter().zip(&mut self.kept).zip(out) {
+            let [approach, tilt] = side.motion(q);
+            *value = approach - side.map.first_touch(kept.at(&side.map, phase, tilt));
+        }
+        Ok(())
+    }
+}
+
+/// x' A x.
+fn power(a: &DMatrix<f64>, x: &DVector<f64>) -> f64 {
+    (0..x.len()).map(|j| x[j] * a.column(j).dot(x)).sum()
+}

@@ -1,0 +1,151 @@
+//! Making maps of a pair's contact.
+
+use std::sync::Arc;
+
+use contact_map::{ContactMap, MapError, MapPlan};
+use nalgebra::{DMatrix, DVector, SMatrix};
+
+use super::{KeptPlaces, MappedPair, MappedSide, projection::Projection, sampler::SidePhase};
+use crate::{
+    COORDINATES, Displacement, Drive, PairMechanism, PairMotionError, start::quasi_static_balance,
+};
+use ltca::StaticError;
+
+/// What maps of a pair must hold, and how well.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapRequest {
+    /// Largest force over that of the load at the start.
+    pub overload: f64,
+    /// Root mean square of the approach's error over the mean approach.
+    pub tolerance: f64,
+    /// Approximate lag of the driven gear under the load, mm.
+    pub lag: f64,
+}
+
+/// Phases of a mesh cycle at which the pair stands under its load.
+const STANDS: usize = 8;
+
+impl MappedPair {
+    /// Maps the contact of a pair about where it stands under its load.
+    ///
+    /// # Errors
+    /// [`PairMotionError::Unmapped`] where a map cannot hold what the contact depends on: normal modes of the gears,
+    /// friction, pitch errors, root stress; [`PairMotionError::Map`] where none is good enough; those of the start.
+    pub fn new(mut system: PairMechanism, request: &MapRequest) -> Result<Self, PairMotionError> {
+        refuse(&system)?;
+        let (n, options) = (system.count(), system.options().clone());
+        let pair = system.pair().clone();
+        let load = system.load_on_lag(0.0).abs();
+        if load <= 0.0 {
+            return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
+        }
+        let map = system.coordinates().map().clone();
+        let stands = stands(&mut system, request.lag)?;
+        let about = stands.iter().sum::<Displacement>() / stands.len() as f64;
+        let loading = map.transpose() * drive_balance(&system);
+        let [bearing, damping] = system.bearings();
+        let on_coordinates = |m: &SMatrix<f64, 12, 12>| &loading * m * &map;
+        let mut sides = Vec::new();
+        for side in system.sides() {
+            let projection = Projection::new(&pair, side.flank_side());
+            let [approach, tilt] = [projection.approach, projection.tilt].map(|f| map.tr_mul(&f));
+            let tilts = (tilt.amax() > 1e-12).then(|| tilt_range(&stands, &projection, &pair));
+            // Force along the normal of a force on the base circle.
+            let force = load / pair.base_helix_angle().cos();
+            let plan = MapPlan {
+                mean_force: force,
+                largest_force: request.overload * force,
+                tilt: tilts,
+                width: pair.face_width(),
+                tolerance: request.tolerance,
+            };
+            let at = |phase: f64| {
+                let side = side.copy_at(&pair, phase)?;
+                Ok(SidePhase { pair: &pair, side, cycles: phase, projection: &projection, about: &about })
+            };
+            let made = ContactMap::build(&plan, at).map_err(|e: MapError<StaticError>| {
+                PairMotionError::Map { source: Box::new(e) }
+            })?;
+            sides.push(MappedSide {
+                map: Arc::new(made),
+                damped: [&projection.approach, &projection.tilt].map(|f| &loading * f),
+                projection,
+                approach,
+                tilt,
+            });
+        }
+        let unit = system.gyroscopic_at_unit_speed();
+        let driver = 1 - options.statics.driven();
+        let teeth = [&pair.pinion, &pair.wheel][driver];
+        let sense = options.statics.contact.sense.sign() as f64 * [1.0, -1.0][driver];
+        let phase_of_driver = system.coordinates().driver_turn().map(|i| (i, sense / teeth.pitch_angle()));
+        Ok(Self {
+            mass: integrate::Mechanism::mass(&system).clone(),
+            bearing: map.transpose() * bearing * &map,
+            damping: on_coordinates(&damping),
+            gyroscopic: on_coordinates(&unit),
+            loading: DMatrix::from_fn(n, 12, |i, j| loading[(i, j)]),
+            kept: vec![KeptPlaces::default(); sides.len()],
+            sides,
+            phase_of_driver,
+            system,
+        })
+    }
+}
+
+/// What no map holds.
+fn refuse(system: &PairMechanism) -> Result<(), PairMotionError> {
+    let what = if system.has_modes() {
+        "normal modes of the gears: the contact then depends on their amplitudes"
+    } else if system.options().statics.contact.friction > 0.0 {
+        "friction: it turns round with the sliding"
+    } else if system.has_pitch_errors() {
+        "pitch errors: the contact then comes back after whole turns, not after a mesh cycle"
+    } else {
+        return Ok(());
+    };
+    Err(PairMotionError::Unmapped { what })
+}
+
+/// Displacements of the pair at rest under its load, at phases of a mesh cycle.
+fn stands(system: &mut PairMechanism, lag: f64) -> Result<Vec<Displacement>, PairMotionError> {
+    let scale = system.coordinates().scales(lag, system.pair().pinion.base_radius());
+    let mut q: Option<DVector<f64>> = None;
+    let mut all = Vec::new();
+    for i in 0..STANDS {
+        let cycles = i as f64 / STANDS as f64;
+        let Some(time) = system.time_of_cycles(cycles) else {
+            return Err(PairMotionError::StandsStill { cycle: 0 });
+        };
+        let there = quasi_static_balance(system, time, lag, q.take(), &scale)?;
+        all.push(system.coordinates().displacement(&there));
+        q = Some(there);
+    }
+    system.forget();
+    Ok(all)
+}
+
+/// Tilts that the pair has at rest, and as much on either side as a deflection over the face width makes.
+fn tilt_range(stands: &[Displacement], projection: &Projection, pair: &geometry::GearPair) -> [f64; 2] {
+    let all = || stands.iter().map(|d| projection.tilt.dot(d));
+    let deflection = stands.iter().map(|d| projection.approach.dot(d).abs()).fold(0.0, f64::max);
+    let [low, high] = [all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max)];
+    let margin = (2.0 * deflection / pair.face_width()).max(2.0 * (high - low));
+    [low - margin, high + margin]
+}
+
+/// P: forces on the twelve coordinates with the torque of a driver that balances them. Theory (45b).
+fn drive_balance(system: &PairMechanism) -> SMatrix<f64, 12, 12> {
+    let mut all = SMatrix::<f64, 12, 12>::identity();
+    if !matches!(system.options().drive, Drive::Balanced(_)) {
+        return all;
+    }
+    let driven = system.options().statics.driven();
+    let turn = |g: usize| COORDINATES * (g + 1) - 1;
+    for g in 0..2 {
+        let mut one = Displacement::zeros();
+        one[turn(g)] = 1.0;
+        all[(turn(1 - driven), turn(g))] += system.balancing_torque(&one);
+    }
+    all
+}

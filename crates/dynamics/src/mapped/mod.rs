@@ -1,0 +1,147 @@
+//! The pair with a map in place of its contact. Theory (75).
+
+mod balance;
+mod make;
+mod projection;
+mod sampler;
+
+use contact_map::{ContactMap, CutPlace, MapContact, Wanted};
+use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
+
+use crate::{Displacement, PairMechanism};
+use projection::Projection;
+
+pub use make::MapRequest;
+
+/// A pair of gears whose contact is a map of the contact of its elastic teeth.
+///
+/// ```text
+/// M q'' = -dV/dq + T' [damping, bearings, loads, drive],   V = V_map(phase, a . d, b . d) + d' K_b d / 2,   d = T q
+/// ```
+/// Bodies, bearings, coordinates, drive and loads are those of the [`PairMechanism`] that it is made from. What is left
+/// out of that: motions that move no flank along its normal, and moments of forces whose points move with the gears.
+#[derive(Debug)]
+pub struct MappedPair {
+    system: PairMechanism,
+    sides: Vec<MappedSide>,
+    mass: DMatrix<f64>,
+    /// T' K_b T.
+    bearing: DMatrix<f64>,
+    /// T' P C_b T, P: with the torque of a driver that balances.
+    damping: DMatrix<f64>,
+    /// T' P G T at the unit speed of the pinion.
+    gyroscopic: DMatrix<f64>,
+    /// T' P.
+    loading: DMatrix<f64>,
+    /// Mesh cycles a radian of the driver's turn, where that is a coordinate.
+    phase_of_driver: Option<(usize, f64)>,
+    kept: Vec<KeptPlaces>,
+}
+
+/// The flanks on one side.
+#[derive(Debug, Clone)]
+struct MappedSide {
+    map: Arc<ContactMap>,
+    projection: Projection,
+    /// T' a and T' b.
+    approach: DVector<f64>,
+    tilt: DVector<f64>,
+    /// T' P a and T' P b: what damping along them does.
+    damped: [DVector<f64>; 2],
+}
+
+impl MappedSide {
+    /// Approach (mm) and tilt (rad), or their rates, of the free coordinates.
+    fn motion(&self, q: &DVector<f64>) -> [f64; 2] {
+        [self.approach.dot(q), self.tilt.dot(q)]
+    }
+
+    /// Contact with the gears displaced: several states of a step are at one phase, and share what belongs to it.
+    fn contact(&self, kept: &mut KeptPlaces, phase: f64, q: &DVector<f64>, wanted: Wanted) -> MapContact {
+        let [approach, tilt] = self.motion(q);
+        self.map.contact(kept.at(&self.map, phase, tilt), approach, wanted)
+    }
+}
+
+/// The last two places at which a side was asked: a step begins at one and ends at the other.
+#[derive(Debug, Clone, Default)]
+struct KeptPlaces(Vec<CutPlace>);
+
+impl KeptPlaces {
+    /// The last one stands first.
+    fn at(&mut self, map: &ContactMap, phase: f64, tilt: f64) -> &CutPlace {
+        let wanted = [phase, if map.tilts().is_some() { tilt } else { 0.0 }];
+        match self.0.iter().position(|place| place.at == wanted) {
+            Some(0) => {}
+            Some(other) => self.0.swap(0, other),
+            None => {
+                self.0.truncate(1);
+                self.0.insert(0, map.place(wanted[0], wanted[1]));
+            }
+        }
+        &self.0[0]
+    }
+
+    fn last(&self) -> &CutPlace {
+        &self.0[0]
+    }
+}
+
+/// What the map says of one side at an instant.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MappedInstant {
+    /// Normal force, N, without damping.
+    pub force: f64,
+    /// Damping along the approach, N.
+    pub damping: f64,
+    /// Approach of the flanks along their normal, mm.
+    pub approach: f64,
+    /// Their stiffness along it, N/mm.
+    pub stiffness: f64,
+    /// Length of the loaded contact lines, mm.
+    pub line_length: f64,
+    /// Forces (N) and moments (N mm) on both gears about their centres, damping included.
+    pub wrench: Displacement,
+}
+
+impl MappedPair {
+    /// Bodies, bearings, drive and loads.
+    pub fn system(&self) -> &PairMechanism {
+        &self.system
+    }
+
+    /// The maps of the driving flanks and, where these may touch, of the coast flanks.
+    pub fn maps(&self) -> impl Iterator<Item = &ContactMap> {
+        self.sides.iter().map(|side| &*side.map)
+    }
+
+    /// Phase, in mesh cycles, with a driver's own deviation from its nominal turn.
+    fn phase(&self, t: f64, q: &DVector<f64>) -> f64 {
+        let own = self.phase_of_driver.map_or(0.0, |(i, per_turn)| per_turn * q[i]);
+        self.system.cycles(t) + own
+    }
+
+    /// Both sides at a state; without coast flanks nothing is there.
+    pub fn instant(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [MappedInstant; 2] {
+        let mut all = [MappedInstant::default(); 2];
+        let phase = self.phase(t, q);
+        for (side, out) in self.sides.iter().zip(&mut all) {
+            let [approach, tilt] = side.motion(q);
+            let place = side.map.place(phase, tilt);
+            let contact = side.map.contact(&place, approach, Wanted::default());
+            let damping = side.map.damping(&place, &contact, side.motion(v), self.system.damping_per_length());
+            let force = contact.force + damping.force[0];
+            let moment = contact.moment - damping.force[1];
+            *out = MappedInstant {
+                force: contact.force,
+                damping: damping.force[0],
+                approach,
+                stiffness: contact.stiffness[0][0],
+                line_length: damping.length,
+                wrench: side.projection.tilt * moment - side.projection.approach * force,
+            };
+        }
+        all
+    }
+}

@@ -1,0 +1,70 @@
+//! What displacements of both gears do to flanks in one plane of action. Theory (75).
+
+use geometry::{GearPair, Side};
+use nalgebra::Vector3;
+
+use crate::{COORDINATES, Displacement};
+
+/// Approach of the flanks of one side and their tilt, as linear functions of the twelve displacements.
+///
+/// ```text
+/// x = a . d: approach along the normal at the pitch point, mm;   gamma = b . d: tilt in the plane of action, rad
+/// approach at zeta = x + zeta gamma,   zeta: place along the plane of action across the normal, from the pitch point, mm
+/// ```
+/// The flanks of an involute pair touch in this plane and have one normal there, so that no other displacement closes
+/// or opens a gap to first order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Projection {
+    /// a.
+    pub approach: Displacement,
+    /// b.
+    pub tilt: Displacement,
+    /// Pitch point at mid-face, mm.
+    point: Vector3<f64>,
+    /// Direction of zeta.
+    across: Vector3<f64>,
+}
+
+impl Projection {
+    /// Of the flanks on a side.
+    pub fn new(pair: &GearPair, side: Side) -> Self {
+        let s = side.sign();
+        let (sin, cos) = pair.working_pressure_angle().sin_cos();
+        let base = pair.pinion.base_radius();
+        let along = Vector3::new(sin, s * cos, 0.0);
+        // A gear that moves along its axis has its flanks turned by the twist of its teeth.
+        let normal = (along - s * base * pair.pinion.twist() * Vector3::z()).normalize();
+        let pitch_radius = base / cos;
+        let point = Vector3::new(pitch_radius, 0.0, 0.0);
+        let out_of_plane = along.cross(&Vector3::z());
+        let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, 0.0)];
+        let [mut approach, mut tilt] = [Displacement::zeros(); 2];
+        for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let moment = (point - centres[g]).cross(&normal);
+            for i in 0..3 {
+                approach[COORDINATES * g + i] = sign * normal[i];
+                approach[COORDINATES * g + 3 + i] = sign * moment[i];
+                tilt[COORDINATES * g + 3 + i] = -sign * out_of_plane[i];
+            }
+        }
+        Self { approach, tilt, point, across: out_of_plane.cross(&normal) }
+    }
+
+    /// Place of a point of contact across the normal, mm.
+    pub fn lever(&self, position: &Vector3<f64>) -> f64 {
+        (position - self.point).dot(&self.across)
+    }
+
+    /// Displacements with this approach and tilt: the wheel turned about its own axis, and tilted in the plane of
+    /// action.
+    pub fn displacement(&self, approach: f64, tilt: f64) -> Displacement {
+        let turn = 2 * COORDINATES - 1;
+        let mut d = Displacement::zeros();
+        for i in [COORDINATES + 3, COORDINATES + 4] {
+            // The axis of the tilt is a unit vector across the axes.
+            d[i] = tilt * self.tilt[i];
+        }
+        d[turn] = (approach - self.approach.dot(&d)) / self.approach[turn];
+        d
+    }
+}
