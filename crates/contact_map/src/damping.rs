@@ -83,10 +83,9 @@ impl ContactMap {
 
     /// L_0, L_1, L_2 and their slopes over the load's place.
     fn lengths(&self, place: &CutPlace, load: f64) -> [[f64; 3]; 2] {
-        let axis = self.load_axis();
         let at = load.min(self.loads as f64);
-        let [first, second] = place.levers.as_deref().map_or([[0.0; 2]; 2], |both| both.map(|of| axis.value(&of, at)));
-        let all = [axis.value(&place.length, at), first, second];
+        let [first, second] = place.levers.as_deref().map_or([[0.0; 2]; 2], |both| [both[0].value(at), both[1].value(at)]);
+        let all = [place.length.value(at), first, second];
         [0, 1].map(|i| all.map(|l| l[i]))
     }
 

@@ -1,12 +1,12 @@
 //! The load axis of a map: force over its parameter, and what is read off a curve of approach over load. Theory (72).
 
-use crate::spline::{Axis, Splines};
+use crate::spline::Axis;
 
 /// Most intervals of the load axis.
 pub const MOST_LOADS: usize = 24;
 
-/// Coefficients of a curve over load, at one phase and tilt.
-pub type Curve = [f64; MOST_LOADS + 3];
+/// Coefficients of the splines of a curve over load, at one phase and tilt.
+pub type Coefficients = [f64; MOST_LOADS + 3];
 
 /// Places over load are those of evenly spaced square roots of the force,
 ///
@@ -21,14 +21,6 @@ pub struct LoadAxis {
     force: f64,
 }
 
-/// Integrals of the four splines of an interval over it, and of their products with the place in it.
-const SPLINE_AREA: [f64; 4] = [1.0 / 24.0, 11.0 / 24.0, 11.0 / 24.0, 1.0 / 24.0];
-const SPLINE_MOMENT: [f64; 4] = [1.0 / 120.0, 22.0 / 120.0, 33.0 / 120.0, 4.0 / 120.0];
-
-/// Places and weights of Gauss' rule with three points on 0 .. 1: exact for a cubic times a slope.
-const GAUSS: [(f64, f64); 3] =
-    [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
-
 impl LoadAxis {
     /// Up to `force` (N) in so many intervals.
     pub fn new(intervals: usize, force: f64) -> Self {
@@ -41,6 +33,7 @@ impl LoadAxis {
     }
 
     /// Force at a place, N.
+    #[inline]
     pub fn force(self, place: f64) -> f64 {
         let part = place / self.intervals as f64;
         self.force * part * part
@@ -52,94 +45,126 @@ impl LoadAxis {
     }
 
     /// dF/d nu, N.
+    #[inline]
     pub fn force_slope(self, place: f64) -> f64 {
         let n = self.intervals as f64;
         2.0 * self.force * place / (n * n)
     }
+}
 
-    /// Value and slope over nu of a curve. Beyond the largest force it goes on in a straight line over force.
-    pub fn value(self, curve: &Curve, place: f64) -> [f64; 2] {
-        let n = self.intervals as f64;
-        if place > n {
-            let [end, slope] = self.value(curve, n);
-            let per_force = slope / self.force_slope(n);
-            return [end + per_force * (self.force(place) - self.force), per_force * self.force_slope(place)];
+/// A curve over load, interval by interval: a cubic in the place from the interval's beginning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadCurve {
+    axis: LoadAxis,
+    cubics: [[f64; 4]; MOST_LOADS],
+    /// Value at the end.
+    end: f64,
+}
+
+/// Integrals of a curve over force, from none to the beginning of each interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Integrals([f64; MOST_LOADS + 1]);
+
+impl LoadCurve {
+    /// From the coefficients of its splines.
+    pub fn new(axis: LoadAxis, coefficients: &Coefficients) -> Self {
+        let n = axis.intervals;
+        let mut cubics = [[0.0; 4]; MOST_LOADS];
+        for (cubic, k) in cubics.iter_mut().zip(coefficients.windows(4)).take(n) {
+            *cubic = [
+                (k[0] + 4.0 * k[1] + k[2]) / 6.0,
+                0.5 * (k[2] - k[0]),
+                0.5 * (k[0] - 2.0 * k[1] + k[2]),
+                (k[3] - k[0] + 3.0 * (k[1] - k[2])) / 6.0,
+            ];
         }
-        let Splines { first, values, slopes, .. } = self.axis().splines_at(place);
-        let of = |weights: [f64; 4]| (0..4).map(|k| weights[k] * curve[first + k]).sum::<f64>();
-        [of(values), of(slopes)]
+        let end = (coefficients[n] + 4.0 * coefficients[n + 1] + coefficients[n + 2]) / 6.0;
+        Self { axis, cubics, end }
     }
 
-    /// Values of a curve at its places, and its integrals over force from none up to them.
-    pub fn knots(self, curve: &Curve) -> Knots {
-        let n = self.intervals;
-        let scale = self.force_slope(1.0);
-        let mut knots = Knots { values: [0.0; MOST_LOADS + 1], integrals: [0.0; MOST_LOADS + 1] };
-        for i in 0..=n {
-            knots.values[i] = (curve[i] + 4.0 * curve[i + 1] + curve[i + 2]) / 6.0;
-        }
-        for cell in 0..n {
-            let of = |weights: [f64; 4]| (0..4).map(|k| weights[k] * curve[cell + k]).sum::<f64>();
-            let part = cell as f64 * of(SPLINE_AREA) + of(SPLINE_MOMENT);
-            knots.integrals[cell + 1] = knots.integrals[cell] + scale * part;
-        }
-        knots
+    /// Its values at the ends of all intervals.
+    fn knot(&self, i: usize) -> f64 {
+        if i < self.axis.intervals { self.cubics[i][0] } else { self.end }
     }
 
-    /// Integral of a curve over force from none to that of a place.
-    pub fn integral(self, curve: &Curve, knots: &Knots, place: f64) -> f64 {
-        let n = self.intervals as f64;
+    /// Value at no load.
+    pub fn begin(&self) -> f64 {
+        self.cubics[0][0]
+    }
+
+    /// Value and slope over nu. Beyond the largest force it goes on in a straight line over force.
+    #[inline]
+    pub fn value(&self, place: f64) -> [f64; 2] {
+        let axis = self.axis;
+        let n = axis.intervals as f64;
         if place > n {
-            let ([end, slope], beyond) = (self.value(curve, n), self.force(place) - self.force);
-            return knots.integrals[self.intervals]
-                + beyond * (end + 0.5 * beyond * slope / self.force_slope(n));
+            let [end, slope] = self.value(n);
+            let per_force = slope / axis.force_slope(n);
+            return [end + per_force * (axis.force(place) - axis.force), per_force * axis.force_slope(place)];
         }
-        let cell = (place as usize).min(self.intervals - 1);
-        let (begin, mut sum) = (cell as f64, 0.0);
-        for (at, weight) in GAUSS {
-            let s = begin + (place - begin) * at;
-            sum += weight * self.force_slope(s) * self.value(curve, s)[0];
+        let cell = (place as usize).min(axis.intervals - 1);
+        let (s, [a, b, c, d]) = (place - cell as f64, self.cubics[cell]);
+        [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * s * d)]
+    }
+
+    /// Its integrals over force.
+    pub fn integrals(&self) -> Integrals {
+        let mut all = [0.0; MOST_LOADS + 1];
+        for cell in 0..self.axis.intervals {
+            all[cell + 1] = all[cell] + self.within(cell, 1.0);
         }
-        knots.integrals[cell] + (place - begin) * sum
+        Integrals(all)
+    }
+
+    /// Integral over force within an interval, from its beginning to the part `s` of it.
+    #[inline]
+    fn within(&self, cell: usize, s: f64) -> f64 {
+        let ([a, b, c, d], begin) = (self.cubics[cell], cell as f64);
+        let area = s * (a + s * (b / 2.0 + s * (c / 3.0 + s * d / 4.0)));
+        let moment = s * s * (a / 2.0 + s * (b / 3.0 + s * (c / 4.0 + s * d / 5.0)));
+        self.axis.force_slope(1.0) * (begin * area + moment)
+    }
+
+    /// Integral over force from none to that of a place.
+    pub fn integral(&self, known: &Integrals, place: f64) -> f64 {
+        let axis = self.axis;
+        let n = axis.intervals as f64;
+        if place > n {
+            let ([end, slope], beyond) = (self.value(n), axis.force(place) - axis.force);
+            return known.0[axis.intervals] + beyond * (end + 0.5 * beyond * slope / axis.force_slope(n));
+        }
+        let cell = (place as usize).min(axis.intervals - 1);
+        known.0[cell] + self.within(cell, place - cell as f64)
     }
 
     /// Place at which a curve that grows has a value; below its beginning: none.
-    pub fn solve(self, curve: &Curve, knots: &Knots, value: f64) -> Option<f64> {
-        let n = self.intervals;
-        let all = &knots.values[..=n];
-        let end = all.partition_point(|knot| *knot < value);
-        if end == 0 {
+    pub fn solve(&self, value: f64) -> Option<f64> {
+        let n = self.axis.intervals;
+        if value <= self.begin() {
             return None;
         }
-        if end > n {
-            let [last, slope] = self.value(curve, n as f64);
-            let force = self.force + (value - last) * self.force_slope(n as f64) / slope;
-            return Some(self.place(force));
+        if value > self.end {
+            let [last, slope] = self.value(n as f64);
+            let force = self.axis.force + (value - last) * self.axis.force_slope(n as f64) / slope;
+            return Some(self.axis.place(force));
         }
-        let [mut low, mut high] = [(end - 1) as f64, end as f64];
-        let mut place = low + (value - all[end - 1]) / (all[end] - all[end - 1]);
+        // The interval in which it is: its beginning is below.
+        let cell = self.cubics[..n].partition_point(|cubic| cubic[0] < value) - 1;
+        let ([a, b, c, d], begin) = (self.cubics[cell], cell as f64);
+        let [mut low, mut high] = [0.0, 1.0];
+        let mut s = (value - a) / (self.knot(cell + 1) - a);
         for _ in 0..MOST_STEPS {
-            let [at, slope] = self.value(curve, place);
-            let off = at - value;
-            if off < 0.0 { low = place } else { high = place }
-            let next = place - off / slope;
+            let off = a - value + s * (b + s * (c + s * d));
+            if off < 0.0 { low = s } else { high = s }
+            let next = s - off / (b + s * (2.0 * c + 3.0 * s * d));
             let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
-            if (next - place).abs() <= LAST_BITS * next {
-                return Some(next);
+            if (next - s).abs() <= LAST_BITS * (begin + next) {
+                return Some(begin + next);
             }
-            place = next;
+            s = next;
         }
-        Some(place)
+        Some(begin + s)
     }
-}
-
-/// What a curve is at its places.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Knots {
-    /// Values.
-    pub values: [f64; MOST_LOADS + 1],
-    /// Integrals over force from none up to there.
-    pub integrals: [f64; MOST_LOADS + 1],
 }
 
 /// Newton steps and halvings after which a place has all its digits.

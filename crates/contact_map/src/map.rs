@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     damping::DampingTable,
-    load_axis::{Curve, Knots, LoadAxis, MOST_LOADS},
+    load_axis::{Coefficients, Integrals, LoadAxis, LoadCurve, MOST_LOADS},
     spline::{Axis, Splines},
 };
 
@@ -87,13 +87,13 @@ pub struct CutPlace {
     pub at: [f64; 2],
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
-    curve: Curve,
-    knots: Knots,
+    curve: LoadCurve,
+    integrals: Integrals,
     /// Slope of the curve over tilt and its second derivative, per unit of the spacing, where the map has a tilt.
-    by_tilt: Option<Box<[Curve; 2]>>,
-    pub(crate) length: Curve,
+    by_tilt: Option<Box<[LoadCurve; 2]>>,
+    pub(crate) length: LoadCurve,
     /// L_1 and L_2, where the map has a tilt.
-    pub(crate) levers: Option<Box<[Curve; 2]>>,
+    pub(crate) levers: Option<Box<[LoadCurve; 2]>>,
 }
 
 impl ContactMap {
@@ -137,7 +137,7 @@ impl ContactMap {
         let length = |k: usize| self.sum(&self.damping.lengths[k], [&p, &t], [&p.values, &t.values]);
         CutPlace {
             at: [phase, tilt],
-            knots: self.load_axis().knots(&curve),
+            integrals: curve.integrals(),
             curve,
             by_tilt,
             length: length(0),
@@ -148,10 +148,10 @@ impl ContactMap {
         }
     }
 
-    /// Sum of a table over phases and tilts with weights: the coefficients over load.
-    fn sum(&self, table: &[f64], [phase, tilt]: [&Splines; 2], weights: [&[f64; 4]; 2]) -> Curve {
+    /// Sum of a table over phases and tilts with weights: a curve over load.
+    fn sum(&self, table: &[f64], [phase, tilt]: [&Splines; 2], weights: [&[f64; 4]; 2]) -> LoadCurve {
         let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
-        let mut curve = [0.0; MOST_LOADS + 3];
+        let mut curve: Coefficients = [0.0; MOST_LOADS + 3];
         for (i, of_phase) in weights[0].iter().enumerate() {
             for (j, of_tilt) in weights[1].iter().enumerate().take(tilt.count) {
                 let at = ((phase.first + i) * tilts + tilt.first + j) * loads;
@@ -161,13 +161,12 @@ impl ContactMap {
                 }
             }
         }
-        curve
+        LoadCurve::new(self.load_axis(), &curve)
     }
 
     /// Approach (mm) under a force (N) at a phase (mesh cycles) and tilt (rad).
     pub fn approach(&self, phase: f64, tilt: f64, force: f64) -> f64 {
-        let axis = self.load_axis();
-        axis.value(&self.place(phase, tilt).curve, axis.place(force))[0]
+        self.place(phase, tilt).curve.value(self.load_axis().place(force))[0]
     }
 
     /// The contact at a phase (mesh cycles), an approach (mm) and a tilt (rad).
@@ -177,22 +176,22 @@ impl ContactMap {
 
     /// Approach (mm) at which flanks touch first, at a place of this map.
     pub fn first_touch(&self, place: &CutPlace) -> f64 {
-        place.knots.values[0]
+        place.curve.begin()
     }
 
     /// The contact at a place of this map and an approach (mm).
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         let axis = self.load_axis();
-        let CutPlace { curve, knots, .. } = place;
-        let Some(load) = axis.solve(curve, knots, approach) else { return MapContact::default() };
-        let (force, by_load) = (axis.force(load), axis.value(curve, load)[1]);
+        let curve = &place.curve;
+        let Some(load) = curve.solve(approach) else { return MapContact::default() };
+        let (force, by_load) = (axis.force(load), curve.value(load)[1]);
         let stiff = axis.force_slope(load) / by_load;
         let mut contact = MapContact { force, ..MapContact::default() };
         contact.stiffness[0][0] = stiff;
         contact.load = Some([load, 1.0 / by_load]);
-        let integral = |curve: &Curve| axis.integral(curve, &axis.knots(curve), load);
+        let integral = |curve: &LoadCurve| curve.integral(&curve.integrals(), load);
         if wanted.energy {
-            contact.energy = force * approach - axis.integral(curve, knots, load);
+            contact.energy = force * approach - curve.integral(&place.integrals, load);
         }
         if wanted.phase_rate {
             let by_phase =
@@ -204,7 +203,7 @@ impl ContactMap {
             let [first, second] = &**by_tilt;
             contact.moment = per_tilt * integral(first);
             // F at held approach falls as the tilt adds to the approach that it needs.
-            let shift = per_tilt * axis.value(first, load)[0];
+            let shift = per_tilt * first.value(load)[0];
             contact.stiffness[0][1] = -shift * stiff;
             contact.stiffness[1][0] = -shift * stiff;
             contact.stiffness[1][1] = shift * shift * stiff - per_tilt * per_tilt * integral(second);

@@ -1,6 +1,7 @@
 //! The pair with a map in place of its contact. Theory (75).
 
 mod balance;
+mod family;
 mod make;
 mod projection;
 mod sampler;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 use crate::{Displacement, PairMechanism};
 use projection::Projection;
 
+pub use family::SpeedFamily;
 pub use make::MapRequest;
 
 /// A pair of gears whose contact is a map of the contact of its elastic teeth.

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
+    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState, Speed,
     ToothChanges,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
@@ -216,6 +216,12 @@ impl PairMechanism {
         let ratio = f64::from(self.pair.pinion.teeth()) / f64::from(self.pair.wheel.teeth());
         let nominal = self.nominal_state(0.0);
         self.gyroscopic(&NominalState { velocity: [1.0, -ratio], ..nominal })
+    }
+
+    /// Gives the driver another speed.
+    pub(crate) fn set_speed(&mut self, speed: Speed) {
+        self.nominal.speed = speed;
+        self.last = None;
     }
 
     /// Mesh damping per length of contact line, N s/mm^2.
