@@ -5,7 +5,11 @@ use std::f64::consts::TAU;
 use integrate::Forces;
 use nalgebra::{DMatrix, DVector};
 
-use crate::{FourierSeries, PeriodicError, PeriodicFamily, series::Basis};
+use crate::{
+    FourierSeries, PeriodicError, PeriodicFamily,
+    product::{SeriesTransform, Wave},
+    series::Basis,
+};
 
 /// Forces and tangents over a period, and what is left of the equations of motion. Theory (69).
 ///
@@ -38,40 +42,42 @@ pub(crate) fn balance<S: PeriodicFamily>(
 ) -> Result<Balance, PeriodicError<S::Error>> {
     let (n, count) = (motion.coordinates(), basis.samples());
     let frequency = TAU / system.period();
-    let places = motion.coefficients() * basis.values().transpose();
-    let rates = motion.coefficients() * basis.rates().transpose() * frequency;
-    let mut forces = DMatrix::zeros(n, count);
+    // Samples stand one under the other: so the products run down columns.
+    let coefficients = motion.coefficients().transpose();
+    let places = basis.values() * &coefficients;
+    let rates = basis.rates() * (coefficients * frequency);
+    let mut forces = DMatrix::zeros(count, n);
     let mut out = Forces::zeros(n);
     let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
     for i in 0..count {
         let phase = i as f64 / count as f64;
         out.clear();
         out.tangents = tangents;
-        let (q, v): (DVector<f64>, DVector<f64>) = (places.column(i).into(), rates.column(i).into());
+        let (q, v): (DVector<f64>, DVector<f64>) = (places.row(i).transpose(), rates.row(i).transpose());
         system.forces(phase * system.period(), &q, &v, &mut out).map_err(|source| PeriodicError::Mechanism {
             parameter,
             phase,
             source,
         })?;
-        (0..n).for_each(|k| forces[(k, i)] = out.total(k));
+        (0..n).for_each(|k| forces[(i, k)] = out.total(k));
         if tangents {
             stiffness.push(out.stiffness.clone());
             damping.push(out.damping.clone());
         }
     }
     let inertia = system.mass() * accelerations(motion.coefficients(), frequency);
-    let mut residual = &inertia - &forces * basis.projection();
+    let mut residual = &inertia - basis.projection().tr_mul(&forces).transpose();
     let scale = system.scale();
     let per_sample = (count as f64).sqrt();
     // In time, what is left holds all harmonics that the samples show; those of the equations are taken away.
-    let beyond = &inertia * basis.values().transpose() - &forces - &residual * basis.values().transpose();
-    let tail = neglected(system, motion, beyond, frequency) / per_sample;
+    let beyond = basis.values() * (&inertia - &residual).transpose() - &forces;
+    let tail = neglected(system, motion, beyond.transpose(), frequency) / per_sample;
     scale_rows(&mut residual, &scale);
     let norm = |mut terms: DMatrix<f64>| {
         scale_rows(&mut terms, &scale);
         terms.norm()
     };
-    let size = norm(inertia) + norm(forces) / per_sample;
+    let size = norm(inertia) + norm(forces.transpose()) / per_sample;
     Ok(Balance { residual, size, tail, stiffness, damping })
 }
 
@@ -93,29 +99,24 @@ fn neglected<S: PeriodicFamily>(system: &S, motion: &FourierSeries, beyond: DMat
 pub(crate) fn jacobian<S: PeriodicFamily>(system: &S, basis: &Basis, at: &Balance) -> DMatrix<f64> {
     let (n, scale) = (system.mass().nrows(), system.scale());
     let frequency = TAU / system.period();
-    let (columns, count) = (basis.values().ncols(), basis.samples());
-    let projection = basis.projection();
+    let columns = 2 * basis.harmonics() + 1;
     let mut all = DMatrix::zeros(n * columns, n * columns);
-    let mut weighed = DMatrix::zeros(count, columns);
+    let mut transform = SeriesTransform::new(basis.samples());
     for i in 0..n {
         for j in 0..n {
             let scaled = scale[i] * scale[j];
-            weighed.fill(0.0);
-            let mut any = false;
-            for (of, table, factor) in
-                [(&at.stiffness, basis.values(), scaled), (&at.damping, basis.rates(), frequency * scaled)]
-            {
-                for (p, matrix) in of.iter().enumerate().filter(|(_, m)| m[(i, j)] != 0.0) {
-                    any = true;
-                    let entry = factor * matrix[(i, j)];
-                    weighed.row_mut(p).iter_mut().zip(table.row(p).iter()).for_each(|(w, b)| *w += entry * b);
-                }
-            }
-            if any {
-                let block = projection.tr_mul(&weighed);
+            if let Some(stiffness) = transform.of(&at.stiffness, (i, j), scaled) {
                 for l in 0..columns {
                     for k in 0..columns {
-                        all[(k * n + i, l * n + j)] += block[(k, l)];
+                        all[(k * n + i, l * n + j)] += stiffness.projected(k, Wave::of(l));
+                    }
+                }
+            }
+            if let Some(damping) = transform.of(&at.damping, (i, j), frequency * scaled) {
+                for l in 1..columns {
+                    let (rate, wave) = Wave::of(l).rate();
+                    for k in 0..columns {
+                        all[(k * n + i, l * n + j)] += rate * damping.projected(k, wave);
                     }
                 }
             }

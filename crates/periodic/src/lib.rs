@@ -10,6 +10,7 @@ mod balance;
 mod continuation;
 mod error;
 mod family;
+mod product;
 mod series;
 mod solution;
 mod stability;

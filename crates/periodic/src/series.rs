@@ -78,7 +78,7 @@ impl FourierSeries {
     /// through its neighbours.
     pub fn peak_to_peak(&self, of: &DVector<f64>) -> f64 {
         let samples = (16 * self.harmonics().max(4)).next_power_of_two();
-        let row = of.transpose() * &self.coefficients * Basis::new(self.harmonics(), samples).values().transpose();
+        let row = Basis::new(self.harmonics(), samples).values() * self.coefficients.tr_mul(of);
         let at = |i: usize| row[i % samples];
         let top = |sign: f64| {
             let best = (0..samples).max_by(|&a, &b| (sign * at(a)).total_cmp(&(sign * at(b)))).unwrap_or(0);
@@ -103,10 +103,12 @@ impl FourierSeries {
 /// Values of 1, cos k tau, sin k tau at equal phases.
 #[derive(Debug, Clone)]
 pub(crate) struct Basis {
-    /// N x (2 H + 1).
+    /// N x (2 H + 1): it times coefficients, one column a coordinate, are samples.
     values: DMatrix<f64>,
     /// d/dtau of them.
     rates: DMatrix<f64>,
+    /// N x (2 H + 1): samples times it are coefficients.
+    projection: DMatrix<f64>,
 }
 
 impl Basis {
@@ -123,7 +125,9 @@ impl Basis {
                 (rates[(i, 2 * k - 1)], rates[(i, 2 * k)]) = (-(k as f64) * sin, k as f64 * cos);
             }
         }
-        Self { values, rates }
+        let mut projection = &values * (2.0 / samples as f64);
+        projection.column_mut(0).scale_mut(0.5);
+        Self { values, rates, projection }
     }
 
     pub fn samples(&self) -> usize {
@@ -142,10 +146,7 @@ impl Basis {
         &self.rates
     }
 
-    /// N x (2 H + 1): samples times it are coefficients.
-    pub fn projection(&self) -> DMatrix<f64> {
-        let mut projection = &self.values * (2.0 / self.samples() as f64);
-        projection.column_mut(0).scale_mut(0.5);
-        projection
+    pub fn projection(&self) -> &DMatrix<f64> {
+        &self.projection
     }
 }

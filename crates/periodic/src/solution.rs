@@ -134,13 +134,11 @@ impl<S: PeriodicFamily> Equations<'_, S> {
         let size = m + 1 + usize::from(free.is_some());
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (m, m)).copy_from(&inner);
-        let mut beside = [x.clone(), x.clone()];
-        beside[0][m] -= DIFFERENCE;
-        beside[1][m] += DIFFERENCE;
-        let before = self.at(&beside[0], false)?.1.residual;
-        let after = self.at(&beside[1], false)?.1.residual;
+        let mut beside = x.clone();
+        beside[m] += DIFFERENCE;
+        let after = self.at(&beside, false)?.1.residual;
         self.set(x[m] * self.unit)?;
-        let slope = (after - before) / (2.0 * DIFFERENCE);
+        let slope = (after - &at.residual) / DIFFERENCE;
         all.view_mut((0, m), (m, 1)).copy_from_slice(slope.as_slice());
         all.view_mut((m, 0), (1, m + 1)).copy_from(&normal.transpose());
         if let Some(free) = free {

@@ -28,10 +28,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut family = SpeedFamily::new(map, 1, pair.ste[0])?;
     let mean = pair.ste.iter().sum::<f64>() / pair.ste.len() as f64;
     let start = FourierSeries::at_rest(&DVector::from_element(1, mean), 8);
-    let options = BalanceOptions { tail: 1e-4, ..BalanceOptions::default() };
+    let options = BalanceOptions { tail: 1e-4, samples_per_harmonic: 16, ..BalanceOptions::default() };
     let mut tracer = Tracer::new(&mut family, options, resonance)?;
     let range = [0.3 * resonance, 1.4 * resonance];
-    let walk = BranchOptions { range, first_step: 0.005 * resonance, longest_step: 0.05, most: 600 };
+    let walk = BranchOptions { range, first_step: 0.005 * resonance, longest_step: 0.1, most: 600 };
     let branch = tracer.branch(range[0], &start, &walk, |_| ControlFlow::Continue(()))?;
     let of_curve = began.elapsed().as_secs_f64();
     println!("{:>9} {:>16} {:>11} {:>10} {:>5}", "speed", "peak to peak, um", "multiplier", "harmonics", "steps");
