@@ -5,8 +5,12 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use crate::{
-    ContactMap, MapError, PhaseContact, column::{Node, column}, damping::DampingTable, load_axis::{LoadAxis, MOST_LOADS},
-    map::{MapCertificate, Wanted}, spline::Axis,
+    ContactMap, MapError, PhaseContact,
+    column::{Node, column},
+    damping::DampingTable,
+    load_axis::{LoadAxis, MOST_LOADS},
+    map::{MapCertificate, Wanted},
+    spline::Axis,
 };
 
 /// What a map has to hold, and how well.
@@ -27,7 +31,7 @@ pub struct MapPlan {
 /// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.
 const PHASES: [usize; 2] = [32, 256];
 const LOADS: [usize; 2] = [12, 24];
-const TILTS: usize = 6;
+const TILTS: [usize; 2] = [6, 12];
 const SHARES: usize = 16;
 /// Places at which a map is held against the contact.
 const CHECKS: usize = 64;
@@ -49,12 +53,13 @@ impl ContactMap {
         E: Send,
     {
         check_plan(plan)?;
-        let [mut phases, mut loads] = [PHASES[0], LOADS[0]];
+        let mut size =
+            MapSize { phases: PHASES[0], loads: LOADS[0], tilts: if plan.tilt.is_some() { TILTS[0] } else { 0 } };
         let (mut columns, mut contacts) = (Columns::new(), 0);
         loop {
-            contacts += sample(&mut columns, plan, &at, (phases, loads))?;
-            let mut map = assemble(plan, &columns, (phases, loads));
-            let [all, of_phases, of_loads] = errors(&map, plan, &at, &mut contacts)?;
+            contacts += sample(&mut columns, plan, &at, size)?;
+            let mut map = assemble(plan, &columns, size);
+            let [all, along @ ..] = errors(&map, plan, &at, &mut contacts)?;
             let deflection = deflection(&map, plan);
             map.certificate = MapCertificate {
                 contacts,
@@ -68,17 +73,40 @@ impl ContactMap {
             if error <= plan.tolerance {
                 return Ok(map);
             }
-            if of_phases[0] >= of_loads[0] && phases < PHASES[1] {
-                phases *= 2;
-            } else if loads < LOADS[1] {
-                loads *= 2;
+            let Some(finer) = size.finer(along.map(|of| of[0])) else {
+                return Err(MapError::Coarse {
+                    phases: size.phases,
+                    loads: size.loads,
+                    error,
+                    allowed: plan.tolerance,
+                });
+            };
+            if (finer.loads, finer.tilts) != (size.loads, size.tilts) {
                 columns.clear();
-            } else if phases < PHASES[1] {
-                phases *= 2;
-            } else {
-                return Err(MapError::Coarse { phases, loads, error, allowed: plan.tolerance });
             }
+            size = finer;
         }
+    }
+}
+
+/// Intervals of a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct MapSize {
+    phases: usize,
+    loads: usize,
+    /// 0: no tilt.
+    tilts: usize,
+}
+
+impl MapSize {
+    /// Twice as many where the error is largest and more are allowed; errors along phases, loads and tilts.
+    fn finer(self, errors: [f64; 3]) -> Option<Self> {
+        let ways = [
+            (errors[0], self.phases < PHASES[1], Self { phases: 2 * self.phases, ..self }),
+            (errors[1], self.loads < LOADS[1], Self { loads: 2 * self.loads, ..self }),
+            (errors[2], (1..TILTS[1]).contains(&self.tilts), Self { tilts: 2 * self.tilts, ..self }),
+        ];
+        ways.into_iter().filter(|way| way.1).max_by(|a, b| a.0.total_cmp(&b.0)).map(|way| way.2)
     }
 }
 
@@ -102,10 +130,10 @@ fn check_plan<E>(plan: &MapPlan) -> Result<(), MapError<E>> {
     }
 }
 
-fn tilts(plan: &MapPlan) -> Vec<f64> {
+fn tilts(plan: &MapPlan, count: usize) -> Vec<f64> {
     match plan.tilt {
         None => vec![0.0],
-        Some([low, high]) => (0..=TILTS).map(|i| low + (high - low) * i as f64 / TILTS as f64).collect(),
+        Some([low, high]) => (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect(),
     }
 }
 
@@ -114,15 +142,15 @@ fn sample<C, E>(
     columns: &mut Columns,
     plan: &MapPlan,
     at: &(impl Fn(f64) -> Result<C, E> + Sync),
-    (phases, loads): (usize, usize),
+    size: MapSize,
 ) -> Result<usize, MapError<E>>
 where
     C: PhaseContact<Error = E>,
     E: Send,
 {
-    let step = PHASES[1] / phases;
-    let missing: Vec<usize> = (0..phases).map(|i| i * step).filter(|key| !columns.contains_key(key)).collect();
-    let axis = LoadAxis::new(loads, plan.largest_force);
+    let step = PHASES[1] / size.phases;
+    let missing: Vec<usize> = (0..size.phases).map(|i| i * step).filter(|key| !columns.contains_key(key)).collect();
+    let axis = LoadAxis::new(size.loads, plan.largest_force);
     let sampled: Vec<_> = missing
         .par_iter()
         .map(|&key| {
@@ -130,7 +158,7 @@ where
             let mut contact = at(phase).map_err(|source| MapError::Contact { phase, approach_um: 0.0, source })?;
             let mut solved = 0;
             let mut all = Vec::new();
-            for tilt in tilts(plan) {
+            for tilt in tilts(plan, size.tilts) {
                 let (nodes, count) = column(&mut contact, (phase, tilt), (axis, SHARES), plan.width)?;
                 all.push(nodes);
                 solved += count;
@@ -147,14 +175,13 @@ where
 }
 
 /// The map that goes through all nodes.
-fn assemble(plan: &MapPlan, columns: &Columns, (phases, loads): (usize, usize)) -> ContactMap {
+fn assemble(plan: &MapPlan, columns: &Columns, size: MapSize) -> ContactMap {
+    let MapSize { phases, loads, tilts } = size;
     let step = PHASES[1] / phases;
-    let tilts = if plan.tilt.is_some() { TILTS } else { 0 };
     let tilt_axis = if tilts == 0 { Axis::Single } else { Axis::Open(tilts) };
     let axes = [Axis::Periodic(phases), tilt_axis, Axis::Open(loads)];
     let of = |value: &dyn Fn(&Node) -> f64| {
-        let values: Vec<f64> =
-            (0..phases).flat_map(|i| columns[&(i * step)].iter().flatten().map(value)).collect();
+        let values: Vec<f64> = (0..phases).flat_map(|i| columns[&(i * step)].iter().flatten().map(value)).collect();
         coefficients(values, &axes)
     };
     let lengths: [Vec<f64>; 3] = [0, 1, 2].map(|k| of(&|node: &Node| node.lengths[k]));
@@ -224,19 +251,20 @@ fn deflection(map: &ContactMap, plan: &MapPlan) -> f64 {
 }
 
 /// Root mean square and largest error of the approach (mm) at places all over the map, at places between its phases
-/// alone, and between its forces alone.
+/// alone, between its forces alone and between its tilts alone.
 fn errors<C, E>(
     map: &ContactMap,
     plan: &MapPlan,
     at: &(impl Fn(f64) -> Result<C, E> + Sync),
     contacts: &mut usize,
-) -> Result<[[f64; 2]; 3], MapError<E>>
+) -> Result<[[f64; 2]; 4], MapError<E>>
 where
     C: PhaseContact<Error = E>,
     E: Send,
 {
-    let mut all = [[0.0; 2]; 3];
-    for (kind, out) in all.iter_mut().enumerate() {
+    let mut all = [[0.0; 2]; 4];
+    let kinds = if map.tilts == 0 { 3 } else { 4 };
+    for (kind, out) in all.iter_mut().enumerate().take(kinds) {
         let off: Vec<f64> = (0..CHECKS)
             .into_par_iter()
             .map(|i| {
@@ -246,8 +274,9 @@ where
                 let places = map.loads as f64;
                 let reach = map.load_axis().place((2.0 * plan.mean_force).min(plan.largest_force));
                 let load = if i % 4 == 0 { l * places } else { (0.25 + 0.75 * l) * reach };
-                let phase = if kind == 2 { on_grid(p, map.phases) / map.phases as f64 } else { p };
-                let load = if kind == 1 { on_grid(load / places, map.loads) } else { load };
+                let phase = if kind > 1 { on_grid(p, map.phases) / map.phases as f64 } else { p };
+                let load = if kind == 1 || kind == 3 { on_grid(load / places, map.loads) } else { load };
+                let t = if kind == 1 || kind == 2 { on_grid(t, map.tilts.max(1)) / map.tilts.max(1) as f64 } else { t };
                 let tilt = map.tilts().map_or(0.0, |[low, high]| low + t * (high - low));
                 error_at(map, at, (phase, load, tilt))
             })

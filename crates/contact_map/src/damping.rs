@@ -73,18 +73,14 @@ impl ContactMap {
         let df = axis.force_slope(load);
         let sigma_by_load = (w * d0 * force - w * l0 * df) / (force + w * l0).powi(2);
         let by_place = df * e * sigma + force * (by_load * sigma + (e + sigma * by_sigma) * sigma_by_load);
-        MapDamping {
-            force: along,
-            rate_slope,
-            approach_slope: by_place * by_approach * rate.signum(),
-            length: l0,
-        }
+        MapDamping { force: along, rate_slope, approach_slope: by_place * by_approach * rate.signum(), length: l0 }
     }
 
     /// L_0, L_1, L_2 and their slopes over the load's place.
     fn lengths(&self, place: &CutPlace, load: f64) -> [[f64; 3]; 2] {
         let at = load.min(self.loads as f64);
-        let [first, second] = place.levers.as_deref().map_or([[0.0; 2]; 2], |both| [both[0].value(at), both[1].value(at)]);
+        let [first, second] =
+            place.levers.as_deref().map_or([[0.0; 2]; 2], |both| [both[0].value(at), both[1].value(at)]);
         let all = [place.length.value(at), first, second];
         [0, 1].map(|i| all.map(|l| l[i]))
     }

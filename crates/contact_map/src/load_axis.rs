@@ -155,7 +155,11 @@ impl LoadCurve {
         let mut s = (value - a) / (self.knot(cell + 1) - a);
         for _ in 0..MOST_STEPS {
             let off = a - value + s * (b + s * (c + s * d));
-            if off < 0.0 { low = s } else { high = s }
+            if off < 0.0 {
+                low = s
+            } else {
+                high = s
+            }
             let next = s - off / (b + s * (2.0 * c + 3.0 * s * d));
             let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
             if (next - s).abs() <= LAST_BITS * (begin + next) {

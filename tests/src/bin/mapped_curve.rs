@@ -44,6 +44,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for b in &branch.bifurcations {
         println!("{:?} at {:.5}", b.loss, b.motion.parameter / resonance);
     }
-    println!("{} motions, {} Newton steps: {of_curve:.2} s, the map {of_map:.2} s", branch.motions.len(), branch.iterations);
+    println!(
+        "{} motions, {} Newton steps: {of_curve:.2} s, the map {of_map:.2} s",
+        branch.motions.len(),
+        branch.iterations
+    );
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The work of static positions, for a program that counts instructions: the default pair on its committed meshes.
 //!
 //! `static_positions N` reduces both gears, and solves N mesh cycles of 32 positions on one core. What two runs
-//! differ by is the positions alone. `docs/speed.md` has the figures, `.ci/run` a limit.
+//! differ by is the positions alone. `docs/performance.md` has the figures, `.ci/run` a limit.
 #![allow(clippy::print_stdout, reason = "what was counted is told")]
 
 use fem::ElementOptions;

@@ -1,8 +1,8 @@
 //! The pair in motion: quasi-static and linear limits, jumps, tooth changes, integrators, modes, cheaper models.
 
 mod both_free;
-mod mapped;
 mod ladder;
+mod mapped;
 mod modes_in_motion;
 mod motion_cells;
 mod motion_jump;

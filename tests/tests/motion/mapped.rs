@@ -128,6 +128,7 @@ fn a_map_moves_as_the_contact() {
         let a = rows(&mut exact, cycles as u64);
         let of_exact = began.elapsed().as_secs_f64();
         let (b, of_map) = map_rows(&mut map, hz, cycles, start);
+        assert!(map.excess().is_within(), "the motion leaves its map: {:?}", map.excess());
         let last = a.len() - STEPS;
         let off = worst(&a[last..], &b[last..]) / peak_to_peak(&a[last..]);
         println!(
@@ -181,7 +182,12 @@ fn harmonic_balance_finds_the_motion_on_a_map() {
     let found = tracer.motion_at(bench.speed(hz), &FourierSeries::at_rest(&q, 8)).unwrap_or_else(|e| panic!("{e}"));
     let balanced = found.series.peak_to_peak(&DVector::from_element(1, 1.0));
     let last = peak_to_peak(&waited[waited.len() - STEPS..]);
-    println!("{:.4} um by waiting, {:.4} um by balance, multiplier {:.4}", 1e3 * last, 1e3 * balanced, found.floquet.largest());
+    println!(
+        "{:.4} um by waiting, {:.4} um by balance, multiplier {:.4}",
+        1e3 * last,
+        1e3 * balanced,
+        found.floquet.largest()
+    );
     // 64 steps of generalised-alpha a cycle are off by a few thousandths at the resonance themselves.
     assert!((balanced / last - 1.0).abs() < 5e-3, "{balanced:e} mm by balance, {last:e} mm by waiting");
     assert!(found.floquet.largest() < 1.0, "waiting leads to a motion that is said to be unstable");

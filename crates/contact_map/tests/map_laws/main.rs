@@ -109,10 +109,18 @@ fn damping_is_the_sum_over_the_slices() {
         assert!((here.force[0] - sum).abs() < 0.02 * sum.abs(), "phase {phase}: {} N, not {sum}", here.force[0]);
         let by_rate = (of(x, w + 1e-5).force[0] - of(x, w - 1e-5).force[0]) / 2e-5;
         let off = (here.rate_slope[0][0] - by_rate).abs();
-        assert!(off < 1e-5 * by_rate.abs().max(1.0), "phase {phase}: slope {:e}, by differences {by_rate:e}", here.rate_slope[0][0]);
+        assert!(
+            off < 1e-5 * by_rate.abs().max(1.0),
+            "phase {phase}: slope {:e}, by differences {by_rate:e}",
+            here.rate_slope[0][0]
+        );
         let by_approach = (of(x + 1e-7, w).force[0] - of(x - 1e-7, w).force[0]) / 2e-7;
         let off = (here.approach_slope - by_approach).abs();
-        assert!(off < 1e-4 * (here.force[0] / x).abs(), "phase {phase}: {:e} N/mm, by differences {by_approach:e}", here.approach_slope);
+        assert!(
+            off < 1e-4 * (here.force[0] / x).abs(),
+            "phase {phase}: {:e} N/mm, by differences {by_approach:e}",
+            here.approach_slope
+        );
     }
 }
 

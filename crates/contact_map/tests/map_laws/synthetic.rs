@@ -52,7 +52,11 @@ impl Row {
         let [mut low, mut high] = [-1.0, 1.0];
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
-            if self.loaded(middle, tilt).iter().map(|s| s.force).sum::<f64>() > force { high = middle } else { low = middle }
+            if self.loaded(middle, tilt).iter().map(|s| s.force).sum::<f64>() > force {
+                high = middle
+            } else {
+                low = middle
+            }
         }
         0.5 * (low + high)
     }

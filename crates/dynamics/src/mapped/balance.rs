@@ -42,9 +42,9 @@ impl Mechanism for MappedPair {
             if let Some((i, per_turn)) = self.phase_of_driver {
                 out.conservative[i] -= per_turn * contact.phase_rate;
             }
-            for k in 0..used {
-                out.other.axpy(-damping.force[k], &side.damped[k], 1.0);
-                out.dissipated += damping.force[k] * rates[k];
+            for (damped, (force, rate)) in side.damped.iter().zip(damping.force.iter().zip(&rates)).take(used) {
+                out.other.axpy(-force, damped, 1.0);
+                out.dissipated += force * rate;
             }
             if out.rates {
                 let speed = self.system.cycles_per_second(t);
@@ -71,18 +71,27 @@ impl Mechanism for MappedPair {
         Ok(of_sides + 0.5 * power(&self.bearing, q))
     }
 
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), Infallible> {
+        let phase = self.phase(t, q);
+        for (side, kept) in self.sides.iter().zip(&mut self.kept) {
+            let contact = side.contact(kept, phase, q, Wanted::default());
+            let excess = &mut self.excess;
+            excess.force = excess.force.max(contact.force / side.map.largest_force());
+            // Without contact a tilt does nothing.
+            if let Some([low, high]) = side.map.tilts().filter(|_| contact.force > 0.0) {
+                let from_middle = (side.motion(q)[1] - 0.5 * (low + high)).abs();
+                excess.tilt = excess.tilt.max(from_middle / (0.5 * (high - low)));
+            }
+        }
+        Ok(())
+    }
+
     fn events(&self) -> usize {
         self.sides.len()
     }
 
     /// Overlap of the undeformed flanks of each side, mm: positive in contact.
-    fn event_values(
-        &mut self,
-        t: f64,
-        q: &DVector<f64>,
-        _: &DVector<f64>,
-        out: &mut [f64],
-    ) -> Result<(), Infallible> {
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
         let phase = self.phase(t, q);
         for ((side, kept), value) in self.sides.iter().zip(&mut self.kept).zip(out) {
             let [approach, tilt] = side.motion(q);

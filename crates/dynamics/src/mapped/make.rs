@@ -5,10 +5,8 @@ use std::sync::Arc;
 use contact_map::{ContactMap, MapError, MapPlan};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::{KeptPlaces, MappedPair, MappedSide, projection::Projection, sampler::SidePhase};
-use crate::{
-    COORDINATES, Displacement, Drive, PairMechanism, PairMotionError, start::quasi_static_balance,
-};
+use super::{KeptPlaces, MapExcess, MappedPair, MappedSide, projection::Projection, sampler::SidePhase};
+use crate::{COORDINATES, Displacement, Drive, PairMechanism, PairMotionError, Speed, start::quasi_static_balance};
 use ltca::StaticError;
 
 /// What maps of a pair must hold, and how well.
@@ -40,7 +38,13 @@ impl MappedPair {
             return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
         }
         let map = system.coordinates().map().clone();
+        // A map knows no speed: gears that stand still are looked at as they turn slowly.
+        let speed = system.nominal().speed;
+        if system.time_of_cycles(1.0).is_none() {
+            system.set_speed(Speed::Constant(1.0));
+        }
         let stands = stands(&mut system, request.lag)?;
+        system.set_speed(speed);
         let about = stands.iter().sum::<Displacement>() / stands.len() as f64;
         let loading = map.transpose() * drive_balance(&system);
         let [bearing, damping] = system.bearings();
@@ -63,9 +67,8 @@ impl MappedPair {
                 let side = side.copy_at(&pair, phase)?;
                 Ok(SidePhase { pair: &pair, side, cycles: phase, projection: &projection, about: &about })
             };
-            let made = ContactMap::build(&plan, at).map_err(|e: MapError<StaticError>| {
-                PairMotionError::Map { source: Box::new(e) }
-            })?;
+            let made = ContactMap::build(&plan, at)
+                .map_err(|e: MapError<StaticError>| PairMotionError::Map { source: Box::new(e) })?;
             sides.push(MappedSide {
                 map: Arc::new(made),
                 damped: [&projection.approach, &projection.tilt].map(|f| &loading * f),
@@ -88,6 +91,7 @@ impl MappedPair {
             kept: vec![KeptPlaces::default(); sides.len()],
             sides,
             phase_of_driver,
+            excess: MapExcess::default(),
             system,
         })
     }
@@ -125,12 +129,12 @@ fn stands(system: &mut PairMechanism, lag: f64) -> Result<Vec<Displacement>, Pai
     Ok(all)
 }
 
-/// Tilts that the pair has at rest, and as much on either side as a deflection over the face width makes.
+/// Tilts that the pair has at rest, and as much on either side as half a deflection over the face width makes.
 fn tilt_range(stands: &[Displacement], projection: &Projection, pair: &geometry::GearPair) -> [f64; 2] {
     let all = || stands.iter().map(|d| projection.tilt.dot(d));
     let deflection = stands.iter().map(|d| projection.approach.dot(d).abs()).fold(0.0, f64::max);
     let [low, high] = [all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max)];
-    let margin = (2.0 * deflection / pair.face_width()).max(2.0 * (high - low));
+    let margin = (0.5 * deflection / pair.face_width()).max(2.0 * (high - low));
     [low - margin, high + margin]
 }
 

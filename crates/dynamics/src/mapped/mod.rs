@@ -39,6 +39,23 @@ pub struct MappedPair {
     /// Mesh cycles a radian of the driver's turn, where that is a coordinate.
     phase_of_driver: Option<(usize, f64)>,
     kept: Vec<KeptPlaces>,
+    excess: MapExcess,
+}
+
+/// How far a motion has gone beyond what its maps hold, at the ends of its steps; beyond them nothing was checked.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MapExcess {
+    /// Largest force over the largest of the map.
+    pub force: f64,
+    /// Largest distance of a tilt from the middle of the map's, over half their range.
+    pub tilt: f64,
+}
+
+impl MapExcess {
+    /// Whether all was within the maps.
+    pub fn is_within(&self) -> bool {
+        self.force <= 1.0 && self.tilt <= 1.0
+    }
 }
 
 /// The flanks on one side.
@@ -116,6 +133,11 @@ impl MappedPair {
     /// The maps of the driving flanks and, where these may touch, of the coast flanks.
     pub fn maps(&self) -> impl Iterator<Item = &ContactMap> {
         self.sides.iter().map(|side| &*side.map)
+    }
+
+    /// How far the motion has gone beyond the maps since it was made: a result beyond them holds no more.
+    pub fn excess(&self) -> MapExcess {
+        self.excess
     }
 
     /// Phase, in mesh cycles, with a driver's own deviation from its nominal turn.

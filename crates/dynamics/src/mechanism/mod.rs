@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState, Speed,
-    ToothChanges,
+    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
+    Speed, ToothChanges,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
     mesh_side::{MeshSide, SideContacts},
