@@ -120,6 +120,7 @@ pub fn all() -> Vec<SmallScene> {
                 "run = \"span\"\n[modes]\ncount = 3\ndamping_ratio = 0.02\n",
             ),
         ),
+        ("motion_mapped", moving("model = \"mapped\"\ncycles = 2\n", &format!("{SETTLES}{free}{}", bearings(SPRINGS)))),
         ("lumped8", lumped("lumped8", &format!("{SERIES}{}", bearings(SPRINGS)))),
         ("lumped12", lumped("lumped12", &format!("{SERIES}{}", bearings(&format!("{SPRINGS}{TILTS}"))))),
         ("shaft18", lumped("shaft18", &format!("{SERIES}{}", shafts.concat()))),

@@ -114,7 +114,9 @@ fn options_of(gear: &GearScene) -> StructuredOptions {
 
 /// Whether one sector tells all: nobody asks for the mesh of the whole gear.
 fn sector_is_enough(scene: &Scene) -> bool {
-    scene.analysis.model.is_reduced() && scene.analysis.reduction != Some(Reduction::General) && !scene.output.vtu
+    scene.analysis.model.has_reduced_gears()
+        && scene.analysis.reduction != Some(Reduction::General)
+        && !scene.output.vtu
 }
 
 fn generated_with(

@@ -38,7 +38,7 @@ pub struct Resolution {
 fn is_sliced(scene: &Scene) -> bool {
     let model = scene.analysis.model;
     let feeds = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
-    (model.is_reduced() || matches!(model, Model::Auto | Model::Full | Model::Impact) || feeds)
+    (model.has_reduced_gears() || matches!(model, Model::Auto | Model::Full | Model::Impact) || feeds)
         && scene.contact.slices.is_some()
 }
 

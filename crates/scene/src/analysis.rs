@@ -55,6 +55,8 @@ choices! {
         Auto = "auto",
         /// The same with normal modes of both gears, in time.
         ReducedModes = "reduced+modes",
+        /// A map of the contact of the reduced gears, in time.
+        Mapped = "mapped",
         /// Every degree of freedom of both meshes.
         Full = "full",
         /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
@@ -71,8 +73,13 @@ choices! {
 }
 
 impl Model {
-    /// Whether gears are known from their flanks.
+    /// Whether gears are known from their flanks, and contact is solved between them.
     pub fn is_reduced(self) -> bool {
         matches!(self, Self::Reduced | Self::ReducedModes)
+    }
+
+    /// Whether it is made of gears that are known from their flanks: these, or a map of their contact.
+    pub fn has_reduced_gears(self) -> bool {
+        self.is_reduced() || self == Self::Mapped
     }
 }

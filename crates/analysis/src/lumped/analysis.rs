@@ -29,7 +29,7 @@ use crate::{
 
 /// Whether a scene's model is one with few coordinates.
 pub fn is_lumped(scene: &Scene) -> bool {
-    matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact)
+    matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact | Model::Mapped)
 }
 
 /// Gets the rows of a cheaper model as they come.
@@ -102,7 +102,7 @@ impl std::fmt::Debug for LumpedAnalysis<'_> {
 }
 
 impl<'a> LumpedAnalysis<'a> {
-    /// Of a scene with the model `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
+    /// Of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache }
     }
@@ -158,7 +158,7 @@ impl<'a> LumpedAnalysis<'a> {
         });
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
-        facts.certificate = certificate(&scene, &run);
+        facts.certificate = certificate(&scene, &run).and(Certificate::new(system.model.checks()));
         result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, warnings })
     }
 }
@@ -263,7 +263,7 @@ pub(super) fn checked_run(
     let plan = RunPlan { scene, motion, frequencies, from };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
-    certificate(scene, &run).verdict(scene)?;
+    certificate(scene, &run).and(Certificate::new(model.checks())).verdict(scene)?;
     Ok(run)
 }
 
@@ -307,7 +307,8 @@ pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
 /// How rigid gears are cut into slices, with what a user should hear of it; other models are not.
 fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<String>)> {
     let LumpedInputs { scene, pair, .. } = inputs;
-    (scene.analysis.model == Model::Impact).then(|| resolution(scene, pair, &options(scene, pair)))
+    matches!(scene.analysis.model, Model::Impact | Model::Mapped)
+        .then(|| resolution(scene, pair, &options(scene, pair)))
 }
 
 /// None for a record of whole periods, where every line stands in one bin.

@@ -3,6 +3,8 @@
 //! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2.
 //! Lumped pairs have it there at phase 0, so that their contact lines are half a cycle on.
 
+use std::sync::Arc;
+
 use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
 use geometry::GearPair;
 use ltca::StaticPosition;
@@ -11,6 +13,7 @@ use scene::{
     Operation, OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
+use super::mapped::{self, MappedGears};
 use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, static_certificate};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
@@ -27,11 +30,13 @@ pub(crate) struct ExcitationSource<'a> {
     /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share
     /// it.
     last: Option<(Scene, MeshExcitation)>,
+    /// The same of maps of the contact.
+    last_map: Option<(Scene, Arc<MappedGears>)>,
 }
 
 impl<'a> ExcitationSource<'a> {
     pub fn new(observer: &'a mut dyn Observer, cache: &'a dyn GearCache) -> Self {
-        Self { observer, cache, last: None }
+        Self { observer, cache, last: None, last_map: None }
     }
 
     /// The cycle of a scene, stated on the transverse line of action.
@@ -70,6 +75,20 @@ impl<'a> ExcitationSource<'a> {
             }
             StiffnessFrom::Reduced => self.of_reduced_model(scene, pair),
         }
+    }
+
+    /// The gears of a scene with maps of their contact.
+    ///
+    /// # Errors
+    /// Those of the reduced gears and of the map.
+    pub fn mapped(&mut self, scene: &Scene) -> Result<Arc<MappedGears>, AnalysisError> {
+        let same = mapped::without_speed(scene);
+        if let Some((_, gears)) = self.last_map.as_ref().filter(|(known, _)| *known == same) {
+            return Ok(Arc::clone(gears));
+        }
+        let gears = Arc::new(MappedGears::make(scene, self.cache, self.observer)?);
+        self.last_map = Some((same, Arc::clone(&gears)));
+        Ok(gears)
     }
 
     /// Tangent stiffness and transmission error of the quasi-static cycle.

@@ -1,6 +1,6 @@
 //! All that a model of a scene is made of: gathered once, built as often as wanted.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use ::lumped::{
     LumpedError,
@@ -13,6 +13,7 @@ use scene::{Driver, Model, MotionScene, Scene};
 use super::{
     excitation::{ExcitationSource, MeshExcitation},
     impact, lumped_pair,
+    mapped::MappedGears,
     mechanism::{BoxedMechanism, StaticPoint},
     run_loop::MeshFrequencies,
     shafts,
@@ -24,6 +25,7 @@ pub(crate) struct LumpedInputs {
     pub scene: Scene,
     pub pair: GearPair,
     excitation: Option<MeshExcitation>,
+    mapped: Option<Arc<MappedGears>>,
 }
 
 /// A model, ready to run.
@@ -60,7 +62,9 @@ impl LumpedInputs {
             _ => lumped_pair::plane(scene, &pair),
         };
         let excitation = scene.mesh.as_ref().map(|mesh| source.of(scene, mesh, &pair, &plane)).transpose()?;
-        Ok(Self { scene: scene.clone(), pair, excitation })
+        let maps = scene.analysis.model == Model::Mapped;
+        let mapped = maps.then(|| source.mapped(scene)).transpose()?;
+        Ok(Self { scene: scene.clone(), pair, excitation, mapped })
     }
 
     /// The model; every one that is built is the same.
@@ -68,9 +72,14 @@ impl LumpedInputs {
     /// # Errors
     /// [`AnalysisError::Lumped`] for what has no meaning to it.
     pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
-        let Self { scene, pair, excitation } = self;
+        let Self { scene, pair, excitation, mapped } = self;
         let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
         let none = || AnalysisError::other_analysis(scene, "model of the ladder");
+        if let Some(gears) = mapped {
+            let (model, resonance_hz) = gears.model(scene, pair)?;
+            let warnings = gears.warnings.clone();
+            return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz, warnings, shafts: None });
+        }
         if let Some(own) = &scene.impact {
             let (model, warnings) = impact::impact(scene, own, pair).map_err(complain)?;
             return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz: 0.0, warnings, shafts: None });

@@ -10,6 +10,7 @@ use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
 use super::LumpedRow;
+use crate::certificate::Check;
 
 /// The loaded pair at one phase as speed goes to zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +42,11 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
     /// Undamped natural frequencies at `share` of the scene's speed, Hz, ascending, the free turn among them; nothing
     /// where the model is not linear.
     fn natural_frequencies_hz(&self, share: f64) -> Vec<f64>;
+
+    /// What must hold of the run so far, beside its energy.
+    fn checks(&self) -> Vec<Check> {
+        Vec::new()
+    }
 }
 
 /// Standing still at t = 0.

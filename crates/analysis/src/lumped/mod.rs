@@ -9,7 +9,7 @@
 //! | `inputs` | all that a model is made of |
 //! | `excitation` | stiffness over the mesh cycle: given, of the reduced model, of ISO |
 //! | `bodies` | bodies, supports and torques of the scene |
-//! | `lumped_pair`, `shafts`, `impact` | the models |
+//! | `lumped_pair`, `shafts`, `impact`, `mapped` | the models |
 //! | `run_loop`, `periodicity` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
@@ -22,6 +22,7 @@ mod headline;
 mod impact;
 mod inputs;
 mod lumped_pair;
+mod mapped;
 mod mechanism;
 mod periodicity;
 mod row;

@@ -100,6 +100,11 @@ pub enum CoordinateAxis {
     Turn,
 }
 
+/// Its number among the six of a gear: x, y, z, and the turns about them.
+pub(super) fn axis_number(axis: CoordinateAxis) -> usize {
+    SIX.iter().position(|a| *a == axis).unwrap_or(SIX.len() - 1)
+}
+
 /// A coordinate of a gear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GearCoordinate {
@@ -129,6 +134,11 @@ pub fn gear_coordinates(scene: &Scene) -> Vec<GearCoordinate> {
         Driver::Pinion => [0, 1],
         Driver::Wheel => [1, 0],
     };
+    if scene.analysis.model == Model::Mapped {
+        let of = |gear: usize| scene.gears()[gear].body.iter().flat_map(|b| &b.free).map(move |axis| (gear, *axis));
+        let all = of(0).chain(of(1));
+        return all.map(|(gear, axis)| GearCoordinate { gear, axis: SIX[axis.number()] }).collect();
+    }
     let (gears, axes): ([usize; 2], &[CoordinateAxis]) = match scene.analysis.model {
         Model::Lumped8 => (by_role, &FOUR),
         Model::Lumped12 => (by_role, &SIX),

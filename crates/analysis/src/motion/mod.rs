@@ -44,6 +44,7 @@ pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
     motion_options, refuse_unstable, scheme, speed, stated_body, steady_by, torque,
 };
+pub(crate) use setup::{MotionInputs, PreparedMotion, pair_drive, prepare};
 pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
 pub use warnings::NO_BACKLASH_UM;

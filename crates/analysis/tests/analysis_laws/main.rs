@@ -1,5 +1,6 @@
 //! Laws of the crate `analysis`.
 
 mod accuracy;
+mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;

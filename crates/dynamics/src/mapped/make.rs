@@ -31,13 +31,11 @@ impl MappedPair {
     /// friction, pitch errors, root stress; [`PairMotionError::Map`] where none is good enough; those of the start.
     pub fn new(mut system: PairMechanism, request: &MapRequest) -> Result<Self, PairMotionError> {
         refuse(&system)?;
-        let (n, options) = (system.count(), system.options().clone());
         let pair = system.pair().clone();
         let load = system.load_on_lag(0.0).abs();
         if load <= 0.0 {
             return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
         }
-        let map = system.coordinates().map().clone();
         // A map knows no speed: gears that stand still are looked at as they turn slowly.
         let speed = system.nominal().speed;
         if system.time_of_cycles(1.0).is_none() {
@@ -46,20 +44,16 @@ impl MappedPair {
         let stands = stands(&mut system, request.lag)?;
         system.set_speed(speed);
         let about = stands.iter().sum::<Displacement>() / stands.len() as f64;
-        let loading = map.transpose() * drive_balance(&system);
-        let [bearing, damping] = system.bearings();
-        let on_coordinates = |m: &SMatrix<f64, 12, 12>| &loading * m * &map;
-        let mut sides = Vec::new();
+        let mut maps = Vec::new();
         for side in system.sides() {
             let projection = Projection::new(&pair, side.flank_side());
-            let [approach, tilt] = [projection.approach, projection.tilt].map(|f| map.tr_mul(&f));
-            let tilts = (tilt.amax() > 1e-12).then(|| tilt_range(&stands, &projection, &pair));
+            let tilts = system.coordinates().map().tr_mul(&projection.tilt).amax() > 1e-12;
             // Force along the normal of a force on the base circle.
             let force = load / pair.base_helix_angle().cos();
             let plan = MapPlan {
                 mean_force: force,
                 largest_force: request.overload * force,
-                tilt: tilts,
+                tilt: tilts.then(|| tilt_range(&stands, &projection, &pair)),
                 width: pair.face_width(),
                 tolerance: request.tolerance,
             };
@@ -69,31 +63,63 @@ impl MappedPair {
             };
             let made = ContactMap::build(&plan, at)
                 .map_err(|e: MapError<StaticError>| PairMotionError::Map { source: Box::new(e) })?;
-            sides.push(MappedSide {
-                map: Arc::new(made),
+            maps.push((projection, Arc::new(made)));
+        }
+        Ok(Self::of(system, maps))
+    }
+
+    /// The same pair at its beginning on the same maps, with another speed or torque of the driver.
+    ///
+    /// # Errors
+    /// [`PairMotionError::Unmapped`] for a drive that frees other coordinates; those of the contact.
+    pub fn with_drive(&self, drive: Drive) -> Result<Self, PairMotionError> {
+        if std::mem::discriminant(&drive) != std::mem::discriminant(&self.system.options().drive) {
+            return Err(PairMotionError::Unmapped { what: "a driver that is driven in another way" });
+        }
+        let system = self.system.with_drive(drive).map_err(|source| PairMotionError::contact(0.0, source))?;
+        Ok(Self::of(system, self.sides.iter().map(|side| (side.projection, Arc::clone(&side.map))).collect()))
+    }
+
+    /// The same pair at its beginning on the same maps.
+    ///
+    /// # Errors
+    /// Those of the contact.
+    pub fn again(&self) -> Result<Self, PairMotionError> {
+        self.with_drive(self.system.options().drive.clone())
+    }
+
+    fn of(system: PairMechanism, maps: Vec<(Projection, Arc<ContactMap>)>) -> Self {
+        let (n, map) = (system.count(), system.coordinates().map().clone());
+        let loading = map.transpose() * drive_balance(&system);
+        let [bearing, damping] = system.bearings();
+        let on_coordinates = |m: &SMatrix<f64, 12, 12>| &loading * m * &map;
+        let sides: Vec<MappedSide> = maps
+            .into_iter()
+            .map(|(projection, made)| MappedSide {
+                map: made,
+                approach: map.tr_mul(&projection.approach),
+                tilt: map.tr_mul(&projection.tilt),
                 damped: [&projection.approach, &projection.tilt].map(|f| &loading * f),
                 projection,
-                approach,
-                tilt,
-            });
-        }
-        let unit = system.gyroscopic_at_unit_speed();
-        let driver = 1 - options.statics.driven();
-        let teeth = [&pair.pinion, &pair.wheel][driver];
-        let sense = options.statics.contact.sense.sign() as f64 * [1.0, -1.0][driver];
+            })
+            .collect();
+        let statics = &system.options().statics;
+        let driver = 1 - statics.driven();
+        let teeth = [&system.pair().pinion, &system.pair().wheel][driver];
+        let sense = statics.contact.sense.sign() as f64 * [1.0, -1.0][driver];
         let phase_of_driver = system.coordinates().driver_turn().map(|i| (i, sense / teeth.pitch_angle()));
-        Ok(Self {
+        Self {
             mass: integrate::Mechanism::mass(&system).clone(),
             bearing: map.transpose() * bearing * &map,
             damping: on_coordinates(&damping),
-            gyroscopic: on_coordinates(&unit),
+            gyroscopic: on_coordinates(&system.gyroscopic_at_unit_speed()),
             loading: DMatrix::from_fn(n, 12, |i, j| loading[(i, j)]),
             kept: vec![KeptPlaces::default(); sides.len()],
             sides,
             phase_of_driver,
             excess: MapExcess::default(),
             system,
-        })
+        }
     }
 }
 

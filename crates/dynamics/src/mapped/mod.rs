@@ -10,7 +10,7 @@ use contact_map::{ContactMap, CutPlace, MapContact, Wanted};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-use crate::{Displacement, PairMechanism};
+use crate::{COORDINATES, Displacement, PairMechanism};
 use projection::Projection;
 
 pub use family::SpeedFamily;
@@ -133,6 +133,18 @@ impl MappedPair {
     /// The maps of the driving flanks and, where these may touch, of the coast flanks.
     pub fn maps(&self) -> impl Iterator<Item = &ContactMap> {
         self.sides.iter().map(|side| &*side.map)
+    }
+
+    /// Mesh cycles a second of the nominal motion at a time (s).
+    pub fn mesh_hz(&self, t: f64) -> f64 {
+        self.system.cycles_per_second(t)
+    }
+
+    /// Mesh cycles that the gears have turned, and the speeds of both about +z, rad/s.
+    pub fn turning(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> (f64, [f64; 2]) {
+        let (nominal, rate) = (self.system.nominal_state(t), self.system.coordinates().displacement(v));
+        let of_turn = |g: usize| rate[COORDINATES * (g + 1) - 1];
+        (self.phase(t, q), [0, 1].map(|g| nominal.velocity[g] + of_turn(g)))
     }
 
     /// How far the motion has gone beyond the maps since it was made: a result beyond them holds no more.

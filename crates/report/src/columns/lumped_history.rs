@@ -53,6 +53,11 @@ impl LumpedLayout {
         self.model == Model::Impact
     }
 
+    /// Flanks on either side of the teeth, each with its own force.
+    fn has_flanks(&self) -> bool {
+        matches!(self.model, Model::Impact | Model::Mapped)
+    }
+
     fn place(&self, at: At, axis: CoordinateAxis) -> Option<usize> {
         self.coordinates.iter().position(|c| *c == GearCoordinate { gear: at.gear, axis })
     }
@@ -92,10 +97,10 @@ columns!(LumpedRows, LEADING, |_, _| true, {
     PINION_ANGLE = "pinion_angle_deg" ["deg"] "as above (not of shaft18)",
         @ |l, _| !l.is_shafts(), |_, row, _| or_none(row.pinion_angle).to_degrees();
     MESH_PHASE = "mesh_phase" [""] "as above", |_, row, _| row.mesh_phase;
-    PINION_SPEED = "pinion_speed_rpm" ["1/min"] "about +z (impact)",
-        @ |l, _| l.is_rigid(), |_, row, _| or_none(row.speeds.map(|s| s[0])) * 60.0 / TAU;
-    WHEEL_SPEED = "wheel_speed_rpm" ["1/min"] "about +z (impact)",
-        @ |l, _| l.is_rigid(), |_, row, _| or_none(row.speeds.map(|s| s[1])) * 60.0 / TAU;
+    PINION_SPEED = "pinion_speed_rpm" ["1/min"] "about +z (impact, mapped)",
+        @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[0])) * 60.0 / TAU;
+    WHEEL_SPEED = "wheel_speed_rpm" ["1/min"] "about +z (impact, mapped)",
+        @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[1])) * 60.0 / TAU;
     DTE = "dte_um" ["um"] "as above", |_, row, _| row.transmission_error_um;
     DEFLECTION = "mesh_deflection_um" ["um"]
         "displacement of the flanks on the transverse line of action: the transmission error and what the supports give way (lumped8, lumped12)",
@@ -119,8 +124,8 @@ columns!(LumpedRows, LEADING, |_, _| true, {
         |_, row, _| row.normal_force;
     FRICTION_FORCE = "friction_force_n" ["N"] "friction force on the driver across the line of action (lumped8, lumped12)",
         @ |l, _| l.is_gears(), |_, row, _| or_none(row.friction_force);
-    COAST_FORCE = "coast_normal_force_n" ["N"] "sum of the normal forces on the coast flanks (impact)",
-        @ |l, _| l.is_rigid(), |_, row, _| or_none(row.coast_normal_force);
+    COAST_FORCE = "coast_normal_force_n" ["N"] "sum of the normal forces on the coast flanks (impact, mapped)",
+        @ |l, _| l.has_flanks(), |_, row, _| or_none(row.coast_normal_force);
     LEAST_FORCE = "least_slice_force_n" ["N"] "smallest normal force of a slice in contact (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| or_none(row.least_slice_force);
     OVERLAP = "overlap_um" ["um"] "deepest overlap of the driving flanks (impact)",

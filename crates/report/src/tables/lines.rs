@@ -159,6 +159,7 @@ pub fn model_name(scene: &Scene) -> &'static str {
         Model::Iso => "iso",
         Model::Reduced => "reduced",
         Model::ReducedModes => "reduced+modes",
+        Model::Mapped => "mapped",
         Model::Full => "full",
         Model::Lumped8 => "lumped8",
         Model::Lumped12 => "lumped12",

@@ -55,7 +55,7 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Che
             "say how exact in [accuracy] (`mean_ste = \"1 %\"`), or by `--accuracy 1%`",
         ));
     }
-    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.is_reduced() && model != Model::Auto) {
+    if let Some(word) = raw.reduction.as_ref().filter(|_| !model.has_reduced_gears() && model != Model::Auto) {
         return Err(s.conflict(
             &word.span(),
             "`reduction` belongs to `model = \"reduced\"`",
@@ -85,7 +85,7 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Che
     Ok(Analysis {
         kind,
         model,
-        reduction: (model.is_reduced() || model == Model::Auto).then_some(reduction),
+        reduction: (model.has_reduced_gears() || model == Model::Auto).then_some(reduction),
         positions_per_cycle: value!(s, ANALYSIS, raw.positions_per_cycle)?,
         cycles: {
             let (low, high, _) = ANALYSIS.whole("cycles");

@@ -214,7 +214,8 @@ fn of_drive(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let sweeps = scene.motion.as_ref().filter(|m| m.run != Run::Steady && m.run != Run::Span);
     let (Some(_), Some(drive), Some(table)) = (sweeps, &scene.drive, &raw.drive) else { return Ok(()) };
     // Lumped gears turn freely against each other, and their torques balance; rigid ones would lose speed to friction.
-    let own = if scene.impact.is_some() { true } else { scene.analysis.model.is_reduced() && !drive.torque.is_none() };
+    let own =
+        if scene.impact.is_some() { true } else { scene.analysis.model.has_reduced_gears() && !drive.torque.is_none() };
     if drive.by == DriveBy::Torque && own {
         let balances = if scene.impact.is_some() { "" } else { ", or leave the torque out: it then balances the load" };
         return Err(s.conflict(

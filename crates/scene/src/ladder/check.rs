@@ -83,6 +83,15 @@ impl Rung {
                 lines: false,
                 torques: Torques::Any,
             }),
+            Model::Mapped => Some(Self {
+                name: "mapped",
+                moves: None,
+                mesh: false,
+                backlash: true,
+                mesh_damping: true,
+                lines: false,
+                torques: Torques::Any,
+            }),
             Model::Auto | Model::Iso | Model::Reduced | Model::ReducedModes | Model::Full => None,
         }
     }

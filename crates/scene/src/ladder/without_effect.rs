@@ -79,7 +79,8 @@ fn turning(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<()> {
 /// What an analysis in time with a cheaper model can do.
 pub(crate) fn check_in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
     let name = rung.name;
-    let fed = scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
+    let mapped = scene.analysis.model == Model::Mapped;
+    let fed = mapped || scene.mesh.as_ref().is_some_and(|m| m.stiffness_from == StiffnessFrom::Reduced);
     if !fed {
         unfed(s, raw, scene, name)?;
     }
@@ -159,7 +160,8 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
     let refuse = |at: Range<usize>, key: &str, advice: &str| {
         Err(s.conflict(&at, format!("`{key}` means nothing to the model \"{}\"", rung.name), advice))
     };
-    let ramps = words.run == Run::Ramp && scene.impact.is_some();
+    let mapped = scene.analysis.model == Model::Mapped;
+    let ramps = words.run == Run::Ramp && (scene.impact.is_some() || mapped);
     let known = ramps || matches!(words.run, Run::Steady | Run::Span | Run::Sweep);
     if let (Some(word), false) = (&raw.run, known) {
         return Err(SceneError::NotYet {
@@ -181,7 +183,7 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
         };
         return refuse(at, "mesh_damping_ratio", advice);
     }
-    if let Some(at) = span(&raw.mesh_damping_ns_per_mm2) {
+    if let Some(at) = span(&raw.mesh_damping_ns_per_mm2).filter(|_| !mapped) {
         return refuse(at, "mesh_damping_ns_per_mm2", "give `mesh_damping_ratio`");
     }
     if let (Some(at), true) = (span(&raw.checkpoint_every_cycles), words.checkpoint_every_cycles != Some(0)) {
@@ -235,6 +237,7 @@ fn friction(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checke
             let what = format!("`friction` means nothing to the model \"{}\"", rung.name);
             let advice = match scene.analysis.model {
                 Model::Impact => "give `static_friction` and `dynamic_friction` in [impact]",
+                Model::Mapped => "leave it out, or use the model \"reduced\": friction turns round with the sliding",
                 _ => "leave it out: this model has none",
             };
             Err(s.conflict(&friction.span(), what, advice))

@@ -15,7 +15,7 @@ type Span = std::ops::Range<usize>;
 /// the others prescribe its speed, or know no difference.
 pub(crate) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<DriveScene> {
     let mut words = DriveBy::CHOICES.to_vec();
-    if !model.is_reduced() && model != Model::Auto {
+    if !model.has_reduced_gears() && model != Model::Auto {
         words.reverse();
     }
     let by = s.choice("by", &raw.by, &words)?;

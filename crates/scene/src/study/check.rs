@@ -129,7 +129,7 @@ fn full(s: &Source<'_>, table: &Spanned<RawFull>, cases: &[StudyCase]) -> Checke
     let case = case_number(s, &raw.case, cases)?;
     let positions = s.whole("positions", &raw.positions, 1, 0, 100_000)?;
     let scene = &cases[case].scene;
-    let slices = scene.analysis.model.is_reduced() && scene.contact.slices.is_some();
+    let slices = scene.analysis.model.has_reduced_gears() && scene.contact.slices.is_some();
     if positions > 0 && !slices {
         let what = format!("the case \"{}\" has no gears with slices to reduce", cases[case].label);
         return Err(s.conflict(

@@ -44,7 +44,7 @@ pub fn motion_options(
 
 /// What drives a pair of elastic gears: as below, but a torque that the scene does not state balances the load at every
 /// instant, so that the mean speed is the given one.
-fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
+pub(crate) fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
     let balances = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && d.torque.is_none());
     if balances { Drive::Balanced(speed(scene)) } else { drive(scene, pair) }
 }
