@@ -71,7 +71,7 @@ impl MappedGears {
     ///
     /// # Errors
     /// [`AnalysisError::Motion`].
-    pub fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(MappedModel, f64), AnalysisError> {
+    pub(super) fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(MappedModel, f64), AnalysisError> {
         let pair = self.pair.with_drive(pair_drive(scene, gears)).map_err(|source| failed(scene, source))?;
         let system = pair.system();
         let driven = [&gears.pinion, &gears.wheel][system.options().statics.driven()];
