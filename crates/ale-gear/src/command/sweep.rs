@@ -20,7 +20,7 @@ use crate::{
 /// Words of `ale-gear sweep`.
 #[derive(Debug, clap::Args)]
 pub(super) struct SweepArgs {
-    /// Scene file of a motion with the model lumped8, lumped12, shaft18 or impact
+    /// Scene file of a motion with the model mapped, lumped8, lumped12, shaft18 or impact
     scene: PathBuf,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]

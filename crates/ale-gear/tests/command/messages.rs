@@ -188,7 +188,7 @@ fn a_value_out_of_range_names_the_range() {
     );
     says(
         &with("model = \"iso\"", "model = \"reducd\""),
-        "ale-gear: a.toml:16: `model` is \"reducd\", allowed is \"reduced\" or \"auto\" or \"reduced+modes\" or \"full\" or \"iso\" or \"lumped8\" or \"lumped12\" \
+        "ale-gear: a.toml:16: `model` is \"reducd\", allowed is \"reduced\" or \"auto\" or \"reduced+modes\" or \"mapped\" or \"full\" or \"iso\" or \"lumped8\" or \"lumped12\" \
          or \"shaft18\" or \"impact\"\n\
          hint: did you mean \"reduced\"?\n",
     );

@@ -199,6 +199,7 @@ fn result(
     let mut headline = headline(scene, motion, &run, &beside)?;
     headline.ramp = passage.as_ref().and_then(Passage::headline);
     warnings.extend(certificate_warnings(motion, &headline));
+    warnings.extend(inputs.warnings_of(motion, &headline));
     let judged = motion_series(run.judged_rows());
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {

@@ -11,6 +11,7 @@ use integrate::Mechanism;
 use scene::{Driver, Model, MotionScene, Scene};
 
 use super::{
+    LumpedHeadline,
     excitation::{ExcitationSource, MeshExcitation},
     impact, lumped_pair,
     mapped::MappedGears,
@@ -102,6 +103,20 @@ impl LumpedInputs {
             return Err(none());
         };
         Ok(LumpedSystem { model: model.map_err(complain)?, resonance_hz, warnings, shafts: None })
+    }
+
+    /// What a user should hear of a run, beside what the model itself says.
+    pub fn warnings_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+        self.mapped.as_ref().map_or_else(Vec::new, |gears| gears.warnings_of(&self.scene, motion, headline))
+    }
+
+    /// What a sweep does not look into.
+    pub fn left_out_of_sweeps(&self) -> Option<String> {
+        self.mapped.is_some().then(|| {
+            "elasticity is quasi-static in the model \"mapped\", and a sweep does not look how much its inertia would \
+             change: a run at one speed says so"
+                .to_owned()
+        })
     }
 
     /// Mesh frequency at the scene's speed, of a ramp at its last, and the resonance of a model.

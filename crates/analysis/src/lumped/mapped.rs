@@ -1,16 +1,16 @@
 //! Reduced gears with a map of their contact.
 
-use std::convert::Infallible;
+use std::{convert::Infallible, time::Instant};
 
 use ::lumped::{LumpedError, equilibrium};
-use dynamics::{COORDINATES, MapRequest, MappedPair, PairMotionError};
+use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMotionError};
 use geometry::GearPair;
 use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
-use scene::{Operation, Scene};
+use scene::{MotionScene, Operation, Scene};
 
 use super::{
-    LumpedRow,
+    LumpedHeadline, LumpedRow,
     analysis::motion_of,
     mechanism::{LumpedMechanism, StaticPoint},
     row::gear_coordinates,
@@ -19,7 +19,10 @@ use crate::{
     AnalysisError, GearCache, Observer, PhaseWork,
     certificate::Check,
     failure::Failure,
-    motion::{MotionInputs, NoMotionSink, PreparedMotion, pair_drive, prepare},
+    motion::{
+        Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
+        prepare,
+    },
     run_phase,
 };
 
@@ -27,13 +30,18 @@ use crate::{
 const OVERLOAD: f64 = 6.0;
 /// Error of a map over the mean approach of the flanks, root mean square.
 const TOLERANCE: f64 = 2e-4;
+/// Contacts that a step of the model "reduced" solves.
+const CONTACTS_OF_A_STEP: f64 = 3.0;
 /// Part of a mesh cycle either way over which the velocities of a start are taken.
 const SPAN: f64 = 1e-3;
 
 /// The gears of a scene and the map of their contact; of every speed.
 pub(crate) struct MappedGears {
     pair: MappedPair,
-    resonance_hz: f64,
+    resonance: MeshResonance,
+    /// What is left out of quasi-static elasticity, and what a step with it costs.
+    elasticity: Elasticity,
+    pace: Pace,
     /// Mean lag of the driven gear at rest, mm.
     lag: f64,
     free: Vec<usize>,
@@ -54,17 +62,30 @@ impl MappedGears {
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
-        let PreparedMotion { system, quasi_static, warnings, .. } = ready;
-        let (resonance_hz, lag) = (system.mesh_resonance_hz(), quasi_static.mean_error());
+        let PreparedMotion { system, quasi_static, elasticity, warnings, .. } = ready;
+        let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
+        let began = Instant::now();
         let request = MapRequest { overload: OVERLOAD, tolerance: TOLERANCE, lag };
         let pair = run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
         let pair = pair.map_err(|source| failed(scene, source))?;
+        let contacts: usize = pair.maps().map(|map| map.certificate().contacts).sum();
+        let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
         let place = |c: &super::GearCoordinate| {
             let axis = super::row::axis_number(c.axis);
             COORDINATES * c.gear + axis
         };
         let free = gear_coordinates(scene).iter().map(place).collect();
-        Ok(Self { pair, resonance_hz, lag, free, warnings })
+        Ok(Self { pair, resonance, elasticity, pace, lag, free, warnings })
+    }
+
+    /// What a user should hear of the elasticity of a motion: it is quasi-static in a map.
+    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+        let mesh_hz = mesh_range_hz(scene, motion, None);
+        let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
+        let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
+        let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
+        let slow = self.elasticity.warning(&found, &demand, self.pace);
+        slow.into_iter().chain(self.elasticity.rotation_warning(&found)).collect()
     }
 
     /// The pair at the speed of a scene, and its mesh resonance, Hz.
@@ -76,7 +97,7 @@ impl MappedGears {
         let system = pair.system();
         let driven = [&gears.pinion, &gears.wheel][system.options().statics.driven()];
         let scale = system.coordinates().scales(self.lag.abs().max(1e-6), driven.base_radius());
-        Ok((MappedModel { pair, lag: self.lag, scale, free: self.free.clone() }, self.resonance_hz))
+        Ok((MappedModel { pair, lag: self.lag, scale, free: self.free.clone() }, self.resonance.hz))
     }
 }
 
@@ -214,6 +235,6 @@ impl LumpedMechanism for MappedModel {
 
 impl std::fmt::Debug for MappedGears {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("MappedGears").field("resonance_hz", &self.resonance_hz).finish_non_exhaustive()
+        f.debug_struct("MappedGears").field("resonance_hz", &self.resonance.hz).finish_non_exhaustive()
     }
 }

@@ -104,6 +104,7 @@ impl<'a> KeySweep<'a> {
         }
         let headline = headline::headline(&first.scene, options, &points);
         warnings.extend(headline.warnings());
+        warnings.extend(first.left_out_of_sweeps());
         // Who sweeps the backlash knows.
         let swept = options.key.contains("backlash") || options.key.contains("thickness");
         warnings.extend(no_backlash(first).filter(|_| !swept));
