@@ -57,6 +57,8 @@ fn every_kind() -> Scratch {
     for scene in ["iso", "rest", "exact", "exact_motion", "span", "ramp", "resonance"] {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
+    let on_a_map = ["--set", "analysis.model=mapped", "--set", "output.root_stress=false"];
+    run(&[&["run", "span.toml", "--out", "out-mapped"], &on_a_map[..]].concat());
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();
     let soon = ["--set", "analysis.cycles=2", "--set", "motion.warm_up_cycles=2"];
     let start = ["--set", "motion.ramp.duration_s=0.004", "--set", "motion.ramp.after_s=0.01"];
