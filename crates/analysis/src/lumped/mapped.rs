@@ -48,10 +48,10 @@ pub(crate) struct MappedGears {
     pub warnings: Vec<String>,
 }
 
-/// The scene as far as a map depends on it.
+/// The scene as far as a mapped pair depends on it: all but the speed. Mesh damping, which [motion] has, is the pair's.
 pub(super) fn without_speed(scene: &Scene) -> Scene {
     let operation = Operation { speed_rpm: 1000.0, ..scene.operation };
-    Scene { operation, set: Vec::new(), motion: None, ..scene.clone() }
+    Scene { operation, set: Vec::new(), ..scene.clone() }
 }
 
 impl MappedGears {
@@ -114,9 +114,14 @@ pub(super) struct MappedModel {
 }
 
 impl MappedModel {
-    /// Where forces balance at a time, the driver's own turn held.
-    fn stands(&self, t: f64, from: Option<&DVector<f64>>) -> Result<DVector<f64>, LumpedError> {
-        let Ok(mut pair) = self.pair.again() else { return Err(LumpedError::NoEquilibrium) };
+    /// Where forces on a copy of the pair balance at a time, the driver's own turn held.
+    fn stands(
+        &self,
+        pair: Result<MappedPair, PairMotionError>,
+        t: f64,
+        from: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, LumpedError> {
+        let Ok(mut pair) = pair else { return Err(LumpedError::NoEquilibrium) };
         let coordinates = pair.system().coordinates();
         let mut guess = DVector::zeros(self.scale.len());
         guess[coordinates.lag()] = self.lag;
@@ -156,12 +161,13 @@ impl Mechanism for MappedModel {
 
 impl LumpedMechanism for MappedModel {
     fn start(&mut self) -> Result<State, LumpedError> {
-        let q = self.stands(0.0, None)?;
+        let now = |t: f64, from: Option<&DVector<f64>>| self.stands(self.pair.again(), t, from);
+        let q = now(0.0, None)?;
         let mut v = DVector::zeros(q.len());
         let hz = self.pair.mesh_hz(0.0);
         if hz > 0.0 {
             let dt = SPAN / hz;
-            v = (self.stands(dt, Some(&q))? - self.stands(-dt, Some(&q))?) / (2.0 * dt);
+            v = (now(dt, Some(&q))? - now(-dt, Some(&q))?) / (2.0 * dt);
         }
         Ok(State::new(0.0, q, v))
     }
@@ -200,7 +206,7 @@ impl LumpedMechanism for MappedModel {
         let mut from: Option<DVector<f64>> = None;
         let mut at = |k: usize| {
             let t = k as f64 / (phases as f64 * hz);
-            let q = self.stands(t, from.as_ref()).ok()?;
+            let q = self.stands(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
             let line_length = self.pair.instant(t, &q, &DVector::zeros(q.len()))[0].line_length;
             let point = StaticPoint { error: q[lag], line_length: Some(line_length) };
             from = Some(q);

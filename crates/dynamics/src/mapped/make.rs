@@ -32,6 +32,8 @@ impl MappedPair {
     pub fn new(mut system: PairMechanism, request: &MapRequest) -> Result<Self, PairMotionError> {
         refuse(&system)?;
         let pair = system.pair().clone();
+        // A load that swings would not let the pair stand: the map is made about its mean.
+        let swinging = system.hold_mean_load();
         let load = system.load_on_lag(0.0).abs();
         if load <= 0.0 {
             return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
@@ -43,6 +45,7 @@ impl MappedPair {
         }
         let stands = stands(&mut system, request.lag)?;
         system.set_speed(speed);
+        system.set_load(swinging);
         let about = stands.iter().sum::<Displacement>() / stands.len() as f64;
         let mut maps = Vec::new();
         for side in system.sides() {
@@ -78,6 +81,16 @@ impl MappedPair {
         }
         let system = self.system.with_drive(drive).map_err(|source| PairMotionError::contact(0.0, source))?;
         Ok(Self::of(system, self.sides.iter().map(|side| (side.projection, Arc::clone(&side.map))).collect()))
+    }
+
+    /// The same under the mean of its load.
+    ///
+    /// # Errors
+    /// Those of the contact.
+    pub fn under_mean_load(&self) -> Result<Self, PairMotionError> {
+        let mut pair = self.again()?;
+        pair.system.hold_mean_load();
+        Ok(pair)
     }
 
     /// The same pair at its beginning on the same maps.

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
-    Speed, ToothChanges,
+    Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
     mesh_side::{MeshSide, SideContacts},
@@ -216,6 +216,21 @@ impl PairMechanism {
         let ratio = f64::from(self.pair.pinion.teeth()) / f64::from(self.pair.wheel.teeth());
         let nominal = self.nominal_state(0.0);
         self.gyroscopic(&NominalState { velocity: [1.0, -ratio], ..nominal })
+    }
+
+    /// Puts the mean of the load in its place; gives the load.
+    pub(crate) fn hold_mean_load(&mut self) -> Torque {
+        let mean = match &self.options.load {
+            Torque::Constant(mean) | Torque::Harmonic { mean, .. } => *mean,
+            // A table has no mean of its own: the scene's torque is what scales are taken from.
+            Torque::Table { .. } => self.options.statics.torque,
+        };
+        std::mem::replace(&mut self.options.load, Torque::Constant(mean))
+    }
+
+    /// Puts a load on the driven gear.
+    pub(crate) fn set_load(&mut self, load: Torque) {
+        self.options.load = load;
     }
 
     /// Gives the driver another speed.
