@@ -1,9 +1,9 @@
-//! Runs of cheaper models, and their files.
+//! Runs of cheaper models, runs at many values of a key, and their files.
 
-use analysis::lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
+use analysis::lumped::{ContinuationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions};
 use report::{
     columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
-    write_key_sweep_result, write_lumped_result,
+    write_continuation_result, write_key_sweep_result, write_lumped_result,
 };
 
 use crate::{
@@ -31,9 +31,27 @@ pub(crate) fn solve(
         let table = sweep_key(&scenes, &options, None, phases, results, cache)?;
         return Ok(Written { table, verdict: Ok(()) });
     }
+    if motion.continuation.is_some() {
+        return branch(scene, phases, results, cache);
+    }
     let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
     let table = write_lumped_result(scene, &result, &phases.cost(), results)?;
     Ok(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) })
+}
+
+/// Follows the periodic motions of a scene along a key and writes all files of the result.
+///
+/// # Errors
+/// Exit status 2 when the input is wrong, 1 when no motion comes out.
+pub(crate) fn branch(
+    scene: &Scene,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<Written, CommandError> {
+    let found = ContinuationAnalysis::new(scene).with_cache(cache).solve_with(phases)?;
+    let table = write_continuation_result(scene, &found, &phases.cost(), results)?;
+    Ok(Written { table, verdict: found.facts.verdict(scene).map_err(CommandError::from) })
 }
 
 /// The column of that name of a scene's rows.

@@ -73,6 +73,9 @@ pub(crate) fn solve(
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
+    if motion.continuation.is_some() {
+        return crate::lumped::branch(scene, phases, results, cache).map(Outcome::Finished);
+    }
     if motion.sweep.is_some() {
         return sweep(scene, phases, results, cache).map(Outcome::Finished);
     }

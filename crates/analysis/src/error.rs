@@ -205,6 +205,14 @@ pub enum AnalysisError {
         /// What happened.
         source: Box<LumpedError>,
     },
+    /// No periodic motion was found.
+    #[error("{file}: {source}")]
+    Periodic {
+        /// The scene.
+        file: String,
+        /// What happened.
+        source: Box<periodic::PeriodicError<AnalysisError>>,
+    },
     /// A motion has left all bounds.
     #[error("history.csv: holds what is no number")]
     OutOfBounds,
@@ -302,6 +310,11 @@ impl AnalysisError {
         Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
     }
 
+    /// No periodic motion of a scene.
+    pub(crate) fn periodic(scene: &Scene, source: periodic::PeriodicError<Self>) -> Self {
+        Self::Periodic { file: scene.file.display().to_string(), source: Box::new(source) }
+    }
+
     /// Whether the result is there, less exact than was asked.
     pub fn is_inexact(&self) -> bool {
         matches!(self, Self::Inexact { .. })
@@ -323,7 +336,7 @@ impl AnalysisError {
             Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
             Self::AtValue { source, .. } => source.is_without_result(),
             Self::Shared(source) => source.is_without_result(),
-            Self::Motion { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
+            Self::Motion { .. } | Self::Periodic { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
             Self::Modes { source, .. } => !matches!(**source, reduction::ReductionError::LargeBoundary { .. }),
             Self::Solver(failure) => {
                 matches!(failure.source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
@@ -350,6 +363,9 @@ impl AnalysisError {
             Self::OutOfBounds => {
                 Some("the motion has left all bounds: take smaller steps, or look at supports and damping".to_owned())
             }
+            Self::Periodic { .. } => Some(
+                "begin where the motion is small, far from a resonance (`from`), with more `most_harmonics` or a larger `tail`; `run = \"steady\"` shows whether the motion repeats itself there".to_owned(),
+            ),
             Self::NoValues => Some("give `--points 2` or more".to_owned()),
             Self::AtValue { source, .. } => source.hint(),
             Self::Shared(source) => source.hint(),

@@ -93,6 +93,12 @@ pub enum StaticError {
 const SMALLER_STEPS: &str =
     "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them";
 
+impl From<std::convert::Infallible> for StaticError {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
+    }
+}
+
 impl From<reduction::ReductionError> for StaticError {
     fn from(source: reduction::ReductionError) -> Self {
         Self::SetUp(contact::ContactError::Reduction { gear: "gear", source })

@@ -9,6 +9,7 @@ use crate::{
     FourierSeries, PeriodicError, PeriodicFamily,
     product::{SeriesTransform, Wave},
     series::Basis,
+    solution::Point,
 };
 
 /// Forces and tangents over a period, and what is left of the equations of motion. Theory (69).
@@ -79,6 +80,32 @@ pub(crate) fn balance<S: PeriodicFamily>(
     };
     let size = norm(inertia) + norm(forces.transpose()) / per_sample;
     Ok(Balance { residual, size, tail, stiffness, damping })
+}
+
+/// dR/dw at fixed harmonics, scaled, where forces know the frequency by the velocities alone:
+///
+/// ```text
+/// dR/dw = 2 w M c'' + P D q'
+/// ```
+/// Gyroscopic forces, which grow with the speed as well, are left out: they are small beside these, and the derivative
+/// only leads the steps.
+pub(crate) fn frequency_derivative<S: PeriodicFamily>(
+    system: &S,
+    point: &Point,
+    basis: &Basis,
+    at: &Balance,
+) -> DMatrix<f64> {
+    let frequency = TAU / system.period();
+    let coefficients = point.series.coefficients();
+    let rates = basis.rates() * coefficients.transpose();
+    let mut damped = DMatrix::zeros(rates.nrows(), rates.ncols());
+    for (i, damping) in at.damping.iter().enumerate() {
+        damped.set_row(i, &(damping * rates.row(i).transpose()).transpose());
+    }
+    let inertia = system.mass() * accelerations(coefficients, frequency) * (2.0 / frequency);
+    let mut all = inertia + basis.projection().tr_mul(&damped).transpose();
+    scale_rows(&mut all, &system.scale());
+    all
 }
 
 /// Bound of the motion that harmonics above H would add, over the vibration: forces beyond them over the inertia at the

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use crate::{
     BalanceOptions, Floquet, FourierSeries, Loss, PeriodicError, PeriodicFamily, PeriodicMotion,
+    balance::Balance,
     series::Basis,
     solution::{Condition, Equations, Point, Solved, solved, unknowns},
 };
@@ -32,13 +33,15 @@ pub struct Bifurcation {
 
 /// A branch of periodic motions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Branch {
+pub struct Branch<E> {
     /// Motions along it.
     pub motions: Vec<PeriodicMotion>,
     /// Folds, period doublings and torus bifurcations, in order.
     pub bifurcations: Vec<Bifurcation>,
     /// Newton steps in all.
     pub iterations: usize,
+    /// Why it goes no further, where it stops within its range: steps as short as allowed lead nowhere.
+    pub broken: Option<PeriodicError<E>>,
 }
 
 /// Newton steps for which the step along the branch is kept.
@@ -59,6 +62,13 @@ pub struct Tracer<'a, S> {
     basis: Basis,
     unit: f64,
     iterations: usize,
+}
+
+/// A motion with what was found on the way.
+struct Solution {
+    motion: PeriodicMotion,
+    x: DVector<f64>,
+    balance: Balance,
 }
 
 /// A motion with the direction of its branch.
@@ -82,7 +92,7 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
         let most = options.most_harmonics;
         check("most harmonics", most as f64, most >= options.harmonics, "no less than the first number")?;
         let samples = options.samples_per_harmonic;
-        check("samples per harmonic", samples as f64, samples >= 8, "8 or more")?;
+        check("samples per harmonic", samples as f64, samples >= 4, "4 or more")?;
         let basis = basis_of(&options, options.harmonics);
         Ok(Self { system, options, basis, unit, iterations: 0 })
     }
@@ -100,20 +110,20 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
         parameter: f64,
         start: &FourierSeries,
     ) -> Result<PeriodicMotion, PeriodicError<S::Error>> {
-        let scale = self.system.scale();
+        Ok(self.first(parameter, start, 1.0)?.motion)
+    }
+
+    /// The place of the motion near `start` at a value of the parameter, and the way on from there.
+    fn first(&mut self, parameter: f64, start: &FourierSeries, way: f64) -> Result<Place, PeriodicError<S::Error>> {
         let series = start.with_harmonics(self.basis.harmonics());
-        let x = unknowns(&Point { parameter, series }, &scale, self.unit);
+        let x = unknowns(&Point { parameter, series }, &self.system.scale(), self.unit);
         let mut normal = DVector::zeros(x.len());
-        normal[x.len() - 1] = 1.0;
-        Ok(self.corrected(&x, normal)?.0)
+        normal[x.len() - 1] = way;
+        self.place(&x, normal)
     }
 
     /// The motion that keeps a condition, with as many harmonics as it needs.
-    fn corrected(
-        &mut self,
-        x: &DVector<f64>,
-        normal: DVector<f64>,
-    ) -> Result<(PeriodicMotion, DVector<f64>), PeriodicError<S::Error>> {
+    fn corrected(&mut self, x: &DVector<f64>, normal: DVector<f64>) -> Result<Solution, PeriodicError<S::Error>> {
         let (mut x, mut normal) = (widened(x, self.unknowns()), widened(&normal, self.unknowns()));
         loop {
             let condition = Condition { normal: normal.clone(), at: x.clone() };
@@ -134,31 +144,33 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
                 continue;
             }
             let period = self.system.period();
-            let floquet = Floquet::of(self.system.mass(), &balance.stiffness, &balance.damping, period)
+            let free = self.system.free_direction();
+            let floquet = Floquet::of(self.system.mass(), &balance.stiffness, &balance.damping, period, free.as_ref())
                 .ok_or(PeriodicError::Singular { parameter })?;
             let residual = balance.residual.norm() / balance.size.max(f64::MIN_POSITIVE);
             let x = unknowns(&Point { parameter, series: series.clone() }, &scale, self.unit);
             let motion =
                 PeriodicMotion { parameter, series, period, floquet, residual, tail: balance.tail, iterations };
-            return Ok((motion, x));
+            return Ok(Solution { motion, x, balance });
         }
     }
 
     /// Direction of the branch at unknowns that solve the equations, the way `before` goes.
-    fn tangent(&mut self, x: &DVector<f64>, before: &DVector<f64>) -> Result<DVector<f64>, PeriodicError<S::Error>> {
-        let mut equations = self.equations();
-        let (point, balance) = equations.at(x, true)?;
-        let matrix = equations.matrix(x, &balance, before)?;
+    fn tangent(&mut self, solution: &Solution, before: &DVector<f64>) -> Result<DVector<f64>, PeriodicError<S::Error>> {
+        let Solution { x, balance, motion } = solution;
+        let (parameter, series) = (motion.parameter, motion.series.clone());
+        let matrix = self.equations().matrix((x, &Point { parameter, series }), balance, before)?;
         let mut right = DVector::zeros(matrix.nrows());
         right[x.len() - 1] = 1.0;
-        let tangent = solved(matrix, right).ok_or(PeriodicError::Singular { parameter: point.parameter })?;
+        let tangent = solved(matrix, right).ok_or(PeriodicError::Singular { parameter })?;
         let tangent = tangent.rows(0, x.len()).into_owned();
         Ok(&tangent / tangent.norm())
     }
 
     fn place(&mut self, x: &DVector<f64>, normal: DVector<f64>) -> Result<Place, PeriodicError<S::Error>> {
-        let (motion, x) = self.corrected(x, normal.clone())?;
-        let tangent = self.tangent(&x, &widened(&normal, x.len()))?;
+        let found = self.corrected(x, normal.clone())?;
+        let tangent = self.tangent(&found, &widened(&normal, found.x.len()))?;
+        let Solution { motion, x, .. } = found;
         Ok(Place { motion, x, tangent })
     }
 
@@ -166,31 +178,32 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
     /// motion and may end it.
     ///
     /// # Errors
-    /// [`PeriodicError`] where the first motion is not found, or where steps as short as allowed lead nowhere.
+    /// [`PeriodicError`] where the first motion is not found, or no second one.
     pub fn branch(
         &mut self,
         parameter: f64,
         start: &FourierSeries,
         options: &BranchOptions,
         mut seen: impl FnMut(&PeriodicMotion) -> std::ops::ControlFlow<()>,
-    ) -> Result<Branch, PeriodicError<S::Error>> {
-        let first = self.motion_at(parameter, start)?;
-        let scale = self.system.scale();
-        let at = Point { parameter, series: first.series.clone() };
-        let x = unknowns(&at, &scale, self.unit);
-        let mut along = DVector::zeros(x.len());
-        along[x.len() - 1] = options.first_step.signum();
-        let tangent = self.tangent(&x, &along)?;
-        let mut here = Place { motion: first, x, tangent };
+    ) -> Result<Branch<S::Error>, PeriodicError<S::Error>> {
+        let mut here = self.first(parameter, start, options.first_step.signum())?;
         let mut step = (options.first_step / self.unit).abs().min(options.longest_step);
-        let mut branch = Branch { motions: vec![here.motion.clone()], bifurcations: Vec::new(), iterations: 0 };
+        let motions = vec![here.motion.clone()];
+        let mut branch = Branch { motions, bifurcations: Vec::new(), iterations: 0, broken: None };
         let shortest = SHORTEST * options.longest_step;
         while branch.motions.len() < options.most && seen(&here.motion).is_continue() {
             let guess = &here.x + &here.tangent * step;
             let next = match self.place(&guess, here.tangent.clone()) {
                 Ok(next) if widened(&here.tangent, next.x.len()).dot(&next.tangent) > 0.5 => next,
-                Err(error) if step <= shortest => return Err(error),
-                _ if step <= shortest => return Err(PeriodicError::Singular { parameter: here.motion.parameter }),
+                stuck if step <= shortest => {
+                    let parameter = here.motion.parameter;
+                    let why = stuck.err().unwrap_or(PeriodicError::Singular { parameter });
+                    if branch.motions.len() == 1 {
+                        return Err(why);
+                    }
+                    branch.broken = Some(why);
+                    break;
+                }
                 _ => {
                     step *= CHANGE[0];
                     continue;
@@ -203,8 +216,13 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
             step = (step * growth.clamp(CHANGE[0], CHANGE[1])).min(options.longest_step);
             here = next;
             branch.motions.push(here.motion.clone());
-            let inside = (options.range[0]..=options.range[1]).contains(&here.motion.parameter);
-            if !inside {
+            let end = here.motion.parameter.clamp(options.range[0], options.range[1]);
+            if end != here.motion.parameter {
+                // Beyond the range: the last motion is the one at its end, where there is one near by.
+                let near = here.motion.series.clone();
+                if let (Ok(at_end), Some(last)) = (self.motion_at(end, &near), branch.motions.last_mut()) {
+                    *last = at_end;
+                }
                 break;
             }
         }
@@ -260,12 +278,8 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
 }
 
 fn basis_of(options: &BalanceOptions, harmonics: usize) -> Basis {
-    Basis::new(harmonics, (options.samples_per_harmonic * harmonics).max(LEAST_SAMPLES))
+    Basis::new(harmonics, (options.samples_per_harmonic * harmonics).max(options.least_samples))
 }
-
-/// Samples of a period whatever the harmonics: multipliers are exact to the square of their distance, and where contact
-/// is lost between two of them the tangent is that of the nearer one.
-const LEAST_SAMPLES: usize = 1024;
 
 /// A list of unknowns with more harmonics; the parameter stays last.
 fn widened(x: &DVector<f64>, len: usize) -> DVector<f64> {

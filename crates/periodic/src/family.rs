@@ -18,6 +18,12 @@ pub trait PeriodicFamily: Mechanism {
     /// What counts as a large motion of each coordinate, > 0.
     fn scale(&self) -> DVector<f64>;
 
+    /// Whether the parameter moves the system through the frequency 2 pi / T alone, forces being functions of the phase
+    /// t / T: the frequency's derivative by the parameter then. None where it does more.
+    fn frequency_slope(&self) -> Option<f64> {
+        None
+    }
+
     /// A motion of the whole that nothing holds, such as both gears turning on together: its mean is free, and the
     /// forces along it must balance by themselves. None unless a system has one.
     fn free_direction(&self) -> Option<DVector<f64>> {

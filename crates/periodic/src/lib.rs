@@ -20,4 +20,4 @@ pub use error::PeriodicError;
 pub use family::PeriodicFamily;
 pub use series::FourierSeries;
 pub use solution::{BalanceOptions, PeriodicMotion};
-pub use stability::{Floquet, Loss};
+pub use stability::{Floquet, Loss, TangentFlow};

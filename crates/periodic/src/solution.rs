@@ -1,10 +1,11 @@
 //! Periodic motions at one value of the parameter, and Newton's method that finds them.
 
+use faer::{MatRef, linalg::solvers::Solve};
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
     Floquet, FourierSeries, PeriodicError, PeriodicFamily,
-    balance::{Balance, balance, jacobian},
+    balance::{Balance, balance, frequency_derivative, jacobian},
     series::Basis,
 };
 
@@ -17,15 +18,25 @@ pub struct BalanceOptions {
     pub most_harmonics: usize,
     /// Largest share of the vibration that harmonics left out may have.
     pub tail: f64,
-    /// Phases at which forces are evaluated, for each harmonic; 8 at the least.
+    /// Phases at which forces are evaluated, for each harmonic; 4 at the least.
     pub samples_per_harmonic: usize,
+    /// Phases of a period whatever the harmonics: multipliers are exact to the square of their distance, and where
+    /// contact is lost between two of them the tangent is that of the nearer one.
+    pub least_samples: usize,
     /// Largest residual, over the terms that balance.
     pub tolerance: f64,
 }
 
 impl Default for BalanceOptions {
     fn default() -> Self {
-        Self { harmonics: 12, most_harmonics: 96, tail: 1e-5, samples_per_harmonic: 32, tolerance: 1e-10 }
+        Self {
+            harmonics: 12,
+            most_harmonics: 96,
+            tail: 1e-5,
+            samples_per_harmonic: 32,
+            least_samples: 1024,
+            tolerance: 1e-10,
+        }
     }
 }
 
@@ -124,7 +135,7 @@ impl<S: PeriodicFamily> Equations<'_, S> {
     /// direction would need.
     pub fn matrix(
         &mut self,
-        x: &DVector<f64>,
+        (x, point): (&DVector<f64>, &Point),
         at: &Balance,
         normal: &DVector<f64>,
     ) -> Result<DMatrix<f64>, PeriodicError<S::Error>> {
@@ -134,11 +145,16 @@ impl<S: PeriodicFamily> Equations<'_, S> {
         let size = m + 1 + usize::from(free.is_some());
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (m, m)).copy_from(&inner);
-        let mut beside = x.clone();
-        beside[m] += DIFFERENCE;
-        let after = self.at(&beside, false)?.1.residual;
-        self.set(x[m] * self.unit)?;
-        let slope = (after - &at.residual) / DIFFERENCE;
+        let slope = match self.system.frequency_slope() {
+            Some(slope) => frequency_derivative(self.system, point, self.basis, at) * (slope * self.unit),
+            None => {
+                let mut beside = x.clone();
+                beside[m] += DIFFERENCE;
+                let after = self.at(&beside, false)?.1.residual;
+                self.set(x[m] * self.unit)?;
+                (after - &at.residual) / DIFFERENCE
+            }
+        };
         all.view_mut((0, m), (m, 1)).copy_from_slice(slope.as_slice());
         all.view_mut((m, 0), (1, m + 1)).copy_from(&normal.transpose());
         if let Some(free) = free {
@@ -193,7 +209,7 @@ impl<S: PeriodicFamily> Equations<'_, S> {
                 return Err(PeriodicError::NotConverged { parameter, iterations, harmonics, residual });
             }
             iterations += 1;
-            let matrix = self.matrix(&x, &now, &condition.normal)?;
+            let matrix = self.matrix((&x, &point), &now, &condition.normal)?;
             let right = self.right(&x, &now, condition, matrix.nrows());
             let step = solved(matrix, right).map(|step| step.rows(0, x.len()).into_owned());
             let step = step.filter(|s| s.norm() < FARTHEST * x.norm().max(1.0));
@@ -214,5 +230,8 @@ impl<S: PeriodicFamily> Equations<'_, S> {
 
 /// Solution of a dense system; `None` where there is none.
 pub(crate) fn solved(matrix: DMatrix<f64>, right: DVector<f64>) -> Option<DVector<f64>> {
-    matrix.lu().solve(&right).filter(|x| x.iter().all(|v| v.is_finite()))
+    let (n, all) = (matrix.nrows(), matrix.as_slice());
+    let lu = MatRef::from_column_major_slice(all, n, n).partial_piv_lu();
+    let x = lu.solve(MatRef::from_column_major_slice(right.as_slice(), n, 1));
+    Some(DVector::from_fn(n, |i, _| x[(i, 0)])).filter(|x| x.iter().all(|v| v.is_finite()))
 }

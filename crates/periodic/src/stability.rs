@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// What a disturbance of a periodic motion becomes in a period. Theory (71).
 ///
@@ -14,6 +14,56 @@ use nalgebra::{Complex, DMatrix};
 pub struct Floquet {
     /// Eigenvalues of Phi, the largest first.
     pub multipliers: Vec<Complex<f64>>,
+}
+
+/// Disturbances of a motion, a column each, carried along it.
+///
+/// ```text
+/// M y'' + D(t) y' + K(t) y = 0
+/// ```
+/// The trapezoidal rule neither adds nor takes energy; its error falls with the square of the step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TangentFlow {
+    /// y, n x m.
+    pub places: DMatrix<f64>,
+    /// y'.
+    pub rates: DMatrix<f64>,
+}
+
+impl TangentFlow {
+    /// A step of h from a state with K, D to another: v1 = v0 + h a_m, q1 = q0 + h (v0 + v1) / 2,
+    /// M a_m = -(D0 v0 + D1 v1 + K0 q0 + K1 q1) / 2. `None` where that has no solution.
+    pub fn step(
+        &mut self,
+        mass: &DMatrix<f64>,
+        [k0, d0]: [&DMatrix<f64>; 2],
+        [k1, d1]: [&DMatrix<f64>; 2],
+        h: f64,
+    ) -> Option<()> {
+        let matrix = mass + d1 * (0.5 * h) + k1 * (0.25 * h * h);
+        let right = -((d0 + d1) * &self.rates + (k0 + k1) * &self.places + k1 * &self.rates * h) * 0.5;
+        let gain = matrix.lu().solve(&right)?;
+        let next = &self.rates + &gain * h;
+        self.places += (&self.rates + &next) * (0.5 * h);
+        self.rates = next;
+        Some(())
+    }
+}
+
+/// A basis of all that moves across a direction: M-orthogonal to it, n x (n - 1). `None` unless M is positive definite
+/// and the direction is one.
+fn across(mass: &DMatrix<f64>, free: &DVector<f64>) -> Option<DMatrix<f64>> {
+    let lower = mass.clone().cholesky()?.l();
+    let along = lower.tr_mul(free);
+    let (n, size) = (free.len(), along.norm());
+    if size.is_nan() || size <= 0.0 {
+        return None;
+    }
+    // A reflection that takes the first axis to the direction takes the others across it.
+    let mut normal = &along / size;
+    normal[0] += if normal[0] >= 0.0 { 1.0 } else { -1.0 };
+    let reflection = DMatrix::identity(n, n) - &normal * normal.transpose() * (2.0 / normal.norm_squared());
+    lower.tr_solve_lower_triangular(&reflection.columns(1, n - 1).into_owned())
 }
 
 /// How a motion loses its stability.
@@ -28,32 +78,30 @@ pub enum Loss {
 }
 
 impl Floquet {
-    /// From -df/dq and -df/dv at equal phases of a period of T s. The trapezoidal rule between them neither adds nor
-    /// takes energy; its error falls with the square of their distance.
+    /// From -df/dq and -df/dv at equal phases of a period of T s. A direction `free` along which nothing resists, ever,
+    /// is left out: a turn of the whole stays what it is, and says nothing of the motion.
     pub(crate) fn of(
         mass: &DMatrix<f64>,
         stiffness: &[DMatrix<f64>],
         damping: &[DMatrix<f64>],
         period: f64,
+        free: Option<&DVector<f64>>,
     ) -> Option<Self> {
-        let (n, count) = (mass.nrows(), stiffness.len());
-        let h = period / count as f64;
-        let mut places = DMatrix::identity(n, 2 * n);
-        let mut rates = DMatrix::zeros(n, 2 * n);
+        let all = DMatrix::identity(mass.nrows(), mass.nrows());
+        let across = free.map_or(Some(all), |free| across(mass, free))?;
+        let of = |m: &DMatrix<f64>| across.tr_mul(m) * &across;
+        let (mass, n, count) = (of(mass), across.ncols(), stiffness.len());
+        let [stiffness, damping] = [stiffness, damping].map(|all| all.iter().map(of).collect::<Vec<_>>());
+        let (places, mut rates) = (DMatrix::identity(n, 2 * n), DMatrix::zeros(n, 2 * n));
         // Velocities are counted in units of the driving frequency, so that both halves are of one size.
         let unit = TAU / period;
         rates.view_mut((0, n), (n, n)).fill_diagonal(unit);
-        let state = |i: usize| (&stiffness[i % count], &damping[i % count]);
+        let mut flow = TangentFlow { places, rates };
+        let state = |i: usize| [&stiffness[i % count], &damping[i % count]];
         for i in 0..count {
-            let ((k0, d0), (k1, d1)) = (state(i), state(i + 1));
-            // v1 = v0 + h a_m, q1 = q0 + h (v0 + v1) / 2, M a_m = -(D0 v0 + D1 v1 + K0 q0 + K1 q1) / 2.
-            let matrix = mass + d1 * (0.5 * h) + k1 * (0.25 * h * h);
-            let right = -((d0 + d1) * &rates + (k0 + k1) * &places + k1 * &rates * h) * 0.5;
-            let gain = matrix.lu().solve(&right)?;
-            let next = &rates + &gain * h;
-            places += (&rates + &next) * (0.5 * h);
-            rates = next;
+            flow.step(&mass, state(i), state(i + 1), period / count as f64)?;
         }
+        let TangentFlow { places, rates } = flow;
         let mut monodromy = DMatrix::zeros(2 * n, 2 * n);
         monodromy.rows_mut(0, n).copy_from(&places);
         monodromy.rows_mut(n, n).copy_from(&(rates / unit));

@@ -2,7 +2,7 @@
 
 use analysis::{
     accuracy::motion::MotionAnswer,
-    lumped::{BifurcationAnalysis, LumpedResult, SweepOptions},
+    lumped::{BifurcationAnalysis, ContinuationResult, LumpedResult, SweepOptions},
     motion::{MotionResult, SweepResult},
 };
 use scene::Scene;
@@ -10,7 +10,9 @@ use scene::Scene;
 use crate::{
     Cost, ReportError, ResultFiles, close_result,
     folder::ResultDirectory,
-    lumped_files::{SweepPage, lumped_sweep_table, lumped_table, write_key_sweep, write_lumped},
+    lumped_files::{
+        SweepPage, branch_table, lumped_sweep_table, lumped_table, write_branch, write_key_sweep, write_lumped,
+    },
     motion_files::{write_motion, write_sweep},
     tables::{motion_table, sweep_table},
     view::View,
@@ -68,6 +70,22 @@ pub fn write_key_sweep_result(
     let summary = write_summary(scene, facts, cost, &page, warnings, &results.files()?);
     ResultFiles::write(results, "summary.json", summary.as_bytes())?;
     Ok(lumped_sweep_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of periodic motions along a key.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_continuation_result(
+    scene: &Scene,
+    found: &ContinuationResult,
+    cost: &Cost,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    write_branch(scene, found, cost, results)?;
+    let ContinuationResult { facts, headline, warnings, .. } = found;
+    close_result(scene, (facts, cost), headline, warnings, results)?;
+    Ok(branch_table(scene, facts, cost, headline, warnings))
 }
 
 /// Of a cheaper model, its rows among them.

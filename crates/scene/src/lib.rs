@@ -56,15 +56,16 @@ pub use ladder::{
 };
 pub use modification::{FlankScene, ModificationScene, Shape};
 pub use motion::{
-    Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Integration, ModesScene, MotionScene, Run, SteadyBy,
-    SweepScene, SweepWay, TorqueScene,
+    Axis, BearingScene, BodyScene, Boundary, ContinuationKey, DriveBy, DriveScene, Integration, ModesScene,
+    MotionScene, Run, SteadyBy, SweepScene, SweepWay, TorqueScene,
 };
 pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
 pub use rexs::{RexsError, read_pair};
 pub use schema::{
-    ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys, json_schema,
+    ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys,
+    json_schema,
 };
 pub use setting::Setting;
 pub use source::Source;

@@ -28,6 +28,17 @@ pub struct Lyapunov {
 }
 
 impl Lyapunov {
+    /// Of rates of growth, ln(d_1 / d_0) / T of each stretch: their mean, and its standard error from ten parts.
+    pub fn of_rates(rates: &[f64]) -> Self {
+        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
+        let exponent = mean(rates);
+        let size = (rates.len() / 10).max(1);
+        let parts: Vec<f64> = rates.chunks_exact(size).map(mean).collect();
+        let count = parts.len() as f64;
+        let variance = parts.iter().map(|p| (p - exponent).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+        Self { exponent, error: (variance / count.max(1.0)).sqrt() }
+    }
+
     /// Positive beyond three standard errors.
     pub fn is_chaotic(&self) -> bool {
         self.exponent > 3.0 * self.error
@@ -73,11 +84,5 @@ pub fn largest_lyapunov<E>(
             growth.push((distance.max(f64::MIN_POSITIVE) / plan.distance).ln() / plan.stretch);
         }
     }
-    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
-    let exponent = mean(&growth);
-    let size = (growth.len() / 10).max(1);
-    let parts: Vec<f64> = growth.chunks_exact(size).map(mean).collect();
-    let count = parts.len() as f64;
-    let variance = parts.iter().map(|p| (p - exponent).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    Ok(Lyapunov { exponent, error: (variance / count.max(1.0)).sqrt() })
+    Ok(Lyapunov::of_rates(&growth))
 }

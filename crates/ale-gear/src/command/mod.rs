@@ -3,6 +3,7 @@
 mod cache_args;
 mod chart;
 mod compare;
+mod curve;
 mod envelope;
 mod init;
 mod mesh;
@@ -64,6 +65,8 @@ enum Command {
     Chart(chart::ChartArgs),
     /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
     Sweep(sweep::SweepArgs),
+    /// Follow the periodic motions of a pair along a key, around folds: resonance curves with their unstable parts
+    Curve(curve::CurveArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
@@ -135,6 +138,7 @@ impl Cli {
             None => return run::RunArgs::for_default_scene().execute(quiet),
             Some(Command::Run(args)) => return args.execute(quiet),
             Some(Command::Envelope(args)) => return args.execute(),
+            Some(Command::Curve(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),

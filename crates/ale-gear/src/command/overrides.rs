@@ -38,6 +38,12 @@ impl Overrides {
         Ok(all)
     }
 
+    /// These behind other words.
+    pub fn behind(mut self, words: impl IntoIterator<Item = String>) -> Self {
+        self.set.splice(0..0, words);
+        self
+    }
+
     /// The scene with these keys.
     ///
     /// # Errors

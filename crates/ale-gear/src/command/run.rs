@@ -52,19 +52,16 @@ pub(super) struct RunArgs {
 }
 
 impl RunArgs {
+    /// A scene file into a folder.
+    pub(super) fn of_file([scene, out]: [PathBuf; 2], (overrides, cache): (Overrides, CacheArgs), json: bool) -> Self {
+        let (default_scene, vtu, resume, stop_after_cycles) = (false, false, false, None);
+        Self { scene, default_scene, out, cache, overrides, json, vtu, resume, stop_after_cycles }
+    }
+
     /// The default scene of the program into `out/default`.
     pub(super) fn for_default_scene() -> Self {
-        Self {
-            scene: PathBuf::new(),
-            default_scene: true,
-            out: PathBuf::from("out/default"),
-            cache: CacheArgs::default(),
-            overrides: Overrides::default(),
-            json: false,
-            vtu: false,
-            resume: false,
-            stop_after_cycles: None,
-        }
+        let files = [PathBuf::new(), PathBuf::from("out/default")];
+        Self { default_scene: true, ..Self::of_file(files, Default::default(), false) }
     }
 
     /// Every complaint about the words is made here, before any work starts or any file is written.

@@ -20,7 +20,7 @@ use crate::{
 /// Words of `ale-gear sweep`.
 #[derive(Debug, clap::Args)]
 pub(super) struct SweepArgs {
-    /// Scene file of a motion with the model mapped, lumped8, lumped12, shaft18 or impact
+    /// Scene file of a motion
     scene: PathBuf,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
@@ -218,13 +218,13 @@ impl SweepArgs {
         words
     }
 
-    /// Refuses scenes that have no motion of a model of the ladder.
+    /// Refuses scenes that have no motion, or leave the model open.
     fn fits(&self, scene: &Scene) -> Result<(), CommandError> {
-        if scene.analysis.kind == Kind::Dynamic && is_lumped(scene) {
+        if scene.analysis.kind == Kind::Dynamic && (is_lumped(scene) || scene.analysis.model.is_reduced()) {
             return Ok(());
         }
-        let hint = "other models sweep their speed by `[motion] run = \"sweep\"`; any other key: one `ale-gear run --set KEY=VALUE` a value";
-        let what = "a sweep wants a motion of the model \"lumped8\", \"lumped12\", \"shaft18\" or \"impact\"";
+        let hint = "`kind = \"dynamic\"` in [analysis] makes a motion of it; at rest: one `ale-gear run --set KEY=VALUE` a value";
+        let what = "a sweep wants a motion, of one model";
         Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
     }
 

@@ -32,6 +32,7 @@ pub(super) fn in_motion(scene: &mut Scene) {
         checkpoint_every_cycles: Some(0),
         ramp: None,
         sweep: None,
+        continuation: None,
     });
     scene.drive = Some(DriveScene { by: DriveBy::Speed, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());

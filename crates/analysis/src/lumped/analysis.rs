@@ -276,7 +276,7 @@ fn refuse_unstable(
     frequencies: MeshFrequencies,
 ) -> Result<(), AnalysisError> {
     let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
-    let limit = stable_step(model, motion, mesh_hz).map_err(|e| AnalysisError::lumped(scene, e))?;
+    let limit = stable_step(model, motion, mesh_hz).map_err(|e| e.of(scene))?;
     let Some(limit) = limit else { return Ok(()) };
     motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
 }

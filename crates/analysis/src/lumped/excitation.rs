@@ -13,7 +13,7 @@ use scene::{
     Operation, OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
-use super::mapped::{self, MappedGears};
+use super::elastic_pair::{ElasticPair, without_speed};
 use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, static_certificate};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
@@ -30,13 +30,13 @@ pub(crate) struct ExcitationSource<'a> {
     /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share
     /// it.
     last: Option<(Scene, MeshExcitation)>,
-    /// The same of maps of the contact.
-    last_map: Option<(Scene, Arc<MappedGears>)>,
+    /// The same of gears that are elastic in motion.
+    last_pair: Option<(Scene, Arc<ElasticPair>)>,
 }
 
 impl<'a> ExcitationSource<'a> {
     pub fn new(observer: &'a mut dyn Observer, cache: &'a dyn GearCache) -> Self {
-        Self { observer, cache, last: None, last_map: None }
+        Self { observer, cache, last: None, last_pair: None }
     }
 
     /// The cycle of a scene, stated on the transverse line of action.
@@ -77,17 +77,17 @@ impl<'a> ExcitationSource<'a> {
         }
     }
 
-    /// The gears of a scene with maps of their contact.
+    /// The gears of a scene, reduced, with a map of their contact where the model takes one.
     ///
     /// # Errors
     /// Those of the reduced gears and of the map.
-    pub fn mapped(&mut self, scene: &Scene) -> Result<Arc<MappedGears>, AnalysisError> {
-        let same = mapped::without_speed(scene);
-        if let Some((_, gears)) = self.last_map.as_ref().filter(|(known, _)| *known == same) {
+    pub fn elastic_pair(&mut self, scene: &Scene) -> Result<Arc<ElasticPair>, AnalysisError> {
+        let same = without_speed(scene);
+        if let Some((_, gears)) = self.last_pair.as_ref().filter(|(known, _)| *known == same) {
             return Ok(Arc::clone(gears));
         }
-        let gears = Arc::new(MappedGears::make(scene, self.cache, self.observer)?);
-        self.last_map = Some((same, Arc::clone(&gears)));
+        let gears = Arc::new(ElasticPair::make(scene, self.cache, self.observer)?);
+        self.last_pair = Some((same, Arc::clone(&gears)));
         Ok(gears)
     }
 

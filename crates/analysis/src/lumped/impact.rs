@@ -7,13 +7,14 @@ use ::lumped::{
 use dynamics::{COORDINATES, Torque};
 use geometry::GearPair;
 use integrate::{Mechanism, State};
+use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{ImpactScene, Scene, TorqueScene};
 
 use super::{
     LumpedRow,
     bodies::{bearings, bodies},
-    mechanism::{LumpedMechanism, StaticPoint, at_rest},
+    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint, at_rest},
 };
 use crate::{
     motion::{drive, torque},
@@ -87,19 +88,19 @@ fn formula(scene: &Scene, own: &ImpactScene, gears: &GearPair) -> Result<(f64, V
     Ok((stiffness, warning.into_iter().collect()))
 }
 
-impl LumpedMechanism for ImpactMechanism {
-    fn start(&mut self) -> Result<State, LumpedError> {
+impl LumpedMechanism for Formulas<ImpactMechanism> {
+    fn start(&mut self) -> Result<State, ModelFailure> {
         Ok(at_rest(self.static_state()?))
     }
 
     fn scale(&self) -> DVector<f64> {
-        Self::scale(self)
+        self.0.scale()
     }
 
-    fn row(&mut self, state: &State) -> LumpedRow {
-        let row = Self::row(self, state.time, &state.q, &state.v);
+    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
+        let row = self.0.row(state.time, &state.q, &state.v);
         let pair_forces = || row.pair_forces.iter().map(|(_, f)| *f);
-        LumpedRow {
+        Ok(LumpedRow {
             time: row.time,
             pinion_angle: Some((self.cycles(state.time) - 0.5) * self.pair().pinion.pitch_angle()),
             mesh_phase: row.mesh_phase,
@@ -116,14 +117,14 @@ impl LumpedMechanism for ImpactMechanism {
             wrench: row.wrench,
             friction_wrench: Some(row.friction),
             ..LumpedRow::default()
-        }
+        })
     }
 
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
         let at = |k: usize| {
             let mut there = self.beginning_at(k as f64 / phases as f64).ok()?;
             let state = State::new(0.0, there.static_state().ok()?, DVector::zeros(self.mass().nrows()));
-            let row = Self::row(&mut there, 0.0, &state.q, &state.v);
+            let row = there.row(0.0, &state.q, &state.v);
             Some(StaticPoint { error: 1e-3 * row.transmission_error_um, line_length: Some(row.contact_line_length) })
         };
         (0..phases).map(at).collect()

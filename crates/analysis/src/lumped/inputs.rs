@@ -12,10 +12,10 @@ use scene::{Driver, Model, MotionScene, Scene};
 
 use super::{
     LumpedHeadline,
+    elastic_pair::ElasticPair,
     excitation::{ExcitationSource, MeshExcitation},
     impact, lumped_pair,
-    mapped::MappedGears,
-    mechanism::{BoxedMechanism, StaticPoint},
+    mechanism::{BoxedMechanism, Formulas, StaticPoint},
     run_loop::MeshFrequencies,
     shafts,
 };
@@ -26,7 +26,7 @@ pub(crate) struct LumpedInputs {
     pub scene: Scene,
     pub pair: GearPair,
     excitation: Option<MeshExcitation>,
-    mapped: Option<Arc<MappedGears>>,
+    elastic: Option<Arc<ElasticPair>>,
 }
 
 /// A model, ready to run.
@@ -63,9 +63,16 @@ impl LumpedInputs {
             _ => lumped_pair::plane(scene, &pair),
         };
         let excitation = scene.mesh.as_ref().map(|mesh| source.of(scene, mesh, &pair, &plane)).transpose()?;
-        let maps = scene.analysis.model == Model::Mapped;
-        let mapped = maps.then(|| source.mapped(scene)).transpose()?;
-        Ok(Self { scene: scene.clone(), pair, excitation, mapped })
+        let has_gears = scene.analysis.model.has_reduced_gears();
+        let elastic = has_gears.then(|| source.elastic_pair(scene)).transpose()?;
+        Ok(Self { scene: scene.clone(), pair, excitation, elastic })
+    }
+
+    /// The same pair in a scene that differs in what neither pair nor excitation depends on: speed, load, damping,
+    /// clearance.
+    pub fn in_scene(&self, scene: Scene) -> Self {
+        let Self { pair, excitation, elastic, .. } = self;
+        Self { scene, pair: pair.clone(), excitation: excitation.clone(), elastic: elastic.clone() }
     }
 
     /// The model; every one that is built is the same.
@@ -73,32 +80,37 @@ impl LumpedInputs {
     /// # Errors
     /// [`AnalysisError::Lumped`] for what has no meaning to it.
     pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
-        let Self { scene, pair, excitation, mapped } = self;
+        let Self { scene, pair, excitation, elastic } = self;
         let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
         let none = || AnalysisError::other_analysis(scene, "model of the ladder");
-        if let Some(gears) = mapped {
+        if let Some(gears) = elastic {
             let (model, resonance_hz) = gears.model(scene, pair)?;
             let warnings = gears.warnings.clone();
-            return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz, warnings, shafts: None });
+            return Ok(LumpedSystem { model, resonance_hz, warnings, shafts: None });
         }
         if let Some(own) = &scene.impact {
             let (model, warnings) = impact::impact(scene, own, pair).map_err(complain)?;
-            return Ok(LumpedSystem { model: BoxedMechanism::new(model), resonance_hz: 0.0, warnings, shafts: None });
+            return Ok(LumpedSystem {
+                model: BoxedMechanism::new(Formulas(model)),
+                resonance_hz: 0.0,
+                warnings,
+                shafts: None,
+            });
         }
         // The scene's checks let no other model come here.
         let (Some(mesh), Some(excitation)) = (&scene.mesh, excitation) else { return Err(none()) };
         let warnings = excitation.warnings.clone();
         if let Some(own) = &scene.shaft18 {
             let (system, resonance) = shafts::system(scene, own, mesh, pair, excitation).map_err(complain)?;
-            let model = BoxedMechanism::new(ShaftMechanism::new(&system).map_err(complain)?);
+            let model = BoxedMechanism::new(Formulas(ShaftMechanism::new(&system).map_err(complain)?));
             return Ok(LumpedSystem { model, resonance_hz: resonance / TAU, warnings, shafts: Some(system) });
         }
         let (lumped, bodies) = lumped_pair::lumped_pair(scene, mesh, pair, excitation).map_err(complain)?;
         let resonance_hz = lumped.natural_frequency() / TAU;
         let model = if let Some(own) = &scene.lumped8 {
-            lumped_pair::eight(scene, own, mesh, pair, lumped, &bodies).map(BoxedMechanism::new)
+            lumped_pair::eight(scene, own, mesh, pair, lumped, &bodies).map(|m| BoxedMechanism::new(Formulas(m)))
         } else if let Some(own) = &scene.lumped12 {
-            lumped_pair::twelve(scene, own, lumped).map(BoxedMechanism::new)
+            lumped_pair::twelve(scene, own, lumped).map(|m| BoxedMechanism::new(Formulas(m)))
         } else {
             return Err(none());
         };
@@ -107,14 +119,15 @@ impl LumpedInputs {
 
     /// What a user should hear of a run, beside what the model itself says.
     pub fn warnings_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
-        self.mapped.as_ref().map_or_else(Vec::new, |gears| gears.warnings_of(&self.scene, motion, headline))
+        self.elastic.as_ref().map_or_else(Vec::new, |gears| gears.warnings_of(&self.scene, motion, headline))
     }
 
-    /// What a sweep does not look into.
+    /// What a run at many speeds does not look into.
     pub fn left_out_of_sweeps(&self) -> Option<String> {
-        self.mapped.is_some().then(|| {
-            "elasticity is quasi-static in the model \"mapped\", and a sweep does not look how much its inertia would \
-             change: a run at one speed says so"
+        let quasi_static = self.elastic.is_some() && self.scene.modes.is_none();
+        quasi_static.then(|| {
+            "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed \
+             says so"
                 .to_owned()
         })
     }

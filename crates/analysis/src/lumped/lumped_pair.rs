@@ -11,6 +11,7 @@ use ::lumped::{
 use dynamics::RigidBody;
 use geometry::{GearPair, Sense};
 use integrate::State;
+use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing};
 
@@ -18,7 +19,7 @@ use super::{
     LumpedRow,
     bodies::{bodies, supports8, supports12, torques},
     excitation::{MeshExcitation, half_a_cycle_on},
-    mechanism::{LumpedMechanism, StaticPoint},
+    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint},
 };
 use crate::{motion::RPM, options};
 
@@ -131,17 +132,17 @@ fn lumped_row(row: HistoryRow) -> LumpedRow {
 /// The parts that both have by their common trait.
 macro_rules! lumped_mechanism {
     ($motion:ty, $frequencies:expr) => {
-        impl LumpedMechanism for $motion {
-            fn start(&mut self) -> Result<State, LumpedError> {
-                Ok(starting_state(self))
+        impl LumpedMechanism for Formulas<$motion> {
+            fn start(&mut self) -> Result<State, ModelFailure> {
+                Ok(starting_state(&self.0))
             }
 
             fn scale(&self) -> DVector<f64> {
-                LumpedModel::scale(self)
+                LumpedModel::scale(&self.0)
             }
 
-            fn row(&mut self, state: &State) -> LumpedRow {
-                lumped_row(LumpedModel::row(self, state.time, &state.q, &state.v))
+            fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
+                Ok(lumped_row(LumpedModel::row(&self.0, state.time, &state.q, &state.v)))
             }
 
             fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
@@ -149,14 +150,14 @@ macro_rules! lumped_mechanism {
                 let at = |k: usize| {
                     let share = k as f64 / phases as f64;
                     let q = self.quasi_static(START + share)?;
-                    let row = LumpedModel::row(self, share * period, &q, &DVector::zeros(q.len()));
+                    let row = LumpedModel::row(&self.0, share * period, &q, &DVector::zeros(q.len()));
                     Some(StaticPoint { error: row.transmission_error, line_length: Some(row.contact_line_length) })
                 };
                 (0..phases).map(at).collect()
             }
 
             fn natural_frequencies_hz(&self, _: f64) -> Vec<f64> {
-                $frequencies(self)
+                $frequencies(&self.0)
             }
         }
     };

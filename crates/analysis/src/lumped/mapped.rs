@@ -1,116 +1,25 @@
-//! Reduced gears with a map of their contact.
-
-use std::{convert::Infallible, time::Instant};
+//! A pair on a map of its contact, as the run of a cheaper model asks for it.
 
 use ::lumped::{LumpedError, equilibrium};
-use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMotionError};
-use geometry::GearPair;
+use dynamics::{COORDINATES, MappedPair, PairMotionError};
 use integrate::{Forces, Mechanism, State};
+use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
-use scene::{MotionScene, Operation, Scene};
 
 use super::{
-    LumpedHeadline, LumpedRow,
-    analysis::motion_of,
-    mechanism::{LumpedMechanism, StaticPoint},
-    row::gear_coordinates,
+    LumpedRow,
+    elastic_pair::{ElasticFrame, MAP_TOLERANCE},
+    mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
-use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork,
-    certificate::Check,
-    failure::Failure,
-    motion::{
-        Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
-        prepare,
-    },
-    run_phase,
-};
+use crate::certificate::Check;
 
-/// Largest force of a map over the mean one: more than a resonance with loss of contact brings.
-const OVERLOAD: f64 = 6.0;
-/// Error of a map over the mean approach of the flanks, root mean square.
-const TOLERANCE: f64 = 2e-4;
-/// Contacts that a step of the model "reduced" solves.
-const CONTACTS_OF_A_STEP: f64 = 3.0;
 /// Part of a mesh cycle either way over which the velocities of a start are taken.
 const SPAN: f64 = 1e-3;
 
-/// The gears of a scene and the map of their contact; of every speed.
-pub(crate) struct MappedGears {
-    pair: MappedPair,
-    resonance: MeshResonance,
-    /// What is left out of quasi-static elasticity, and what a step with it costs.
-    elasticity: Elasticity,
-    pace: Pace,
-    /// Mean lag of the driven gear at rest, mm.
-    lag: f64,
-    free: Vec<usize>,
-    pub warnings: Vec<String>,
-}
-
-/// The scene as far as a mapped pair depends on it: all but the speed. Mesh damping, which [motion] has, is the pair's.
-pub(super) fn without_speed(scene: &Scene) -> Scene {
-    let operation = Operation { speed_rpm: 1000.0, ..scene.operation };
-    Scene { operation, set: Vec::new(), ..scene.clone() }
-}
-
-impl MappedGears {
-    /// Reduces the gears and maps their contact.
-    ///
-    /// # Errors
-    /// Those of the reduced gears, and of the map.
-    pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
-        let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
-        let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
-        let PreparedMotion { system, quasi_static, elasticity, warnings, .. } = ready;
-        let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
-        let began = Instant::now();
-        let request = MapRequest { overload: OVERLOAD, tolerance: TOLERANCE, lag };
-        let pair = run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
-        let pair = pair.map_err(|source| failed(scene, source))?;
-        let contacts: usize = pair.maps().map(|map| map.certificate().contacts).sum();
-        let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
-        let place = |c: &super::GearCoordinate| {
-            let axis = super::row::axis_number(c.axis);
-            COORDINATES * c.gear + axis
-        };
-        let free = gear_coordinates(scene).iter().map(place).collect();
-        Ok(Self { pair, resonance, elasticity, pace, lag, free, warnings })
-    }
-
-    /// What a user should hear of the elasticity of a motion: it is quasi-static in a map.
-    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
-        let mesh_hz = mesh_range_hz(scene, motion, None);
-        let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
-        let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
-        let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
-        let slow = self.elasticity.warning(&found, &demand, self.pace);
-        slow.into_iter().chain(self.elasticity.rotation_warning(&found)).collect()
-    }
-
-    /// The pair at the speed of a scene, and its mesh resonance, Hz.
-    ///
-    /// # Errors
-    /// [`AnalysisError::Motion`].
-    pub(super) fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(MappedModel, f64), AnalysisError> {
-        let pair = self.pair.with_drive(pair_drive(scene, gears)).map_err(|source| failed(scene, source))?;
-        let system = pair.system();
-        let driven = [&gears.pinion, &gears.wheel][system.options().statics.driven()];
-        let scale = system.coordinates().scales(self.lag.abs().max(1e-6), driven.base_radius());
-        Ok((MappedModel { pair, lag: self.lag, scale, free: self.free.clone() }, self.resonance.hz))
-    }
-}
-
-fn failed(scene: &Scene, source: PairMotionError) -> AnalysisError {
-    AnalysisError::Motion { file: scene.file.display().to_string(), source: Box::new(source) }
-}
-
 /// A pair on its map, as the run of a cheaper model asks for it.
 pub(super) struct MappedModel {
-    pair: MappedPair,
-    lag: f64,
-    scale: DVector<f64>,
-    free: Vec<usize>,
+    pub pair: MappedPair,
+    pub frame: ElasticFrame,
 }
 
 impl MappedModel {
@@ -123,44 +32,18 @@ impl MappedModel {
     ) -> Result<DVector<f64>, LumpedError> {
         let Ok(mut pair) = pair else { return Err(LumpedError::NoEquilibrium) };
         let coordinates = pair.system().coordinates();
-        let mut guess = DVector::zeros(self.scale.len());
-        guess[coordinates.lag()] = self.lag;
+        let mut guess = DVector::zeros(self.frame.scale.len());
+        guess[coordinates.lag()] = self.frame.lag;
         let held: Vec<usize> = coordinates.driver_turn().into_iter().collect();
-        let Ok(found) = equilibrium(&mut pair, t, from.unwrap_or(&guess), &held, &self.scale);
+        let Ok(found) = equilibrium(&mut pair, t, from.unwrap_or(&guess), &held, &self.frame.scale);
         found.ok_or(LumpedError::NoEquilibrium)
     }
 }
 
-impl Mechanism for MappedModel {
-    type Error = Infallible;
-
-    fn mass(&self) -> &DMatrix<f64> {
-        self.pair.mass()
-    }
-
-    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
-        self.pair.forces(t, q, v, out)
-    }
-
-    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
-        self.pair.potential(t, q)
-    }
-
-    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), Infallible> {
-        self.pair.accepted(t, q, v)
-    }
-
-    fn events(&self) -> usize {
-        self.pair.events()
-    }
-
-    fn event_values(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
-        self.pair.event_values(t, q, v, out)
-    }
-}
+mechanism_of_field!([] MappedModel, pair);
 
 impl LumpedMechanism for MappedModel {
-    fn start(&mut self) -> Result<State, LumpedError> {
+    fn start(&mut self) -> Result<State, ModelFailure> {
         let now = |t: f64, from: Option<&DVector<f64>>| self.stands(self.pair.again(), t, from);
         let q = now(0.0, None)?;
         let mut v = DVector::zeros(q.len());
@@ -173,10 +56,10 @@ impl LumpedMechanism for MappedModel {
     }
 
     fn scale(&self) -> DVector<f64> {
-        self.scale.clone()
+        self.frame.scale.clone()
     }
 
-    fn row(&mut self, state: &State) -> LumpedRow {
+    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
         let State { time, q, v, .. } = state;
         let system = self.pair.system();
         let [driving, coast] = self.pair.instant(*time, q, v);
@@ -184,7 +67,7 @@ impl LumpedMechanism for MappedModel {
         let (cycles, speeds) = self.pair.turning(*time, q, v);
         let wrench = driving.wrench + coast.wrench;
         let lag = system.coordinates().lag();
-        LumpedRow {
+        Ok(LumpedRow {
             time: *time,
             pinion_angle: Some((cycles - 0.5) * system.pair().pinion.pitch_angle()),
             mesh_phase: cycles.rem_euclid(1.0),
@@ -194,10 +77,14 @@ impl LumpedMechanism for MappedModel {
             normal_force: driving.force + driving.damping,
             coast_normal_force: Some(coast.force + coast.damping),
             wrench: [0, 1].map(|g| std::array::from_fn(|i| wrench[COORDINATES * g + i])),
-            displacement: self.free.iter().map(|&i| d[i]).collect(),
-            velocity: self.free.iter().map(|&i| rate[i]).collect(),
+            displacement: self.frame.free.iter().map(|&i| d[i]).collect(),
+            velocity: self.frame.free.iter().map(|&i| rate[i]).collect(),
             ..LumpedRow::default()
-        }
+        })
+    }
+
+    fn transmission_error_um(&mut self, state: &State) -> Result<f64, StaticError> {
+        Ok(1e3 * state.q[self.pair.system().coordinates().lag()])
     }
 
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
@@ -226,7 +113,7 @@ impl LumpedMechanism for MappedModel {
             Check {
                 name: "map_error",
                 value: worst.fold(0.0, f64::max),
-                bound: TOLERANCE,
+                bound: MAP_TOLERANCE,
                 way_out: "use `model = \"reduced\"`, which solves the contact itself",
             },
             Check {
@@ -237,10 +124,9 @@ impl LumpedMechanism for MappedModel {
             },
         ]
     }
-}
 
-impl std::fmt::Debug for MappedGears {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("MappedGears").field("resonance_hz", &self.resonance.hz).finish_non_exhaustive()
+    fn set(&mut self, change: ParameterChange) -> bool {
+        change.of_pair(self.pair.system_mut());
+        true
     }
 }

@@ -6,11 +6,59 @@ use std::{
 };
 
 use ::lumped::LumpedError;
-use integrate::{Forces, Mechanism, State};
+use dynamics::{MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
+use integrate::{Forces, Mechanism, MotionError, State};
+use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
+use scene::Scene;
 
 use super::LumpedRow;
-use crate::certificate::Check;
+use crate::{AnalysisError, certificate::Check};
+
+/// What keeps a model from moving.
+#[derive(Debug)]
+pub(crate) enum ModelFailure {
+    /// The model, or a step.
+    Lumped(LumpedError),
+    /// The pair, or contact that is solved.
+    Pair(PairMotionError),
+}
+
+impl ModelFailure {
+    /// Contact at a time (s) that could not be solved.
+    pub fn at(time: f64) -> impl Fn(StaticError) -> Self {
+        move |source| Self::Pair(PairMotionError::contact(time, source))
+    }
+
+    /// With the scene that it is about.
+    pub fn of(self, scene: &Scene) -> AnalysisError {
+        match self {
+            Self::Lumped(e) => AnalysisError::lumped(scene, e),
+            Self::Pair(e) => AnalysisError::Motion { file: scene.file.display().to_string(), source: Box::new(e) },
+        }
+    }
+}
+
+impl From<LumpedError> for ModelFailure {
+    fn from(e: LumpedError) -> Self {
+        Self::Lumped(e)
+    }
+}
+
+impl From<PairMotionError> for ModelFailure {
+    fn from(e: PairMotionError) -> Self {
+        Self::Pair(e)
+    }
+}
+
+impl From<MotionError<StaticError>> for ModelFailure {
+    fn from(e: MotionError<StaticError>) -> Self {
+        match e.of_integrator() {
+            Ok(own) => Self::Lumped(own.into()),
+            Err((time, contact)) => Self::at(time)(contact),
+        }
+    }
+}
 
 /// The loaded pair at one phase as speed goes to zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,19 +69,82 @@ pub struct StaticPoint {
     pub line_length: Option<f64>,
 }
 
-/// A model that can be run and read.
-pub(crate) trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
+/// A mechanism that is one of its fields.
+macro_rules! mechanism_of_field {
+    ([$($parameters:tt)*] $model:ty, $field:tt) => {
+        #[allow(clippy::useless_conversion, reason = "errors of some fields need it")]
+        impl<$($parameters)*> Mechanism for $model {
+            type Error = StaticError;
+
+            fn mass(&self) -> &DMatrix<f64> {
+                self.$field.mass()
+            }
+
+            fn forces(
+                &mut self,
+                t: f64,
+                q: &DVector<f64>,
+                v: &DVector<f64>,
+                out: &mut Forces,
+            ) -> Result<(), StaticError> {
+                self.$field.forces(t, q, v, out).map_err(StaticError::from)
+            }
+
+            fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
+                self.$field.potential(t, q).map_err(StaticError::from)
+            }
+
+            fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
+                self.$field.potential_off_path(t, q).map_err(StaticError::from)
+            }
+
+            fn events(&self) -> usize {
+                self.$field.events()
+            }
+
+            fn event_values(
+                &mut self,
+                t: f64,
+                q: &DVector<f64>,
+                v: &DVector<f64>,
+                out: &mut [f64],
+            ) -> Result<(), StaticError> {
+                self.$field.event_values(t, q, v, out).map_err(StaticError::from)
+            }
+
+            fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
+                self.$field.accepted(t, q, v).map_err(StaticError::from)
+            }
+        }
+    };
+}
+
+pub(super) use mechanism_of_field;
+
+/// A model that can be run and read. Only contact that is solved can fail on the way.
+pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
     /// State in which a run begins: at rest under the load as for speed to zero, moving with the nominal rotation.
     ///
     /// # Errors
-    /// [`LumpedError`] where there is nothing to stand on.
-    fn start(&mut self) -> Result<State, LumpedError>;
+    /// [`ModelFailure`] where there is nothing to stand on.
+    fn start(&mut self) -> Result<State, ModelFailure>;
 
     /// What counts as a large motion of each coordinate, for the integrators' tolerances.
     fn scale(&self) -> DVector<f64>;
 
     /// A row at a state.
-    fn row(&mut self, state: &State) -> LumpedRow;
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError>;
+
+    /// Its transmission error alone, um.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    fn transmission_error_um(&mut self, state: &State) -> Result<f64, StaticError> {
+        Ok(self.row(state)?.transmission_error_um)
+    }
 
     /// The pair under the mean load at `phases` evenly spaced phases as speed goes to zero; `None` where it finds
     /// nothing to rest on.
@@ -47,7 +158,69 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = Infallible> + Send {
     fn checks(&self) -> Vec<Check> {
         Vec::new()
     }
+
+    /// Takes another value of a parameter without being built anew; `false` where it cannot.
+    fn set(&mut self, _: ParameterChange) -> bool {
+        false
+    }
+
+    /// Goes back to where the run begins, for forces at one time after the other from there on.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    fn rewind(&mut self) -> Result<(), StaticError> {
+        Ok(())
+    }
+
+    /// Follows the gears to a time at which forces were asked for, so that later ones may be: a tooth change.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    fn follow(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), StaticError> {
+        Ok(())
+    }
 }
+
+/// Another value of what a pair of reduced gears is driven by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ParameterChange {
+    /// Of the driver, rad/s.
+    Speed(f64),
+    /// On the driven gear against its turn, N mm.
+    Load(f64),
+    /// Damping ratio of the mesh.
+    Damping(f64),
+}
+
+impl ParameterChange {
+    /// Makes it.
+    pub(super) fn of_pair(self, system: &mut PairMechanism) {
+        match self {
+            Self::Speed(speed) => system.set_speed(Speed::Constant(speed)),
+            Self::Load(torque) => system.set_load(Torque::Constant(torque)),
+            Self::Damping(ratio) => system.set_damping(MeshDamping::Ratio(ratio)),
+        }
+    }
+}
+
+/// A model whose forces are formulas: nothing can fail.
+pub(super) struct Formulas<M>(pub M);
+
+impl<M> Deref for Formulas<M> {
+    type Target = M;
+
+    fn deref(&self) -> &M {
+        &self.0
+    }
+}
+
+impl<M> DerefMut for Formulas<M> {
+    fn deref_mut(&mut self) -> &mut M {
+        &mut self.0
+    }
+}
+
+mechanism_of_field!([M: Mechanism<Error = Infallible>] Formulas<M>, 0);
 
 /// Standing still at t = 0.
 pub(super) fn at_rest(q: DVector<f64>) -> State {
@@ -84,30 +257,4 @@ impl DerefMut for BoxedMechanism {
     }
 }
 
-impl Mechanism for BoxedMechanism {
-    type Error = Infallible;
-
-    fn mass(&self) -> &DMatrix<f64> {
-        self.0.mass()
-    }
-
-    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
-        self.0.forces(t, q, v, out)
-    }
-
-    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
-        self.0.potential(t, q)
-    }
-
-    fn events(&self) -> usize {
-        self.0.events()
-    }
-
-    fn event_values(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
-        self.0.event_values(t, q, v, out)
-    }
-
-    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), Infallible> {
-        self.0.accepted(t, q, v)
-    }
-}
+mechanism_of_field!([] BoxedMechanism, 0);

@@ -1,23 +1,28 @@
-//! Cheaper models of the same pair, in time: `lumped8`, `lumped12`, `shaft18`, `impact`.
+//! Models of few coordinates in time: `lumped8`, `lumped12`, `shaft18`, `impact`, `mapped`; and for many motions, `reduced`.
 //!
 //! | module | what it does |
 //! |---|---|
 //! | `analysis` | [`LumpedAnalysis`]: a motion with its headline, spectra and certificate |
 //! | `sweep` | [`KeySweep`]: a motion at each value of a key: bifurcation diagrams, resonance curves |
+//! | `branch` | [`ContinuationAnalysis`]: periodic motions along a key, stable and unstable |
 //! | `row` | [`LumpedRow`]: what a model tells of an instant |
 //! | `mechanism` | what a model must answer to be run and read |
 //! | `inputs` | all that a model is made of |
 //! | `excitation` | stiffness over the mesh cycle: given, of the reduced model, of ISO |
 //! | `bodies` | bodies, supports and torques of the scene |
-//! | `lumped_pair`, `shafts`, `impact`, `mapped` | the models |
+//! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `mapped`, `reduced` | the models |
+//! | `free_turn` | the motion that nothing holds |
 //! | `run_loop`, `periodicity` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
 
 mod analysis;
 mod bodies;
+mod branch;
 mod campbell;
+mod elastic_pair;
 mod excitation;
+mod free_turn;
 mod headline;
 mod impact;
 mod inputs;
@@ -25,6 +30,7 @@ mod lumped_pair;
 mod mapped;
 mod mechanism;
 mod periodicity;
+mod reduced;
 mod row;
 mod run_loop;
 mod shafts;
@@ -32,6 +38,9 @@ mod sweep;
 mod warnings;
 
 pub use analysis::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink, is_lumped};
+pub use branch::{
+    BranchPoint, BranchTurn, ContinuationAnalysis, ContinuationHeadline, ContinuationResult, LossName, TimePoint,
+};
 pub use campbell::LumpedCampbell;
 pub use headline::{LumpedCertificate, LumpedHeadline};
 pub use mechanism::StaticPoint;

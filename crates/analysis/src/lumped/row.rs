@@ -134,7 +134,7 @@ pub fn gear_coordinates(scene: &Scene) -> Vec<GearCoordinate> {
         Driver::Pinion => [0, 1],
         Driver::Wheel => [1, 0],
     };
-    if scene.analysis.model == Model::Mapped {
+    if scene.analysis.model.has_reduced_gears() {
         let of = |gear: usize| scene.gears()[gear].body.iter().flat_map(|b| &b.free).map(move |axis| (gear, *axis));
         let all = of(0).chain(of(1));
         return all.map(|(gear, axis)| GearCoordinate { gear, axis: SIX[axis.number()] }).collect();

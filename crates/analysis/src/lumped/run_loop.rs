@@ -1,10 +1,13 @@
 //! A run of a model: settle, tell rows, keep the ledger.
 
-use ::lumped::LumpedError;
 use integrate::{Forces, Integrator, Ledger, Mechanism, Periodicity, State, StepControl, StepLimit, Stiffest};
 use scene::{Analysis, MotionScene, Run, Scene};
 
-use super::{LumpedRow, mechanism::BoxedMechanism, periodicity::PeriodicityMonitor};
+use super::{
+    LumpedRow,
+    mechanism::{BoxedMechanism, ModelFailure},
+    periodicity::PeriodicityMonitor,
+};
 use crate::{
     AnalysisError, SinkResult,
     motion::{EnergyRow, scheme},
@@ -94,7 +97,7 @@ impl RunObserver for NoRunObserver {
 /// What keeps a run from its end.
 pub(super) enum RunFailure {
     /// The model or a step.
-    Lumped(LumpedError),
+    Model(ModelFailure),
     /// Whoever gets the rows.
     Sink(Box<dyn std::error::Error + Send + Sync>),
 }
@@ -103,15 +106,15 @@ impl RunFailure {
     /// With the scene that it is about.
     pub fn of(self, scene: &Scene) -> AnalysisError {
         match self {
-            Self::Lumped(e) => AnalysisError::lumped(scene, e),
+            Self::Model(e) => e.of(scene),
             Self::Sink(e) => AnalysisError::Sink(e),
         }
     }
 }
 
-impl From<LumpedError> for RunFailure {
-    fn from(e: LumpedError) -> Self {
-        Self::Lumped(e)
+impl From<ModelFailure> for RunFailure {
+    fn from(e: ModelFailure) -> Self {
+        Self::Model(e)
     }
 }
 
@@ -136,12 +139,12 @@ pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64
 /// start on, its coordinates held. `None` where any step is stable.
 ///
 /// # Errors
-/// [`LumpedError`] where there is nothing to start from.
+/// [`ModelFailure`] where there is nothing to start from.
 pub(super) fn stable_step(
     model: &mut BoxedMechanism,
     motion: &MotionScene,
     mesh_hz: f64,
-) -> Result<Option<StepLimit>, LumpedError> {
+) -> Result<Option<StepLimit>, ModelFailure> {
     let stiffest = Stiffest::new(scheme(motion), model.mass()).filter(|_| motion.error_tolerance.is_none());
     let Some(mut stiffest) = stiffest else { return Ok(None) };
     let start = model.start()?;
@@ -149,7 +152,7 @@ pub(super) fn stable_step(
     for phase in 0..PHASES {
         forces.clear();
         let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
-        let Ok(()) = model.forces(time, &start.q, &start.v, &mut forces);
+        model.forces(time, &start.q, &start.v, &mut forces).map_err(ModelFailure::at(time))?;
         stiffest.include(&forces);
     }
     Ok(stiffest.limit())
@@ -173,7 +176,7 @@ impl RunPlan<'_> {
     /// Runs it; the clock begins at 0 whatever the state's own says.
     ///
     /// # Errors
-    /// [`LumpedError`] where there is nothing to start from, or a step does not settle; that of the observer.
+    /// [`ModelFailure`] where there is nothing to start from, or a step does not settle; that of the observer.
     pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, RunFailure> {
         let Self { scene, motion, frequencies, from } = *self;
         let per_cycle = u64::from(motion.steps_per_mesh_cycle);
@@ -186,13 +189,13 @@ impl RunPlan<'_> {
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
         let (mut rows, mut energy) = (Vec::new(), Vec::new());
         for k in 0..cycles * per_cycle {
-            let row = model.row(&state);
+            let row = model.row(&state).map_err(ModelFailure::at(state.time))?;
             observer.row(&row, k % per_cycle == 0).map_err(RunFailure::Sink)?;
             rows.push(row);
-            energy.push(EnergyRow::of(state.time, &ledger(model, &integrator, &state)));
+            energy.push(EnergyRow::of(state.time, &ledger(model, &integrator, &state)?));
             advance(model, &mut integrator, &mut state, self.time(warm_up * per_cycle + k + 1))?;
         }
-        let ledger = ledger(model, &integrator, &state);
+        let ledger = ledger(model, &integrator, &state)?;
         energy.push(EnergyRow::of(state.time, &ledger));
         // Of a ramp the last speed is judged.
         let judged = match motion.ramp {
@@ -220,7 +223,7 @@ impl RunPlan<'_> {
         model: &mut BoxedMechanism,
         integrator: &mut Integrator,
         state: &mut State,
-    ) -> Result<(u64, Option<Periodicity>), LumpedError> {
+    ) -> Result<(u64, Option<Periodicity>), ModelFailure> {
         let motion = self.motion;
         let (per_cycle, most) = (u64::from(motion.steps_per_mesh_cycle), u64::from(motion.warm_up_cycles.unwrap_or(0)));
         let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
@@ -228,7 +231,7 @@ impl RunPlan<'_> {
         while motion.run == Run::Steady && warm_up < most {
             let mut errors = Vec::with_capacity(per_cycle as usize);
             for k in 0..per_cycle {
-                errors.push(model.row(state).transmission_error_um);
+                errors.push(model.transmission_error_um(state).map_err(ModelFailure::at(state.time))?);
                 advance(model, integrator, state, self.time(warm_up * per_cycle + k + 1))?;
             }
             warm_up += 1;
@@ -243,14 +246,12 @@ impl RunPlan<'_> {
 }
 
 /// Energy so far; before the first step what the start holds.
-fn ledger(model: &mut BoxedMechanism, integrator: &Integrator, state: &State) -> Ledger {
-    match integrator.ledger() {
-        Some(ledger) => *ledger,
-        None => {
-            let Ok(potential) = model.potential(state.time, &state.q);
-            Ledger::open(model.mass(), &state.v, potential)
-        }
+fn ledger(model: &mut BoxedMechanism, integrator: &Integrator, state: &State) -> Result<Ledger, ModelFailure> {
+    if let Some(ledger) = integrator.ledger() {
+        return Ok(*ledger);
     }
+    let potential = model.potential(state.time, &state.q).map_err(ModelFailure::at(state.time))?;
+    Ok(Ledger::open(model.mass(), &state.v, potential))
 }
 
 fn advance(
@@ -258,6 +259,6 @@ fn advance(
     integrator: &mut Integrator,
     state: &mut State,
     until: f64,
-) -> Result<(), LumpedError> {
+) -> Result<(), ModelFailure> {
     Ok(integrator.advance(model, state, until, |_, _| ())?)
 }

@@ -10,6 +10,7 @@ use ::lumped::{
 use dynamics::RigidBody;
 use geometry::GearPair;
 use integrate::State;
+use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{DiscScene, Driver, GearScene, MeshScene, Scene, Shaft18Scene, ShaftScene, SupportScene};
 
@@ -17,7 +18,7 @@ use super::{
     LumpedRow,
     bodies::bodies,
     excitation::MeshExcitation,
-    mechanism::{LumpedMechanism, StaticPoint, at_rest},
+    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint, at_rest},
 };
 use crate::options;
 
@@ -166,22 +167,22 @@ fn shaft_row(row: &ShaftRow) -> LumpedRow {
     }
 }
 
-impl LumpedMechanism for ShaftMechanism {
-    fn start(&mut self) -> Result<State, LumpedError> {
+impl LumpedMechanism for Formulas<ShaftMechanism> {
+    fn start(&mut self) -> Result<State, ModelFailure> {
         Ok(at_rest(self.static_state(0.0)?))
     }
 
     fn scale(&self) -> DVector<f64> {
-        Self::scale(self)
+        self.0.scale()
     }
 
-    fn row(&mut self, state: &State) -> LumpedRow {
+    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
         let cycles = self.mesh_period(0).map_or(0.0, |period| state.time / period);
         // A system has one mesh, the first.
-        let row = Self::row(self, 0, state.time, &state.q, &state.v).as_ref().map(shaft_row).unwrap_or_default();
+        let row = self.0.row(0, state.time, &state.q, &state.v).as_ref().map(shaft_row).unwrap_or_default();
         let gears = of_gears(self);
         let of = |list: &DVector<f64>| gears.iter().map(|&i| list[i]).collect();
-        LumpedRow { mesh_cycles: Some(cycles), displacement: of(&state.q), velocity: of(&state.v), ..row }
+        Ok(LumpedRow { mesh_cycles: Some(cycles), displacement: of(&state.q), velocity: of(&state.v), ..row })
     }
 
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
@@ -189,7 +190,7 @@ impl LumpedMechanism for ShaftMechanism {
         let at = |k: usize| {
             let t = period * k as f64 / phases as f64;
             let q = self.static_state(t).ok()?;
-            let row = Self::row(self, 0, t, &q, &DVector::zeros(q.len()))?;
+            let row = self.0.row(0, t, &q, &DVector::zeros(q.len()))?;
             Some(StaticPoint { error: 1e-3 * row.transmission_error_um, line_length: None })
         };
         (0..phases).map(at).collect()

@@ -20,6 +20,29 @@ impl DenseSolver {
         std::array::from_fn(|p| std::array::from_fn(|q| flat[RIGID * p + q]))
     }
 
+    /// How weighted sums of the normal forces follow the motion of two rigid bodies, -W' (S + diag delta')^-1 J.
+    ///
+    /// `row(i)`: J and W, what the sums along the twelve coordinates hold of normal force i.
+    pub fn weighted_tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
+        let m = self.active.len();
+        let mut all = [[0.0; RIGID]; RIGID];
+        if m == 0 {
+            return all;
+        }
+        self.x.clear();
+        self.x.resize(RIGID * m, 0.0);
+        for (a, &i) in self.active.iter().enumerate() {
+            row(i)[0].iter().enumerate().for_each(|(c, v)| self.x[c * m + a] = *v);
+        }
+        self.back_substitute(m, RIGID);
+        for (a, &i) in self.active.iter().enumerate() {
+            for (sums, weight) in all.iter_mut().zip(row(i)[1]).filter(|(_, weight)| *weight != 0.0) {
+                sums.iter_mut().enumerate().for_each(|(c, t)| *t -= weight * self.x[c * m + a]);
+            }
+        }
+        all
+    }
+
     /// How generalised forces of any number of coordinates follow these, active rows alone, row by row into `tangent`
     /// (n x n).
     ///

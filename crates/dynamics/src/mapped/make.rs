@@ -93,6 +93,11 @@ impl MappedPair {
         Ok(pair)
     }
 
+    /// The mechanism whose speed, load and mesh damping may be changed: maps know none of them.
+    pub fn system_mut(&mut self) -> &mut PairMechanism {
+        &mut self.system
+    }
+
     /// The same pair at its beginning on the same maps.
     ///
     /// # Errors

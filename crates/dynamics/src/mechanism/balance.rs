@@ -1,6 +1,6 @@
 //! The balance of forces on the free coordinates, as integrators ask for it.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::{PairMechanism, external::about_own_axis};
 use crate::{
@@ -47,6 +47,13 @@ impl Mechanism for PairMechanism {
             match &mut modal {
                 None => stiffness += force.stiffness,
                 Some(modal) => out.dissipated += modal.add(force, &moving.q),
+            }
+        }
+        if out.tangents && modal.is_none() {
+            let Self { pair, drive_side, coast_side, damping: per_length, .. } = self;
+            for side in std::iter::once(drive_side).chain(coast_side) {
+                let poses = side.poses(pair, cycles, &d);
+                stiffness += side.held_damping(&poses, &rate, *per_length).unwrap_or_else(SMatrix::zeros);
             }
         }
         let gyroscopic = self.gyroscopic(&nominal);

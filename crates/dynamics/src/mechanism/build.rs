@@ -118,15 +118,7 @@ impl PairMechanism {
             all
         };
         let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
-        let equivalent = equivalent_mass_of(&pair, &options);
-        let damping = match options.damping {
-            MeshDamping::PerLength(c) => c,
-            MeshDamping::Ratio(zeta) => {
-                // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
-                let cos = pair.base_helix_angle().cos();
-                2.0 * zeta * (means[0] * equivalent).sqrt() / (means[1] * cos * cos)
-            }
-        };
+        let damping = per_length(&pair, &options, means);
         let (last, extremes) = (None, Extremes::default());
         let roots = options.statics.root_stress.then(|| drive_side.root_fillets(&pair));
         Self {
@@ -144,6 +136,19 @@ impl PairMechanism {
             last,
             extremes,
             roots,
+        }
+    }
+}
+
+/// Mesh damping per length of contact line, N s/mm^2. `means`: mesh stiffness (N/mm on the base circle) and length of
+/// contact lines (mm).
+pub(super) fn per_length(pair: &GearPair, options: &MotionOptions, means: [f64; 2]) -> f64 {
+    match options.damping {
+        MeshDamping::PerLength(c) => c,
+        MeshDamping::Ratio(zeta) => {
+            // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
+            let cos = pair.base_helix_angle().cos();
+            2.0 * zeta * (means[0] * equivalent_mass_of(pair, options)).sqrt() / (means[1] * cos * cos)
         }
     }
 }

@@ -13,13 +13,14 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Extremes, MeshResonance, MotionOptions, Nominal, NominalState, SideState,
-    Speed, ToothChanges, Torque,
+    COORDINATES, Coordinates, Displacement, Extremes, MeshDamping, MeshResonance, MotionOptions, Nominal, NominalState,
+    SideState, Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
 };
+use build::per_length;
 use ltca::{RootStress, StaticError};
 
 /// A pair of gears as an integrator sees it.
@@ -228,15 +229,31 @@ impl PairMechanism {
         std::mem::replace(&mut self.options.load, Torque::Constant(mean))
     }
 
-    /// Puts a load on the driven gear.
-    pub(crate) fn set_load(&mut self, load: Torque) {
+    /// Puts a load on the driven gear, N mm against its turn.
+    pub fn set_load(&mut self, load: Torque) {
         self.options.load = load;
     }
 
-    /// Gives the driver another speed.
-    pub(crate) fn set_speed(&mut self, speed: Speed) {
+    /// Gives the driver another speed, rad/s.
+    pub fn set_speed(&mut self, speed: Speed) {
         self.nominal.speed = speed;
         self.last = None;
+    }
+
+    /// Damps the mesh otherwise; a ratio refers to the means that the pair was made with.
+    pub fn set_damping(&mut self, damping: MeshDamping) {
+        self.options.damping = damping;
+        self.damping = per_length(&self.pair, &self.options, self.means);
+    }
+
+    /// The same pair at its beginning under the mean of its load.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn under_mean_load(&self) -> Result<Self, StaticError> {
+        let mut pair = self.with_drive(self.options.drive.clone())?;
+        pair.hold_mean_load();
+        Ok(pair)
     }
 
     /// Mesh damping per length of contact line, N s/mm^2.

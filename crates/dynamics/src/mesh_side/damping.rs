@@ -80,6 +80,30 @@ impl MeshSide {
         (total, taken)
     }
 
+    /// -df/dd of the damping of slices that is held at their own force, which follows the displacements: N/mm, N, N mm.
+    /// `None` where none is held. After an evaluation with its tangent.
+    pub fn held_damping(
+        &mut self,
+        poses: &[Pose; 2],
+        rate: &Displacement,
+        per_length: f64,
+    ) -> Option<SMatrix<f64, 12, 12>> {
+        let mut shares = vec![0.0; self.contact.rows().len()];
+        let pressed = (0..shares.len()).filter(|&i| self.contact.solver().forces()[i] > 0.0);
+        let pressed: Vec<usize> = pressed.collect();
+        for (i, slice) in pressed.into_iter().zip(self.damped_slices(poses, rate, per_length)) {
+            let asked = slice.damping * slice.opening;
+            if asked.abs() > slice.force {
+                shares[i] = asked.signum();
+            }
+        }
+        if shares.iter().all(|s| *s == 0.0) {
+            return None;
+        }
+        let tangent = self.contact.tangent_of_shares(|i| shares[i]);
+        Some(SMatrix::from_fn(|i, j| tangent[i][j]))
+    }
+
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any
     /// flank pulls. Zeros without contact.
     pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {

@@ -55,7 +55,7 @@ impl LumpedLayout {
 
     /// Flanks on either side of the teeth, each with its own force.
     fn has_flanks(&self) -> bool {
-        matches!(self.model, Model::Impact | Model::Mapped)
+        self.model == Model::Impact || self.model.has_reduced_gears()
     }
 
     fn place(&self, at: At, axis: CoordinateAxis) -> Option<usize> {

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 34] = [
+const OURS: [&str; 38] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -158,6 +158,10 @@ const OURS: [&str; 34] = [
     "campbell.csv",
     "sweep.csv",
     "bifurcation.csv",
+    "bifurcations.csv",
+    "branch.csv",
+    "branch.svg",
+    "in_time.csv",
     "bifurcation.svg",
     "study.csv",
     "chart.csv",

@@ -1,5 +1,6 @@
-//! Files of a cheaper model and of sweeps over a key: frequencies, points, charts, pages.
+//! Files of a cheaper model, of sweeps over a key and of continuations: frequencies, points, charts, pages.
 
+mod branch;
 mod campbell;
 mod report;
 mod sweep;
@@ -7,6 +8,7 @@ mod sweep_report;
 mod table;
 mod write;
 
+pub use branch::{BRANCH_FILE, IN_TIME_FILE, TURNS_FILE, branch_csv, branch_table, write_branch};
 pub use campbell::lumped_campbell_csv;
 pub use report::{LumpedPictures, write_lumped_report};
 pub use sweep::{BIFURCATION_FILE, SWEEP_FILE, SweepPage, bifurcation_csv, sweep_csv};

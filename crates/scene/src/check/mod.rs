@@ -1,6 +1,7 @@
 //! From words to a scene: ranges, defaults, what goes together, what this version cannot do.
 
 mod accuracy_in_time;
+mod continuation;
 mod gear;
 mod motion;
 mod pitch_errors;

@@ -206,6 +206,7 @@ fn of_run(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             "leave it out: resonance.csv has a row a speed",
         ));
     }
+    super::continuation::check(s, raw, scene)?;
     of_drive(s, raw, scene)
 }
 
@@ -220,7 +221,7 @@ fn of_drive(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
         let balances = if scene.impact.is_some() { "" } else { ", or leave the torque out: it then balances the load" };
         return Err(s.conflict(
             &table.span(),
-            "shooting, ramps and sweeps give the speed of the driver, and here a torque drives it",
+            "shooting, ramps, sweeps and continuations give the speed of the driver, and here a torque drives it",
             format!("use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`{balances}"),
         ));
     }

@@ -3,10 +3,10 @@
 use toml::Spanned;
 
 use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
-use crate::schema::{RawMotion, RawRamp, RawSweep};
+use crate::schema::{RawContinuation, RawMotion, RawRamp, RawSweep};
 use crate::source::Source;
 use crate::spanned::{Number, Whole};
-use crate::{RampScene, SceneError};
+use crate::{ContinuationScene, RampScene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
@@ -16,6 +16,7 @@ const SHOOTING: (&str, Run) = ("shooting", Run::Shooting);
 const SPAN: (&str, Run) = ("span", Run::Span);
 const RAMP: (&str, Run) = ("ramp", Run::Ramp);
 const SWEEP: (&str, Run) = ("sweep", Run::Sweep);
+const CONTINUATION: (&str, Run) = ("continuation", Run::Continuation);
 
 /// Which analyses a key belongs to.
 fn only(s: &Source<'_>, key: &str, span: Option<Span>, run: Run, allowed: &[(&'static str, Run)]) -> Checked<()> {
@@ -40,6 +41,7 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
     let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep);
     let ramp_words = RawRamp::default();
     let sweep_words = RawSweep::default();
+    let branch_words = RawContinuation::default();
     Ok(MotionScene {
         run,
         method,
@@ -67,6 +69,9 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         sweep: (run == Run::Sweep)
             .then(|| sweep(s, raw.sweep.as_ref().map_or(&sweep_words, |r| r.get_ref()), span(&raw.run)))
             .transpose()?,
+        continuation: (run == Run::Continuation)
+            .then(|| continuation(s, raw.continuation.as_ref().map_or(&branch_words, |r| r.get_ref()), span(&raw.run)))
+            .transpose()?,
     })
 }
 
@@ -79,6 +84,7 @@ fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) 
         ("checkpoint_every_cycles", span(&raw.checkpoint_every_cycles), &[STEADY, SPAN, RAMP][..]),
         ("ramp", span(&raw.ramp), &[RAMP][..]),
         ("sweep", span(&raw.sweep), &[SWEEP][..]),
+        ("continuation", span(&raw.continuation), &[CONTINUATION][..]),
         ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP][..]),
     ] {
         only(s, key, at, run, allowed)?;
@@ -136,4 +142,18 @@ fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScen
         ways,
         steady_by: choice!(s, raw.steady_by)?,
     })
+}
+
+fn continuation(s: &Source<'_>, raw: &RawContinuation, run: Option<Span>) -> Checked<ContinuationScene> {
+    needed(s, "continuation", &[("from", &raw.from), ("to", &raw.to)], run)?;
+    let read = ContinuationScene::read(s, raw, f64::INFINITY)?;
+    if let (Some(to), true) = (&raw.to, read.from == read.to) {
+        return Err(s.conflict(&to.span(), "`from` and `to` are the same", "give the branch a way to go"));
+    }
+    if let (Some(most), true) = (&raw.most_harmonics, read.most_harmonics < read.harmonics) {
+        let what =
+            format!("`most_harmonics` is {}, less than the {} to begin with", read.most_harmonics, read.harmonics);
+        return Err(s.conflict(&most.span(), what, "give more, or fewer `harmonics`"));
+    }
+    Ok(read)
 }

@@ -8,7 +8,7 @@ mod torque;
 use integrate::Scheme;
 use serde::Serialize;
 
-use crate::RampScene;
+use crate::{ContinuationScene, RampScene};
 
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
@@ -219,6 +219,9 @@ pub struct MotionScene {
     /// Sweep.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<SweepScene>,
+    /// Continuation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub continuation: Option<ContinuationScene>,
 }
 
 choices! {
@@ -234,6 +237,29 @@ choices! {
         Ramp = "ramp",
         /// Steady states at many speeds.
         Sweep = "sweep",
+        /// Periodic motions along a key, stable and unstable.
+        Continuation = "continuation",
+    }
+}
+
+choices! {
+    /// A key along which periodic motions are followed.
+    pub enum ContinuationKey {
+        /// Speed of the driver, 1/min.
+        Speed = "operation.speed_rpm",
+        /// Torque on the driven gear, N m.
+        Torque = "operation.torque_nm",
+        /// Damping ratio of the mesh.
+        Damping = "motion.mesh_damping_ratio",
+        /// Half of the backlash of a lumped mesh, um.
+        HalfBacklash = "mesh.half_backlash_um",
+    }
+}
+
+impl ContinuationKey {
+    /// The key as scenes write it.
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize]
     }
 }
 

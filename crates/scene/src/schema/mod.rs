@@ -20,8 +20,8 @@ pub(crate) use gear::*;
 pub use json::json_schema;
 pub(crate) use ladder::*;
 pub use ladder::{ImpactScene, Lumped12Scene, SupportScene};
-pub use motion::RampScene;
 pub(crate) use motion::*;
+pub use motion::{ContinuationScene, RampScene};
 pub(crate) use scene::*;
 pub use scene::{MisalignmentScene, Operation};
 

@@ -1,6 +1,6 @@
 //! Motion in time: bodies, bearings, torques, modes, integration, analyses.
 
-use crate::{Axis, Boundary, DriveBy, Integration, Run, SteadyBy, SweepWay};
+use crate::{Axis, Boundary, ContinuationKey, DriveBy, Integration, Run, SteadyBy, SweepWay};
 
 table! {
     /// `[pinion.body]`
@@ -85,6 +85,7 @@ table! {
         checkpoint_every_cycles: whole(0, 100_000_000, 0), "a checkpoint every so many mesh cycles; 0: none (steady, span, ramp)";
         ramp: table(RAMP: RawRamp);
         sweep: table(SWEEP: RawSweep);
+        continuation: table(CONTINUATION: RawContinuation);
     }
 }
 
@@ -108,5 +109,22 @@ table! {
         speeds: whole(2, 100_000, 41), "how many speeds, evenly spaced";
         ways: words(SweepWay), "which way they are gone through; default: up and down";
         steady_by: word(SteadyBy), "how each steady state is found";
+    }
+}
+
+table! {
+    /// `[motion.continuation]`
+    CONTINUATION, RawContinuation => ContinuationScene: "periodic motions along a key, stable and unstable, by harmonic balance", needed ["from", "to"]; {
+        key: word(ContinuationKey), "the key that changes";
+        from: must(0.0, 1e9), "its value where the branch begins, in the unit of the key";
+        to: must(0.0, 1e9), "its value where the branch ends; it may turn back on its way";
+        period_cycles: whole(1, 64, 1), "mesh cycles after which the motion comes back";
+        harmonics: whole(1, 500, 12), "harmonics of the period to begin with";
+        most_harmonics: whole(1, 500, 96), "the largest number of them";
+        tail: number(1e-9, 0.1, 1e-4), "largest share of the vibration that harmonics left out may have";
+        phases: whole(64, 65_536, 512), "least number of phases of a period at which forces are evaluated";
+        longest_step: number(1e-4, 1.0, 0.05), "longest step along the branch, in ranges of the key and static deflections";
+        motions: whole(2, 100_000, 1000), "largest number of motions";
+        time_points: whole(0, 1000, 8), "stable motions that are integrated in time as well";
     }
 }

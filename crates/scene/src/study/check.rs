@@ -78,12 +78,13 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
         other => other,
     })?;
     if let Some(motion) = &scene.motion {
-        if motion.run == Run::Sweep {
-            let what = format!("{} is a sweep, which has no rows over time", path.display());
+        if matches!(motion.run, Run::Sweep | Run::Continuation) {
+            let which = if motion.run == Run::Sweep { "sweep" } else { "continuation" };
+            let what = format!("{} is a {which}, which has no rows over time", path.display());
             return Err(s.conflict(
                 &word.span(),
                 what,
-                "use a scene at one speed, or a ramp; a sweep draws its own figures",
+                "use a scene at one speed, or a ramp; sweeps and continuations draw their own figures",
             ));
         }
         if motion.checkpoint_every_cycles.is_some_and(|every| every > 0) {

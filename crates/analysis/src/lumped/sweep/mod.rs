@@ -3,11 +3,12 @@
 //! | module | what it does |
 //! |---|---|
 //! | `options` | what is asked for |
-//! | `point`, `free_turn` | one value: settle, section, exponent, and what the exponent leaves out |
+//! | `point` | one value: settle, section |
+//! | `exponent` | the largest Lyapunov exponent of its motion |
 //! | `ways` | value after value, upwards, downwards or each by itself |
 //! | `headline` | what is read off the points |
 
-mod free_turn;
+mod exponent;
 mod headline;
 mod options;
 mod point;

@@ -1,31 +1,25 @@
 //! One value of a sweep.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::sync::Arc;
 
-use ::lumped::LumpedError;
 use integrate::State;
-use scene::{MotionScene, SweepWay};
+use scene::SweepWay;
 use serde::Serialize;
-use study::{Lyapunov, LyapunovPlan, extent, largest_lyapunov, mean, section_period};
+use study::{Lyapunov, extent, mean, section_period};
 
 use super::{
     super::{
         LumpedInputs,
         analysis::{checked_run, motion_of},
-        mechanism::BoxedMechanism,
-        run_loop::{self, MeshFrequencies},
+        free_turn::FreeTurn,
     },
     SweepOptions,
-    free_turn::FreeTurn,
+    exponent::exponent,
 };
 use crate::AnalysisError;
 
 /// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
 const SAME: f64 = 1e-3;
-/// Distance of the neighbour over the scales of the motion.
-const DISTANCE: f64 = 1e-7;
-/// Stretches before counting begins, over those that count.
-const SETTLING: u32 = 5;
 
 /// What the motion settled to at one value; units are in the names, those of the section's column in its own.
 #[derive(Debug, Clone, Serialize)]
@@ -110,6 +104,8 @@ pub(super) fn run(
     let frequencies = inputs.frequencies(motion, resonance_hz);
     let from = from.filter(|s| s.q.len() == count);
     let located = |e: AnalysisError| AnalysisError::AtValue { key: options.key.clone(), value, source: Box::new(e) };
+    // Standing, the model stands where it begins: this comes before the run.
+    let free = FreeTurn::of(&mut model).map_err(|e| located(e.of(scene)))?;
     let run = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
     let every = options.every.cycles(scene) as usize;
     let points: Vec<f64> = run.section().map(|row| options.quantity.of(row)).step_by(every).collect();
@@ -119,8 +115,8 @@ pub(super) fn run(
     let lyapunov = match options.stretches {
         0 => None,
         n => {
-            let found = exponent(&mut model, motion, &run.end, frequencies, n);
-            Some(found.map_err(|e| located(AnalysisError::lumped(scene, e)))?)
+            let found = exponent((&mut model, free.as_ref()), motion, &run.end, frequencies, n);
+            Some(found.map_err(|e| located(e.of(scene)))?)
         }
     };
     let as_rows: Vec<Vec<f64>> = points.iter().map(|p| vec![*p]).collect();
@@ -139,39 +135,4 @@ pub(super) fn run(
         failed: None,
     };
     Ok(SettledPoint { point, end: run.end })
-}
-
-/// Largest Lyapunov exponent of the motion from `end` on, stretched once a mesh cycle; of the gears' free turn, which
-/// nothing holds, it says nothing.
-fn exponent(
-    model: &mut BoxedMechanism,
-    motion: &MotionScene,
-    end: &State,
-    frequencies: MeshFrequencies,
-    stretches: u32,
-) -> Result<Lyapunov, LumpedError> {
-    let (n, period) = (end.q.len(), 1.0 / frequencies.mesh_hz);
-    let fastest = TAU * frequencies.mesh_hz.max(frequencies.resonance_hz);
-    let lengths = model.scale();
-    let scale: Vec<f64> = lengths.iter().copied().chain(lengths.iter().map(|s| fastest * s)).collect();
-    let start: Vec<f64> = end.q.iter().chain(end.v.iter()).copied().collect();
-    let plan = LyapunovPlan {
-        stretch: period,
-        settling: (stretches / SETTLING) as usize,
-        stretches: stretches as usize,
-        distance: DISTANCE,
-    };
-    let step = frequencies.step(motion);
-    let free = FreeTurn::of(model)?;
-    largest_lyapunov(&start, &scale, &plan, |x, k| {
-        let (q, v) = x.split_at(n);
-        let mut state = State::new(end.time + k as f64 * period, q.to_vec().into(), v.to_vec().into());
-        let until = end.time + (k + 1) as f64 * period;
-        run_loop::integrator(model, motion, step).advance(model, &mut state, until, |_, _| ())?;
-        if let Some(free) = &free {
-            free.remove(&mut state.q);
-            free.remove(&mut state.v);
-        }
-        Ok(state.q.iter().chain(state.v.iter()).copied().collect())
-    })
 }

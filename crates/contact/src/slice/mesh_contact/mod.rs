@@ -235,6 +235,17 @@ impl MeshContact {
         }
     }
 
+    /// How forces along the normals that are shares of the normal forces follow the twelve displacements, N/mm, N,
+    /// N mm: of row i the share `of(i)`. After an evaluation with its tangent.
+    pub fn tangent_of_shares(&mut self, of: impl Fn(usize) -> f64) -> [[f64; 12]; 12] {
+        let Self { contact: PoseContact { rows, at, .. }, solver, .. } = self;
+        let centres = at.unwrap_or([Pose::identity(); 2]).map(|p| p.translation.vector);
+        solver.weighted_tangent(|i| {
+            let opening = opening_by_motion(&rows[i], &rows[i].normal, &centres);
+            [opening, opening.map(|j| of(i) * j)]
+        })
+    }
+
     /// Elastic energy of both gears and the contact at the last evaluation, N mm.
     ///
     /// ```text

@@ -1,0 +1,213 @@
+//! The branch of periodic motions of a scene.
+
+use std::ops::ControlFlow;
+
+use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicError, PeriodicMotion, Tracer};
+use scene::{ContinuationScene, Scene};
+
+use super::{
+    super::{LumpedInputs, analysis, excitation::ExcitationSource, warnings::no_backlash},
+    BranchPoint, BranchTurn, ContinuationHeadline, TimePoint,
+    family::ModelFamily,
+    headline::{HeadlineInputs, headline},
+    in_time::{integrated, settled},
+    point::point,
+};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress,
+    certificate::{Certificate, Check},
+    facts::Facts,
+    gears,
+    resolution::with_slices,
+    run_phase,
+};
+
+/// Residual of the balance of forces that Newton's method ends with: twelve digits of a contact solver are not to be
+/// had over many harmonics.
+const TOLERANCE: f64 = 1e-9;
+/// Phases for each harmonic.
+const SAMPLES_PER_HARMONIC: usize = 8;
+/// First step over the longest.
+const FIRST_STEP: f64 = 0.1;
+
+/// A scene with `run = "continuation"`.
+#[derive(Clone, Copy)]
+pub struct ContinuationAnalysis<'a> {
+    scene: &'a Scene,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for ContinuationAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ContinuationAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+/// The answer to a continuation.
+#[derive(Debug)]
+pub struct ContinuationResult {
+    /// What it was made of, and what must hold of it.
+    pub facts: Facts,
+    /// Motions in the order of the branch.
+    pub points: Vec<BranchPoint>,
+    /// Where it turns, or another branch leaves it.
+    pub turns: Vec<BranchTurn>,
+    /// Stable motions integrated in time.
+    pub in_time: Vec<TimePoint>,
+    /// The few numbers that it is made for.
+    pub headline: ContinuationHeadline,
+    /// What a user should hear.
+    pub warnings: Vec<String>,
+}
+
+impl<'a> ContinuationAnalysis<'a> {
+    /// Of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, cache: &NoCache }
+    }
+
+    /// With reduced gears from a cache.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Follows the branch, telling nobody.
+    ///
+    /// # Errors
+    /// As [`ContinuationAnalysis::solve_with`].
+    pub fn solve(&self) -> Result<ContinuationResult, AnalysisError> {
+        self.solve_with(&mut NoObserver)
+    }
+
+    /// Follows the branch, and integrates some of its stable motions in time.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Periodic`] where no periodic motion is found at the beginning; those of the model.
+    pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<ContinuationResult, AnalysisError> {
+        let scene = with_slices(self.scene.clone());
+        let other = || AnalysisError::other_analysis(&scene, "continuation");
+        let words = scene.motion.as_ref().and_then(|m| m.continuation).ok_or_else(other)?;
+        let first = Self::at_first(&scene, &words);
+        let inputs = LumpedInputs::gather(&first, &mut ExcitationSource::new(observer, self.cache))?;
+        let system = inputs.build()?;
+        let mut family = ModelFamily::new(&inputs, words.key, words.period_cycles)?;
+        let coordinates = system.coordinates();
+        let mut facts = analysis::facts(&inputs, coordinates);
+        let mut warnings = system.warnings;
+        let branch = run_phase(observer, "branch", PhaseWork::Unknown, |progress| {
+            follow(&mut family, &inputs, &words, progress)
+        })?;
+        let read = |family: &mut ModelFamily<'_>, motion: &PeriodicMotion| point(family, motion, words.period_cycles);
+        let (points, turns) = run_phase(observer, "read", PhaseWork::Steps(branch.motions.len() as u64), |progress| {
+            let points = branch.motions.iter().map(|motion| {
+                progress.tick();
+                read(&mut family, motion)
+            });
+            let points = points.collect::<Result<Vec<_>, _>>()?;
+            let turns = branch.bifurcations.iter().map(|b| Ok(BranchTurn::new(b, read(&mut family, &b.motion)?)));
+            Ok::<_, AnalysisError>((points, turns.collect::<Result<Vec<_>, AnalysisError>>()?))
+        })?;
+        let chosen = stable_ones(&points, words.time_points as usize);
+        let in_time = run_phase(observer, "in time", PhaseWork::Steps(chosen.len() as u64), |progress| {
+            let one = |&i: &usize| {
+                progress.tick();
+                let of = (&branch.motions[i], points[i].peak_to_peak_dte_um);
+                integrated(&family, &inputs, of, words.period_cycles)
+            };
+            chosen.iter().map(one).collect::<Result<Vec<TimePoint>, AnalysisError>>()
+        })?;
+        facts.certificate = certificate(&points, &words).and(Certificate::new(family.now().0.checks()));
+        let of = HeadlineInputs {
+            words: &words,
+            coordinates,
+            mesh_resonance_hz: system.resonance_hz,
+            newton_steps: branch.iterations,
+            broken: branch.broken.as_ref().map(ToString::to_string),
+        };
+        let headline = headline(of, &points, &turns, &in_time).ok_or(AnalysisError::NoValues)?;
+        warnings.extend(gears::warnings(&inputs.pair));
+        warnings.extend(no_backlash(&inputs));
+        warnings.extend(headline.warnings());
+        warnings.extend(inputs.left_out_of_sweeps());
+        Ok(ContinuationResult { facts, points, turns, in_time, headline, warnings })
+    }
+
+    /// The scene where the branch begins; of a torque that grows, maps and scales are those of the largest.
+    fn at_first(scene: &Scene, words: &ContinuationScene) -> Scene {
+        let mut first = scene.clone();
+        match words.key {
+            scene::ContinuationKey::Speed => first.operation.speed_rpm = words.from,
+            scene::ContinuationKey::Torque => first.operation.torque_nm = words.from.max(words.to),
+            _ => {}
+        }
+        first
+    }
+}
+
+/// The branch from its first motion on: from rest, else from a motion that has settled in time.
+fn follow(
+    family: &mut ModelFamily<'_>,
+    inputs: &LumpedInputs,
+    words: &ContinuationScene,
+    progress: &dyn Progress,
+) -> Result<Branch<AnalysisError>, AnalysisError> {
+    let (way, range) = (words.to - words.from, [words.from.min(words.to), words.from.max(words.to)]);
+    let options = BalanceOptions {
+        harmonics: words.harmonics as usize,
+        most_harmonics: words.most_harmonics as usize,
+        tail: words.tail,
+        samples_per_harmonic: SAMPLES_PER_HARMONIC,
+        least_samples: words.phases as usize,
+        tolerance: TOLERANCE,
+    };
+    let walk = BranchOptions {
+        range,
+        first_step: FIRST_STEP * words.longest_step * way,
+        longest_step: words.longest_step,
+        most: words.motions as usize,
+    };
+    let rest = FourierSeries::at_rest(&family.rest()?, options.harmonics);
+    let from = |family: &mut ModelFamily<'_>, start: &FourierSeries| {
+        let mut tracer = Tracer::new(family, options, way.abs())?;
+        tracer.branch(words.from, start, &walk, |motion| {
+            progress.say(format!("{} = {:.6}", words.key.word(), motion.parameter));
+            ControlFlow::Continue(())
+        })
+    };
+    let found = match from(family, &rest) {
+        Err(PeriodicError::NotConverged { .. } | PeriodicError::Singular { .. } | PeriodicError::Harmonics { .. }) => {
+            let first = inputs.in_scene(family.scene_at(words.from));
+            let start = settled(&first, words.period_cycles)?.unwrap_or(rest);
+            from(family, &start)
+        }
+        other => other,
+    };
+    found.map_err(|e| AnalysisError::periodic(&inputs.scene, e))
+}
+
+/// Motions to be integrated in time: stable ones, spread over the branch.
+fn stable_ones(points: &[BranchPoint], most: usize) -> Vec<usize> {
+    let stable: Vec<usize> = (0..points.len()).filter(|&i| points[i].is_stable).collect();
+    let count = most.min(stable.len());
+    // In the middle of as many equal parts.
+    (0..count).map(|k| stable[(2 * k + 1) * stable.len() / (2 * count)]).collect()
+}
+
+fn certificate(points: &[BranchPoint], words: &ContinuationScene) -> Certificate {
+    let largest = |of: fn(&BranchPoint) -> f64| points.iter().map(of).fold(0.0, f64::max);
+    Certificate::new([
+        Check {
+            name: "harmonic_residual",
+            value: largest(|p| p.residual),
+            bound: 10.0 * TOLERANCE,
+            way_out: "give more `phases`",
+        },
+        Check {
+            name: "harmonic_tail",
+            value: largest(|p| p.tail),
+            bound: words.tail,
+            way_out: "give more `most_harmonics`",
+        },
+    ])
+}

@@ -1,0 +1,125 @@
+//! What is read off a branch.
+
+use periodic::Bifurcation;
+use scene::ContinuationScene;
+use serde::Serialize;
+
+use super::{BranchPoint, LossName, TimePoint};
+
+/// A motion in time that differs from that of the branch by more than this has left it, or has too long steps.
+const APART: f64 = 0.02;
+
+/// Where the branch turns, or where another one leaves it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BranchTurn {
+    /// What happens.
+    pub loss: LossName,
+    /// The motion there.
+    #[serde(flatten)]
+    pub point: BranchPoint,
+}
+
+/// What a continuation is made for; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct ContinuationHeadline {
+    pub key: &'static str,
+    /// Least and largest value on the branch.
+    pub range: [f64; 2],
+    pub period_cycles: u32,
+    pub coordinates: usize,
+    pub mesh_resonance_hz: f64,
+    pub motions: usize,
+    pub unstable: usize,
+    /// Values of the key, in the order of the branch.
+    pub folds: Vec<f64>,
+    pub period_doublings: Vec<f64>,
+    pub torus_bifurcations: Vec<f64>,
+    /// The motion with the largest peak to peak.
+    pub largest: BranchPoint,
+    pub parting: usize,
+    pub most_harmonics: usize,
+    pub newton_steps: usize,
+    /// Largest difference of a motion in time from the branch, over the peak to peak.
+    pub difference_in_time: Option<f64>,
+    /// Why the branch ends within its range.
+    pub broken: Option<String>,
+}
+
+/// What the headline takes beside points.
+pub(super) struct HeadlineInputs<'a> {
+    pub words: &'a ContinuationScene,
+    pub coordinates: usize,
+    pub mesh_resonance_hz: f64,
+    pub newton_steps: usize,
+    pub broken: Option<String>,
+}
+
+/// Reads it off a branch; `None` without a motion.
+pub(super) fn headline(
+    of: HeadlineInputs<'_>,
+    points: &[BranchPoint],
+    turns: &[BranchTurn],
+    in_time: &[TimePoint],
+) -> Option<ContinuationHeadline> {
+    let largest = points.iter().max_by(|a, b| a.peak_to_peak_dte_um.total_cmp(&b.peak_to_peak_dte_um))?;
+    let values =
+        |loss: LossName| turns.iter().filter(|turn| turn.loss == loss).map(|turn| turn.point.value).collect::<Vec<_>>();
+    let range = points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p.value), b.max(p.value)]);
+    Some(ContinuationHeadline {
+        key: of.words.key.word(),
+        range,
+        period_cycles: of.words.period_cycles,
+        coordinates: of.coordinates,
+        mesh_resonance_hz: of.mesh_resonance_hz,
+        motions: points.len(),
+        unstable: points.iter().filter(|p| !p.is_stable).count(),
+        folds: values(LossName::Fold),
+        period_doublings: values(LossName::PeriodDoubling),
+        torus_bifurcations: values(LossName::Torus),
+        largest: largest.clone(),
+        parting: points.iter().filter(|p| p.share_apart > 0.0).count(),
+        most_harmonics: points.iter().map(|p| p.harmonics).max().unwrap_or(0),
+        newton_steps: of.newton_steps,
+        difference_in_time: in_time.iter().map(TimePoint::difference).reduce(f64::max),
+        broken: of.broken,
+    })
+}
+
+impl ContinuationHeadline {
+    /// What a user should hear.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let ends = self.broken.as_ref().map(|why| {
+            format!(
+                "the branch ends within its range: {why}; more `most_harmonics`, more `phases` or a larger `tail` may \
+                 lead on"
+            )
+        });
+        let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| {
+            format!(
+                "a motion integrated in time differs from the branch by {:.1} %: near a fold it has jumped, else its \
+                 steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`)",
+                100.0 * d
+            )
+        });
+        let lost = (!self.torus_bifurcations.is_empty()).then(|| {
+            "beyond a torus bifurcation the motion has a second frequency: the branch goes on, unstable, and no \
+             periodic motion near it is seen in time"
+                .to_owned()
+        });
+        let doubled = self.period_doublings.first().map(|value| {
+            format!(
+                "a motion of twice the period begins at {value:.6}: `period_cycles` = {} follows it",
+                2 * self.period_cycles
+            )
+        });
+        ends.into_iter().chain(apart).chain(lost).chain(doubled).collect()
+    }
+}
+
+impl BranchTurn {
+    /// Of a bifurcation and what was read off its motion.
+    pub(super) fn new(bifurcation: &Bifurcation, point: BranchPoint) -> Self {
+        Self { loss: bifurcation.loss.into(), point }
+    }
+}

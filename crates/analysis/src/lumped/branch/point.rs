@@ -1,0 +1,115 @@
+//! What is read off a periodic motion.
+
+use std::f64::consts::TAU;
+
+use integrate::State;
+use nalgebra::{DMatrix, DVector};
+use periodic::{FourierSeries, Loss, PeriodicFamily, PeriodicMotion};
+use serde::Serialize;
+use study::{extent, mean};
+
+use super::super::LumpedRow;
+use super::family::ModelFamily;
+use crate::AnalysisError;
+
+/// Rows of a mesh cycle.
+const ROWS: usize = 128;
+/// Mesh harmonics that are listed.
+pub(super) const ORDERS: usize = 5;
+
+/// How a motion loses its stability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LossName {
+    /// The branch turns back, or another one crosses it.
+    Fold,
+    /// A motion of twice the period begins.
+    PeriodDoubling,
+    /// A second frequency begins: the motion is no longer periodic.
+    Torus,
+}
+
+impl From<Loss> for LossName {
+    fn from(loss: Loss) -> Self {
+        match loss {
+            Loss::Fold => Self::Fold,
+            Loss::PeriodDoubling => Self::PeriodDoubling,
+            Loss::Torus => Self::Torus,
+        }
+    }
+}
+
+/// A periodic motion; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct BranchPoint {
+    /// Value of the key.
+    pub value: f64,
+    pub is_stable: bool,
+    /// Largest size of a Floquet multiplier: disturbances grow by it in a period.
+    pub largest_multiplier: f64,
+    /// How it would be lost, or is.
+    pub loss: LossName,
+    pub mean_dte_um: f64,
+    pub peak_to_peak_dte_um: f64,
+    pub rms_dte_um: f64,
+    /// Amplitudes of the mesh harmonics.
+    pub dte_harmonics_um: [f64; ORDERS],
+    pub min_normal_force_n: f64,
+    pub max_normal_force_n: f64,
+    /// Part of the period in which the driving flanks do not press.
+    pub share_apart: f64,
+    /// Harmonics of the period that the motion is made of.
+    pub harmonics: usize,
+    pub newton_steps: usize,
+    /// What is left of the balance of forces, over the forces.
+    pub residual: f64,
+    /// Bound of the vibration that harmonics left out would add, over the vibration.
+    pub tail: f64,
+}
+
+/// Reads a point off a motion; the family stands at its value afterwards.
+///
+/// # Errors
+/// Contact that cannot be solved.
+pub(super) fn point(
+    family: &mut ModelFamily<'_>,
+    motion: &PeriodicMotion,
+    cycles: u32,
+) -> Result<BranchPoint, AnalysisError> {
+    family.set_parameter(motion.parameter)?;
+    let count = ROWS * cycles as usize;
+    let rows = family.rows((0..count).map(|i| state(motion, i as f64 / count as f64)))?;
+    let errors: Vec<f64> = rows.iter().map(|row| row.transmission_error_um).collect();
+    let forces: Vec<f64> = rows.iter().map(|row: &LumpedRow| row.normal_force).collect();
+    let average = mean(&errors);
+    let most = motion.series.harmonics().min(count / 2 - 1);
+    let series = FourierSeries::of_samples(&DMatrix::from_row_slice(1, count, &errors), most);
+    let amplitude = |order: usize| series.as_ref().map_or(f64::NAN, |s| s.amplitude(0, order * cycles as usize));
+    let one = DVector::from_element(1, 1.0);
+    let [min_normal_force_n, max_normal_force_n] = extent(&forces);
+    Ok(BranchPoint {
+        value: motion.parameter,
+        is_stable: motion.floquet.is_stable(),
+        largest_multiplier: motion.floquet.largest(),
+        loss: motion.floquet.loss().into(),
+        mean_dte_um: average,
+        peak_to_peak_dte_um: series.as_ref().map_or(f64::NAN, |s| s.peak_to_peak(&one)),
+        rms_dte_um: mean(&errors.iter().map(|e| (e - average).powi(2)).collect::<Vec<_>>()).sqrt(),
+        dte_harmonics_um: std::array::from_fn(|k| amplitude(k + 1)),
+        min_normal_force_n,
+        max_normal_force_n,
+        share_apart: forces.iter().filter(|f| **f <= 0.0).count() as f64 / count as f64,
+        harmonics: motion.series.harmonics(),
+        newton_steps: motion.iterations,
+        residual: motion.residual,
+        tail: motion.tail,
+    })
+}
+
+/// The state at a part of the period.
+pub(super) fn state(motion: &PeriodicMotion, share: f64) -> State {
+    let phase = TAU * share;
+    let velocity = motion.series.rate(phase) * (TAU / motion.period);
+    State::new(share * motion.period, motion.series.at(phase), velocity)
+}

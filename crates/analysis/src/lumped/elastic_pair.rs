@@ -1,0 +1,139 @@
+//! Reduced gears in motion, their contact solved or mapped, as the runs of cheaper models ask for them.
+
+use std::time::Instant;
+
+use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
+use geometry::GearPair;
+use nalgebra::DVector;
+use scene::{Model, MotionScene, Operation, Scene};
+
+use super::{
+    LumpedHeadline,
+    analysis::motion_of,
+    mapped::MappedModel,
+    mechanism::BoxedMechanism,
+    reduced::ReducedModel,
+    row::{GearCoordinate, axis_number, gear_coordinates},
+};
+use crate::{
+    AnalysisError, GearCache, Observer, PhaseWork,
+    failure::Failure,
+    motion::{
+        Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
+        prepare,
+    },
+    run_phase,
+};
+
+/// Largest force of a map over the mean one: more than a resonance with loss of contact brings.
+const OVERLOAD: f64 = 6.0;
+/// Error of a map over the mean approach of the flanks, root mean square.
+pub(super) const MAP_TOLERANCE: f64 = 2e-4;
+/// Contacts that a step of the model "reduced" solves.
+const CONTACTS_OF_A_STEP: f64 = 3.0;
+
+/// The gears of a scene, of every speed; with the map of their contact where the model takes one.
+pub(crate) struct ElasticPair {
+    contact: PairContact,
+    resonance: MeshResonance,
+    /// What is left out of quasi-static elasticity, and what a step with it costs; nothing where modes move.
+    elasticity: Elasticity,
+    pace: Pace,
+    frame: ElasticFrame,
+    pub warnings: Vec<String>,
+}
+
+/// How contact is found.
+enum PairContact {
+    Solved(PairMechanism),
+    Mapped(MappedPair),
+}
+
+/// Sizes and places of coordinates.
+#[derive(Debug, Clone)]
+pub(super) struct ElasticFrame {
+    /// Lag of the driven gear at rest, mm: the mean of a mesh cycle.
+    pub lag: f64,
+    /// What counts as a large motion of each coordinate.
+    pub scale: DVector<f64>,
+    /// Places of the free coordinates among the twelve of both gears.
+    pub free: Vec<usize>,
+    /// Transmission error of the mesh cycle at rest, mm.
+    pub at_rest: Vec<f64>,
+}
+
+/// The scene as far as the gears depend on it: all but the speed. Mesh damping, which [motion] has, is the pair's.
+pub(super) fn without_speed(scene: &Scene) -> Scene {
+    let operation = Operation { speed_rpm: 1000.0, ..scene.operation };
+    Scene { operation, set: Vec::new(), ..scene.clone() }
+}
+
+impl ElasticPair {
+    /// Reduces the gears and, for the model "mapped", maps their contact.
+    ///
+    /// # Errors
+    /// Those of the reduced gears, and of the map.
+    pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
+        let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
+        let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
+        let PreparedMotion { system, settings, quasi_static, elasticity, warnings, .. } = ready;
+        let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
+        let place = |c: &GearCoordinate| COORDINATES * c.gear + axis_number(c.axis);
+        let free = gear_coordinates(scene).iter().map(place).collect();
+        let frame = ElasticFrame { lag, scale: settings.scale, free, at_rest: quasi_static.transmission_error };
+        let began = Instant::now();
+        let (contact, contacts) = match scene.analysis.model {
+            Model::Mapped => {
+                let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, lag };
+                let made =
+                    run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
+                let made = made.map_err(|source| failed(scene, source))?;
+                let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
+                (PairContact::Mapped(made), contacts)
+            }
+            _ => (PairContact::Solved(system), 0),
+        };
+        let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
+        Ok(Self { contact, resonance, elasticity, pace, frame, warnings })
+    }
+
+    /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
+    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+        let mesh_hz = mesh_range_hz(scene, motion, None);
+        let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
+        let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
+        let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
+        let slow = self.elasticity.warning(&found, &demand, self.pace);
+        slow.into_iter().chain(self.elasticity.rotation_warning(&found)).collect()
+    }
+
+    /// The pair at the speed of a scene, and its mesh resonance, Hz.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Motion`].
+    pub(super) fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(BoxedMechanism, f64), AnalysisError> {
+        let (drive, frame) = (pair_drive(scene, gears), self.frame.clone());
+        let model = match &self.contact {
+            PairContact::Mapped(pair) => {
+                let pair = pair.with_drive(drive).map_err(|source| failed(scene, source))?;
+                BoxedMechanism::new(MappedModel { pair, frame })
+            }
+            PairContact::Solved(pair) => {
+                let pair = pair.with_drive(drive);
+                let pair = pair.map_err(|e| failed(scene, PairMotionError::contact(0.0, e)))?;
+                BoxedMechanism::new(ReducedModel::new(pair, frame))
+            }
+        };
+        Ok((model, self.resonance.hz))
+    }
+}
+
+fn failed(scene: &Scene, source: PairMotionError) -> AnalysisError {
+    AnalysisError::Motion { file: scene.file.display().to_string(), source: Box::new(source) }
+}
+
+impl std::fmt::Debug for ElasticPair {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("ElasticPair").field("resonance_hz", &self.resonance.hz).finish_non_exhaustive()
+    }
+}
