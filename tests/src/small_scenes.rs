@@ -121,6 +121,13 @@ pub fn all() -> Vec<SmallScene> {
             ),
         ),
         ("motion_mapped", moving("model = \"mapped\"\ncycles = 2\n", &format!("{SETTLES}{free}{}", bearings(SPRINGS)))),
+        (
+            "motion_branch",
+            moving(
+                "model = \"mapped\"\n",
+                "run = \"continuation\"\n[motion.continuation]\nfrom = 3000.0\nto = 9000.0\ntime_points = 2\n",
+            ),
+        ),
         ("lumped8", lumped("lumped8", &format!("{SERIES}{}", bearings(SPRINGS)))),
         ("lumped12", lumped("lumped12", &format!("{SERIES}{}", bearings(&format!("{SPRINGS}{TILTS}"))))),
         ("shaft18", lumped("shaft18", &format!("{SERIES}{}", shafts.concat()))),

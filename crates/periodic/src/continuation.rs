@@ -5,8 +5,9 @@ use nalgebra::DVector;
 use crate::{
     BalanceOptions, Floquet, FourierSeries, Loss, PeriodicError, PeriodicFamily, PeriodicMotion,
     balance::Balance,
+    dense::solved,
     series::Basis,
-    solution::{Condition, Equations, Point, Solved, solved, unknowns},
+    solution::{Condition, Equations, Point, Solved, unknowns},
 };
 
 /// What is asked of a branch.

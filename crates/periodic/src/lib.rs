@@ -8,6 +8,7 @@
 
 mod balance;
 mod continuation;
+mod dense;
 mod error;
 mod family;
 mod product;

@@ -1,11 +1,11 @@
 //! Periodic motions at one value of the parameter, and Newton's method that finds them.
 
-use faer::{MatRef, linalg::solvers::Solve};
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
     Floquet, FourierSeries, PeriodicError, PeriodicFamily,
     balance::{Balance, balance, frequency_derivative, jacobian},
+    dense::solved,
     series::Basis,
 };
 
@@ -226,12 +226,4 @@ impl<S: PeriodicFamily> Equations<'_, S> {
             }
         }
     }
-}
-
-/// Solution of a dense system; `None` where there is none.
-pub(crate) fn solved(matrix: DMatrix<f64>, right: DVector<f64>) -> Option<DVector<f64>> {
-    let (n, all) = (matrix.nrows(), matrix.as_slice());
-    let lu = MatRef::from_column_major_slice(all, n, n).partial_piv_lu();
-    let x = lu.solve(MatRef::from_column_major_slice(right.as_slice(), n, 1));
-    Some(DVector::from_fn(n, |i, _| x[(i, 0)])).filter(|x| x.iter().all(|v| v.is_finite()))
 }

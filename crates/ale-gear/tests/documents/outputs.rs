@@ -82,6 +82,9 @@ fn every_kind() -> Scratch {
         "10",
     ];
     run(&[&["sweep", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
+    let curve = ["--from", "900", "--to", "1000", "--set", "motion.continuation.motions=3"];
+    let lightly = ["--set", "motion.continuation.time_points=1"];
+    run(&[&["curve", &seed("004"), "--out", "out-curve"], &curve[..], &lightly].concat());
     run(&["study", "study.toml", "--out", "out-study"]);
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);

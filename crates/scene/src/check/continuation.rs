@@ -44,8 +44,9 @@ pub(super) fn check(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()
         ContinuationKey::Damping if model == Model::Lumped12 => {
             return refuse("the damping of \"lumped12\" is Rayleigh's", "follow the speed or the torque");
         }
-        ContinuationKey::HalfBacklash if model != Model::Lumped8 => {
-            return refuse("`half_backlash_um` is a key of the model \"lumped8\"", "use that, or follow another key");
+        ContinuationKey::HalfBacklash if !matches!(model, Model::Lumped8 | Model::Shaft18) => {
+            let what = "`half_backlash_um` is a key of the models \"lumped8\" and \"shaft18\"";
+            return refuse(what, "use one of them, or follow another key");
         }
         _ => {}
     }
@@ -71,11 +72,13 @@ fn own_periods(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
         ("table_s_nm", drive.and_then(|d| span(&d.table_s_nm))),
         ("speed_fluctuation_hz", lumped8.and_then(|l| span(&l.speed_fluctuation_hz))),
     ];
+    let shafts = gears.iter().filter_map(|g| g.shaft.as_ref()).map(Spanned::get_ref);
+    let run_outs = shafts.map(|shaft| ("run_out_um", span(&shaft.run_out_um)));
     let flanks = scene.analysis.model.has_reduced_gears();
     let lists = gears.iter().map(|g| ("pitch_errors_um", span(&g.pitch_errors_um)));
     let files = gears.iter().map(|g| ("pitch_errors_file", span(&g.pitch_errors_file)));
     let errors = lists.chain(files).filter(|_| flanks);
-    match swings.into_iter().chain(errors).find_map(|(key, at)| Some((key, at?))) {
+    match swings.into_iter().chain(run_outs).chain(errors).find_map(|(key, at)| Some((key, at?))) {
         None => Ok(()),
         Some((key, at)) => Err(s.conflict(
             &at,

@@ -38,7 +38,7 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         let what = "`mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped";
         return Err(s.conflict(&per_length.span(), what, "keep one of them"));
     }
-    let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep);
+    let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep | Run::Continuation);
     let ramp_words = RawRamp::default();
     let sweep_words = RawSweep::default();
     let branch_words = RawContinuation::default();
@@ -78,14 +78,14 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
 /// Keys go with the run that they say something of.
 fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
     for (key, at, allowed) in [
-        ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP][..]),
-        ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP][..]),
+        ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP, CONTINUATION][..]),
+        ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP, CONTINUATION][..]),
         ("duration_s", span(&raw.duration_s), &[SPAN][..]),
         ("checkpoint_every_cycles", span(&raw.checkpoint_every_cycles), &[STEADY, SPAN, RAMP][..]),
         ("ramp", span(&raw.ramp), &[RAMP][..]),
         ("sweep", span(&raw.sweep), &[SWEEP][..]),
         ("continuation", span(&raw.continuation), &[CONTINUATION][..]),
-        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP][..]),
+        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP, CONTINUATION][..]),
     ] {
         only(s, key, at, run, allowed)?;
     }

@@ -79,7 +79,7 @@ table! {
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
         mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of the mesh";
         mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
-        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a period over the peak to peak that counts as none (steady, shooting, sweep)";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a period over the peak to peak that counts as none (steady, shooting, sweep; continuation: of motions in time)";
         warm_up_cycles: whole(0, 100_000_000, 1000), "mesh cycles to wait for the periodic state at the most (the same)";
         duration_s: bare(1e-9, 1e9), "length of a span, s, in place of cycles";
         checkpoint_every_cycles: whole(0, 100_000_000, 0), "a checkpoint every so many mesh cycles; 0: none (steady, span, ramp)";
@@ -125,6 +125,6 @@ table! {
         phases: whole(64, 65_536, 512), "least number of phases of a period at which forces are evaluated";
         longest_step: number(1e-4, 1.0, 0.05), "longest step along the branch, in ranges of the key and static deflections";
         motions: whole(2, 100_000, 1000), "largest number of motions";
-        time_points: whole(0, 1000, 8), "stable motions that are integrated in time as well";
+        time_points: whole(0, 1000, 8), "stable motions that are run in time as well";
     }
 }

@@ -147,6 +147,8 @@ const GEAR: &[Row] = &[
 const RAMP: &str = "motion.run=ramp; motion.ramp.from_rpm=3000; motion.ramp.to_rpm=4000; motion.ramp.duration_s=0.004; motion.ramp.waterfall_cycles=4";
 const SWEEP: &str = "motion.run=sweep; motion.sweep.from_rpm=2000; motion.sweep.to_rpm=3000; motion.sweep.speeds=2; motion.sweep.ways=[\"up\"]; motion.warm_up_cycles=3";
 
+const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=4; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.tail=0.01";
+
 /// Keys that stand once in a scene.
 const SCENE: &[Row] = &[
     ("name", Iso, "", "another"),
@@ -224,6 +226,17 @@ const SCENE: &[Row] = &[
     ("motion.sweep.speeds", Motion, SWEEP, "3"),
     ("motion.sweep.ways", Motion, SWEEP, "[\"down\"]"),
     ("motion.sweep.steady_by", Motion, SWEEP, "shooting"),
+    ("motion.continuation.key", Motion, BRANCH, "operation.torque_nm"),
+    ("motion.continuation.from", Motion, BRANCH, "3100"),
+    ("motion.continuation.to", Motion, BRANCH, "4500"),
+    ("motion.continuation.period_cycles", Motion, BRANCH, "2"),
+    ("motion.continuation.harmonics", Motion, BRANCH, "6"),
+    ("motion.continuation.most_harmonics", Motion, BRANCH, "12"),
+    ("motion.continuation.tail", Motion, BRANCH, "1e-5"),
+    ("motion.continuation.phases", Motion, BRANCH, "128"),
+    ("motion.continuation.longest_step", Motion, BRANCH, "0.2"),
+    ("motion.continuation.motions", Motion, BRANCH, "3"),
+    ("motion.continuation.time_points", Motion, BRANCH, "1"),
     ("mesh.stiffness_from", Lumped8, "", "iso"),
     ("mesh.stiffness_n_per_um", Lumped8, "", "4000"),
     ("mesh.stiffness_cos_n_per_um", Lumped8, "", "[300.0]"),

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicError, PeriodicMotion, Tracer};
+use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicMotion, Tracer};
 use scene::{ContinuationScene, Scene};
 
 use super::{
@@ -113,7 +113,7 @@ impl<'a> ContinuationAnalysis<'a> {
             let one = |&i: &usize| {
                 progress.tick();
                 let of = (&branch.motions[i], points[i].peak_to_peak_dte_um);
-                integrated(&family, &inputs, of, words.period_cycles)
+                integrated(&family, &inputs, of)
             };
             chosen.iter().map(one).collect::<Result<Vec<TimePoint>, AnalysisError>>()
         })?;
@@ -123,7 +123,7 @@ impl<'a> ContinuationAnalysis<'a> {
             coordinates,
             mesh_resonance_hz: system.resonance_hz,
             newton_steps: branch.iterations,
-            broken: branch.broken.as_ref().map(ToString::to_string),
+            broken: branch.broken.as_ref().map(ToString::to_string).or_else(|| cut_short(&branch, &words)),
         };
         let headline = headline(of, &points, &turns, &in_time).ok_or(AnalysisError::NoValues)?;
         warnings.extend(gears::warnings(&inputs.pair));
@@ -141,11 +141,13 @@ impl<'a> ContinuationAnalysis<'a> {
             scene::ContinuationKey::Torque => first.operation.torque_nm = words.from.max(words.to),
             _ => {}
         }
+        // A motion in time is looked at for its whole period.
+        first.analysis.cycles = first.analysis.cycles.max(words.period_cycles);
         first
     }
 }
 
-/// The branch from its first motion on: from rest, else from a motion that has settled in time.
+/// The branch from its first motion on.
 fn follow(
     family: &mut ModelFamily<'_>,
     inputs: &LumpedInputs,
@@ -167,7 +169,6 @@ fn follow(
         longest_step: words.longest_step,
         most: words.motions as usize,
     };
-    let rest = FourierSeries::at_rest(&family.rest()?, options.harmonics);
     let from = |family: &mut ModelFamily<'_>, start: &FourierSeries| {
         let mut tracer = Tracer::new(family, options, way.abs())?;
         tracer.branch(words.from, start, &walk, |motion| {
@@ -175,15 +176,25 @@ fn follow(
             ControlFlow::Continue(())
         })
     };
-    let found = match from(family, &rest) {
-        Err(PeriodicError::NotConverged { .. } | PeriodicError::Singular { .. } | PeriodicError::Harmonics { .. }) => {
-            let first = inputs.in_scene(family.scene_at(words.from));
-            let start = settled(&first, words.period_cycles)?.unwrap_or(rest);
-            from(family, &start)
+    // Of several motions there, the one that a start from rest leads to; where that does not repeat itself, the search
+    // begins at rest.
+    let first = inputs.in_scene(family.scene_at(words.from));
+    let found = match settled(&first, words.period_cycles)? {
+        Some(settled) => from(family, &settled),
+        None => {
+            let rest = FourierSeries::at_rest(&family.rest()?, options.harmonics);
+            from(family, &rest)
         }
-        other => other,
     };
     found.map_err(|e| AnalysisError::periodic(&inputs.scene, e))
+}
+
+/// That the branch has had all of its motions before it left the range.
+fn cut_short(branch: &Branch<AnalysisError>, words: &ContinuationScene) -> Option<String> {
+    let last = branch.motions.last().map(|motion| motion.parameter)?;
+    let ended = last == words.from || last == words.to;
+    (!ended && branch.motions.len() >= words.motions as usize)
+        .then(|| format!("{} = {last:.6} is reached after all {} `motions`", words.key.word(), words.motions))
 }
 
 /// Motions to be integrated in time: stable ones, spread over the branch.

@@ -42,6 +42,8 @@ pub struct ContinuationHeadline {
     pub newton_steps: usize,
     /// Largest difference of a motion in time from the branch, over the peak to peak.
     pub difference_in_time: Option<f64>,
+    /// Whether the branch ends where it began.
+    pub returns: bool,
     /// Why the branch ends within its range.
     pub broken: Option<String>,
 }
@@ -82,6 +84,7 @@ pub(super) fn headline(
         most_harmonics: points.iter().map(|p| p.harmonics).max().unwrap_or(0),
         newton_steps: of.newton_steps,
         difference_in_time: in_time.iter().map(TimePoint::difference).reduce(f64::max),
+        returns: points.len() > 1 && points.last().is_some_and(|last| last.value == of.words.from),
         broken: of.broken,
     })
 }
@@ -91,8 +94,8 @@ impl ContinuationHeadline {
     pub(super) fn warnings(&self) -> Vec<String> {
         let ends = self.broken.as_ref().map(|why| {
             format!(
-                "the branch ends within its range: {why}; more `most_harmonics`, more `phases` or a larger `tail` may \
-                 lead on"
+                "the branch ends within its range: {why}; more `motions`, `most_harmonics` or `phases`, or a \
+                 larger `tail`, may lead on"
             )
         });
         let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| {
@@ -101,6 +104,11 @@ impl ContinuationHeadline {
                  steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`)",
                 100.0 * d
             )
+        });
+        let back = (self.broken.is_none() && self.returns).then(|| {
+            "the branch turns back and leaves the range where it began: another one leads on; begin at the other end \
+             (swap `from` and `to`)"
+                .to_owned()
         });
         let lost = (!self.torus_bifurcations.is_empty()).then(|| {
             "beyond a torus bifurcation the motion has a second frequency: the branch goes on, unstable, and no \
@@ -113,7 +121,7 @@ impl ContinuationHeadline {
                 2 * self.period_cycles
             )
         });
-        ends.into_iter().chain(apart).chain(lost).chain(doubled).collect()
+        ends.into_iter().chain(back).chain(apart).chain(lost).chain(doubled).collect()
     }
 }
 

@@ -1,22 +1,27 @@
 //! Periodic motions integrated in time: where the branch says that a motion stays, it must stay.
 
+use integrate::State;
+use nalgebra::DMatrix;
 use periodic::{FourierSeries, PeriodicMotion};
-use scene::{MotionScene, Run, Scene};
+use scene::{MotionScene, Run};
 use serde::Serialize;
 use study::extent;
 
 use super::{
-    super::{LumpedInputs, LumpedRow, analysis::motion_of, run_loop::RunPlan},
+    super::{
+        LumpedInputs,
+        analysis::motion_of,
+        inputs::LumpedSystem,
+        mechanism::ModelFailure,
+        run_loop::{LumpedRun, NoRunObserver, RunPlan, integrator},
+    },
     family::ModelFamily,
     point::state,
 };
 use crate::AnalysisError;
-use nalgebra::DMatrix;
 
-/// Mesh cycles that pass before one is looked at, in periods of the motion.
-const PASS: u32 = 20;
-/// Mesh cycles to settle from rest, in periods.
-const SETTLE: u32 = 200;
+/// Difference after a period over the peak to peak that is none for a guess.
+const ROUGHLY: f64 = 1e-2;
 /// Harmonics of a motion that has settled.
 const HARMONICS: usize = 12;
 
@@ -38,7 +43,7 @@ impl TimePoint {
     }
 }
 
-/// Runs a motion of the branch on.
+/// Runs a motion of the branch on, until it repeats itself or for as long as the scene waits for that.
 ///
 /// # Errors
 /// Those of the run.
@@ -46,55 +51,47 @@ pub(super) fn integrated(
     family: &ModelFamily<'_>,
     inputs: &LumpedInputs,
     (motion, peak_to_peak): (&PeriodicMotion, f64),
-    cycles: u32,
 ) -> Result<TimePoint, AnalysisError> {
-    let rows = run(&inputs.in_scene(family.scene_at(motion.parameter)), Some(motion), PASS * cycles, cycles)?;
-    let errors: Vec<f64> = rows.iter().map(|row| row.transmission_error_um).collect();
+    let here = inputs.in_scene(family.scene_at(motion.parameter));
+    let run = steady(&here, &mut here.build()?, Some(&state(motion, 0.0)))?;
+    let errors: Vec<f64> = run.rows.iter().map(|row| row.transmission_error_um).collect();
     let [low, high] = extent(&errors);
     Ok(TimePoint { value: motion.parameter, peak_to_peak_dte_um: high - low, branch_peak_to_peak_dte_um: peak_to_peak })
 }
 
-/// Coordinates of a motion that has settled from rest, as a series: where a search from rest finds nothing.
+/// Coordinates of the motion that a start from rest settles to, as a series: where a branch begins. `None` where it
+/// does not repeat itself, not even roughly.
 ///
 /// # Errors
 /// Those of the run.
 pub(super) fn settled(inputs: &LumpedInputs, cycles: u32) -> Result<Option<FourierSeries>, AnalysisError> {
-    let system = inputs.build()?;
-    let (mut model, scene) = (system.model, &inputs.scene);
+    let (mut system, scene) = (inputs.build()?, &inputs.scene);
     let motion = motion_of(scene)?;
+    let run = steady(inputs, &mut system, None)?;
+    let residual = run.periodicity.as_ref().map_or(f64::INFINITY, |p| p.residual);
+    if residual.is_nan() || residual > ROUGHLY {
+        return Ok(None);
+    }
     let frequencies = inputs.frequencies(motion, system.resonance_hz);
-    let first = model.start().map_err(|e| e.of(scene))?;
-    let (per_cycle, mut state) = (motion.steps_per_mesh_cycle, first);
-    let mut integrator = super::super::run_loop::integrator(&model, motion, frequencies.step(motion));
-    let row = 1.0 / (f64::from(per_cycle) * frequencies.mesh_hz);
-    let (from, count) = (u64::from(SETTLE * cycles * per_cycle), (cycles * per_cycle) as usize);
+    let mut integrator = integrator(&system.model, motion, frequencies.step(motion));
+    let (begin, mut state) = (run.end.time, run.end);
+    let row = 1.0 / (f64::from(motion.steps_per_mesh_cycle) * frequencies.mesh_hz);
+    let count = (cycles * motion.steps_per_mesh_cycle) as usize;
     let mut samples = DMatrix::zeros(state.q.len(), count);
-    for k in 0..from + count as u64 {
-        if k >= from {
-            samples.set_column((k - from) as usize, &state.q);
-        }
-        let until = (k + 1) as f64 * row;
-        let advanced = integrator.advance(&mut model, &mut state, until, |_, _| ());
-        advanced.map_err(|e| super::super::mechanism::ModelFailure::from(e).of(scene))?;
+    for (k, mut column) in samples.column_iter_mut().enumerate() {
+        column.copy_from(&state.q);
+        let until = begin + (k + 1) as f64 * row;
+        let advanced = integrator.advance(&mut system.model, &mut state, until, |_, _| ());
+        advanced.map_err(|e| ModelFailure::from(e).of(scene))?;
     }
     Ok(FourierSeries::of_samples(&samples, HARMONICS * cycles as usize))
 }
 
-/// Rows of the last mesh cycles of a run.
-fn run(
-    inputs: &LumpedInputs,
-    from: Option<&PeriodicMotion>,
-    pass: u32,
-    cycles: u32,
-) -> Result<Vec<LumpedRow>, AnalysisError> {
-    let mut system = inputs.build()?;
-    let spans = MotionScene { run: Run::Span, duration_s: None, ..motion_of(&inputs.scene)?.clone() };
-    let frequencies = inputs.frequencies(&spans, system.resonance_hz);
-    let mut scene: Scene = inputs.scene.clone();
-    scene.analysis.cycles = pass + cycles;
-    let from = from.map(|motion| state(motion, 0.0));
-    let plan = RunPlan { scene: &scene, motion: &spans, frequencies, from: from.as_ref() };
-    let run = plan.run(&mut system.model, &mut super::super::run_loop::NoRunObserver).map_err(|e| e.of(&scene))?;
-    let kept = cycles as usize * run.per_cycle;
-    Ok(run.rows[run.rows.len().saturating_sub(kept)..].to_vec())
+/// A run to the steady state, and the mesh cycles that the scene writes of one.
+fn steady(inputs: &LumpedInputs, system: &mut LumpedSystem, from: Option<&State>) -> Result<LumpedRun, AnalysisError> {
+    let scene = &inputs.scene;
+    let motion = MotionScene { run: Run::Steady, ..motion_of(scene)?.clone() };
+    let frequencies = inputs.frequencies(&motion, system.resonance_hz);
+    let plan = RunPlan { scene, motion: &motion, frequencies, from };
+    plan.run(&mut system.model, &mut NoRunObserver).map_err(|e| e.of(scene))
 }
