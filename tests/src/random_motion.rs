@@ -61,6 +61,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
         checkpoint_every_cycles: Some(0),
         ramp: None,
         sweep: None,
+        continuation: None,
     });
     scene.drive = Some(DriveScene { by, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());

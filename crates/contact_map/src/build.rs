@@ -29,8 +29,8 @@ pub struct MapPlan {
 }
 
 /// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.
-const PHASES: [usize; 2] = [32, 256];
-const LOADS: [usize; 2] = [12, 24];
+const PHASES: [usize; 2] = [32, 1024];
+const LOADS: [usize; 2] = [12, 96];
 const TILTS: [usize; 2] = [6, 12];
 const SHARES: usize = 16;
 /// Places at which a map is held against the contact.

@@ -3,7 +3,7 @@
 use crate::spline::Axis;
 
 /// Most intervals of the load axis.
-pub const MOST_LOADS: usize = 24;
+pub const MOST_LOADS: usize = 96;
 
 /// Coefficients of the splines of a curve over load, at one phase and tilt.
 pub type Coefficients = [f64; MOST_LOADS + 3];
@@ -52,44 +52,42 @@ impl LoadAxis {
     }
 }
 
-/// A curve over load, interval by interval: a cubic in the place from the interval's beginning.
+/// A curve over load: cubic splines. What belongs to an interval is made of its four coefficients where it is asked for:
+/// of a place in a motion that is one interval of all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadCurve {
     axis: LoadAxis,
-    cubics: [[f64; 4]; MOST_LOADS],
-    /// Value at the end.
-    end: f64,
+    coefficients: Coefficients,
 }
-
-/// Integrals of a curve over force, from none to the beginning of each interval.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Integrals([f64; MOST_LOADS + 1]);
 
 impl LoadCurve {
     /// From the coefficients of its splines.
-    pub fn new(axis: LoadAxis, coefficients: &Coefficients) -> Self {
-        let n = axis.intervals;
-        let mut cubics = [[0.0; 4]; MOST_LOADS];
-        for (cubic, k) in cubics.iter_mut().zip(coefficients.windows(4)).take(n) {
-            *cubic = [
-                (k[0] + 4.0 * k[1] + k[2]) / 6.0,
-                0.5 * (k[2] - k[0]),
-                0.5 * (k[0] - 2.0 * k[1] + k[2]),
-                (k[3] - k[0] + 3.0 * (k[1] - k[2])) / 6.0,
-            ];
-        }
-        let end = (coefficients[n] + 4.0 * coefficients[n + 1] + coefficients[n + 2]) / 6.0;
-        Self { axis, cubics, end }
+    pub fn new(axis: LoadAxis, coefficients: Coefficients) -> Self {
+        Self { axis, coefficients }
+    }
+
+    /// Of an interval, a cubic in the place from its beginning.
+    #[inline]
+    fn cubic(&self, cell: usize) -> [f64; 4] {
+        let k = &self.coefficients[cell..cell + 4];
+        [
+            (k[0] + 4.0 * k[1] + k[2]) / 6.0,
+            0.5 * (k[2] - k[0]),
+            0.5 * (k[0] - 2.0 * k[1] + k[2]),
+            (k[3] - k[0] + 3.0 * (k[1] - k[2])) / 6.0,
+        ]
     }
 
     /// Its values at the ends of all intervals.
+    #[inline]
     fn knot(&self, i: usize) -> f64 {
-        if i < self.axis.intervals { self.cubics[i][0] } else { self.end }
+        let k = &self.coefficients[i..i + 3];
+        (k[0] + 4.0 * k[1] + k[2]) / 6.0
     }
 
     /// Value at no load.
     pub fn begin(&self) -> f64 {
-        self.cubics[0][0]
+        self.knot(0)
     }
 
     /// Value and slope over nu. Beyond the largest force it goes on in a straight line over force.
@@ -103,38 +101,50 @@ impl LoadCurve {
             return [end + per_force * (axis.force(place) - axis.force), per_force * axis.force_slope(place)];
         }
         let cell = (place as usize).min(axis.intervals - 1);
-        let (s, [a, b, c, d]) = (place - cell as f64, self.cubics[cell]);
+        let (s, [a, b, c, d]) = (place - cell as f64, self.cubic(cell));
         [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * s * d)]
-    }
-
-    /// Its integrals over force.
-    pub fn integrals(&self) -> Integrals {
-        let mut all = [0.0; MOST_LOADS + 1];
-        for cell in 0..self.axis.intervals {
-            all[cell + 1] = all[cell] + self.within(cell, 1.0);
-        }
-        Integrals(all)
     }
 
     /// Integral over force within an interval, from its beginning to the part `s` of it.
     #[inline]
     fn within(&self, cell: usize, s: f64) -> f64 {
-        let ([a, b, c, d], begin) = (self.cubics[cell], cell as f64);
+        let ([a, b, c, d], begin) = (self.cubic(cell), cell as f64);
         let area = s * (a + s * (b / 2.0 + s * (c / 3.0 + s * d / 4.0)));
         let moment = s * s * (a / 2.0 + s * (b / 3.0 + s * (c / 4.0 + s * d / 5.0)));
         self.axis.force_slope(1.0) * (begin * area + moment)
     }
 
+    /// Integral over force of the whole intervals before one, from their moments over the place.
+    fn before(&self, cell: usize) -> f64 {
+        let mut sum = 0.0;
+        for (i, k) in self.coefficients.windows(4).take(cell).enumerate() {
+            let area = (k[0] + 11.0 * (k[1] + k[2]) + k[3]) / 24.0;
+            let moment = (k[0] + 22.0 * k[1] + 33.0 * k[2] + 4.0 * k[3]) / 120.0;
+            sum += i as f64 * area + moment;
+        }
+        self.axis.force_slope(1.0) * sum
+    }
+
     /// Integral over force from none to that of a place.
-    pub fn integral(&self, known: &Integrals, place: f64) -> f64 {
+    pub fn integral(&self, place: f64) -> f64 {
         let axis = self.axis;
         let n = axis.intervals as f64;
         if place > n {
             let ([end, slope], beyond) = (self.value(n), axis.force(place) - axis.force);
-            return known.0[axis.intervals] + beyond * (end + 0.5 * beyond * slope / axis.force_slope(n));
+            return self.before(axis.intervals) + beyond * (end + 0.5 * beyond * slope / axis.force_slope(n));
         }
         let cell = (place as usize).min(axis.intervals - 1);
-        known.0[cell] + self.within(cell, place - cell as f64)
+        self.before(cell) + self.within(cell, place - cell as f64)
+    }
+
+    /// The last interval whose beginning lies below a value.
+    fn interval_of(&self, value: f64) -> usize {
+        let (mut low, mut high) = (0, self.axis.intervals);
+        while high - low > 1 {
+            let middle = (low + high) / 2;
+            if self.knot(middle) < value { low = middle } else { high = middle }
+        }
+        low
     }
 
     /// Place at which a curve that grows has a value; below its beginning: none.
@@ -143,14 +153,15 @@ impl LoadCurve {
         if value <= self.begin() {
             return None;
         }
-        if value > self.end {
+        let end = self.knot(n);
+        if value > end {
             let [last, slope] = self.value(n as f64);
             let force = self.axis.force + (value - last) * self.axis.force_slope(n as f64) / slope;
             return Some(self.axis.place(force));
         }
         // The interval in which it is: its beginning is below.
-        let cell = self.cubics[..n].partition_point(|cubic| cubic[0] < value) - 1;
-        let ([a, b, c, d], begin) = (self.cubics[cell], cell as f64);
+        let cell = self.interval_of(value);
+        let ([a, b, c, d], begin) = (self.cubic(cell), cell as f64);
         let [mut low, mut high] = [0.0, 1.0];
         let mut s = (value - a) / (self.knot(cell + 1) - a);
         for _ in 0..MOST_STEPS {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     damping::DampingTable,
-    load_axis::{Coefficients, Integrals, LoadAxis, LoadCurve, MOST_LOADS},
+    load_axis::{Coefficients, LoadAxis, LoadCurve, MOST_LOADS},
     spline::{Axis, Splines},
 };
 
@@ -88,7 +88,6 @@ pub struct CutPlace {
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
     curve: LoadCurve,
-    integrals: Integrals,
     /// Slope of the curve over tilt and its second derivative, per unit of the spacing, where the map has a tilt.
     by_tilt: Option<Box<[LoadCurve; 2]>>,
     pub(crate) length: LoadCurve,
@@ -137,7 +136,6 @@ impl ContactMap {
         let length = |k: usize| self.sum(&self.damping.lengths[k], [&p, &t], [&p.values, &t.values]);
         CutPlace {
             at: [phase, tilt],
-            integrals: curve.integrals(),
             curve,
             by_tilt,
             length: length(0),
@@ -161,7 +159,7 @@ impl ContactMap {
                 }
             }
         }
-        LoadCurve::new(self.load_axis(), &curve)
+        LoadCurve::new(self.load_axis(), curve)
     }
 
     /// Approach (mm) under a force (N) at a phase (mesh cycles) and tilt (rad).
@@ -189,9 +187,9 @@ impl ContactMap {
         let mut contact = MapContact { force, ..MapContact::default() };
         contact.stiffness[0][0] = stiff;
         contact.load = Some([load, 1.0 / by_load]);
-        let integral = |curve: &LoadCurve| curve.integral(&curve.integrals(), load);
+        let integral = |curve: &LoadCurve| curve.integral(load);
         if wanted.energy {
-            contact.energy = force * approach - curve.integral(&place.integrals, load);
+            contact.energy = force * approach - curve.integral(load);
         }
         if wanted.phase_rate {
             let by_phase =

@@ -226,7 +226,7 @@ fn words_of_a_sweep_are_checked_first() {
         (
             still,
             ["--key", "operation.torque_nm", "--from", "1", "--to", "2"],
-            "a.toml: a sweep wants a motion of the model",
+            "a.toml: a sweep wants a motion, of one model",
         ),
     ] {
         let scratch = Scratch::new().file("a.toml", scene);

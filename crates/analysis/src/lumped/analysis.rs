@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 
 use integrate::State;
 use scene::{Driver, Model, MotionScene, Scene};
-use study::Window;
+use study::{Lyapunov, Window};
 
 use super::{
     LumpedRow, StaticPoint,
     campbell::{LumpedCampbell, campbell},
     excitation::ExcitationSource,
+    exponent::exponent,
+    free_turn::FreeTurn,
     headline::{HeadlineInputs, LumpedHeadline, headline},
     inputs::{LumpedInputs, LumpedSystem},
     mechanism::BoxedMechanism,
@@ -31,6 +33,9 @@ use crate::{
 pub fn is_lumped(scene: &Scene) -> bool {
     matches!(scene.analysis.model, Model::Lumped8 | Model::Lumped12 | Model::Shaft18 | Model::Impact | Model::Mapped)
 }
+
+/// Mesh cycles over which the exponent of a motion is found that does not repeat itself.
+const STRETCHES: u32 = 200;
 
 /// Gets the rows of a cheaper model as they come.
 pub trait LumpedSink {
@@ -151,6 +156,8 @@ impl<'a> LumpedAnalysis<'a> {
         facts.model.extend(campbell.iter().flat_map(LumpedCampbell::facts));
         let positions = scene.analysis.positions_per_cycle as usize;
         let static_cycle = run_phase(observer, "quasi-static", PhaseWork::Unknown, |_| system.static_cycle(positions));
+        // Standing, the model stands where it begins: this comes before the run.
+        let free = FreeTurn::of(&mut system.model).map_err(|e| e.of(&scene))?;
         let steps = PhaseWork::Steps(u64::from(scene.analysis.cycles));
         let run = run_phase(observer, "motion", steps, |progress| {
             let plan = RunPlan { scene: &scene, motion, frequencies, from: None };
@@ -159,7 +166,17 @@ impl<'a> LumpedAnalysis<'a> {
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
         facts.certificate = certificate(&scene, &run).and(Certificate::new(system.model.checks()));
-        result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, warnings })
+        let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
+        let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
+        let mut found = || {
+            let of = (&mut system.model, free.as_ref());
+            let found = run_phase(observer, "exponent", PhaseWork::Unknown, |_| {
+                exponent(of, motion, &run.end, frequencies, STRETCHES)
+            });
+            found.map_err(|e| e.of(&scene))
+        };
+        let lyapunov = restless.then(&mut found).transpose()?;
+        result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, lyapunov, warnings })
     }
 }
 
@@ -168,6 +185,7 @@ struct RunResults {
     facts: Facts,
     static_cycle: Option<Vec<StaticPoint>>,
     campbell: Option<LumpedCampbell>,
+    lyapunov: Option<Lyapunov>,
     warnings: Vec<String>,
 }
 
@@ -178,7 +196,7 @@ fn result(
     run: LumpedRun,
     known: RunResults,
 ) -> Result<LumpedResult, AnalysisError> {
-    let RunResults { facts, static_cycle, campbell, mut warnings } = known;
+    let RunResults { facts, static_cycle, campbell, lyapunov, mut warnings } = known;
     let scene = &inputs.scene;
     let motion = motion_of(scene)?;
     let frequencies = inputs.frequencies(motion, system.resonance_hz);
@@ -195,6 +213,7 @@ fn result(
         resonance_hz: (system.resonance_hz > 0.0).then_some(system.resonance_hz),
         static_normal_force,
         static_errors: static_errors.as_deref(),
+        lyapunov,
     };
     let mut headline = headline(scene, motion, &run, &beside)?;
     headline.ramp = passage.as_ref().and_then(Passage::headline);

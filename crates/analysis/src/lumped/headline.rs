@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
+use study::{Lyapunov, StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
 use super::{LumpedRow, run_loop::LumpedRun};
 use crate::motion::PassageHeadline;
@@ -60,6 +60,8 @@ pub struct LumpedCertificate {
     pub ledger_residual_over_turnover: f64,
     pub period_cycles: Option<usize>,
     pub periodicity: Option<f64>,
+    /// Largest exponent of a motion that does not repeat itself, 1/s.
+    pub lyapunov: Option<Lyapunov>,
     pub warm_up_cycles: u64,
     pub rows_without_contact: usize,
     pub steps: u64,
@@ -74,6 +76,7 @@ pub(super) struct HeadlineInputs<'a> {
     /// T / (r_b cos b_b) of the mean load, N.
     pub static_normal_force: f64,
     pub static_errors: Option<&'a [f64]>,
+    pub lyapunov: Option<Lyapunov>,
 }
 
 /// Headline numbers of the mesh cycles that are judged.
@@ -134,16 +137,17 @@ pub(super) fn headline(
         mean_wheel_speed_rpm: mean_of(|r| Some(r.speeds?[1] * 60.0 / TAU)),
         mean_pinion_speed_rpm: mean_of(|r| Some(r.speeds?[0] * 60.0 / TAU)),
         ramp: None,
-        certificate: certificate(run),
+        certificate: certificate(run, known.lyapunov),
     })
 }
 
-fn certificate(run: &LumpedRun) -> LumpedCertificate {
+fn certificate(run: &LumpedRun, lyapunov: Option<Lyapunov>) -> LumpedCertificate {
     LumpedCertificate {
         ledger_residual_mj: run.ledger.residual(),
         ledger_residual_over_turnover: run.ledger.relative_residual(),
         period_cycles: run.periodicity.map(|p| p.period),
         periodicity: run.periodicity.map(|p| p.residual),
+        lyapunov,
         warm_up_cycles: run.warm_up,
         rows_without_contact: run.judged_rows().iter().filter(|r| r.contact_line_length == Some(0.0)).count(),
         steps: run.steps[0],

@@ -12,6 +12,7 @@
 //! | `bodies` | bodies, supports and torques of the scene |
 //! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `mapped`, `reduced` | the models |
 //! | `free_turn` | the motion that nothing holds |
+//! | `exponent` | the largest Lyapunov exponent of a motion |
 //! | `run_loop`, `periodicity` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
@@ -22,6 +23,7 @@ mod branch;
 mod campbell;
 mod elastic_pair;
 mod excitation;
+mod exponent;
 mod free_turn;
 mod headline;
 mod impact;

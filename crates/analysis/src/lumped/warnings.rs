@@ -1,6 +1,7 @@
 //! What a user of a cheaper model should hear.
 
 use scene::{Model, MotionScene, Run};
+use study::Lyapunov;
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
 use crate::motion::NO_BACKLASH_UM;
@@ -26,6 +27,29 @@ pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
     })
 }
 
+/// What the largest exponent says of a motion that does not repeat itself.
+fn why_not(exponent: Option<Lyapunov>) -> String {
+    match exponent {
+        Some(found) if found.is_chaotic() => format!(
+            "it is chaotic: neighbours part by a factor e in {:.2e} s (largest Lyapunov exponent {:.3e} +- {:.1e} 1/s)",
+            1.0 / found.exponent,
+            found.exponent,
+            found.error
+        ),
+        Some(found) if found.exponent < -3.0 * found.error => format!(
+            "neighbours come together (largest Lyapunov exponent {:.3e} +- {:.1e} 1/s): it needs more `warm_up_cycles`, or its \
+             period is longer than those that are looked for",
+            found.exponent, found.error
+        ),
+        Some(found) => format!(
+            "neighbours neither part nor come together (largest Lyapunov exponent {:.3e} +- {:.1e} 1/s): it may have two \
+             frequencies, or need more `warm_up_cycles`",
+            found.exponent, found.error
+        ),
+        None => "it may be chaotic, or need more `warm_up_cycles`".to_owned(),
+    }
+}
+
 /// What the certificate says that a user should hear.
 pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -33,9 +57,9 @@ pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadli
     if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {
         if found > asked {
             warnings.push(format!(
-                "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); it may be chaotic, or \
-                 need more `warm_up_cycles`",
-                c.warm_up_cycles
+                "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); {}",
+                c.warm_up_cycles,
+                why_not(c.lyapunov)
             ));
         } else if let Some(period) = c.period_cycles.filter(|p| *p > 1) {
             warnings.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));

@@ -88,6 +88,8 @@ pub struct MotionCertificate {
     pub steps_without_contact: u64,
     pub largest_gap_um: f64,
     pub coast_contacts: u64,
+    pub rows_on_both_flanks: usize,
+    pub flank_coupling_bound_um: f64,
     pub steps: u64,
     pub refused_steps: u64,
 }
@@ -178,7 +180,7 @@ pub(super) fn headline(
         tooth_changes: done.motion.system().changes().count,
         ramp,
         critical_speeds: Vec::new(),
-        certificate: certificate(done),
+        certificate: certificate(done, prepared),
     })
 }
 
@@ -207,8 +209,19 @@ fn hardest(rows: &[MotionRow]) -> Option<PressurePlace> {
     Some(PressurePlace::of_spot(row.max_pressure_at.as_ref()?, row.pinion_angle_deg, row.mesh_phase))
 }
 
-fn certificate(done: &FinishedMotion) -> MotionCertificate {
+/// Rows in which driving and coast flanks press at once, and a bound (um) of what is left out there: a force on one flank
+/// of a tooth bends the other flank by less than its own, F / k, and of the two forces only the smaller is shared.
+fn flank_coupling(rows: &[MotionRow], stiffness_along_normal_n_per_um: f64) -> (usize, f64) {
+    let shared = |row: &MotionRow| row.normal_force_n.min(row.coast_normal_force_n);
+    let both = rows.iter().map(shared).filter(|force| *force > 0.0);
+    (both.clone().count(), both.fold(0.0, f64::max) / stiffness_along_normal_n_per_um)
+}
+
+fn certificate(done: &FinishedMotion, prepared: &PreparedMotion) -> MotionCertificate {
     let motion = &done.motion;
+    let cos = motion.system().pair().base_helix_angle().cos();
+    let along_normal = 1e-3 * prepared.quasi_static.stiffness / (cos * cos);
+    let (rows_on_both_flanks, flank_coupling_bound_um) = flank_coupling(&done.rows, along_normal);
     let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
     let ledger = motion.ledger().copied().unwrap_or_default();
     let settled = done.course.periodicity;
@@ -228,6 +241,8 @@ fn certificate(done: &FinishedMotion) -> MotionCertificate {
         steps_without_contact: extremes.steps_apart,
         largest_gap_um: 1e3 * extremes.largest_gap,
         coast_contacts: counts.coast_contacts,
+        rows_on_both_flanks,
+        flank_coupling_bound_um,
         steps: counts.steps,
         refused_steps: counts.refused,
     }

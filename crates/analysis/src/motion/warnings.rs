@@ -172,6 +172,13 @@ pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headlin
             c.largest_gap_um
         ));
     }
+    if c.flank_coupling_bound_um > COUPLED * headline.peak_to_peak_dte_um {
+        said.push(format!(
+            "in {} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {:.3} um: \
+             a backlash keeps them apart",
+            c.rows_on_both_flanks, c.flank_coupling_bound_um
+        ));
+    }
     if let Drive::Torque { start, .. } = &prepared.system.options().drive {
         let asked = start * 30.0 / std::f64::consts::PI;
         if (headline.speed_rpm / asked - 1.0).abs() > 0.01 {
@@ -184,6 +191,9 @@ pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headlin
     }
     said
 }
+
+/// Error of the coupling of both flanks over the peak to peak that a user should hear of.
+const COUPLED: f64 = 0.01;
 
 /// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.
 pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<String> {

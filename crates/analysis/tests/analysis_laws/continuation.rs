@@ -73,7 +73,7 @@ fn a_map_folds_where_the_contact_does() {
     let (way, helical) = ([15500.0, 18500.0], (15.0, 12));
     let (_, mapped) = followed(pair("mapped", helical).set("motion.continuation.phases", 192), way);
     let (_, reduced) = followed(
-        pair("reduced", helical).set("motion.continuation.phases", 192).set("motion.continuation.time_points", 2),
+        pair("reduced", helical).set("motion.continuation.phases", 128).set("motion.continuation.time_points", 1),
         way,
     );
     // Where it jumps up, and where it jumps down; between phases at which contact begins, a branch may waver there.

@@ -77,7 +77,7 @@ fn what_cannot_be_balanced_is_an_error() {
     let start = system.at_rest();
     let mut tracer = Tracer::new(&mut system, few, 1.0).unwrap();
     let options = BranchOptions { range: [0.5, 1.1], first_step: 0.01, longest_step: 0.03, most: 400 };
-    let error = tracer.branch(0.5, &start, &options, |_| ControlFlow::Continue(())).unwrap_err();
+    let error = tracer.branch(0.5, &start, &options, |_| ControlFlow::Continue(())).unwrap().broken.unwrap();
     assert!(matches!(error, PeriodicError::Harmonics { harmonics: 2, .. }), "{error}");
     for wrong in [
         BalanceOptions { harmonics: 0, ..few },

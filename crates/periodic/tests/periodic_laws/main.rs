@@ -1,5 +1,6 @@
 //! Laws of periodic motions.
 
 mod clearance;
+mod free_turn;
 mod linear;
 mod oscillator;

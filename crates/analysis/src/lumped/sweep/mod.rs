@@ -4,11 +4,9 @@
 //! |---|---|
 //! | `options` | what is asked for |
 //! | `point` | one value: settle, section |
-//! | `exponent` | the largest Lyapunov exponent of its motion |
 //! | `ways` | value after value, upwards, downwards or each by itself |
 //! | `headline` | what is read off the points |
 
-mod exponent;
 mod headline;
 mod options;
 mod point;

@@ -98,7 +98,14 @@ impl SweepOptions {
         let motion = motion_of(scene)?.clone();
         let mut own = scene.clone();
         own.analysis.cycles = self.points.saturating_mul(self.every.cycles(scene));
-        own.motion = Some(MotionScene { run: Run::Steady, duration_s: None, ramp: None, sweep: None, ..motion });
+        own.motion = Some(MotionScene {
+            run: Run::Steady,
+            duration_s: None,
+            ramp: None,
+            sweep: None,
+            continuation: None,
+            ..motion
+        });
         Ok(own)
     }
 }

@@ -11,10 +11,10 @@ use super::{
     super::{
         LumpedInputs,
         analysis::{checked_run, motion_of},
+        exponent::exponent,
         free_turn::FreeTurn,
     },
     SweepOptions,
-    exponent::exponent,
 };
 use crate::AnalysisError;
 

@@ -9,7 +9,7 @@ use periodic::TangentFlow;
 use scene::MotionScene;
 use study::Lyapunov;
 
-use super::super::{
+use super::{
     free_turn::FreeTurn,
     mechanism::{BoxedMechanism, ModelFailure},
     run_loop::{self, MeshFrequencies},
