@@ -24,8 +24,10 @@ pub struct MapPlan {
     pub tilt: Option<[f64; 2]>,
     /// Width of face, mm.
     pub width: f64,
-    /// Root mean square of the approach's error, over the mean approach.
+    /// Root mean square of the approach's error, over the mean approach, that is aimed at.
     pub tolerance: f64,
+    /// Error with which a map is taken as well, where a finer one would cost too many contacts; no less than that.
+    pub worst: f64,
 }
 
 /// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.
@@ -33,6 +35,10 @@ const PHASES: [usize; 2] = [32, 1024];
 const LOADS: [usize; 2] = [12, 96];
 const TILTS: [usize; 2] = [6, 12];
 const SHARES: usize = 16;
+/// Contacts that a map may take for what lies between the error aimed at and the worst: some hundred mesh cycles at rest.
+const FEW_CONTACTS: usize = 10_000;
+/// Contacts that it may take at all.
+const MOST_CONTACTS: usize = 200_000;
 /// Places at which a map is held against the contact.
 const CHECKS: usize = 64;
 
@@ -42,8 +48,8 @@ type Columns = BTreeMap<usize, Vec<Vec<Node>>>;
 impl ContactMap {
     /// A map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1).
     ///
-    /// Phases and forces are doubled, whichever the error comes from, until the check at random places is within the
-    /// tolerance.
+    /// Phases, forces and tilts are doubled, whichever the error comes from, until the check at random places is within
+    /// the tolerance, or a finer map would cost too much.
     ///
     /// # Errors
     /// [`MapError`].
@@ -73,13 +79,11 @@ impl ContactMap {
             if error <= plan.tolerance {
                 return Ok(map);
             }
-            let Some(finer) = size.finer(along.map(|of| of[0])) else {
-                return Err(MapError::Coarse {
-                    phases: size.phases,
-                    loads: size.loads,
-                    error,
-                    allowed: plan.tolerance,
-                });
+            let good = error <= plan.worst;
+            let most = if good { FEW_CONTACTS } else { MOST_CONTACTS };
+            let Some(finer) = size.finer(along.map(|of| of[0])).filter(|finer| finer.contacts() <= most) else {
+                let coarse = MapError::Coarse { phases: size.phases, loads: size.loads, error, allowed: plan.worst };
+                return if good { Ok(map) } else { Err(coarse) };
             };
             if (finer.loads, finer.tilts) != (size.loads, size.tilts) {
                 columns.clear();
@@ -99,6 +103,11 @@ struct MapSize {
 }
 
 impl MapSize {
+    /// Contacts that a map takes, about.
+    fn contacts(self) -> usize {
+        2 * self.phases * self.loads * (self.tilts + 1)
+    }
+
     /// Twice as many where the error is largest and more are allowed; errors along phases, loads and tilts.
     fn finer(self, errors: [f64; 3]) -> Option<Self> {
         let ways = [
@@ -116,6 +125,7 @@ fn check_plan<E>(plan: &MapPlan) -> Result<(), MapError<E>> {
         ("largest force [N]", plan.largest_force),
         ("width of face [mm]", plan.width),
         ("tolerance of the contact map", plan.tolerance),
+        ("worst error of the contact map", plan.worst),
     ];
     for (name, value) in positive {
         if !(value.is_finite() && value > 0.0) {

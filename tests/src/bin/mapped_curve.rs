@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let resonance = pair.speed(pair.resonance_hz());
     let began = Instant::now();
     let system = pair.system(0.3 * pair.resonance_hz(), |o| o.damping = MeshDamping::Ratio(ratio));
-    let map = MappedPair::new(system, &MapRequest { overload: 6.0, tolerance: 2e-4, lag: pair.ste[0] })?;
+    let map = MappedPair::new(system, &MapRequest { overload: 6.0, tolerance: 2e-4, worst: 2e-4, lag: pair.ste[0] })?;
     let of_map = began.elapsed().as_secs_f64();
     println!("map: {of_map:.2} s, {:?}", map.maps().next().map(|m| *m.certificate()));
     let began = Instant::now();

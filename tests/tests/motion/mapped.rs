@@ -36,7 +36,7 @@ fn on_bearings(o: &mut MotionOptions) {
 }
 
 fn mapped(bench: &MovingPair, hz: f64, tolerance: f64, change: impl FnOnce(&mut MotionOptions)) -> MappedPair {
-    let request = MapRequest { overload: 4.0, tolerance, lag: bench.ste[0] };
+    let request = MapRequest { overload: 4.0, tolerance, worst: tolerance, lag: bench.ste[0] };
     MappedPair::new(bench.system(hz, change), &request).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -197,7 +197,7 @@ fn harmonic_balance_finds_the_motion_on_a_map() {
 #[test]
 fn what_no_map_holds_is_refused() {
     let bench = bench();
-    let request = MapRequest { overload: 4.0, tolerance: 1e-3, lag: bench.ste[0] };
+    let request = MapRequest { overload: 4.0, tolerance: 1e-3, worst: 1e-3, lag: bench.ste[0] };
     let rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
     let error = MappedPair::new(rubbing, &request).expect_err("friction is in no map");
     assert!(error.to_string().contains("friction"), "{error}");

@@ -27,8 +27,11 @@ use crate::{
 
 /// Largest force of a map over the mean one: more than a resonance with loss of contact brings.
 const OVERLOAD: f64 = 6.0;
-/// Error of a map over the mean approach of the flanks, root mean square.
-pub(super) const MAP_TOLERANCE: f64 = 2e-4;
+/// Error of a map over the mean approach of the flanks, root mean square, that is aimed at: at rest the approach of a
+/// smooth pair swings by a few per cent of its mean, and a hundredth of that is to be seen.
+const MAP_TOLERANCE: f64 = 3e-5;
+/// The same that is the most.
+pub(super) const WORST_MAP: f64 = 3e-4;
 /// Contacts that a step of the model "reduced" solves.
 const CONTACTS_OF_A_STEP: f64 = 3.0;
 
@@ -84,7 +87,7 @@ impl ElasticPair {
         let began = Instant::now();
         let (contact, contacts) = match scene.analysis.model {
             Model::Mapped => {
-                let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, lag };
+                let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, worst: WORST_MAP, lag };
                 let made =
                     run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
                 let made = made.map_err(|source| failed(scene, source))?;

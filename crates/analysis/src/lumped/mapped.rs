@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
-    elastic_pair::{ElasticFrame, MAP_TOLERANCE},
+    elastic_pair::{ElasticFrame, WORST_MAP},
     mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::certificate::Check;
@@ -113,7 +113,7 @@ impl LumpedMechanism for MappedModel {
             Check {
                 name: "map_error",
                 value: worst.fold(0.0, f64::max),
-                bound: MAP_TOLERANCE,
+                bound: WORST_MAP,
                 way_out: "use `model = \"reduced\"`, which solves the contact itself",
             },
             Check {

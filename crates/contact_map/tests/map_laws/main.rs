@@ -8,7 +8,14 @@ use contact_map::{ContactMap, MapError, MapPlan, Wanted};
 use synthetic::{MEAN_FORCE, Row};
 
 fn plan(tolerance: f64) -> MapPlan {
-    MapPlan { mean_force: MEAN_FORCE, largest_force: 4.0 * MEAN_FORCE, tilt: None, width: 20.0, tolerance }
+    MapPlan {
+        mean_force: MEAN_FORCE,
+        largest_force: 4.0 * MEAN_FORCE,
+        tilt: None,
+        width: 20.0,
+        tolerance,
+        worst: tolerance,
+    }
 }
 
 fn map(plan: &MapPlan) -> ContactMap {

@@ -14,8 +14,10 @@ use ltca::StaticError;
 pub struct MapRequest {
     /// Largest force over that of the load at the start.
     pub overload: f64,
-    /// Root mean square of the approach's error over the mean approach.
+    /// Root mean square of the approach's error over the mean approach that is aimed at.
     pub tolerance: f64,
+    /// The same with which a map is taken that cannot be made finer in some hundred mesh cycles at rest.
+    pub worst: f64,
     /// Approximate lag of the driven gear under the load, mm.
     pub lag: f64,
 }
@@ -59,6 +61,7 @@ impl MappedPair {
                 tilt: tilts.then(|| tilt_range(&stands, &projection, &pair)),
                 width: pair.face_width(),
                 tolerance: request.tolerance,
+                worst: request.worst,
             };
             let at = |phase: f64| {
                 let side = side.copy_at(&pair, phase)?;
