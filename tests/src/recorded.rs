@@ -9,8 +9,16 @@ use serde_json::Value as Json;
 use crate::random_scenes::Csv;
 
 /// Columns that are nothing but round-off, or counts of steps towards it.
-const NOISE: [&str; 6] =
-    ["residual", "iterations", "refused_steps", "relative_error", "periodicity", "bulk_compliance_error"];
+const NOISE: [&str; 8] = [
+    "residual",
+    "iterations",
+    "newton_steps",
+    "tail",
+    "refused_steps",
+    "relative_error",
+    "periodicity",
+    "bulk_compliance_error",
+];
 /// Digits of the digest.
 const DIGITS: usize = 9;
 /// Difference of sums over their size that other last bits may make.
@@ -33,7 +41,7 @@ pub type Record = BTreeMap<String, Recorded>;
 /// # Errors
 /// When its files cannot be read.
 pub fn of_folder(folder: &Path) -> io::Result<Recorded> {
-    let rows = ["history.csv", "resonance.csv"].iter().find(|name| folder.join(name).exists());
+    let rows = ["history.csv", "resonance.csv", "branch.csv"].iter().find(|name| folder.join(name).exists());
     let csv = Csv::read(&folder.join(rows.unwrap_or(&"history.csv")))?;
     let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
     for name in csv.names.iter().filter(|n| !is_noise(n)) {

@@ -32,7 +32,7 @@ pub use error::PairMotionError;
 pub use extremes::Extremes;
 pub use instant::{Instant, LoadedSlice};
 pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
-pub use mapped::{MapExcess, MapRequest, MappedInstant, MappedPair, SpeedFamily};
+pub use mapped::{MapExcess, MapRequest, MappedInstant, MappedPair};
 pub use mechanism::{MechanismState, PairMechanism};
 pub use mesh_side::{SideState, ToothChanges};
 pub use modal::GearVibration;

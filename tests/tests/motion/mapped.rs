@@ -3,13 +3,10 @@
 
 use std::{sync::OnceLock, time::Instant};
 
-use dynamics::{
-    Bearing, Drive, MapRequest, MappedPair, MeshDamping, MotionOptions, Speed, SpeedFamily, Torque, quasi_static_start,
-};
+use dynamics::{Bearing, Drive, MapRequest, MappedPair, MeshDamping, MotionOptions, Speed, Torque, quasi_static_start};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use ltca::StaticOptions;
 use nalgebra::{DVector, Matrix6};
-use periodic::{BalanceOptions, FourierSeries, Tracer};
 use verification::moving::{MovingPair, peak_to_peak, rows, worst};
 
 const TORQUE: f64 = 150e3;
@@ -163,34 +160,6 @@ fn energy_stays_on_a_map() {
     println!("lag down to {:.3} um, energy drifts by {drift:.1e} of {:.3e} N mm", 1e3 * least, ledger.initial);
     assert!(least < 0.0, "contact was never lost: the lag stays above {least:e} mm");
     assert!(drift.abs() < 1e-9, "energy drifts by {drift:e}");
-}
-
-/// Harmonic balance finds the motion that waiting leads to, and says of it what waiting shows.
-#[test]
-fn harmonic_balance_finds_the_motion_on_a_map() {
-    let bench = bench();
-    let hz = 0.9 * bench.resonance_hz();
-    let mut map = mapped(bench, hz, 1e-3, |_| ());
-    let mut system = bench.system(hz, |_| ());
-    let scale = system.coordinates().scales(bench.ste[0], bench.case.pair.wheel.base_radius());
-    let start = quasi_static_start(&mut system, 0.0, bench.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
-    let q = start.q.clone();
-    let (waited, _) = map_rows(&mut map, hz, 60, start);
-    let mut family = SpeedFamily::new(map, 1, bench.ste[0]).unwrap_or_else(|e| panic!("{e}"));
-    let options = BalanceOptions { tail: 1e-4, ..BalanceOptions::default() };
-    let mut tracer = Tracer::new(&mut family, options, bench.speed(hz)).unwrap_or_else(|e| panic!("{e}"));
-    let found = tracer.motion_at(bench.speed(hz), &FourierSeries::at_rest(&q, 8)).unwrap_or_else(|e| panic!("{e}"));
-    let balanced = found.series.peak_to_peak(&DVector::from_element(1, 1.0));
-    let last = peak_to_peak(&waited[waited.len() - STEPS..]);
-    println!(
-        "{:.4} um by waiting, {:.4} um by balance, multiplier {:.4}",
-        1e3 * last,
-        1e3 * balanced,
-        found.floquet.largest()
-    );
-    // 64 steps of generalised-alpha a cycle are off by a few thousandths at the resonance themselves.
-    assert!((balanced / last - 1.0).abs() < 5e-3, "{balanced:e} mm by balance, {last:e} mm by waiting");
-    assert!(found.floquet.largest() < 1.0, "waiting leads to a motion that is said to be unstable");
 }
 
 /// What a map does not hold is refused, by name.

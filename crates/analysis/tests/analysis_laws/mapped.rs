@@ -1,10 +1,23 @@
 //! The model `mapped` beside `reduced`, of one scene.
 
-use analysis::{AnalysisError, lumped::LumpedAnalysis, motion::MotionAnalysis};
-use scene::{Scene, SceneBuilder};
+use analysis::{
+    AnalysisError,
+    lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, SectionEvery, SweepOptions},
+    motion::MotionAnalysis,
+};
+use scene::{Scene, SceneBuilder, SweepWay};
 
-/// A small pair on soft bearings, at a speed at which it vibrates.
+/// A small pair at a speed at which it vibrates, until it repeats itself.
 fn small(model: &str) -> SceneBuilder {
+    moving(model)
+        .set("motion.run", "steady")
+        .set("motion.warm_up_cycles", 400)
+        .set("motion.periodic_tolerance", 1e-3)
+        .set("motion.mesh_damping_ratio", 0.08)
+}
+
+/// The same, whatever is run.
+fn moving(model: &str) -> SceneBuilder {
     let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(300.0);
     let meshed = ["pinion.mesher", "wheel.mesher"].iter().fold(base, |scene, gear| {
         let keys = [("order", 1), ("sector_teeth", 1), ("elements_profile", 3), ("elements_thickness", 4)];
@@ -18,11 +31,7 @@ fn small(model: &str) -> SceneBuilder {
         .set("analysis.model", model)
         .set("analysis.positions_per_cycle", 8)
         .set("analysis.cycles", 2)
-        .set("motion.run", "steady")
-        .set("motion.warm_up_cycles", 400)
-        .set("motion.periodic_tolerance", 1e-3)
         .set("motion.steps_per_mesh_cycle", 32)
-        .set("motion.mesh_damping_ratio", 0.08)
 }
 
 fn on_bearings(scene: SceneBuilder) -> SceneBuilder {
@@ -66,4 +75,48 @@ fn it_has_no_friction() {
         Err(AnalysisError::Motion { source, .. }) => assert!(source.to_string().contains("pitch errors"), "{source}"),
         other => panic!("{other:?}"),
     }
+}
+
+/// A load that swings through zero presses the coast flanks: forces on either side and the way between them are those
+/// of the contact itself.
+#[test]
+fn both_flanks_press_under_a_load_that_swings() {
+    let swinging = |model: &str| {
+        let scene = moving(model).set("operation.torque_nm", 100.0).set("operation.speed_rpm", 1000.0);
+        let apart = scene.set("pinion.thickness_allowance_mm", 0.02).set("wheel.thickness_allowance_mm", 0.02);
+        let loaded = apart.set("load.amplitude_nm", 200.0).set("load.frequency_hz", 300.0).set("drive.by", "speed");
+        built(loaded.set("motion.run", "span").set("analysis.cycles", 8).set("motion.mesh_damping_ratio", 0.1))
+    };
+    let exact = MotionAnalysis::new(&swinging("reduced")).solve().unwrap_or_else(|e| panic!("{e}"));
+    let mapped = LumpedAnalysis::new(&swinging("mapped")).solve().unwrap_or_else(|e| panic!("{e}"));
+    let (a, b) = (&exact.headline, &mapped.headline);
+    let coast = [a.max_coast_normal_force_n, b.max_coast_normal_force_n.unwrap()];
+    assert!(coast[0] > 1000.0, "the coast flanks press with {} N only", coast[0]);
+    assert!((coast[1] / coast[0] - 1.0).abs() < 5e-3, "coast force {} N, on the map {} N", coast[0], coast[1]);
+    let way = [a.peak_to_peak_dte_um, b.peak_to_peak_dte_um];
+    assert!((way[1] / way[0] - 1.0).abs() < 5e-3, "peak to peak {} um, on the map {} um", way[0], way[1]);
+    assert_eq!(a.certificate.rows_on_both_flanks, 0, "the backlash keeps the flanks apart");
+    assert_eq!(a.certificate.flank_coupling_bound_um, 0.0);
+}
+
+/// Gears are made once for all values of a key that is the pair's, not the map's; each value has its own damping.
+#[test]
+fn a_sweep_over_damping_is_what_each_value_gives_alone() {
+    let at = |ratio: f64| built(small("mapped").set("motion.mesh_damping_ratio", ratio));
+    let scenes = [0.05, 0.2].map(|ratio| (ratio, at(ratio)));
+    let options = SweepOptions {
+        key: "motion.mesh_damping_ratio".into(),
+        ways: vec![SweepWay::Apart],
+        every: SectionEvery::MeshCycle,
+        quantity: LumpedQuantity::new("dte_um", |row| row.transmission_error_um),
+        points: 2,
+        stretches: 0,
+    };
+    let swept = KeySweep::new(&scenes, &options).solve().unwrap_or_else(|e| panic!("{e}"));
+    for (point, (ratio, scene)) in swept.points.iter().zip(&scenes) {
+        let alone = LumpedAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{e}"));
+        let [a, b] = [point.peak_to_peak(), alone.headline.peak_to_peak_dte_um];
+        assert!((a / b - 1.0).abs() < 1e-9, "damping ratio {ratio}: {a} um in the sweep, {b} um alone");
+    }
+    assert!(swept.points[1].peak_to_peak() < swept.points[0].peak_to_peak(), "more damping, less vibration");
 }

@@ -1,7 +1,6 @@
 //! The pair with a map in place of its contact. Theory (75).
 
 mod balance;
-mod family;
 mod make;
 mod projection;
 mod sampler;
@@ -13,7 +12,6 @@ use std::sync::Arc;
 use crate::{COORDINATES, Displacement, PairMechanism};
 use projection::Projection;
 
-pub use family::SpeedFamily;
 pub use make::MapRequest;
 
 /// A pair of gears whose contact is a map of the contact of its elastic teeth.

@@ -330,6 +330,10 @@ mod tests {
                 "motion.sweep",
                 "from_rpm = 1.0\nto_rpm = 2.0\n[analysis]\nkind = \"dynamic\"\n[motion]\nrun = \"sweep\"\n",
             ),
+            (
+                "motion.continuation",
+                "from = 1.0\nto = 2.0\n[analysis]\nkind = \"dynamic\"\n[motion]\nrun = \"continuation\"\n",
+            ),
             ("modes", "[analysis]\nkind = \"dynamic\"\nmodel = \"reduced+modes\"\n"),
             (
                 "mesh",

@@ -149,6 +149,9 @@ const SWEEP: &str = "motion.run=sweep; motion.sweep.from_rpm=2000; motion.sweep.
 
 const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=4; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.tail=0.01";
 
+/// The same with so few harmonics that more are wanted.
+const MORE: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=2; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.harmonics=2; motion.continuation.tail=1e-3";
+
 /// Keys that stand once in a scene.
 const SCENE: &[Row] = &[
     ("name", Iso, "", "another"),
@@ -231,7 +234,7 @@ const SCENE: &[Row] = &[
     ("motion.continuation.to", Motion, BRANCH, "4500"),
     ("motion.continuation.period_cycles", Motion, BRANCH, "2"),
     ("motion.continuation.harmonics", Motion, BRANCH, "6"),
-    ("motion.continuation.most_harmonics", Motion, BRANCH, "12"),
+    ("motion.continuation.most_harmonics", Motion, MORE, "2"),
     ("motion.continuation.tail", Motion, BRANCH, "1e-5"),
     ("motion.continuation.phases", Motion, BRANCH, "128"),
     ("motion.continuation.longest_step", Motion, BRANCH, "0.2"),
