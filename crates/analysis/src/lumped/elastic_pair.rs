@@ -48,8 +48,8 @@ pub(crate) struct ElasticPair {
 
 /// How contact is found.
 enum PairContact {
-    Solved(PairMechanism),
-    Mapped(MappedPair),
+    Solved(Box<PairMechanism>),
+    Mapped(Box<MappedPair>),
 }
 
 /// Sizes and places of coordinates.
@@ -92,9 +92,9 @@ impl ElasticPair {
                     run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
                 let made = made.map_err(|source| failed(scene, source))?;
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
-                (PairContact::Mapped(made), contacts)
+                (PairContact::Mapped(Box::new(made)), contacts)
             }
-            _ => (PairContact::Solved(system), 0),
+            _ => (PairContact::Solved(Box::new(system)), 0),
         };
         let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
         Ok(Self { contact, resonance, elasticity, pace, frame, warnings })

@@ -169,24 +169,25 @@ fn follow(
         longest_step: words.longest_step,
         most: words.motions as usize,
     };
+    let complain = |e| AnalysisError::periodic(&inputs.scene, e);
     let from = |family: &mut ModelFamily<'_>, start: &FourierSeries| {
-        let mut tracer = Tracer::new(family, options, way.abs())?;
-        tracer.branch(words.from, start, &walk, |motion| {
+        let mut tracer = Tracer::new(family, options, way.abs()).map_err(complain)?;
+        let branch = tracer.branch(words.from, start, &walk, |motion| {
             progress.say(format!("{} = {:.6}", words.key.word(), motion.parameter));
             ControlFlow::Continue(())
-        })
+        });
+        branch.map_err(complain)
     };
     // Of several motions there, the one that a start from rest leads to; where that does not repeat itself, the search
     // begins at rest.
     let first = inputs.in_scene(family.scene_at(words.from));
-    let found = match settled(&first, words.period_cycles)? {
+    match settled(&first, words.period_cycles)? {
         Some(settled) => from(family, &settled),
         None => {
             let rest = FourierSeries::at_rest(&family.rest()?, options.harmonics);
             from(family, &rest)
         }
-    };
-    found.map_err(|e| AnalysisError::periodic(&inputs.scene, e))
+    }
 }
 
 /// That the branch has had all of its motions before it left the range.
