@@ -11,7 +11,10 @@ use super::{
 
 /// Figures of a headline that have no value in some results: not asked for, of another model, or where nothing is to be
 /// measured (`docs/outputs.md`).
-const MAY_BE_NULL: [&str; 24] = [
+const MAY_BE_NULL: [&str; 27] = [
+    ".certificate.lyapunov",
+    ".difference_in_time",
+    ".broken",
     ".root_stress",
     ".max_root_tension_mpa",
     ".max_root_tension_estimated_error_percent",
@@ -97,8 +100,8 @@ pub fn judge(folder: &Path) -> Judged {
     }
     judged.wrong.extend(headline(&summary));
     let Ok(history) = Csv::read(&folder.join("history.csv")) else {
-        if !folder.join("resonance.csv").exists() && !folder.join("sweep.csv").exists() {
-            judged.wrong.push("there is neither history.csv nor rows of a sweep".into());
+        if !["resonance.csv", "sweep.csv", "branch.csv"].iter().any(|name| folder.join(name).exists()) {
+            judged.wrong.push("there is neither history.csv nor rows of a sweep or a branch".into());
         }
         judged.wrong.extend(sweep(folder));
         return judged;

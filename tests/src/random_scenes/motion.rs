@@ -141,9 +141,11 @@ fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Ask
 /// Speeds and lengths; few cycles, few steps. Gives the word of `run`.
 fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'static str {
     let runs: &[&str] = match asked.model {
-        m if m.starts_with("reduced") => &["steady", "steady", "shooting", "span", "span", "ramp", "sweep"],
+        m if m.starts_with("reduced") => {
+            &["steady", "steady", "shooting", "span", "span", "ramp", "sweep", "continuation"]
+        }
         "impact" => &["steady", "span", "span", "ramp", "sweep"],
-        _ => &["steady", "span", "sweep"],
+        _ => &["steady", "span", "sweep", "continuation"],
     };
     let run = d.pick(runs);
     d.set("motion.run", run);
@@ -166,6 +168,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
     match run {
         "ramp" => draw_ramp(d, rpm, cycle_s, elastic),
         "sweep" => draw_sweep(d, rpm, elastic),
+        "continuation" => draw_branch(d, rpm),
         "span" if d.chance(0.4) => {
             let cycles = f64::from(d.whole(1, 3));
             d.set("motion.duration_s", (cycles * cycle_s).clamp(1e-9, 1e9));
@@ -175,7 +178,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
             d.set("analysis.cycles", i64::from(cycles));
         }
     }
-    if matches!(run, "steady" | "shooting" | "sweep") {
+    if matches!(run, "steady" | "shooting" | "sweep" | "continuation") {
         let waits = d.whole(0, 8);
         d.set("motion.warm_up_cycles", i64::from(waits));
         let tolerance = d.mostly_log([1e-5, 1e-2], [1e-12, 0.5]);
@@ -220,6 +223,28 @@ fn draw_sweep(d: &mut Draft, rpm: f64, elastic: bool) {
         let by = d.pick(&["running", "shooting"]);
         d.set("motion.sweep.steady_by", by);
     }
+}
+
+fn draw_branch(d: &mut Draft, rpm: f64) {
+    let ways = [0.6, 1.3].map(|share| (rpm * share).clamp(1e-3, 1e7));
+    let down = usize::from(d.chance(0.5));
+    d.set("motion.continuation.key", "operation.speed_rpm");
+    d.set("motion.continuation.from", ways[down]);
+    d.set("motion.continuation.to", ways[1 - down]);
+    for (key, low, high) in [
+        ("motions", 2, 3),
+        ("phases", 64, 96),
+        ("harmonics", 2, 6),
+        ("most_harmonics", 8, 12),
+        ("period_cycles", 1, 2),
+        ("time_points", 0, 1),
+    ] {
+        let number = d.whole(low, high);
+        d.set(&format!("motion.continuation.{key}"), i64::from(number));
+    }
+    let (tail, step) = (d.log(1e-3, 0.1), d.log(0.01, 0.2));
+    d.set("motion.continuation.tail", tail);
+    d.set("motion.continuation.longest_step", step);
 }
 
 fn draw_torques(d: &mut Draft, asked: &Asked, elastic: bool, run: &str) {

