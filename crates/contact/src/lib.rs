@@ -54,7 +54,7 @@ pub use nodal::{
 pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
 pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};
-pub use result::{MeshForce, Site, SliceResult, Wrench, local_energy, opening_by_motion, slice_result, wrenches};
+pub use result::{MeshForce, Site, SliceResult, SliceState, Wrench, opening_by_motion, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
     ContactWork, EvaluationLevel, FlankPair, MeshContact, NearestPoint, RigidFlanks, Slice, SliceFlank, SliceHint,

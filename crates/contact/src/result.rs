@@ -3,7 +3,7 @@
 use geometry::Side;
 use serde::Serialize;
 
-use crate::{ContactRow, Pose, Slice, Vec3};
+use crate::{ContactRow, LocalLaw, LocalState, Pose, Slice, Vec3};
 
 /// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -114,10 +114,29 @@ pub fn wrenches(poses: &[Pose; 2], rows: &[ContactRow], forces: &[f64]) -> [Wren
     })
 }
 
+/// What the local approach of a slice is under its force; nothing without one.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SliceState {
+    /// Approach, band and pressure.
+    pub local: LocalState,
+    /// What the local approach stores beyond half of force times approach, N mm.
+    pub curved_energy: f64,
+}
+
+impl SliceState {
+    /// Of a slice of some length (mm) under a force (N).
+    pub fn new(law: &LocalLaw, length: f64, force: f64) -> Self {
+        if force <= 0.0 {
+            return Self::default();
+        }
+        let load = force / length;
+        Self { local: law.under(load), curved_energy: length * law.curved_energy(load) }
+    }
+}
+
 /// A loaded slice as the results have it.
-pub fn slice_result(slice: &Slice, side: Side, force: f64) -> SliceResult {
+pub fn slice_result(slice: &Slice, side: Side, force: f64, state: &LocalState) -> SliceResult {
     let line_load = force / slice.length;
-    let state = slice.local.under(line_load);
     SliceResult {
         z: slice.z,
         wheel_z: slice.at[1][1],
@@ -146,11 +165,6 @@ fn site(slice: &Slice, half_width: f64) -> Site {
     } else {
         Site::Flank
     }
-}
-
-/// What the local approach stores beyond half of force times approach, N mm.
-pub fn local_energy(slice: &Slice, force: f64) -> f64 {
-    slice.length * slice.local.law().curved_energy(force / slice.length)
 }
 
 /// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about

@@ -99,9 +99,14 @@ impl Flank {
 
     /// Unit normal, out of the tooth.
     pub fn normal(&self, u: f64, z: f64) -> Vec3 {
+        self.frame(u, z)[0]
+    }
+
+    /// Unit normal and unit direction of the profile, which the transverse plane holds, with one sine for both.
+    pub fn frame(&self, u: f64, z: f64) -> [Vec3; 2] {
         let (sin, cos) = self.generating_angle(u, z).sin_cos();
         let (sin_b, cos_b) = self.base_helix_angle.sin_cos();
-        self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b)
+        [self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b), Vec3::new(cos, sin, 0.0)]
     }
 
     /// Surface point (mm) and its derivative by roll angle (mm), with one sine for both.

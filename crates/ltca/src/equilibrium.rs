@@ -1,7 +1,9 @@
 //! Torque equilibrium at one station. Theory (20).
 
 use ale::Station;
-use contact::{ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, Solution, WarmStart, frames};
+use contact::{
+    ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, SliceState, Solution, WarmStart, frames,
+};
 use geometry::GearPair;
 
 use crate::{
@@ -30,6 +32,8 @@ pub struct Equilibrium {
     pub rows: Vec<ContactRow>,
     /// The slice of each row; none where points touch.
     pub slices: Vec<Slice>,
+    /// The local approach of each slice.
+    pub states: Vec<SliceState>,
     /// Forces and gaps at the rows.
     pub solution: Solution,
     /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames. Empty for slices on reduced
@@ -46,7 +50,7 @@ pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 80;
 /// Gap over the approach up to which rows are candidates: what loads on other teeth may close.
-const NEIGHBOURS_CLOSE: f64 = 0.25;
+pub(crate) const NEIGHBOURS_CLOSE: f64 = 0.25;
 /// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
 /// Estimated deflection of steel teeth over the module beyond which no search is begun.
@@ -106,7 +110,7 @@ pub(crate) fn equilibrium(
     let unloaded = Unloaded::new(pair, &options.contact, station)?;
     let kinematic = unloaded.transmission_error();
     let mut solver = match mesh {
-        Some(mesh) => PoseSolver::Mesh(mesh),
+        Some(mesh) => PoseSolver::Mesh { mesh, held: None },
         None => PoseSolver::General {
             line: set.line_points(&options.contact, &poses(windowed, station, unloaded.rotation)),
             warm_start: guess.map(Equilibrium::warm_start).unwrap_or_default(),
@@ -157,13 +161,13 @@ pub(crate) fn equilibrium(
         iterations += newton;
         rotation = steps.next(rotation, turn);
         let elastic_mm = base_radius * (rotation - unloaded.rotation).abs();
-        if steps.is_last(elastic_mm)
-            && let Some(found) = solver.take_solution()
+        if steps.is_last(elastic_mm, solver.tells_forces())
+            && let Some(found) = solver.take_solution(steps.share_left())
         {
             rotation += steps.remainder();
             let error = side.sign() * base_radius * rotation;
             let course = guess.map(|g| g.course.clone()).unwrap_or_default();
-            let PoseSolution { mut rows, slices, solution, displacements } = *found;
+            let PoseSolution { mut rows, slices, states, solution, displacements } = *found;
             // Poses and gaps as they are after the last step, which no search follows any more.
             let poses = self::poses(windowed, station, rotation);
             rows.iter_mut().for_each(|row| row.gap += row.levers[options.driven()] * solution.rotation);
@@ -176,6 +180,7 @@ pub(crate) fn equilibrium(
                 kinematic_transmission_error: kinematic,
                 rows,
                 slices,
+                states,
                 solution,
                 displacements,
                 iterations,

@@ -1,8 +1,6 @@
 //! From a solved contact to the quantities of a station. Theory (34).
 
-use contact::{
-    ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, local_energy, slice_result, wrenches,
-};
+use contact::{ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, slice_result, wrenches};
 
 use crate::{Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line};
 
@@ -38,7 +36,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
     let moment = -side.sign() * options.torque;
     let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
-    let local: f64 = e.slices.iter().zip(&e.solution.forces).map(|(s, &f)| local_energy(s, f)).sum();
+    let local: f64 = e.states.iter().map(|state| state.curved_energy).sum();
     let penalty: f64 = match options.contact.law {
         contact::Law::Exact => 0.0,
         contact::Law::Penalty(k) => {
@@ -103,9 +101,10 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
     let slices: Vec<SliceResult> = e
         .slices
         .iter()
+        .zip(&e.states)
         .zip(e.rows.iter().zip(&e.solution.forces))
         .filter(|(_, (row, f))| **f > 0.0 && mine(row))
-        .map(|(s, (row, &f))| slice_result(s, set.side(row.patches.0), f))
+        .map(|((s, state), (row, &f))| slice_result(s, set.side(row.patches.0), f, &state.local))
         .collect();
     let pressed = slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
     let max_pressure = if set.slices().is_some() {

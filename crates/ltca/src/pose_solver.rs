@@ -1,24 +1,35 @@
 //! The contact problem of one pose, solved for forces and the turn of the driven gear.
 
 use contact::{
-    Balance, CandidateRows, ContactError, ContactRow, ElasticContact, LinePoints, MeshContact, Pose, Slice, Solution,
-    WarmStart,
+    Balance, CandidateRows, ContactError, ContactRow, ElasticContact, LinePoints, MeshContact, Pose, Slice, SliceState,
+    Solution, WarmStart,
 };
 
-use crate::WindowedPair;
+use crate::{WindowedPair, equilibrium::NEIGHBOURS_CLOSE};
 
 /// Contact at one pose.
 pub(crate) struct PoseSolution {
     pub rows: Vec<ContactRow>,
     pub slices: Vec<Slice>,
+    pub states: Vec<SliceState>,
     pub solution: Solution,
     pub displacements: [Vec<f64>; 2],
+}
+
+/// Rows that were found at an earlier pose and serve near it.
+pub(crate) struct HeldRows {
+    /// Largest gap of a row there, mm.
+    reach: f64,
+    /// Turn of the driven gear since, the one of the last step included, rad.
+    turned: f64,
+    /// Forces of the step before the last, N; none before there is one.
+    before: Vec<f64>,
 }
 
 /// How the contact of a pose is solved.
 pub(crate) enum PoseSolver<'a> {
     /// Slices on reduced gears.
-    Mesh(&'a mut MeshContact),
+    Mesh { mesh: &'a mut MeshContact, held: Option<HeldRows> },
     /// Points, and gears with all their degrees of freedom; the last solution is kept.
     General { line: LinePoints, warm_start: WarmStart, last: Option<Box<PoseSolution>> },
 }
@@ -39,20 +50,43 @@ impl PoseSolver<'_> {
         let driven = options.driven();
         let moment = -options.side().sign() * options.torque;
         let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
-        let short = |rows: &[ContactRow], turn: f64| {
-            // Every row that the step can close must be among the rows.
-            let farthest = rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));
-            (1.05 * farthest > reach).then_some(PoseStep::ReachExceeded(farthest))
-        };
+        let farthest =
+            |rows: &[ContactRow], turn: f64| rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));
+        // Every row that the step can close must be among the rows.
+        let short = |farthest: f64, reach: f64| 1.05 * farthest > reach;
         match self {
-            Self::Mesh(mesh) => {
+            Self::Mesh { mesh, held } => {
+                // Loads on other teeth close some gaps as well.
+                let enough = |rows: &HeldRows, mesh: &MeshContact| {
+                    !short((1.0 + NEIGHBOURS_CLOSE) * farthest(mesh.rows(), rows.turned), rows.reach)
+                };
+                if let Some(rows) = held {
+                    rows.before.clear();
+                    rows.before.extend(mesh.solver().forces());
+                }
+                if let Some(rows) = held
+                    && enough(rows, mesh)
+                    && mesh.solve_moved(poses, Balance::Moment(moment), driven)
+                {
+                    let turn = mesh.solver().rotation();
+                    rows.turned += turn;
+                    if enough(rows, mesh) {
+                        return Ok(PoseStep::Turn(turn, mesh.solver().iterations()));
+                    }
+                }
+                *held = None;
                 mesh.prepare(poses, Some(reach));
                 if !carries(mesh.rows()) {
                     return Ok(PoseStep::OutOfReach);
                 }
                 mesh.solve(Balance::Moment(moment), driven)?;
                 let (turn, iterations) = (mesh.solver().rotation(), mesh.solver().iterations());
-                Ok(short(mesh.rows(), turn).unwrap_or(PoseStep::Turn(turn, iterations)))
+                let moved = farthest(mesh.rows(), turn);
+                if short(moved, reach) {
+                    return Ok(PoseStep::ReachExceeded(moved));
+                }
+                *held = Some(HeldRows { reach, turned: turn, before: Vec::new() });
+                Ok(PoseStep::Turn(turn, iterations))
             }
             Self::General { line, warm_start, last } => {
                 let contact = ElasticContact { pair, gears, set, options: &options.contact };
@@ -63,25 +97,38 @@ impl PoseSolver<'_> {
                 let (solution, displacements) =
                     contact.solve(&candidates, Balance::Moment(moment), driven, warm_start)?;
                 let CandidateRows { rows, slices } = candidates;
-                if let Some(short) = short(&rows, solution.rotation) {
-                    return Ok(short);
+                let moved = farthest(&rows, solution.rotation);
+                if short(moved, reach) {
+                    return Ok(PoseStep::ReachExceeded(moved));
                 }
                 *warm_start = contact::warm_start(&rows, &solution);
                 let step = PoseStep::Turn(solution.rotation, solution.iterations);
-                *last = Some(Box::new(PoseSolution { rows, slices, solution, displacements }));
+                let of_row = |(slice, &f): (&Slice, &f64)| SliceState::new(&slice.local.law(), slice.length, f);
+                let states = slices.iter().zip(&solution.forces).map(of_row).collect();
+                *last = Some(Box::new(PoseSolution { rows, slices, states, solution, displacements }));
                 Ok(step)
             }
         }
     }
 
-    pub fn take_solution(&mut self) -> Option<Box<PoseSolution>> {
+    /// Whether the forces of the last two poses tell where they go.
+    pub fn tells_forces(&self) -> bool {
+        matches!(self, Self::Mesh { held: Some(rows), .. } if !rows.before.is_empty())
+    }
+
+    /// The last solution; `left`: the change of the pose that is still to come, over that of the last step. Forces are
+    /// smooth functions of the pose and go on as it does.
+    pub fn take_solution(&mut self, left: f64) -> Option<Box<PoseSolution>> {
         match self {
             Self::General { last, .. } => last.take(),
-            Self::Mesh(mesh) => {
+            Self::Mesh { mesh, held } => {
                 let rows = mesh.rows().to_vec();
                 let solver = mesh.solver();
+                let before = held.as_ref().map_or(&[][..], |rows| &rows.before);
+                let mut forces = solver.forces().to_vec();
+                forces.iter_mut().zip(before).for_each(|(f, before)| *f += left * (*f - before));
                 let solution = Solution {
-                    forces: solver.forces().to_vec(),
+                    forces,
                     active: solver.active().to_vec(),
                     rotation: solver.rotation(),
                     openings: solver.openings().to_vec(),
@@ -89,8 +136,8 @@ impl PoseSolver<'_> {
                     iterations: solver.iterations(),
                     residual: solver.residual(),
                 };
-                let slices = mesh.slices().to_vec();
-                Some(Box::new(PoseSolution { rows, slices, solution, displacements: Default::default() }))
+                let (slices, states) = (mesh.slices().to_vec(), mesh.states().collect());
+                Some(Box::new(PoseSolution { rows, slices, states, solution, displacements: Default::default() }))
             }
         }
     }

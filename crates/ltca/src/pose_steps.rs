@@ -4,8 +4,10 @@
 const NEWTON_STEPS: usize = 15;
 /// Last step relative to the approach.
 const TOLERANCE: f64 = 1e-10;
-/// Sum of the steps that are not taken any more, relative to the approach.
-const REMAINDER: f64 = 1e-12;
+/// Sum of the steps that are not taken any more, relative to the approach: two steps tell it to a hundredth. Forces that
+/// do not go on with the pose lack ten times as much, the ends of contact lines a hundred times.
+const REMAINDER: f64 = 2e-9;
+const REMAINDER_OF_FORCES: f64 = 1e-12;
 /// Ratio of steps that follow each other below which they are a geometric series.
 const GEOMETRIC: f64 = 0.05;
 /// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
@@ -18,8 +20,8 @@ const ROUND_OFF: f64 = 1e-9;
 /// ```text
 /// t_k = r t_(k-1),   t_(k+1) + t_(k+2) + ... = t_k r / (1 - r)
 /// ```
-/// so that two steps tell where the others lead (Aitken). The forces of the last step lack what these change, some ten
-/// times their sum over the approach; the ends of contact lines some hundred times.
+/// so that two steps tell where the others lead (Aitken). The forces go the same way: they change from pose to pose as
+/// the steps before these poses.
 pub(crate) struct PoseSteps {
     radius: f64,
     /// Round-off of places, mm.
@@ -72,16 +74,24 @@ impl PoseSteps {
         self.series().unwrap_or(0.0)
     }
 
+    /// The change of the pose that is still to come, over that before the last solution; 0 where steps are no series.
+    pub fn share_left(&self) -> f64 {
+        let before = self.turns[1].unwrap_or(f64::INFINITY);
+        self.series().map_or(0.0, |rest| (rest + self.turns[0].unwrap_or(0.0)) / before)
+    }
+
     fn series(&self) -> Option<f64> {
         let [Some(now), Some(before)] = self.turns else { return None };
         let ratio = now / before;
         (ratio.abs() < GEOMETRIC).then(|| now * ratio / (1.0 - ratio))
     }
 
-    /// Whether no further step is needed, at an approach (mm) as large as this.
-    pub fn is_last(&self, approach: f64) -> bool {
+    /// Whether no further step is needed, at an approach (mm) as large as this; `forces`: whether these can go on as the
+    /// pose does.
+    pub fn is_last(&self, approach: f64, forces: bool) -> bool {
+        let remainder = if forces { REMAINDER } else { REMAINDER_OF_FORCES };
         let stays = self.step_mm > 0.5 * self.before_mm && self.step_mm.max(self.before_mm) <= ROUND_OFF * approach;
-        let told = self.series().is_some_and(|rest| (rest * self.radius).abs() <= REMAINDER * approach);
+        let told = self.series().is_some_and(|rest| (rest * self.radius).abs() <= remainder * approach);
         stays || told || self.step_mm <= (TOLERANCE * approach).max(self.round_off)
     }
 }

@@ -2,10 +2,7 @@
 //! again. Theory (37).
 
 use dyn_stack::MemBuffer;
-use faer::{
-    MatRef, Par,
-    linalg::{cholesky::llt, lu::partial_pivoting as lu},
-};
+use faer::{MatRef, Par, linalg::lu::partial_pivoting as lu};
 
 use super::{TOLERANCE, pivots::PIVOT_TOLERANCE};
 use crate::ContactError;
@@ -66,6 +63,7 @@ pub struct DenseSolver {
     pub(super) x: Vec<f64>,
     pub(super) permutation: [Vec<usize>; 2],
     pub(super) scratch: MemBuffer,
+    pub(super) arch: pulp::Arch,
     pub(super) symmetric: bool,
     /// Whether the factor is that of a solution that was put away.
     pub(super) saved: bool,
@@ -87,7 +85,6 @@ impl std::fmt::Debug for DenseSolver {
 impl DenseSolver {
     /// Memory for up to `most` rows.
     pub fn new(most: usize) -> Self {
-        let cholesky = llt::factor::cholesky_in_place_scratch::<f64>(most, Par::Seq, Default::default());
         let lu = lu::factor::lu_in_place_scratch::<usize, f64>(most, most, Par::Seq, Default::default());
         let solve = lu::solve::solve_in_place_scratch::<usize, f64>(most, RIGID, Par::Seq);
         Self {
@@ -100,7 +97,8 @@ impl DenseSolver {
             factor: Vec::with_capacity(most * most),
             x: Vec::with_capacity(RIGID * most),
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
-            scratch: MemBuffer::new(cholesky.or(lu).or(solve)),
+            scratch: MemBuffer::new(lu.or(solve)),
+            arch: pulp::Arch::new(),
             symmetric: true,
             saved: false,
             rotation: 0.0,

@@ -10,6 +10,7 @@
 //! answer for the rotation and the gaps is unique.
 
 mod active_set_fallback;
+mod cholesky;
 mod dense;
 mod factor;
 mod near;

@@ -1,13 +1,13 @@
 //! Contact whose gaps have changed by little: Newton's method with the factor of an earlier tangent (modified Newton).
 //!
 //! ```text
-//! F <- F - (S + diag delta'_0)^-1 (g0 + S F + delta(F))
+//! F <- F - (S + diag delta'_0)^-1 (g0 + l dtheta + S F + delta(F)),   dtheta such that the moment is balanced
 //! ```
 //! Each step reduces the error by the relative change of the local slopes since the tangent was factored, to some
 //! thousandths. Convergence is checked by the conditions of any solution. Where it fails, or where rows become active
 //! or inactive, full Newton steps go on from there.
 
-use super::{DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
+use super::{Balance, DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
 use crate::ContactError;
 
 /// A solution and the factor of its tangent, saved for later.
@@ -87,28 +87,9 @@ impl DenseSolver {
         if self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
             return self.solve(problem, local, |_| 0.0);
         }
-        self.iterations = 0;
-        let accuracy = accuracy.max(TOLERANCE);
-        let mut before = f64::INFINITY;
-        for step in 0..STEPS {
-            // Local approach and slopes are still those of the last solution.
-            if step > 0 {
-                self.linearise(&local);
-            }
-            self.open(problem);
-            if self.takes_sides(problem) {
-                break;
-            }
-            self.residual = self.violation(problem);
-            if self.residual < accuracy {
-                self.finish();
-                return Ok(());
-            }
-            if self.residual > SLOW * before {
-                break;
-            }
-            before = self.residual;
-            self.correct(problem, m);
+        // Local approach and slopes are still those of the last solution.
+        if self.keeps_factor(problem, |solver, step| solver.follow(problem, (step > 0).then_some(&local)), accuracy) {
+            return Ok(());
         }
         self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
         let iterations = self.iterations;
@@ -117,16 +98,92 @@ impl DenseSolver {
         Ok(())
     }
 
+    fn follow(&mut self, problem: &DenseProblem<'_>, local: Option<&impl Fn(usize, f64) -> (f64, f64)>) {
+        if let Some(local) = local {
+            self.linearise(local);
+        }
+        self.open(problem);
+    }
+
+    /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
+    /// that led to a solution, without rows becoming active or inactive. `open` computes what the forces open the rows
+    /// by: the compliance of `problem` may be that of before.
+    pub fn solve_moved(
+        &mut self,
+        problem: &DenseProblem<'_>,
+        local: impl Fn(usize, f64) -> (f64, f64),
+        mut open: impl FnMut(&[f64], &mut [f64]),
+    ) -> bool {
+        let m = self.active.len();
+        if m == 0 || self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+            return false;
+        }
+        self.rotation = 0.0;
+        let follow = |solver: &mut Self, _: usize| {
+            solver.linearise(&local);
+            solver.openings.fill(0.0);
+            open(&solver.forces, &mut solver.openings);
+        };
+        self.keeps_factor(problem, follow, TOLERANCE)
+    }
+
+    /// Steps with the factor at hand, until the conditions hold to `accuracy`; false where rows become active or
+    /// inactive, or where it leads to nothing. `follow` computes approach and openings of the forces as they are.
+    fn keeps_factor(
+        &mut self,
+        problem: &DenseProblem<'_>,
+        mut follow: impl FnMut(&mut Self, usize),
+        accuracy: f64,
+    ) -> bool {
+        self.iterations = 0;
+        let accuracy = accuracy.max(TOLERANCE);
+        let mut before = f64::INFINITY;
+        for step in 0..STEPS {
+            follow(self, step);
+            if self.takes_sides(problem) {
+                return false;
+            }
+            self.residual = self.violation(problem);
+            // A moment is balanced by a step, whatever the levers were before.
+            if self.residual < accuracy && (step > 0 || problem.balance == Balance::Held) {
+                self.finish();
+                return true;
+            }
+            if self.residual > SLOW * before {
+                return false;
+            }
+            before = self.residual;
+            self.correct(problem);
+        }
+        false
+    }
+
     /// One step with the factor at hand.
-    fn correct(&mut self, problem: &DenseProblem<'_>, m: usize) {
+    fn correct(&mut self, problem: &DenseProblem<'_>) {
         self.iterations += 1;
+        let m = self.active.len();
         self.x.clear();
         for &i in &self.active {
-            self.x.push(problem.gaps[i] + self.approach[i] + self.openings[i]);
+            self.x.push(problem.gaps[i] + problem.levers[i] * self.rotation + self.approach[i] + self.openings[i]);
         }
-        self.back_substitute(m, 1);
-        for (x, &i) in self.x.iter().zip(&self.active) {
-            self.forces[i] -= x;
+        let mut turn = 0.0;
+        if let Balance::Moment(moment) = problem.balance {
+            self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
+            self.back_substitute(m, 2);
+            let (mut carried, mut stiffness) = (0.0, 0.0);
+            for (a, &i) in self.active.iter().enumerate() {
+                carried += problem.torque_levers[i] * (self.forces[i] - self.x[a]);
+                stiffness += problem.torque_levers[i] * self.x[m + a];
+            }
+            turn = (carried - moment) / stiffness;
+            self.rotation += turn;
+            self.stiffness = stiffness;
+        } else {
+            self.x.resize(2 * m, 0.0);
+            self.back_substitute(m, 1);
+        }
+        for (a, &i) in self.active.iter().enumerate() {
+            self.forces[i] -= self.x[a] + turn * self.x[m + a];
         }
     }
 
@@ -136,9 +193,9 @@ impl DenseSolver {
             return true;
         }
         let least = -PIVOT_TOLERANCE * self.scale(problem);
+        let gap = |i: usize| problem.gaps[i] + problem.levers[i] * self.rotation + self.openings[i];
         let mut active = self.active.iter().peekable();
-        (0..problem.gaps.len())
-            .any(|i| active.next_if(|a| **a == i).is_none() && problem.gaps[i] + self.openings[i] < least)
+        (0..problem.gaps.len()).any(|i| active.next_if(|a| **a == i).is_none() && gap(i) < least)
     }
 
     /// Whether the factor is that of a saved or restored solution: the set of active rows has not changed since.

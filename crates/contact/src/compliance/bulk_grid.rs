@@ -67,18 +67,13 @@ impl FlankGridLines {
         })
     }
 
-    /// Points around a place and their weights; past the ends of the flank those of the end.
-    pub fn weights(&self, at: [f64; 2]) -> ([usize; 12], [f64; 12]) {
-        let (i, wu) = self.along(0, at[0], &PROFILE);
-        let (j, wz) = self.along(1, at[1], &FACE);
-        let (mut points, mut weights) = ([0; 12], [0.0; 12]);
-        for (a, u) in wu.iter().enumerate() {
-            for (b, z) in wz.iter().enumerate() {
-                let k = a * FACE.len() + b;
-                (points[k], weights[k]) = ((j + b) * self.lines(0) + i + a, u * z);
-            }
-        }
-        (points, weights)
+    /// Points around a place, three rows of four along the profile, and their weights; past the ends of the flank those
+    /// of the end. Of each row the first point: the others follow it.
+    pub fn weights(&self, at: [f64; 2]) -> ([usize; FACE.len()], [[f64; PROFILE.len()]; FACE.len()]) {
+        let (i, of_profile) = self.along(0, at[0], &PROFILE);
+        let (j, of_face) = self.along(1, at[1], &FACE);
+        let rows = std::array::from_fn(|b| (j + b) * self.lines(0) + i);
+        (rows, of_face.map(|z| of_profile.map(|u| u * z)))
     }
 
     /// First line of the cell that a coordinate is in, and Lagrange's weights.

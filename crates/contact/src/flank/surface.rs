@@ -37,9 +37,12 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
-    /// Unit normal of the nominal surface, without micro-geometry: smooth wherever that has kinks.
-    fn nominal_normal(&self, at: [f64; 2]) -> Vec3 {
-        self.normal(at)
+    /// Unit normal and unit direction of the profile of the nominal surface, without micro-geometry: smooth wherever
+    /// that has kinks.
+    fn nominal_frame(&self, at: [f64; 2]) -> [Vec3; 2] {
+        let (normal, profile) = (self.normal(at), self.profile_tangent(at));
+        let along = profile - normal * normal.dot(&profile);
+        [normal, along / along.norm().max(f64::MIN_POSITIVE)]
     }
     /// Whether every profile is one smooth convex arc: the gap to another such profile then has a single least place,
     /// and any search that goes downhill finds it.
@@ -71,6 +74,10 @@ impl Surface for geometry::Flank {
 
     fn curvature(&self, [u, _]: [f64; 2]) -> f64 {
         self.curvatures(u)[0]
+    }
+
+    fn nominal_frame(&self, [u, z]: [f64; 2]) -> [Vec3; 2] {
+        self.frame(u, z)
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
@@ -133,8 +140,8 @@ impl Surface for geometry::ModifiedFlank {
         geometry::ModifiedFlank::depth(self, u, z).value
     }
 
-    fn nominal_normal(&self, [u, z]: [f64; 2]) -> Vec3 {
-        self.nominal().normal(u, z)
+    fn nominal_frame(&self, [u, z]: [f64; 2]) -> [Vec3; 2] {
+        self.nominal().frame(u, z)
     }
 
     fn is_single_arc(&self) -> bool {

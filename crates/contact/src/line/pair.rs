@@ -123,10 +123,9 @@ pub fn slice_line(
 }
 
 /// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included,
-/// which its force (N) makes. `other`: what opens it besides, mm.
-pub fn line_station(gap: f64, opening: f64, slice: &Slice, force: f64, other: f64) -> LineStation {
-    if force > 0.0 {
-        let approach = slice.local.under(force / slice.length).approach;
+/// which its force makes; `approach` (mm) is that, 0 without a force. `other`: what opens it besides, mm.
+pub fn line_station(gap: f64, opening: f64, approach: f64, other: f64) -> LineStation {
+    if approach > 0.0 {
         LineStation { gap: -approach, opened: opening + other - approach }
     } else {
         LineStation { gap: (gap + opening).max(0.0), opened: opening + other }

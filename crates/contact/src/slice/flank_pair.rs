@@ -92,7 +92,12 @@ impl<'a> FlankPair<'a> {
 
     /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePoint> {
-        let (point, sample) = self.profiles.nearest_point(z, hint)?;
+        self.nearest_within(z, hint, f64::INFINITY)
+    }
+
+    /// The same, if the gap there is at most `reach` (mm): of one that is wider the place is not always looked for.
+    pub fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<SlicePoint> {
+        let (point, sample) = self.profiles.nearest_within(z, hint, reach)?;
         Some(SlicePoint { point, sample, z })
     }
 

@@ -54,6 +54,10 @@ const NEWTON_STEPS: usize = 24;
 const RESOLUTION: f64 = 1e-13;
 /// After a longer step than this the gap is sampled again, rad: the slope is not yet linear.
 const NEAR: f64 = 1e-6;
+/// The same after the first step, rad: the curvatures tell the slope's derivative to a per cent.
+const NEAR_AT_ONCE: f64 = 1e-8;
+/// Steps as short as this change no gap, rad.
+const SAME_PLACE: f64 = 1e-11;
 /// Bisections to the end of the part of a profile that faces the other; some fifty reach round-off.
 const BISECTIONS: usize = 100;
 /// Turn of the normal within the last bracket that is a kink, rad.
@@ -99,9 +103,14 @@ impl<'a> ProfilePair<'a> {
     /// other: the surfaces go on beyond their flanks, and what lies deep behind one is another side of the gear, as a
     /// tooth on the far side is.
     pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<(LeastGapPoint, GapSample)> {
-        let point = self.search(z, hint.roll)?;
+        self.nearest_within(z, hint, f64::INFINITY)
+    }
+
+    /// The same, if the gap there is at most `reach` (mm): of one that is wider the place is not always looked for.
+    pub fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<(LeastGapPoint, GapSample)> {
+        let (point, sample) = self.search(z, hint.roll, reach)?;
         hint.roll = Some(point.roll());
-        let sample = self.sample([point.roll(), z])?;
+        let sample = sample.map_or_else(|| self.sample([point.roll(), z]), Some)?;
         if sample.gap < -DEEPEST * self.patches[1].profile_length() {
             return None;
         }
@@ -111,14 +120,15 @@ impl<'a> ProfilePair<'a> {
         (sample.foot[1] >= low - slack && sample.foot[1] <= high + slack).then_some((point, sample))
     }
 
-    /// Point of least gap at height `z` of body 1; `near` is a roll angle to start from.
-    pub fn search(&self, z: f64, near: Option<f64>) -> Option<LeastGapPoint> {
+    /// Point of least gap at height `z` of body 1, with the gap where that is known; `near` is a roll angle to start
+    /// from.
+    fn search(&self, z: f64, near: Option<f64>, reach: f64) -> Option<(LeastGapPoint, Option<GapSample>)> {
         if self.single
-            && let Ok(point) = self.newton_search(z, near)
+            && let Ok(found) = self.newton_search(z, near, reach)
         {
-            return point;
+            return found;
         }
-        self.scan_search(z)
+        self.scan_search(z).map(|point| (point, None))
     }
 
     /// Newton's method on the slope of the gap, then the secant method. The derivative of the slope is the relative
@@ -126,7 +136,12 @@ impl<'a> ProfilePair<'a> {
     ///
     /// Between convex arcs slope and foot point are monotonous. So the foot point at the zero of the slope tells which
     /// end of a profile, if any, comes before it. `Err` where that does not hold.
-    fn newton_search(&self, z: f64, near: Option<f64>) -> Result<Option<LeastGapPoint>, ()> {
+    fn newton_search(
+        &self,
+        z: f64,
+        near: Option<f64>,
+        reach: f64,
+    ) -> Result<Option<(LeastGapPoint, Option<GapSample>)>, ()> {
         let [low, high] = self.rolls(0);
         let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
         let (mut below, mut above) = (None::<f64>, None::<f64>);
@@ -141,7 +156,7 @@ impl<'a> ProfilePair<'a> {
             }
             let at_end = (sample.slope < 0.0 && u >= high) || (sample.slope > 0.0 && u <= low);
             if at_end {
-                found = Some((u, sample.foot[0], true));
+                found = Some((u, sample, true, true));
                 break;
             }
             let secant = before.map(|(v, s)| (sample.slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
@@ -150,10 +165,17 @@ impl<'a> ProfilePair<'a> {
             if !step.is_finite() {
                 return Err(());
             }
+            if step.abs() <= SAME_PLACE {
+                found = Some((u, sample, true, false));
+                break;
+            }
             // The error after a secant step is about the product of the last two steps.
-            let missed = before.map_or(step, |(v, _)| step * (u - v));
-            if step.abs() <= RESOLUTION || (step.abs() <= NEAR && missed.abs() <= RESOLUTION) {
-                found = Some((u + step, sample.foot[0], false));
+            let near_enough = match before {
+                Some((v, _)) => step.abs() <= NEAR && (step * (u - v)).abs() <= RESOLUTION,
+                None => step.abs() <= NEAR_AT_ONCE,
+            };
+            if near_enough {
+                found = Some((u + step, sample, false, false));
                 break;
             }
             let mut next = (u + step).clamp(low, high);
@@ -162,17 +184,23 @@ impl<'a> ProfilePair<'a> {
             {
                 next = 0.5 * (a + b);
                 if (b - a).abs() <= RESOLUTION {
-                    found = Some((next, sample.foot[0], false));
+                    found = Some((next, sample, false, false));
                     break;
                 }
             }
             before = Some((u, sample.slope));
             u = next;
         }
-        let (u, foot, at_end) = found.ok_or(())?;
+        let (u, sample, is_there, at_end) = found.ok_or(())?;
+        let foot = sample.foot[0];
         let [other_low, other_high] = self.rolls(1);
         if foot >= other_low && foot <= other_high {
-            return Ok(Some(if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) }));
+            let point = if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) };
+            return Ok(Some((point, is_there.then_some(sample))));
+        }
+        // At the ends of the other profile the gap is no smaller than here.
+        if sample.gap > reach {
+            return Ok(None);
         }
         // Foot points go down the other profile as points go up this one.
         let (bound, end) = if foot > other_high { (other_high, high) } else { (other_low, low) };
@@ -197,7 +225,8 @@ impl<'a> ProfilePair<'a> {
         }
         // Of the bracket, the side from which the other flank is faced: that of `end`.
         let u = if (inner - end).abs() < (outer - end).abs() { inner } else { outer };
-        Ok(Some(if foot > other_high { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) }))
+        let point = if foot > other_high { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) };
+        Ok(Some((point, None)))
     }
 
     /// d slope / du where flanks touch, mm.

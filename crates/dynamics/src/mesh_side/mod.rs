@@ -128,12 +128,12 @@ impl MeshSide {
     /// Slices that carried load in the last evaluation.
     pub fn loaded_slices(&self) -> Vec<LoadedSlice> {
         let (contact, set) = (&self.contact, self.contact.contact_set());
-        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces());
+        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces()).zip(contact.states());
         loaded
-            .filter(|(_, f)| **f > 0.0)
-            .map(|((row, slice), &f)| LoadedSlice {
+            .filter(|((_, f), _)| **f > 0.0)
+            .map(|(((row, slice), &f), state)| LoadedSlice {
                 pair: self.window.window().first() + set.pair_of(row.patches.0) as i64,
-                slice: slice_result(slice, set.side(row.patches.0), f),
+                slice: slice_result(slice, set.side(row.patches.0), f, &state.local),
             })
             .collect()
     }

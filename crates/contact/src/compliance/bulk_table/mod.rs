@@ -45,16 +45,19 @@ pub struct BulkTable {
     error: f64,
 }
 
-/// Points and weights of one row in a table.
+/// Points and weights of one row in a table: runs of points that follow each other along the profile, three of them for
+/// each direction that it is loaded along.
 #[derive(Debug, Clone, Copy)]
 pub struct TablePoint {
-    points: [u32; DIRECTIONS * CELL],
-    weights: [f64; DIRECTIONS * CELL],
+    /// First point of each run.
+    runs: [u32; DIRECTIONS * RUNS],
+    weights: [[f64; RUN]; DIRECTIONS * RUNS],
     count: usize,
 }
 
-/// Points of a cell: four along the profile, three along the face.
-const CELL: usize = 12;
+/// Points of a run, and runs of a cell along the face.
+const RUN: usize = 4;
+const RUNS: usize = 3;
 /// Normal, profile, generator.
 const DIRECTIONS: usize = 3;
 /// Share of the force along one of the others that counts as none.
@@ -138,10 +141,7 @@ fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option
 /// Normal, direction of the profile and that of the generator at a place of a flank, of its nominal surface: kinks of
 /// reliefs are none of the mesh's.
 fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
-    let normal = patch.surface().nominal_normal(at);
-    let profile = patch.surface().profile_tangent(at);
-    let along = profile - normal * normal.dot(&profile);
-    let along = along / along.norm().max(f64::MIN_POSITIVE);
+    let [normal, along] = patch.surface().nominal_frame(at);
     [normal, along, normal.cross(&along)]
 }
 
@@ -250,14 +250,14 @@ impl BulkTable {
     /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's
     /// normal if `None`).
     pub fn at(&self, flank: &FlankPatch, patch: usize, at: [f64; 2], direction: Option<&Vec3>) -> Option<TablePoint> {
-        let (points, weights) = self.lines.get(patch)?.weights(at);
+        let (runs, weights) = self.lines.get(patch)?.weights(at);
         let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
-        let mut place = TablePoint { points: [0; DIRECTIONS * CELL], weights: [0.0; DIRECTIONS * CELL], count: 0 };
+        let mut place = TablePoint { runs: [0; DIRECTIONS * RUNS], weights: [[0.0; RUN]; DIRECTIONS * RUNS], count: 0 };
         let all = self.points() / DIRECTIONS;
         for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
-            for (p, w) in points.iter().zip(weights) {
-                place.points[place.count] = (k * all + self.first[patch] + p) as u32;
-                place.weights[place.count] = part * w;
+            for (first, of_run) in runs.iter().zip(weights) {
+                place.runs[place.count] = (k * all + self.first[patch] + first) as u32;
+                place.weights[place.count] = of_run.map(|w| part * w);
                 place.count += 1;
             }
         }
@@ -274,7 +274,7 @@ impl BulkTable {
 impl TablePoint {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub fn points(&self) -> usize {
-        self.count
+        RUN * self.count
     }
 
     /// Opening (mm) at this place by a displacement sampled at the table's points.
@@ -282,7 +282,12 @@ impl TablePoint {
         self.each().map(|(p, w)| w * samples[p as usize]).sum()
     }
 
+    fn runs(&self) -> &[u32] {
+        &self.runs[..self.count]
+    }
+
     fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        self.points[..self.count].iter().copied().zip(self.weights[..self.count].iter().copied())
+        let runs = self.runs().iter().zip(&self.weights);
+        runs.flat_map(|(&first, weights)| (first..).zip(weights.iter().copied()))
     }
 }

@@ -1,6 +1,8 @@
 //! Compliance between rows, read from the part of a table that they touch.
 
-use super::{BulkTable, CELL, DIRECTIONS, TablePoint};
+use std::ops::Range;
+
+use super::{BulkTable, DIRECTIONS, RUN, RUNS, TablePoint};
 
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
@@ -13,10 +15,18 @@ impl BulkTable {
         work: &mut TableWork,
         out: &mut [f64],
     ) {
-        work.collect(self, openings.iter().chain(if symmetric { &[] } else { loads }));
-        work.renumber(openings, loads);
-        let TableWork { part, column, places: [openings, loads], arch, .. } = work;
-        arch.dispatch(Interpolation { part, column, openings, loads, symmetric, out });
+        work.stand_on(self, openings, if symmetric { &[] } else { loads });
+        let TableWork { part, column, places: [openings, loads], needed, arch, .. } = work;
+        let loads = if symmetric { &*openings } else { &*loads };
+        needed.clear();
+        if symmetric {
+            needed.extend(openings.iter().rev().scan(usize::MAX..0, |all, place| {
+                place.widen(all);
+                Some(all.clone())
+            }));
+            needed.reverse();
+        }
+        arch.dispatch(Interpolation { part, column, openings, loads, needed, out });
     }
 }
 
@@ -26,7 +36,8 @@ struct Interpolation<'a> {
     column: &'a mut Vec<f64>,
     openings: &'a [TablePoint],
     loads: &'a [TablePoint],
-    symmetric: bool,
+    /// Where S is symmetric: points that the openings from each row on stand on.
+    needed: &'a [Range<usize>],
     out: &'a mut [f64],
 }
 
@@ -36,56 +47,128 @@ impl pulp::NullaryFnOnce for Interpolation<'_> {
     // Compiled for each set of instructions that there may be; the processor's own is chosen as the program runs.
     #[inline(always)]
     fn call(self) {
-        let Self { part, column, openings, loads, symmetric, out } = self;
+        let Self { part, column, openings, loads, needed, out } = self;
         let n = openings.len();
         let m = part.len().isqrt();
+        column.clear();
+        column.resize(m, 0.0);
         for (j, load) in loads.iter().enumerate() {
-            column.clear();
-            column.resize(m, 0.0);
+            let (start, points) = needed.get(j).map_or((0, 0..m), |points| (j, points.clone()));
+            let sums = &mut column[points.clone()];
+            sums.fill(0.0);
             // Four columns of the part for every pass over their sum.
-            let (points, weights) =
-                (load.points[..load.count].chunks_exact(4), load.weights[..load.count].chunks_exact(4));
-            for (q, w) in points.zip(weights) {
-                let [a, b, c, d] = [q[0], q[1], q[2], q[3]].map(|q| &part[m * q as usize..][..m]);
-                let [wa, wb, wc, wd] = [w[0], w[1], w[2], w[3]];
-                for ((((sum, a), b), c), d) in column.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                    *sum += (wa * a + wb * b) + (wc * c + wd * d);
-                }
+            for (&q, weights) in load.runs().iter().zip(&load.weights) {
+                add_columns(sums, &part[m * q as usize..], (m, points.start), weights);
             }
-            let start = if symmetric { j } else { 0 };
             for (place, entry) in openings[start..].iter().zip(&mut out[j * n + start..(j + 1) * n]) {
-                let each = place.points[..place.count].iter().zip(&place.weights[..place.count]);
-                *entry += each.map(|(&p, w)| w * column[p as usize]).sum::<f64>();
+                *entry += place.read_runs(column);
             }
         }
     }
 }
 
-/// Memory for [`BulkTable::add`], used again.
+/// S F from the part of a table that rows touch, without S itself.
+struct Product<'a> {
+    part: &'a [f64],
+    column: &'a mut Vec<f64>,
+    loaded: &'a mut Vec<f64>,
+    openings: &'a [TablePoint],
+    loads: &'a [TablePoint],
+    forces: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { part, column, loaded, openings, loads, forces, out } = self;
+        let m = part.len().isqrt();
+        if m == 0 {
+            return;
+        }
+        for list in [&mut *loaded, &mut *column] {
+            list.clear();
+            list.resize(m, 0.0);
+        }
+        for (load, force) in loads.iter().zip(forces).filter(|(_, force)| **force != 0.0) {
+            for (&q, weights) in load.runs().iter().zip(&load.weights) {
+                let points = &mut loaded[q as usize..][..RUN];
+                points.iter_mut().zip(weights).for_each(|(x, w)| *x += w * force);
+            }
+        }
+        for (four, x) in part.chunks(RUN * m).zip(loaded.as_chunks::<RUN>().0) {
+            if x.iter().any(|x| *x != 0.0) {
+                add_columns(column, four, (m, 0), x);
+            }
+        }
+        openings.iter().zip(out).for_each(|(place, opening)| *opening += place.read_runs(column));
+    }
+}
+
+/// Adds four weighed columns of a matrix of `m` rows to sums in one pass over these, from row `first` on.
+#[inline(always)]
+fn add_columns(sums: &mut [f64], matrix: &[f64], (m, first): (usize, usize), weights: &[f64; RUN]) {
+    let &[wa, wb, wc, wd] = weights;
+    let count = sums.len();
+    let (a, b) = (&matrix[first..][..count], &matrix[m + first..][..count]);
+    let (c, d) = (&matrix[2 * m + first..][..count], &matrix[3 * m + first..][..count]);
+    for ((((sum, a), b), c), d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+        *sum += (wa * a + wb * b) + (wc * c + wd * d);
+    }
+}
+
+impl TablePoint {
+    /// What a column has at this place.
+    #[inline(always)]
+    fn read_runs(&self, column: &[f64]) -> f64 {
+        let mut sums = [0.0; RUN];
+        for (&first, weights) in self.runs().iter().zip(&self.weights) {
+            let points = &column[first as usize..][..RUN];
+            (0..RUN).for_each(|k| sums[k] += weights[k] * points[k]);
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// Widens a range of points by those that it stands on.
+    fn widen(&self, range: &mut Range<usize>) {
+        for &first in self.runs() {
+            *range = range.start.min(first as usize)..range.end.max(first as usize + RUN);
+        }
+    }
+}
+
+/// Memory for what is read from a table, used again.
 #[derive(Debug, Default)]
 pub struct TableWork {
-    /// Points that the rows touch, those touched before, and the number of each point among them.
+    /// Runs that the rows touch, those touched before, and the place of each run in the part by its first point. Runs of
+    /// neighbouring cells share a point, which the part then has twice.
     used: Vec<u32>,
     before: Vec<u32>,
     rank: Vec<u32>,
     part: Vec<f64>,
     column: Vec<f64>,
+    loaded: Vec<f64>,
     /// Openings and loads, their points counted among those used.
     places: [Vec<TablePoint>; 2],
+    needed: Vec<Range<usize>>,
     arch: pulp::Arch,
 }
 
 impl TableWork {
     /// Memory for `rows` rows on a table, for use with this table until [`TableWork::enter`] says otherwise.
     pub fn new(table: &BulkTable, rows: usize) -> Self {
-        let most = table.points().min(rows * DIRECTIONS * CELL);
+        let most = RUN * table.points().min(rows * DIRECTIONS * RUNS);
         Self {
             used: Vec::with_capacity(most),
             before: Vec::with_capacity(most),
             rank: vec![u32::MAX; table.points()],
-            part: Vec::with_capacity(most * most),
+            part: Vec::new(),
             column: Vec::with_capacity(most),
+            loaded: Vec::with_capacity(most),
             places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],
+            needed: Vec::with_capacity(rows),
             arch: pulp::Arch::new(),
         }
     }
@@ -99,18 +182,27 @@ impl TableWork {
 
     /// Points of the table that the rows of the last call touched.
     pub fn touched(&self) -> usize {
-        self.used.len()
+        RUN * self.used.len()
     }
 
-    fn renumber(&mut self, openings: &[TablePoint], loads: &[TablePoint]) {
+    /// Takes the part of the table that rows touch: where these open, and where their loads stand if these are others.
+    pub fn stand_on(&mut self, table: &BulkTable, openings: &[TablePoint], loads: &[TablePoint]) {
+        self.collect(table, openings.iter().chain(loads));
         for (to, from) in self.places.iter_mut().zip([openings, loads]) {
             to.clear();
             to.extend(from.iter().map(|place| {
                 let mut own = *place;
-                own.points[..own.count].iter_mut().for_each(|p| *p = self.rank[*p as usize]);
+                own.runs[..own.count].iter_mut().for_each(|p| *p = self.rank[*p as usize]);
                 own
             }));
         }
+    }
+
+    /// Adds S F to `out`: openings of all rows (mm) by forces (N) along their loads, of the rows that it stands on.
+    pub fn add_openings(&mut self, forces: &[f64], out: &mut [f64]) {
+        let Self { part, column, loaded, places: [openings, loads], arch, .. } = self;
+        let loads = if loads.is_empty() { &*openings } else { &*loads };
+        arch.dispatch(Product { part, column, loaded, openings, loads, forces, out });
     }
 
     /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the
@@ -119,25 +211,34 @@ impl TableWork {
         std::mem::swap(&mut self.used, &mut self.before);
         self.before.iter().for_each(|&p| self.rank[p as usize] = u32::MAX);
         self.used.clear();
-        for &p in places.flat_map(|place| &place.points[..place.count]) {
-            if self.rank[p as usize] == u32::MAX {
-                self.rank[p as usize] = 0;
-                self.used.push(p);
+        let mut last = [u32::MAX; DIRECTIONS * RUNS];
+        for place in places {
+            // Neighbours mostly stand on the same runs.
+            if place.runs[..place.count] == last[..place.count] {
+                continue;
+            }
+            last = place.runs;
+            for &first in place.runs() {
+                if self.rank[first as usize] == u32::MAX {
+                    self.rank[first as usize] = 0;
+                    self.used.push(first);
+                }
             }
         }
         self.used.sort_unstable();
-        for (r, &p) in self.used.iter().enumerate() {
-            self.rank[p as usize] = r as u32;
+        for (r, &first) in self.used.iter().enumerate() {
+            self.rank[first as usize] = (RUN * r) as u32;
         }
         if self.used == self.before {
             return;
         }
-        self.part.clear();
-        for &q in &self.used {
-            let column = &table.table[q as usize * table.points()..][..table.points()];
-            // Points that follow each other are copied at once.
-            for run in self.used.chunk_by(|a, b| a + 1 == *b) {
-                self.part.extend_from_slice(&column[run[0] as usize..][..run.len()]);
+        self.part.resize((RUN * self.used.len()).pow(2), 0.0);
+        let columns = self.used.iter().flat_map(|&first| first as usize..first as usize + RUN);
+        for (q, own) in columns.zip(self.part.chunks_exact_mut(RUN * self.used.len())) {
+            let column = &table.table[q * table.points()..][..table.points()];
+            let (own, _) = own.as_chunks_mut::<RUN>();
+            for (&first, run) in self.used.iter().zip(own) {
+                run.copy_from_slice(&column[first as usize..][..RUN]);
             }
         }
     }

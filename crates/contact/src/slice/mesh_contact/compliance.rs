@@ -1,10 +1,26 @@
 //! Compliance between the rows.
 
-use crate::TablePoint;
+use crate::{BulkTable, ContactRow, ContactSet, Slice, TablePoint};
 
 use super::{MeshContact, PoseContact};
 
 impl MeshContact {
+    /// Takes the parts of both tables that the rows stand on; false where there are no tables.
+    pub(super) fn stand_on_tables(&mut self) -> bool {
+        let Self { set, contact: PoseContact { rows, slices, .. }, openings, loads, work, friction, .. } = self;
+        let Some(tables) = set.slices().and_then(|s| s.bulk()) else { return false };
+        loads.clear();
+        for (b, table) in tables.iter().enumerate() {
+            let of = (&rows[..], &slices[..]);
+            places(set, (b, table), of, openings, false);
+            if friction.is_some() {
+                places(set, (b, table), of, loads, true);
+            }
+            work[b].stand_on(table, openings, loads);
+        }
+        true
+    }
+
     /// Computes S between the rows from the tables or matrices of both gears. It serves until modes open gaps by more
     /// than `by_modes` (mm).
     pub(super) fn compliance(&mut self, by_modes: f64) {
@@ -26,22 +42,12 @@ impl MeshContact {
         compliance.clear();
         compliance.resize(n * n, 0.0);
         for (b, table) in tables.iter().enumerate() {
-            let table_points = |out: &mut Vec<TablePoint>, load: bool| {
-                out.clear();
-                out.extend(rows.iter().zip(slices.iter()).filter_map(|(row, slice)| {
-                    let patch = [row.patches.0, row.patches.1][b];
-                    let support = &row.supports[b];
-                    let direction = if load { &support.load } else { &support.direction };
-                    table.at(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
-                }));
-            };
-            table_points(openings, false);
-            if symmetric {
-                table.add(openings, openings, true, &mut work[b], compliance);
-            } else {
-                table_points(loads, true);
-                table.add(openings, loads, false, &mut work[b], compliance);
+            let of = (&rows[..], &slices[..]);
+            places(set, (b, table), of, openings, false);
+            if !symmetric {
+                places(set, (b, table), of, loads, true);
             }
+            table.add(openings, if symmetric { openings } else { loads }, symmetric, &mut work[b], compliance);
             if let Some(modal) = modal {
                 modal.read_places(modal_rows, b, openings, false);
                 modal.read_places(modal_rows, b, loads, true);
@@ -58,4 +64,21 @@ impl MeshContact {
             modal.take_from(modal_rows, n, compliance);
         }
     }
+}
+
+/// Where rows open (`load`: where their loads stand) in the table of gear `b`.
+fn places(
+    set: &ContactSet,
+    (b, table): (usize, &BulkTable),
+    (rows, slices): (&[ContactRow], &[Slice]),
+    out: &mut Vec<TablePoint>,
+    load: bool,
+) {
+    out.clear();
+    out.extend(rows.iter().zip(slices).filter_map(|(row, slice)| {
+        let patch = [row.patches.0, row.patches.1][b];
+        let support = &row.supports[b];
+        let direction = if load { &support.load } else { &support.direction };
+        table.at(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
+    }));
 }

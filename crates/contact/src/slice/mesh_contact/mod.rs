@@ -1,6 +1,7 @@
 //! Slice contact of two gears at given poses: forces and their tangent. Theory (38).
 
 mod compliance;
+mod moved;
 mod near;
 mod pose_bin;
 mod pose_cache;
@@ -19,8 +20,8 @@ use std::sync::Arc;
 
 use crate::{
     Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, Friction, LocalState,
-    MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, TablePoint, TableWork, covered, line_station,
-    opening_by_motion, slice_line, wrenches,
+    MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, SliceState, TablePoint, TableWork, covered,
+    line_station, opening_by_motion, slice_line, wrenches,
 };
 
 pub use near::EvaluationLevel;
@@ -136,7 +137,7 @@ impl MeshContact {
 
     /// Enters another window with the same flanks.
     fn enter(&mut self, set: ContactSet) {
-        self.last_forces.fill(0.0);
+        self.forget();
         self.hints.fill(SliceHint::default());
         self.last_pose = None;
         if self.set.shares_flanks(&set) {
@@ -283,17 +284,29 @@ impl MeshContact {
 
     /// Solves the contact of the rows. With a moment to balance, gear `body` turns.
     pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
+        self.take_levers(body);
         let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
+        let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
+        let keys = &contact.keys;
+        solver.solve(&problem, local(contact), |i| last_forces[keys[i]])?;
+        self.keep_forces();
+        Ok(())
+    }
+
+    /// Levers of the rows about the axis of gear `body`.
+    fn take_levers(&mut self, body: usize) {
+        let Self { contact, levers, torque_levers, .. } = self;
         levers.clear();
         torque_levers.clear();
         levers.extend(contact.rows.iter().map(|r| r.levers[body]));
         torque_levers.extend(contact.rows.iter().map(|r| r.torque_levers[body]));
-        let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
-        let keys = &contact.keys;
-        solver.solve(&problem, local(contact), |i| last_forces[keys[i]])?;
+    }
+
+    /// Keeps the forces of a solution for the next one to start from.
+    fn keep_forces(&mut self) {
+        let Self { contact, last_forces, solver, .. } = self;
         last_forces.fill(0.0);
-        keys.iter().zip(solver.forces()).for_each(|(&key, &f)| last_forces[key] = f);
-        Ok(())
+        contact.keys.iter().zip(solver.forces()).for_each(|(&key, &f)| last_forces[key] = f);
     }
 
     /// Rows of the last solution, in order of pair and height.
@@ -304,6 +317,12 @@ impl MeshContact {
     /// Slices of the rows.
     pub fn slices(&self) -> &[Slice] {
         &self.contact.slices
+    }
+
+    /// The local approach of each row at the last solution.
+    pub fn states(&self) -> impl Iterator<Item = SliceState> {
+        let rows = self.contact.laws.iter().zip(&self.contact.slices).zip(self.solver.forces());
+        rows.map(|((law, slice), &force)| SliceState::new(law, slice.length, force))
     }
 
     /// Total length of the contact lines of the last evaluation on the driving side, with the gears' frames at `poses`,
@@ -318,7 +337,9 @@ impl MeshContact {
             let patches = rows[from].patches;
             let to = from + rows[from..].iter().take_while(|row| row.patches == patches).count();
             let stations = (from..to).map(|i| {
-                let station = line_station(rows[i].gap, openings[i], &slices[i], forces[i], self.modal_opening(i));
+                let state = self.contact.laws[i].under(forces[i] / slices[i].length);
+                let approach = if forces[i] > 0.0 { state.approach } else { 0.0 };
+                let station = line_station(rows[i].gap, openings[i], approach, self.modal_opening(i));
                 (rows[i].point, station, slices[i])
             });
             length += covered(&slice_line(&self.set, poses, patches, stations, half), [-half, half]);

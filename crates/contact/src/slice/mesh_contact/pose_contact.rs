@@ -73,14 +73,16 @@ impl PoseContact {
         Some(motion)
     }
 
-    /// Takes gaps and their derivatives by the motion of both gears from the rows. Called once the rows are complete.
-    pub fn update_openings(&mut self) {
+    /// Takes gaps and, where that is `wanted`, their derivatives by the motion of both gears from the rows. Called once
+    /// the rows are complete.
+    pub fn update_openings(&mut self, wanted: bool) {
         let Self { at, rows, gaps, openings, tangent, neighbour_gap, .. } = self;
         let centres = at.map_or([Vec3::zeros(); 2], |at| at.map(|p| p.translation.vector));
         gaps.clear();
         gaps.extend(rows.iter().map(|r| r.gap));
         openings.clear();
-        openings.extend(rows.iter().map(|row| opening_by_motion(row, &row.normal, &centres)));
+        let all = if wanted { &rows[..] } else { &[] };
+        openings.extend(all.iter().map(|row| opening_by_motion(row, &row.normal, &centres)));
         (*tangent, *neighbour_gap) = (None, None);
     }
 

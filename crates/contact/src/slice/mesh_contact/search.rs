@@ -50,8 +50,9 @@ impl MeshContact {
         }
     }
 
-    /// Finds the points of least gap station by station, each from where it was at the last search.
-    fn search_from_hints(&mut self, poses: &[Pose; 2]) {
+    /// Finds the points of least gap station by station, each from where it was at the last search; those with gaps wider
+    /// than `reach` (mm) may be left out.
+    fn search_from_hints(&mut self, poses: &[Pose; 2], reach: f64) {
         let Self { set, pairs, hints, nearest, last_pose, .. } = self;
         nearest.clear();
         let Some(slice_set) = set.slices() else { return };
@@ -64,7 +65,7 @@ impl MeshContact {
             for (i, &z) in stations.iter().enumerate() {
                 let key = p * stations.len() + i;
                 hints[key].turn(side, turned);
-                if let Some(point) = pair.nearest_point(z, &mut hints[key]) {
+                if let Some(point) = pair.nearest_within(z, &mut hints[key], reach) {
                     nearest.push((key, point));
                 }
             }
@@ -77,7 +78,7 @@ impl MeshContact {
     /// Without a free rotation no row is approached by more than the deepest overlap. Loads on other teeth close a gap
     /// by some per cent of that overlap, so rows with larger gaps stay open.
     pub fn prepare(&mut self, poses: &[Pose; 2], reach: Option<f64>) {
-        self.search_from_hints(poses);
+        self.search_from_hints(poses, reach.unwrap_or(f64::INFINITY));
         let by_modes = self.modal.as_ref().map_or(0.0, |modal| modal.largest());
         let reach = reach.unwrap_or_else(|| self.reach(by_modes));
         self.contact.bin = None;
@@ -121,7 +122,8 @@ impl MeshContact {
         }
         contact.laws.clear();
         contact.laws.extend(contact.slices.iter().map(|s| s.local.law()));
-        contact.update_openings();
+        // How motion opens the rows is asked of bins alone.
+        contact.update_openings(bin.is_some());
         let by_modes = match bin {
             Some(bin) => bin.reach(),
             None => self.modal.as_ref().map_or(0.0, |modal| modal.largest() + LINEAR_RANGE),
@@ -132,7 +134,7 @@ impl MeshContact {
 }
 
 /// How far a body has turned about its own axis, rad.
-fn turn(before: &Pose, now: &Pose) -> f64 {
+pub(super) fn turn(before: &Pose, now: &Pose) -> f64 {
     let q = (before.rotation.inverse() * now.rotation).into_inner();
     2.0 * q.k.atan2(q.w)
 }

@@ -1,0 +1,63 @@
+//! The contact of the last rows after a small motion: places, gaps and compliance anew, the factor of before.
+//!
+//! A pose of a search for equilibrium differs from the one before by a thousandth of the approach and less. The rows
+//! then stay; what they open by is S F, a product, and S itself is not needed.
+
+use crate::{Balance, FlankPair, Pose};
+
+use super::{MeshContact, PoseContact, local, problem, search::turn};
+
+impl MeshContact {
+    /// Moves the rows of the last solution to where they are with the gears' frames at `poses`, and solves their
+    /// contact: whether that leads to a solution, with the same rows pressed. Where it does not,
+    /// [`MeshContact::prepare`] and [`MeshContact::solve`] do.
+    pub fn solve_moved(&mut self, poses: &[Pose; 2], balance: Balance, body: usize) -> bool {
+        if self.modal.is_some() || !self.move_rows(poses) || !self.stand_on_tables() {
+            return false;
+        }
+        self.take_levers(body);
+        let Self { contact, gaps, levers, torque_levers, solver, work, friction, .. } = self;
+        let moved = problem(contact, gaps, [levers, torque_levers], friction.is_none(), balance);
+        let open = |forces: &[f64], out: &mut [f64]| work.iter_mut().for_each(|w| w.add_openings(forces, out));
+        let solved = solver.solve_moved(&moved, local(contact), open);
+        if solved {
+            self.keep_forces();
+        }
+        solved
+    }
+
+    /// The rows at other poses; false where one of them is no row there.
+    fn move_rows(&mut self, poses: &[Pose; 2]) -> bool {
+        let Self { set, pairs, hints, last_pose, contact, friction, solver, gaps, .. } = self;
+        let PoseContact { at, bin, keys, rows, slices, laws, .. } = contact;
+        let Some(slice_set) = set.slices().filter(|_| at.is_some() && solver.forces().len() == rows.len()) else {
+            return false;
+        };
+        (*at, *bin) = (Some(*poses), None);
+        let patches = [&set.patches()[0][..], &set.patches()[1][..]];
+        let stations = slice_set.stations();
+        let turned = last_pose.replace(poses[0]).map_or(0.0, |before| turn(&before, &poses[0]));
+        let mut first = 0;
+        while first < keys.len() {
+            let number = keys[first] / stations.len();
+            let numbers = pairs[number];
+            let pair = FlankPair::new(slice_set.flanks(patches, numbers), poses);
+            let side = set.side(numbers.0).sign();
+            let count = keys[first..].iter().take_while(|&key| key / stations.len() == number).count();
+            for i in first..first + count {
+                let (key, station) = (keys[i], keys[i] % stations.len());
+                hints[key].turn(side, turned);
+                let nearest = pair.nearest_point(stations[station], &mut hints[key]);
+                let found = nearest.and_then(|point| pair.slice(&point, numbers, station, slice_set.length()));
+                let Some((row, slice)) = found.filter(|(_, slice)| slice_set.may_touch(slice)) else { return false };
+                rows[i] = friction.map_or(row, |f| f.on(poses, row));
+                slices[i] = slice;
+            }
+            first += count;
+        }
+        solver.active().iter().for_each(|&i| laws[i] = slices[i].local.law());
+        gaps.clear();
+        gaps.extend(rows.iter().map(|r| r.gap));
+        true
+    }
+}
