@@ -102,7 +102,7 @@ impl MovingPair {
 pub fn rows(motion: &mut Motion, cycles: u64) -> Vec<f64> {
     let mut all = Vec::new();
     for _ in 0..cycles {
-        motion.run_cycle(Some(&mut |now, _| all.push(now.transmission_error))).unwrap_or_else(|e| panic!("{e}"));
+        motion.run_cycle(Some(&mut |now, _, _| all.push(now.transmission_error))).unwrap_or_else(|e| panic!("{e}"));
     }
     all
 }

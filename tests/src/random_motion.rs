@@ -62,6 +62,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
         ramp: None,
         sweep: None,
         continuation: None,
+        basins: None,
     });
     scene.drive = Some(DriveScene { by, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());

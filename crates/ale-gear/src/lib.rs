@@ -14,7 +14,6 @@
 //! | [`certificate`] | a result whose files stand, and whether it holds |
 //! | [`error`] | one message, one hint, one exit status |
 
-pub mod cache;
 pub mod certificate;
 mod chart;
 pub mod command;

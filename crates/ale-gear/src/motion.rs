@@ -14,8 +14,9 @@ use report::{
     write_answer, write_motion_result, write_sweep_result,
 };
 
+use report::folder::Cache;
+
 use crate::{
-    cache::Cache,
     certificate::Written,
     error::CommandError,
     output::ResultDirectory,
@@ -73,8 +74,8 @@ pub(crate) fn solve(
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
-    if motion.continuation.is_some() {
-        return crate::lumped::branch(scene, phases, results, cache).map(Outcome::Finished);
+    if motion.continuation.is_some() || motion.basins.is_some() {
+        return crate::lumped::of_many_motions(scene, motion, phases, results, cache).map(Outcome::Finished);
     }
     if motion.sweep.is_some() {
         return sweep(scene, phases, results, cache).map(Outcome::Finished);
@@ -138,7 +139,7 @@ fn one_motion(
         let rows = read_rows(&layout, folder, &stored.rows)?;
         analysis = analysis.resume(checkpoint, rows);
     }
-    let mut sink = MotionFileSink::new(scene, folder, checkpoints, from.as_ref());
+    let mut sink = MotionFileSink::new(scene, folder, checkpoints, from.as_ref()).with_fields(results);
     match analysis.solve_into(phases, &mut sink)? {
         MotionOutcome::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
         MotionOutcome::Finished(result) => {

@@ -6,8 +6,9 @@ use report::StaticFileSink;
 
 pub(crate) use analysis::static_certificate as certificate;
 
+use report::folder::Cache;
+
 use crate::{
-    cache::Cache,
     error::CommandError,
     facts::Solved,
     output::{self, ResultDirectory},

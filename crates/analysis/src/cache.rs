@@ -1,8 +1,11 @@
-//! Reduced gears that are kept from run to run.
+//! Reduced gears, and maps of their contact, that are kept from run to run.
 
+use std::fmt;
+
+use contact_map::ContactMap;
 use reduction::{RecordKey, ReductionRecord};
 
-/// A store of reduced gears.
+/// A store of reduced gears and of maps.
 ///
 /// Losing it loses time, never a result.
 pub trait GearCache: Sync {
@@ -14,6 +17,40 @@ pub trait GearCache: Sync {
 
     /// Keeps a record; a warning says why it could not be done.
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String>;
+
+    /// The maps of a key, as [`GearCache::load`]. A store need not keep maps.
+    fn load_maps(&self, _: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+        (None, None)
+    }
+
+    /// Keeps maps, as [`GearCache::save`].
+    fn save_maps(&self, _: &MapKey, _: &[&ContactMap]) -> Option<String> {
+        None
+    }
+}
+
+/// Names maps: equal for equal gears in equal contact, in practice different for any others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapKey([u8; 32]);
+
+impl MapKey {
+    /// Of the reduced gears, and of all else that their contact depends on, in words.
+    pub fn new(gears: &[RecordKey], contact: &str) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        let gears = gears.iter().map(ToString::to_string);
+        for word in gears.chain([env!("CARGO_PKG_VERSION").to_owned(), contact.to_owned()]) {
+            hasher.update(&(word.len() as u64).to_le_bytes());
+            hasher.update(word.as_bytes());
+        }
+        Self(*hasher.finalize().as_bytes())
+    }
+}
+
+impl fmt::Display for MapKey {
+    /// 64 hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
 }
 
 /// Keeps nothing.

@@ -55,7 +55,7 @@ mod static_certificate;
 mod statics;
 mod warnings;
 
-pub use cache::{GearCache, NoCache};
+pub use cache::{GearCache, MapKey, NoCache};
 pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};

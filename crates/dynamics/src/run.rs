@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::{Instant, MechanismState, PairMechanism, PairMotionError};
 use integrate::{Envelope, Forces, Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
 
-/// Who gets the rows of a motion, with the energy so far.
-pub type RowObserver<'a> = &'a mut dyn FnMut(&Instant, &Ledger);
+/// Who gets the rows of a motion, with the energy so far and the mechanism as it stands there.
+pub type RowObserver<'a> = &'a mut dyn FnMut(&Instant, &Ledger, &PairMechanism);
 
 /// How a pair's motion is integrated.
 #[derive(Debug, Clone, PartialEq)]
@@ -238,7 +238,7 @@ impl Motion {
                 if let Some(seen) = seen.as_mut().filter(|_| is_row && failed.is_none()) {
                     let State { time, q, v, .. } = progress.state;
                     match system.instant(*time, q, v) {
-                        Ok(instant) => seen(&instant, progress.ledger),
+                        Ok(instant) => seen(&instant, progress.ledger, system),
                         Err(source) => failed = Some(PairMotionError::contact(*time, source)),
                     }
                 }

@@ -214,7 +214,7 @@ fn steady_state_at(
         extremes: Extremes::default(),
         changes: ToothChanges::default(),
     };
-    let mut row = |now: &crate::Instant, _: &Ledger| {
+    let mut row = |now: &crate::Instant, _: &Ledger, _: &PairMechanism| {
         point.transmission_error.push(now.transmission_error);
         point.normal_force.push(now.normal_forces[0]);
         point.coast_force = point.coast_force.max(now.normal_forces[1]);

@@ -56,8 +56,8 @@ pub use files::ResultFiles;
 pub use marked_place::MarkedPlace;
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
 pub use motion_result::{
-    write_answer, write_continuation_result, write_key_sweep_result, write_lumped_result, write_motion_result,
-    write_sweep_result,
+    write_answer, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
+    write_motion_result, write_sweep_result,
 };
 pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;

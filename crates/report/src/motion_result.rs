@@ -2,7 +2,7 @@
 
 use analysis::{
     accuracy::motion::MotionAnswer,
-    lumped::{BifurcationAnalysis, ContinuationResult, LumpedResult, SweepOptions},
+    lumped::{BasinResult, BifurcationAnalysis, ContinuationResult, LumpedResult, SweepOptions},
     motion::{MotionResult, SweepResult},
 };
 use scene::Scene;
@@ -11,7 +11,8 @@ use crate::{
     Cost, ReportError, ResultFiles, close_result,
     folder::ResultDirectory,
     lumped_files::{
-        SweepPage, branch_table, lumped_sweep_table, lumped_table, write_branch, write_key_sweep, write_lumped,
+        SweepPage, basins_table, branch_table, lumped_sweep_table, lumped_table, write_basins, write_branch,
+        write_key_sweep, write_lumped,
     },
     motion_files::{write_motion, write_sweep},
     tables::{motion_table, sweep_table},
@@ -86,6 +87,22 @@ pub fn write_continuation_result(
     let ContinuationResult { facts, headline, warnings, .. } = found;
     close_result(scene, (facts, cost), headline, warnings, results)?;
     Ok(branch_table(scene, facts, cost, headline, warnings))
+}
+
+/// Of basins of attraction.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_basin_result(
+    scene: &Scene,
+    found: &BasinResult,
+    cost: &Cost,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    write_basins(scene, found, cost, results)?;
+    let BasinResult { facts, headline, warnings, .. } = found;
+    close_result(scene, (facts, cost), headline, warnings, results)?;
+    Ok(basins_table(scene, facts, cost, headline, warnings))
 }
 
 /// Of a cheaper model, its rows among them.

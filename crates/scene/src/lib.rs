@@ -64,8 +64,8 @@ use origin::Origin;
 pub use output::{FieldName, OutputScene};
 pub use rexs::{RexsError, read_pair};
 pub use schema::{
-    ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene, all_keys,
-    json_schema,
+    BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
+    all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use source::Source;

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::{Model, Run, Scene};
+
 fn is_false(value: &bool) -> bool {
     !value
 }
@@ -33,5 +35,16 @@ choices! {
         Pressure = "pressure",
         /// Stress tensor and von Mises stress, MPa.
         Stress = "stress",
+    }
+}
+
+impl Scene {
+    /// Whether an analysis can write fields for ParaView: at rest where there are meshes; in time one motion of
+    /// quasi-static reduced gears, whole from beginning to end, whose forces on the flanks tell how the teeth bend.
+    pub fn can_write_fields(&self) -> bool {
+        let Some(motion) = &self.motion else { return self.analysis.model != Model::Iso };
+        let one = matches!(motion.run, Run::Steady | Run::Shooting | Run::Span | Run::Ramp);
+        let whole = motion.checkpoint_every_cycles.unwrap_or(0) == 0 && self.accuracy.is_none();
+        self.analysis.model == Model::Reduced && one && whole
     }
 }

@@ -84,7 +84,7 @@ fn momentum_of_the_common_motion_is_held() {
     let settings = bench.settings(&system, Scheme::Energy, ROWS);
     let mut motion = bench.motion(system, settings);
     let (mut worst, mut swings, mut torques) = (0.0f64, [0.0f64; 2], [f64::INFINITY, 0.0f64]);
-    let mut look = |now: &Instant, _: &_| {
+    let mut look = |now: &Instant, _: &_, _: &_| {
         worst = worst.max((momentum(bench, masses, now.speeds) / wanted - 1.0).abs());
         for g in 0..2 {
             swings[g] = swings[g].max((now.speeds[g] - nominal[g]).abs());

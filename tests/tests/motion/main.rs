@@ -1,6 +1,7 @@
 //! The pair in motion: quasi-static and linear limits, jumps, tooth changes, integrators, modes, cheaper models.
 
 mod both_free;
+mod fields;
 mod ladder;
 mod mapped;
 mod modes_in_motion;

@@ -255,7 +255,7 @@ fn shooting_finds_what_waiting_finds() {
             motion.cycle()
         };
         let mut errors = Vec::new();
-        motion.run_cycle(Some(&mut |now, _| errors.push(now.transmission_error))).unwrap();
+        motion.run_cycle(Some(&mut |now, _, _| errors.push(now.transmission_error))).unwrap();
         (periods, errors)
     });
     let off = waited.1.iter().zip(&shot.1).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / pair.ste;

@@ -28,7 +28,7 @@ fn tiny(driver: Driver, sense: Sense) -> MovingPair {
     MovingPair::new(case, contact, 8)
 }
 
-fn bench() -> &'static MovingPair {
+pub fn bench() -> &'static MovingPair {
     static BENCH: OnceLock<MovingPair> = OnceLock::new();
     BENCH.get_or_init(|| tiny(Driver::Pinion, Sense::Ccw))
 }
@@ -53,7 +53,7 @@ fn the_start_sets_nothing_off() {
     assert!((start.q[0] / first - 1.0).abs() < 1e-6, "begins at {} mm, STE is {first} mm", start.q[0]);
     let scale = motion.settings().scale.clone();
     let mut seen = Vec::new();
-    motion.run_cycle(Some(&mut |now, _| seen.push((now.time, now.transmission_error)))).unwrap();
+    motion.run_cycle(Some(&mut |now, _, _| seen.push((now.time, now.transmission_error)))).unwrap();
     let mut still = bench.system(50.0, slow);
     // Later on slices that come into contact, one after the other, strike the undamped mesh near its resonance.
     let off = seen.iter().take(4).map(|(time, error)| {
@@ -125,7 +125,7 @@ fn energy_closes_with_bearings_and_friction() {
     let mut driven = 0.0;
     for _ in 0..2 {
         motion
-            .run_cycle(Some(&mut |now, _| {
+            .run_cycle(Some(&mut |now, _, _| {
                 for (sum, at) in bearings.iter_mut().zip([1, 7]) {
                     *sum += now.bearing[at] / (2.0 * ROWS as f64);
                 }
@@ -156,7 +156,7 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     let (mut last, mut turned) = ([0.0; 2], 0.0);
     for _ in 0..6 {
         motion
-            .run_cycle(Some(&mut |now, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles)))
+            .run_cycle(Some(&mut |now, _, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles)))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     let expected = start + excess / inertia * last[0];

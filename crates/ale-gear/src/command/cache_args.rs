@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::cache::Cache;
+use report::folder::Cache;
 
 /// Which cache is used.
 #[derive(Debug, Default, clap::Args)]

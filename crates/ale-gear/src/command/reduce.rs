@@ -15,7 +15,9 @@ use super::{
     mesh::{GroupArgs, complaint},
     overrides::Overrides,
 };
-use crate::{cache::Cache, error::CommandError, phases::Phases, scene::Scene};
+use report::folder::Cache;
+
+use crate::{error::CommandError, phases::Phases, scene::Scene};
 
 /// Words of `ale-gear reduce`.
 #[derive(Debug, clap::Args)]

@@ -7,8 +7,9 @@ use analysis::lumped::is_lumped;
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use report::check_memory;
 
+use report::folder::Cache;
+
 use crate::{
-    cache::Cache,
     certificate::Written,
     error::CommandError,
     facts::Solved,
@@ -107,10 +108,11 @@ impl RunArgs {
                 "`--resume` and `--stop-after-cycles` belong to motions of the model \"reduced\" with `run` \"steady\", \"span\" or \"ramp\", without [accuracy]",
             );
         }
-        if scene.analysis.kind == Kind::Dynamic && scene.output.vtu {
+        let in_parts = self.resume || self.stop_after_cycles.is_some();
+        if scene.analysis.kind == Kind::Dynamic && scene.output.vtu && (in_parts || !scene.can_write_fields()) {
             return refuse(
-                "an analysis in time writes no ParaView files",
-                "leave `--vtu` out, or use `kind = \"static\"`",
+                "this analysis in time writes no ParaView files",
+                "leave `--vtu` out, use one motion of the model \"reduced\" without checkpoints, or `kind = \"static\"`",
             );
         }
         Ok(())

@@ -97,6 +97,39 @@ fn a_spoilt_file_is_told_of_and_replaced() {
     assert_eq!(cached.found("last"), 2);
 }
 
+/// A map of the contact is kept beside the gears, serves a run at another speed, and is made again where its file is
+/// damaged or the torque is another one.
+#[test]
+fn a_map_is_kept_and_believed_only_whole() {
+    let text =
+        scene("root_stress = false").replace("model = \"reduced\"\npositions_per_cycle = 4", "model = \"mapped\"");
+    let text = text.replace("[analysis]\n", "[analysis]\nkind = \"dynamic\"\ncycles = 1\npositions_per_cycle = 4\n");
+    let cached =
+        Cached(Scratch::new().file("a.toml", format!("{text}[motion]\nrun = \"span\"\n[contact]\nslices = 4\n")));
+    let maps = || cached.files().into_iter().filter(|f| f.extension().is_some_and(|e| e == "map")).collect::<Vec<_>>();
+    cached.run("first");
+    let [map] = &maps()[..] else { panic!("{:?}", cached.files()) };
+    let sound = fs::read(map).unwrap();
+    cached.run("second");
+    assert_eq!(cached.0.read("first/history.csv"), cached.0.read("second/history.csv"));
+    let mut bytes = sound.clone();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(map, bytes).unwrap();
+    let run = cached.run("again");
+    assert!(run.stdout.contains("mapped again"), "{}", run.stdout);
+    assert!(fs::read(map).unwrap() == sound, "the file is not what it was");
+    assert_eq!(cached.0.read("first/history.csv"), cached.0.read("again/history.csv"));
+    let with = |word: &str| {
+        let run = cached.0.ale_gear(["run", "a.toml", "--out", "o", "--cache", "cache", "--set", word]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    };
+    with("operation.speed_rpm=777");
+    assert_eq!(maps().len(), 1, "a map knows no speed");
+    with("operation.torque_nm=33");
+    assert_eq!(maps().len(), 2, "a map is made about a load");
+}
+
 #[test]
 fn what_the_cache_depends_on() {
     let cached = Cached::new("");

@@ -85,6 +85,11 @@ fn every_kind() -> Scratch {
     let curve = ["--from", "900", "--to", "1000", "--set", "motion.continuation.motions=3"];
     let lightly = ["--set", "motion.continuation.time_points=1"];
     run(&[&["curve", &seed("004"), "--out", "out-curve"], &curve[..], &lightly].concat());
+    let plane = [("from_um", -1), ("to_um", 1), ("from_mm_s", 0), ("to_mm_s", 0), ("columns", 2), ("rows", 1)];
+    let words: Vec<String> =
+        plane.iter().flat_map(|(key, n)| ["--set".into(), format!("motion.basins.{key}={n}")]).collect();
+    let basins: Vec<&str> = words.iter().map(String::as_str).chain(["--set", "motion.run=basins"]).collect();
+    run(&[&["run", &seed("004"), "--out", "out-basins"], &basins[..]].concat());
     run(&["study", "study.toml", "--out", "out-study"]);
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);

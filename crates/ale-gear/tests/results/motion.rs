@@ -278,10 +278,34 @@ fn wrong_motions_are_told_with_line_and_hint() {
         "21: [motion] belongs to an analysis in time\nhint: leave it out, or say `kind = \"dynamic\"` in [analysis]",
     );
     says(
-        of("[output]\nvtu = true\n"),
-        "25: `vtu = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
+        of("checkpoint_every_cycles = 1\n[output]\nvtu = true\n"),
+        "26: `vtu = true` asks for fields and stresses of an analysis in time, which this version cannot do\n\
          hint: leave it out, or use `kind = \"static\"` for them",
     );
+}
+
+/// A motion writes fields of every so many rows, at the times of these; a checkpoint would part the series.
+#[test]
+fn fields_come_with_the_rows() {
+    let words = "run = \"span\"\n[output]\nvtu = true\nvtu_every = 8\nfields = [\"displacement\"]\n";
+    let scratch = Scratch::new().file("a.toml", scene(1, words));
+    let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let times = column(&scratch.read("o/history.csv"), "time_s");
+    let series = scratch.read("o/gears.pvd");
+    for (k, time) in times.iter().enumerate().step_by(8) {
+        for gear in ["pinion", "wheel"] {
+            let file = format!("{gear}_{k:05}.vtu");
+            assert!(scratch.path().join("o").join(&file).is_file(), "{file} is missing");
+            let entry = series.lines().find(|line| line.contains(&file)).unwrap_or_else(|| panic!("{file}: {series}"));
+            let told = entry.split("timestep=\"").nth(1).and_then(|rest| rest.split('"').next()).unwrap();
+            assert!((told.parse::<f64>().unwrap() - time).abs() <= 1e-9 * time.abs(), "{entry}, not {time} s");
+        }
+    }
+    assert_eq!(series.matches(".vtu").count(), 2 * times.len().div_ceil(8));
+    let stopped = scratch.ale_gear(["run", "a.toml", "--out", "o", "--stop-after-cycles", "1"]);
+    assert_eq!(stopped.code, Some(2));
+    assert!(stopped.stderr.contains("this analysis in time writes no ParaView files"), "{}", stopped.stderr);
 }
 
 /// Checkpoints that are not there, or belong to another scene, are no way to go on.

@@ -5,9 +5,10 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
+use contact_map::ContactMap;
 use reduction::{RecordKey, ReductionRecord};
 
-use crate::GearCache;
+use crate::{GearCache, MapKey};
 
 /// Reduced gears in memory before the caller's own store.
 pub struct KeptGears<'a> {
@@ -45,5 +46,13 @@ impl GearCache for KeptGears<'_> {
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_string(), record.clone());
         if self.store.is_on() { self.store.save(key, record) } else { None }
+    }
+
+    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+        self.store.load_maps(key)
+    }
+
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+        self.store.save_maps(key, maps)
     }
 }

@@ -33,6 +33,7 @@ pub(super) fn in_motion(scene: &mut Scene) {
         ramp: None,
         sweep: None,
         continuation: None,
+        basins: None,
     });
     scene.drive = Some(DriveScene { by: DriveBy::Speed, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());

@@ -308,7 +308,7 @@ fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
 /// What must hold of a run: energy closes, no flank of a slice pulls.
 fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
     let driven = [scene.wheel.teeth, scene.pinion.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
-    let turned = TAU * (run.warm_up + run.cycles) as f64 / f64::from(driven);
+    let turned = TAU * run.booked as f64 / f64::from(driven);
     let through = scene.operation.torque().abs() * turned;
     let mut all = vec![motion::energy_check(run.ledger.residual(), through, run.ledger.relative_residual())];
     if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {

@@ -1,6 +1,6 @@
 //! Reduced gears in motion, their contact solved or mapped, as the runs of cheaper models ask for them.
 
-use std::time::Instant;
+use std::{path::PathBuf, time::Instant};
 
 use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
 use geometry::GearPair;
@@ -16,7 +16,7 @@ use super::{
     row::{GearCoordinate, axis_number, gear_coordinates},
 };
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork,
+    AnalysisError, GearCache, MapKey, Observer, PhaseWork,
     failure::Failure,
     motion::{
         Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
@@ -79,7 +79,7 @@ impl ElasticPair {
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
-        let PreparedMotion { system, settings, quasi_static, elasticity, warnings, .. } = ready;
+        let PreparedMotion { system, settings, quasi_static, elasticity, mut warnings, keys, .. } = ready;
         let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
         let place = |c: &GearCoordinate| COORDINATES * c.gear + axis_number(c.axis);
         let free = gear_coordinates(scene).iter().map(place).collect();
@@ -88,8 +88,10 @@ impl ElasticPair {
         let (contact, contacts) = match scene.analysis.model {
             Model::Mapped => {
                 let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, worst: WORST_MAP, lag };
-                let made =
-                    run_phase(observer, "contact map", PhaseWork::Unknown, |_| MappedPair::new(system, &request));
+                let key = cache.is_on().then(|| MapKey::new(&keys, &contact_words(scene, &inputs.pair, &request)));
+                let made = run_phase(observer, "contact map", PhaseWork::Unknown, |_| {
+                    mapped(system, &request, (cache, key.as_ref()), &mut warnings)
+                });
                 let made = made.map_err(|source| failed(scene, source))?;
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
                 (PairContact::Mapped(Box::new(made)), contacts)
@@ -129,6 +131,31 @@ impl ElasticPair {
         };
         Ok((model, self.resonance.hz))
     }
+}
+
+/// All but the gears that a map depends on, in words: the scene without what it does in time, and the flanks with what
+/// stands in files of their own.
+fn contact_words(scene: &Scene, pair: &GearPair, request: &MapRequest) -> String {
+    let at_rest = Scene { name: String::new(), file: PathBuf::new(), motion: None, set: Vec::new(), ..scene.clone() };
+    format!("{request:?} {pair:?} {at_rest:?}")
+}
+
+/// The pair on its maps: those of the cache, or new ones.
+fn mapped(
+    system: PairMechanism,
+    request: &MapRequest,
+    (cache, key): (&dyn GearCache, Option<&MapKey>),
+    warnings: &mut Vec<String>,
+) -> Result<MappedPair, PairMotionError> {
+    let Some(key) = key else { return MappedPair::new(system, request) };
+    let (kept, said) = cache.load_maps(key);
+    warnings.extend(said);
+    if let Some(maps) = kept.filter(|maps| MappedPair::can_stand_on(&system, maps)) {
+        return MappedPair::on(system, maps);
+    }
+    let made = MappedPair::new(system, request)?;
+    warnings.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
+    Ok(made)
 }
 
 fn failed(scene: &Scene, source: PairMotionError) -> AnalysisError {

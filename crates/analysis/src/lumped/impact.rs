@@ -93,6 +93,11 @@ impl LumpedMechanism for Formulas<ImpactMechanism> {
         Ok(at_rest(self.static_state()?))
     }
 
+    /// Impacts make of a small difference a large one.
+    fn shoots(&self) -> bool {
+        false
+    }
+
     fn scale(&self) -> DVector<f64> {
         self.0.scale()
     }

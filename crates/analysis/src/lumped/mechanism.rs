@@ -164,6 +164,11 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
         false
     }
 
+    /// Whether a state tells all of it, and its motion is smooth in its start.
+    fn shoots(&self) -> bool {
+        true
+    }
+
     /// Goes back to where the run begins, for forces at one time after the other from there on.
     ///
     /// # Errors

@@ -5,6 +5,7 @@
 //! | `analysis` | [`LumpedAnalysis`]: a motion with its headline, spectra and certificate |
 //! | `sweep` | [`KeySweep`]: a motion at each value of a key: bifurcation diagrams, resonance curves |
 //! | `branch` | [`ContinuationAnalysis`]: periodic motions along a key, stable and unstable |
+//! | `basins` | [`BasinAnalysis`]: to which motion each state of a plane leads |
 //! | `row` | [`LumpedRow`]: what a model tells of an instant |
 //! | `mechanism` | what a model must answer to be run and read |
 //! | `inputs` | all that a model is made of |
@@ -12,12 +13,14 @@
 //! | `bodies` | bodies, supports and torques of the scene |
 //! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `mapped`, `reduced` | the models |
 //! | `free_turn` | the motion that nothing holds |
+//! | `shooting` | the periodic state by Newton's method |
 //! | `exponent` | the largest Lyapunov exponent of a motion |
 //! | `run_loop`, `periodicity` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
 
 mod analysis;
+mod basins;
 mod bodies;
 mod branch;
 mod campbell;
@@ -36,10 +39,12 @@ mod reduced;
 mod row;
 mod run_loop;
 mod shafts;
+mod shooting;
 mod sweep;
 mod warnings;
 
 pub use analysis::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink, is_lumped};
+pub use basins::{Attractor, BasinAnalysis, BasinHeadline, BasinResult, BasinStart};
 pub use branch::{
     BranchPoint, BranchTurn, ContinuationAnalysis, ContinuationHeadline, ContinuationResult, LossName, TimePoint,
 };

@@ -85,6 +85,11 @@ impl LumpedMechanism for ReducedModel {
         ]
     }
 
+    /// The teeth in the window belong to a state as well.
+    fn shoots(&self) -> bool {
+        false
+    }
+
     fn rewind(&mut self) -> Result<(), StaticError> {
         self.system.restore(&self.home)
     }

@@ -7,12 +7,17 @@ use super::{
     LumpedRow,
     mechanism::{BoxedMechanism, ModelFailure},
     periodicity::PeriodicityMonitor,
+    shooting::Shooting,
 };
 use crate::{
     AnalysisError, SinkResult,
     motion::{EnergyRow, scheme},
 };
 
+/// Mesh cycles before the periodic state is sought by Newton's method; the next tries come after twice as many.
+const FIRST_SHOT: u64 = 8;
+/// Difference after a period, over the peak to peak, from which on it is sought: the motion is on its way.
+const SETTLING: f64 = 0.05;
 /// Phases of a mesh cycle at which the longest stable step is looked for.
 const PHASES: u32 = 32;
 
@@ -57,6 +62,8 @@ pub(crate) struct LumpedRun {
     pub judged: u64,
     /// Mesh cycles before them.
     pub warm_up: u64,
+    /// Mesh cycles of the ledger: all, or those since the motion was taken to its periodic state.
+    pub booked: u64,
     /// How nearly the motion repeated itself at last.
     pub periodicity: Option<Periodicity>,
     /// Energy from the start of the run on.
@@ -158,6 +165,14 @@ pub(super) fn stable_step(
     Ok(stiffest.limit())
 }
 
+/// How a motion came to its periodic state.
+struct Settled {
+    warm_up: u64,
+    /// Mesh cycles since the ledger was opened.
+    booked: u64,
+    periodicity: Option<Periodicity>,
+}
+
 /// A run of a model, from a state at the beginning of a mesh cycle, else from rest under the load.
 pub(super) struct RunPlan<'a> {
     pub scene: &'a Scene,
@@ -185,7 +200,7 @@ impl RunPlan<'_> {
             None => model.start()?,
         };
         let mut integrator = integrator(model, motion, frequencies.step(motion));
-        let (warm_up, periodicity) = self.settle(model, &mut integrator, &mut state)?;
+        let Settled { warm_up, booked, periodicity } = self.settle(model, &mut integrator, &mut state)?;
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
         let (mut rows, mut energy) = (Vec::new(), Vec::new());
         for k in 0..cycles * per_cycle {
@@ -210,6 +225,7 @@ impl RunPlan<'_> {
             cycles,
             judged,
             warm_up,
+            booked: booked + cycles,
             periodicity,
             ledger,
             steps: integrator.steps(),
@@ -218,30 +234,42 @@ impl RunPlan<'_> {
     }
 
     /// Mesh cycles until the motion repeats itself, at most as many as the scene has for that, and how nearly it does.
+    /// Once it nearly does, [`Shooting`] takes it there.
     fn settle(
         &self,
         model: &mut BoxedMechanism,
         integrator: &mut Integrator,
         state: &mut State,
-    ) -> Result<(u64, Option<Periodicity>), ModelFailure> {
+    ) -> Result<Settled, ModelFailure> {
         let motion = self.motion;
         let (per_cycle, most) = (u64::from(motion.steps_per_mesh_cycle), u64::from(motion.warm_up_cycles.unwrap_or(0)));
         let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
-        let (mut monitor, mut periodicity, mut warm_up) = (PeriodicityMonitor::default(), None, 0);
+        let (mut monitor, mut periodicity) = (PeriodicityMonitor::default(), None);
+        let (mut warm_up, mut booked, mut next_shot) = (0, 0, FIRST_SHOT);
         while motion.run == Run::Steady && warm_up < most {
             let mut errors = Vec::with_capacity(per_cycle as usize);
             for k in 0..per_cycle {
                 errors.push(model.transmission_error_um(state).map_err(ModelFailure::at(state.time))?);
                 advance(model, integrator, state, self.time(warm_up * per_cycle + k + 1))?;
             }
-            warm_up += 1;
+            (warm_up, booked) = (warm_up + 1, booked + 1);
             let found = monitor.judge(errors, tolerance);
             periodicity = Some(found);
             if found.residual <= tolerance {
                 break;
             }
+            if warm_up >= next_shot && model.shoots() && found.residual <= SETTLING {
+                next_shot = 2 * warm_up;
+                let (frequencies, period) = (self.frequencies, found.period);
+                let near = Shooting { motion, frequencies, period, tolerance }.near(model, state)?;
+                if let Some(there) = near {
+                    *state = there;
+                    *integrator = self::integrator(model, motion, frequencies.step(motion));
+                    (monitor, booked) = (PeriodicityMonitor::default(), 0);
+                }
+            }
         }
-        Ok((warm_up, periodicity))
+        Ok(Settled { warm_up, booked, periodicity })
     }
 }
 

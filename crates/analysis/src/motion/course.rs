@@ -1,7 +1,8 @@
 //! The course of one motion: settle, then write rows; with checkpoints on the way.
 
 use dynamics::{
-    Instant, Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, quasi_static_start, shoot,
+    Instant, Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads,
+    quasi_static_start, shoot,
 };
 use integrate::{Envelope, Ledger, Periodicity, Recurrence};
 use scene::{MotionScene, Run, Scene};
@@ -219,11 +220,14 @@ impl<'a> Course<'a> {
     fn cycle_of_rows(&mut self, sink: &mut dyn MotionSink) -> Result<Envelope, Failure> {
         let Self { layout, rows, pattern, mechanism, .. } = self;
         let mut refused = None;
-        let mut push = |now: &Instant, ledger: &Ledger| {
+        let mut push = |now: &Instant, ledger: &Ledger, system: &PairMechanism| {
             let row = layout.row(now, ledger);
             pattern.push(now);
             if refused.is_none() {
-                refused = sink.row(&row).err();
+                let index = rows.len() as u64;
+                let deformed = sink.wants_fields(index).then(|| system.side_loads(now));
+                let fields = |sides: Vec<SideLoads<'_>>| sink.fields(index, now.time, &sides).err();
+                refused = deformed.and_then(fields).or_else(|| sink.row(&row).err());
             }
             rows.push(row);
         };

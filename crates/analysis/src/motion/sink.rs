@@ -1,6 +1,6 @@
 //! Who gets the rows of a motion as they come, and the states that it can be resumed from.
 
-use dynamics::Checkpoint;
+use dynamics::{Checkpoint, SideLoads};
 use integrate::{Periodicity, Recurrence};
 use ltca::{StaticModel, StaticPosition};
 use serde::{Deserialize, Serialize};
@@ -72,6 +72,19 @@ pub trait MotionSink {
     /// # Errors
     /// Whatever ends the analysis.
     fn row(&mut self, _row: &MotionRow) -> SinkResult {
+        Ok(())
+    }
+
+    /// Whether fields of the gears are wanted at a row, counted from 0.
+    fn wants_fields(&self, _row: u64) -> bool {
+        false
+    }
+
+    /// What presses on the flanks at a row that [`MotionSink::wants_fields`]; time in s.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn fields(&mut self, _row: u64, _time_s: f64, _sides: &[SideLoads<'_>]) -> SinkResult {
         Ok(())
     }
 

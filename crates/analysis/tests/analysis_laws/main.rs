@@ -1,6 +1,7 @@
 //! Laws of the crate `analysis`.
 
 mod accuracy;
+mod basins;
 mod continuation;
 mod mapped;
 mod motion_accuracy;

@@ -52,7 +52,7 @@ impl MappedPair {
         let mut maps = Vec::new();
         for side in system.sides() {
             let projection = Projection::new(&pair, side.flank_side());
-            let tilts = system.coordinates().map().tr_mul(&projection.tilt).amax() > 1e-12;
+            let tilts = has_tilt(&system, &projection);
             // Force along the normal of a force on the base circle.
             let force = load / pair.base_helix_angle().cos();
             let plan = MapPlan {
@@ -72,6 +72,27 @@ impl MappedPair {
             maps.push((projection, Arc::new(made)));
         }
         Ok(Self::of(system, maps))
+    }
+
+    /// Whether a pair has as many sides, and tilts where these have, as some maps.
+    pub fn can_stand_on(system: &PairMechanism, maps: &[ContactMap]) -> bool {
+        let sides = system.sides().map(|side| Projection::new(system.pair(), side.flank_side()));
+        let tilts: Vec<bool> = sides.map(|projection| has_tilt(system, &projection)).collect();
+        tilts.len() == maps.len() && tilts.iter().zip(maps).all(|(tilts, map)| *tilts == map.tilts().is_some())
+    }
+
+    /// The pair on maps that were made for it before.
+    ///
+    /// # Errors
+    /// [`PairMotionError::Unmapped`] as [`MappedPair::new`], and for maps that [`MappedPair::can_stand_on`] refuses.
+    pub fn on(system: PairMechanism, maps: Vec<ContactMap>) -> Result<Self, PairMotionError> {
+        refuse(&system)?;
+        if !Self::can_stand_on(&system, &maps) {
+            return Err(PairMotionError::Unmapped { what: "a pair that these maps were not made for" });
+        }
+        let sides: Vec<Projection> =
+            system.sides().map(|side| Projection::new(system.pair(), side.flank_side())).collect();
+        Ok(Self::of(system, sides.into_iter().zip(maps.into_iter().map(Arc::new)).collect()))
     }
 
     /// The same pair at its beginning on the same maps, with another speed or torque of the driver.
@@ -142,6 +163,11 @@ impl MappedPair {
             system,
         }
     }
+}
+
+/// Whether free coordinates tilt the flanks in the plane of action.
+fn has_tilt(system: &PairMechanism, projection: &Projection) -> bool {
+    system.coordinates().map().tr_mul(&projection.tilt).amax() > 1e-12
 }
 
 /// What no map holds.

@@ -88,6 +88,11 @@ impl MeshSide {
         Ok(copy_at_start)
     }
 
+    /// The reduced gears of these flanks.
+    pub fn gears(&self) -> &[ElasticGear; 2] {
+        &self.gears
+    }
+
     /// The pinion's flanks of this side.
     pub fn flank_side(&self) -> Side {
         self.options.side()

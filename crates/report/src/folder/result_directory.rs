@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 38] = [
+const OURS: [&str; 41] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -159,6 +159,9 @@ const OURS: [&str; 38] = [
     "sweep.csv",
     "bifurcation.csv",
     "bifurcations.csv",
+    "basins.csv",
+    "basins.svg",
+    "attractors.csv",
     "branch.csv",
     "branch.svg",
     "in_time.csv",

@@ -1,5 +1,6 @@
-//! Files of a cheaper model, of sweeps over a key and of continuations: frequencies, points, charts, pages.
+//! Files of a cheaper model, of sweeps over a key, of continuations and of basins: frequencies, points, charts, pages.
 
+mod basins;
 mod branch;
 mod campbell;
 mod report;
@@ -8,6 +9,7 @@ mod sweep_report;
 mod table;
 mod write;
 
+pub use basins::{ATTRACTORS_FILE, BASINS_FILE, attractors_csv, basins_csv, basins_table, write_basins};
 pub use branch::{BRANCH_FILE, IN_TIME_FILE, TURNS_FILE, branch_csv, branch_table, write_branch};
 pub use campbell::lumped_campbell_csv;
 pub use report::{LumpedPictures, write_lumped_report};

@@ -8,12 +8,14 @@ use analysis::{
     motion::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink},
     run_phase,
 };
+use dynamics::SideLoads;
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
 use crate::{
-    ReportError,
+    ReportError, ResultFiles,
     checkpoint::{Change, CheckpointError, Checkpoints, InputDigests, Rows, Stored},
+    paraview::FieldWriter,
     view::{View, ViewRecorder},
 };
 
@@ -28,6 +30,7 @@ pub struct MotionFileSink<'a> {
     meshes: Vec<MeshFacts>,
     recorder: ViewRecorder,
     rows: Option<Rows>,
+    fields: Option<FieldWriter<'a>>,
     /// The gears in space, once the quasi-static mesh cycle is solved.
     pub view: Option<View>,
 }
@@ -41,7 +44,14 @@ impl<'a> MotionFileSink<'a> {
         from: Option<&'a Stored>,
     ) -> Self {
         let recorder = ViewRecorder::new(scene);
-        Self { scene, folder, checkpoints, from, meshes: Vec::new(), recorder, rows: None, view: None }
+        let (rows, fields, view) = (None, None, None);
+        Self { scene, folder, checkpoints, from, meshes: Vec::new(), recorder, rows, fields, view }
+    }
+
+    /// With fields for ParaView into `results`, as the scene asks for them.
+    #[must_use]
+    pub fn with_fields(self, results: &'a dyn ResultFiles) -> Self {
+        Self { fields: Some(FieldWriter::new(self.scene, results)), ..self }
     }
 
     /// That nobody has written to a file of the scene while it was read, and that the meshes are those of the
@@ -101,6 +111,15 @@ impl MotionSink for MotionFileSink<'_> {
         Ok(())
     }
 
+    fn wants_fields(&self, row: u64) -> bool {
+        self.fields.as_ref().is_some_and(|fields| fields.is_due(row as usize))
+    }
+
+    fn fields(&mut self, row: u64, time_s: f64, sides: &[SideLoads<'_>]) -> SinkResult {
+        let Some(fields) = &mut self.fields else { return Ok(()) };
+        Ok(fields.row(row as usize, time_s, sides)?)
+    }
+
     fn checkpoint(&mut self, state: MotionCheckpoint) -> SinkResult {
         if let (Some(Checkpoints { folder, inputs }), Some(rows)) = (self.checkpoints, &mut self.rows) {
             let kept = rows.flush()?;
@@ -112,6 +131,9 @@ impl MotionSink for MotionFileSink<'_> {
     fn finish(&mut self) -> SinkResult {
         if let Some(rows) = &mut self.rows {
             rows.flush()?;
+        }
+        if let Some(fields) = &mut self.fields {
+            fields.finish()?;
         }
         Ok(())
     }

@@ -32,6 +32,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("sweep.html", include_str!("sweep.html")),
         ("ladder.html", include_str!("ladder.html")),
         ("ladder_sweep.html", include_str!("ladder_sweep.html")),
+        ("basins.html", include_str!("basins.html")),
         ("branch.html", include_str!("branch.html")),
         ("study.html", include_str!("study.html")),
         ("compare.html", include_str!("compare.html")),

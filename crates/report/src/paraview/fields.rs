@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use ltca::{Equilibrium, StaticModel, StaticPosition};
+use contact::{ContactRow, ContactSet, Pose};
+use dynamics::SideLoads;
+use ltca::{StaticModel, StaticPosition};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use reduction::ElasticGear;
 
@@ -24,7 +26,13 @@ impl<'a> FieldWriter<'a> {
         Self { scene, results, entries: Vec::new() }
     }
 
-    /// The files of one position, if it is due.
+    /// Whether a position or row is due.
+    pub fn is_due(&self, index: usize) -> bool {
+        let output = &self.scene.output;
+        output.vtu && index.is_multiple_of(output.vtu_every.max(1) as usize)
+    }
+
+    /// The files of one position at rest, if it is due.
     ///
     /// # Errors
     /// When a field does not come out, or the system refuses.
@@ -34,16 +42,34 @@ impl<'a> FieldWriter<'a> {
         position: &StaticPosition,
         model: &StaticModel,
     ) -> Result<(), ReportError> {
-        let output = &self.scene.output;
-        if !output.vtu || !index.is_multiple_of(output.vtu_every.max(1) as usize) {
+        if !self.is_due(index) {
             return Ok(());
         }
         let first = -PI / f64::from(self.scene.pinion.teeth);
         let time_s = (position.pinion_angle - first) / self.scene.pinion_speed().max(f64::MIN_POSITIVE);
+        self.files(index, time_s, model.gears(), |part| GearState::at_rest(part, position, model))
+    }
+
+    /// The files of one row of a motion.
+    ///
+    /// # Errors
+    /// When a field does not come out, or the system refuses.
+    pub fn row(&mut self, index: usize, time_s: f64, sides: &[SideLoads<'_>]) -> Result<(), ReportError> {
+        let Some(driving) = sides.first() else { return Ok(()) };
+        self.files(index, time_s, driving.gears, |part| GearState::in_motion(part, sides))
+    }
+
+    fn files<'g>(
+        &mut self,
+        index: usize,
+        time_s: f64,
+        gears: &[ElasticGear; 2],
+        state: impl Fn(usize) -> Result<GearState<'g>, ReportError>,
+    ) -> Result<(), ReportError> {
         for (part, name) in ["pinion", "wheel"].into_iter().enumerate() {
             let file = format!("{name}_{index:05}.vtu");
             let mut out = self.results.create(&file)?;
-            self.gear(part, position, model, &mut out)?
+            self.gear(&gears[part], &state(part)?, &mut out)?
                 .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
             self.entries.push(PvdEntry { time_s, part, file });
         }
@@ -63,15 +89,11 @@ impl<'a> FieldWriter<'a> {
 
     fn gear(
         &self,
-        part: usize,
-        position: &StaticPosition,
-        model: &StaticModel,
+        elastic: &ElasticGear,
+        state: &GearState<'_>,
         out: &mut impl std::io::Write,
     ) -> Result<std::io::Result<()>, ReportError> {
-        let elastic = &model.gears()[part];
-        let gear = elastic.gear();
-        let mesh = gear.mesh();
-        let state = GearState::new(part, position, model)?;
+        let mesh = elastic.gear().mesh();
         let nodes: Vec<[f64; 3]> = mesh.nodes.iter().map(|&p| state.place(p)).collect();
         let mut values: Vec<(&str, usize, Vec<f64>)> = Vec::new();
         for field in &self.scene.output.fields {
@@ -106,27 +128,61 @@ struct GearState<'a> {
     elements: &'a fem::ElementOptions,
 }
 
+/// What presses on the flanks of a window.
+struct FlankLoads<'a> {
+    gears: &'a [ElasticGear; 2],
+    set: &'a ContactSet,
+    poses: &'a [Pose; 2],
+    rows: &'a [ContactRow],
+    forces: &'a [f64],
+}
+
 impl<'a> GearState<'a> {
-    fn new(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, ReportError> {
+    fn at_rest(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, ReportError> {
         static PLAIN: std::sync::LazyLock<fem::ElementOptions> = std::sync::LazyLock::new(fem::ElementOptions::default);
-        let elastic = &model.gears()[part];
-        let count = elastic.gear().mesh().nodes.len();
-        let Some(e) = model.last() else {
-            // Without torque nothing is deformed, and the gears stand as the geometry says.
-            let (pair, options) = (model.pair(), model.options());
-            let turned =
-                pair.middle_angle(options.side()) + options.contact.sense.sign() as f64 * position.pinion_angle;
-            let angle = if part == 0 { turned } else { pair.wheel_angle(options.side(), turned) };
-            return Ok(Self {
-                displacement: vec![[0.0; 3]; count],
-                pressure: vec![0.0; count],
-                rotation: Rotation3::from_axis_angle(&Vector3::z_axis(), angle),
-                centre: Vector3::new(if part == 0 { 0.0 } else { model.pair().centre_distance() }, 0.0, 0.0),
-                elements: &PLAIN,
-            });
-        };
-        let boundary = &e.displacements_on(model.contact_set())[part];
-        let (displacement, nodes, frame, elements) = match (elastic, model.contact_set().windows()) {
+        let (gears, set) = (model.gears(), model.contact_set());
+        if let Some(e) = model.last() {
+            let (poses, rows, forces) = (&e.poses, &e.rows[..], &e.solution.forces[..]);
+            let loads = FlankLoads { gears, set, poses, rows, forces };
+            return Self::loaded(part, &loads, &e.displacements_on(set)[part]);
+        }
+        // Without torque nothing is deformed, and the gears stand as the geometry says.
+        let count = gears[part].gear().mesh().nodes.len();
+        let (pair, options) = (model.pair(), model.options());
+        let turned = pair.middle_angle(options.side()) + options.contact.sense.sign() as f64 * position.pinion_angle;
+        let angle = if part == 0 { turned } else { pair.wheel_angle(options.side(), turned) };
+        Ok(Self {
+            displacement: vec![[0.0; 3]; count],
+            pressure: vec![0.0; count],
+            rotation: Rotation3::from_axis_angle(&Vector3::z_axis(), angle),
+            centre: Vector3::new(if part == 0 { 0.0 } else { model.pair().centre_distance() }, 0.0, 0.0),
+            elements: &PLAIN,
+        })
+    }
+
+    /// Under the loads of all sides together: what they do to a gear adds up.
+    fn in_motion(part: usize, sides: &'a [SideLoads<'a>]) -> Result<Self, ReportError> {
+        let mut all: Option<Self> = None;
+        for SideLoads { gears, set, poses, rows, forces } in sides {
+            let boundary = set.displacements_under(rows, forces).ok_or(ReportError::NoWindow)?;
+            let loads = FlankLoads { gears, set, poses, rows, forces };
+            let own = Self::loaded(part, &loads, &boundary[part])?;
+            match &mut all {
+                None => all = Some(own),
+                Some(all) => {
+                    let both = all.displacement.iter_mut().zip(&own.displacement);
+                    both.for_each(|(u, v)| (0..3).for_each(|k| u[k] += v[k]));
+                    all.pressure.iter_mut().zip(&own.pressure).for_each(|(p, q)| *p += q);
+                }
+            }
+        }
+        all.ok_or(ReportError::NoWindow)
+    }
+
+    /// Under the loads of a window that displace its boundary by `boundary` (mm).
+    fn loaded(part: usize, loads: &FlankLoads<'a>, boundary: &[f64]) -> Result<Self, ReportError> {
+        let elastic = &loads.gears[part];
+        let (displacement, nodes, frame, elements) = match (elastic, loads.set.windows()) {
             (ElasticGear::Reduced(r), Some(windows)) => {
                 let window = &windows[part];
                 let field = r.expand(window, boundary)?;
@@ -139,12 +195,12 @@ impl<'a> GearState<'a> {
             (ElasticGear::Reduced(_), None) => return Err(ReportError::NoWindow),
         };
         // The pose is that of the window's frame; the gear's own frame is turned back by the frame's angle.
-        let own = e.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);
+        let own = loads.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);
         Ok(Self {
             displacement,
-            pressure: nodal_pressure(part, model, e, &nodes, count),
+            pressure: nodal_pressure(part, loads, &nodes, elastic.gear().mesh().nodes.len()),
             rotation: own.to_rotation_matrix(),
-            centre: e.poses[part].translation.vector,
+            centre: loads.poses[part].translation.vector,
             elements,
         })
     }
@@ -166,10 +222,10 @@ impl<'a> GearState<'a> {
 }
 
 /// Contact pressure at every node of the mesh; zero off the flanks.
-fn nodal_pressure(part: usize, model: &StaticModel, e: &Equilibrium, nodes: &[u32], count: usize) -> Vec<f64> {
+fn nodal_pressure(part: usize, loads: &FlankLoads<'_>, nodes: &[u32], count: usize) -> Vec<f64> {
     let mut all = vec![0.0; count];
-    let patches = &model.contact_set().patches()[part];
-    for (node, pressure) in contact::nodal_pressures(patches, part, &e.rows, &e.solution.forces) {
+    let patches = &loads.set.patches()[part];
+    for (node, pressure) in contact::nodal_pressures(patches, part, loads.rows, loads.forces) {
         if let Some(&node) = nodes.get(node as usize) {
             all[node as usize] = pressure;
         }

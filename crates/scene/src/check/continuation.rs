@@ -1,4 +1,5 @@
-//! What a continuation can follow: motions that come back after mesh cycles, along a key that the model has.
+//! What a continuation can follow: motions that come back after mesh cycles, along a key that the model has; and of
+//! what basins can be looked for.
 
 use std::ops::Range;
 
@@ -17,14 +18,21 @@ fn span<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {
 
 /// Refuses what has no branch of periodic motions.
 pub(super) fn check(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
-    let Some(words) = scene.motion.as_ref().and_then(|m| m.continuation) else { return Ok(()) };
+    let Some(of_scene) = scene.motion.as_ref().filter(|m| m.continuation.is_some() || m.basins.is_some()) else {
+        return Ok(());
+    };
     let Some(motion) = raw.motion.as_ref().map(Spanned::get_ref) else { return Ok(()) };
     let run = span(&motion.run).unwrap_or(0..0);
     let model = scene.analysis.model;
     if !matches!(model, Model::Mapped | Model::Reduced | Model::Lumped8 | Model::Lumped12 | Model::Shaft18) {
         let advice = "use one of the models \"mapped\", \"reduced\", \"lumped8\", \"lumped12\" and \"shaft18\"";
-        return Err(s.conflict(&run, "this model has no continuation: its motion has no smooth equations", advice));
+        let what = match of_scene.continuation {
+            Some(_) => "this model has no continuation: its motion has no smooth equations",
+            None => "this model has no search for basins: its states are no plane",
+        };
+        return Err(s.conflict(&run, what, advice));
     }
+    let Some(words) = of_scene.continuation else { return Ok(()) };
     own_periods(s, raw, scene)?;
     let table = motion.continuation.as_ref().map(Spanned::get_ref);
     let at = table.and_then(|t| span(&t.key)).unwrap_or(run.clone());

@@ -182,7 +182,7 @@ fn possible(s: &Source<'_>, raw: &RawScene, scene: &Scene, on_ladder: bool) -> C
     let fields = [
         ("root_stress", stress, raw.output.root_stress.as_ref().map(Spanned::span)),
         ("contact_lines", scene.output.contact_lines, raw.output.contact_lines.as_ref().map(Spanned::span)),
-        ("vtu", scene.output.vtu, raw.output.vtu.as_ref().map(Spanned::span)),
+        ("vtu", scene.output.vtu && !scene.can_write_fields(), raw.output.vtu.as_ref().map(Spanned::span)),
     ];
     if let Some((key, _, Some(span))) = fields.into_iter().find(|(_, asked, _)| *asked) {
         return Err(SceneError::NotYet {
@@ -221,7 +221,7 @@ fn of_drive(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
         let balances = if scene.impact.is_some() { "" } else { ", or leave the torque out: it then balances the load" };
         return Err(s.conflict(
             &table.span(),
-            "shooting, ramps, sweeps and continuations give the speed of the driver, and here a torque drives it",
+            "shooting, ramps, sweeps, continuations and basins give the speed of the driver, and here a torque drives it",
             format!("use `run = \"span\"` or \"steady\", or drive `by = \"speed\"`{balances}"),
         ));
     }

@@ -162,7 +162,7 @@ fn motion(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<
     };
     let mapped = scene.analysis.model == Model::Mapped;
     let ramps = words.run == Run::Ramp && (scene.impact.is_some() || mapped);
-    let known = ramps || matches!(words.run, Run::Steady | Run::Span | Run::Sweep | Run::Continuation);
+    let known = ramps || matches!(words.run, Run::Steady | Run::Span | Run::Sweep | Run::Continuation | Run::Basins);
     if let (Some(word), false) = (&raw.run, known) {
         return Err(SceneError::NotYet {
             place: s.place(&word.span()),

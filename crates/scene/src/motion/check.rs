@@ -3,10 +3,10 @@
 use toml::Spanned;
 
 use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
-use crate::schema::{RawContinuation, RawMotion, RawRamp, RawSweep};
+use crate::schema::{RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep};
 use crate::source::Source;
 use crate::spanned::{Number, Whole};
-use crate::{ContinuationScene, RampScene, SceneError};
+use crate::{BasinScene, ContinuationScene, RampScene, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 type Span = std::ops::Range<usize>;
@@ -17,6 +17,7 @@ const SPAN: (&str, Run) = ("span", Run::Span);
 const RAMP: (&str, Run) = ("ramp", Run::Ramp);
 const SWEEP: (&str, Run) = ("sweep", Run::Sweep);
 const CONTINUATION: (&str, Run) = ("continuation", Run::Continuation);
+const BASINS: (&str, Run) = ("basins", Run::Basins);
 
 /// Which analyses a key belongs to.
 fn only(s: &Source<'_>, key: &str, span: Option<Span>, run: Run, allowed: &[(&'static str, Run)]) -> Checked<()> {
@@ -38,10 +39,11 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         let what = "`mesh_damping_ratio` and `mesh_damping_ns_per_mm2` both say how the mesh is damped";
         return Err(s.conflict(&per_length.span(), what, "keep one of them"));
     }
-    let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep | Run::Continuation);
+    let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep | Run::Continuation | Run::Basins);
     let ramp_words = RawRamp::default();
     let sweep_words = RawSweep::default();
     let branch_words = RawContinuation::default();
+    let basin_words = RawBasins::default();
     Ok(MotionScene {
         run,
         method,
@@ -72,20 +74,24 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         continuation: (run == Run::Continuation)
             .then(|| continuation(s, raw.continuation.as_ref().map_or(&branch_words, |r| r.get_ref()), span(&raw.run)))
             .transpose()?,
+        basins: (run == Run::Basins)
+            .then(|| basins(s, raw.basins.as_ref().map_or(&basin_words, |r| r.get_ref()), span(&raw.run)))
+            .transpose()?,
     })
 }
 
 /// Keys go with the run that they say something of.
 fn check_keys_of_run(s: &Source<'_>, raw: &RawMotion, run: Run, cycles: &Whole) -> Checked<()> {
     for (key, at, allowed) in [
-        ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP, CONTINUATION][..]),
-        ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP, CONTINUATION][..]),
+        ("periodic_tolerance", span(&raw.periodic_tolerance), &[STEADY, SHOOTING, SWEEP, CONTINUATION, BASINS][..]),
+        ("warm_up_cycles", span(&raw.warm_up_cycles), &[STEADY, SHOOTING, SWEEP, CONTINUATION, BASINS][..]),
         ("duration_s", span(&raw.duration_s), &[SPAN][..]),
         ("checkpoint_every_cycles", span(&raw.checkpoint_every_cycles), &[STEADY, SPAN, RAMP][..]),
         ("ramp", span(&raw.ramp), &[RAMP][..]),
         ("sweep", span(&raw.sweep), &[SWEEP][..]),
         ("continuation", span(&raw.continuation), &[CONTINUATION][..]),
-        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP, CONTINUATION][..]),
+        ("basins", span(&raw.basins), &[BASINS][..]),
+        ("cycles", span(cycles), &[STEADY, SHOOTING, SPAN, SWEEP, CONTINUATION, BASINS][..]),
     ] {
         only(s, key, at, run, allowed)?;
     }
@@ -154,6 +160,22 @@ fn continuation(s: &Source<'_>, raw: &RawContinuation, run: Option<Span>) -> Che
         let what =
             format!("`most_harmonics` is {}, less than the {} to begin with", read.most_harmonics, read.harmonics);
         return Err(s.conflict(&most.span(), what, "give more, or fewer `harmonics`"));
+    }
+    Ok(read)
+}
+
+fn basins(s: &Source<'_>, raw: &RawBasins, run: Option<Span>) -> Checked<BasinScene> {
+    let keys =
+        [("from_um", &raw.from_um), ("to_um", &raw.to_um), ("from_mm_s", &raw.from_mm_s), ("to_mm_s", &raw.to_mm_s)];
+    needed(s, "basins", &keys, run)?;
+    let read = BasinScene::read(s, raw, f64::INFINITY)?;
+    for (key, of, to, from) in
+        [("um", &raw.to_um, read.to_um, read.from_um), ("mm_s", &raw.to_mm_s, read.to_mm_s, read.from_mm_s)]
+    {
+        if let (Some(at), true) = (of, to < from) {
+            let what = format!("`to_{key}` is {to}, below `from_{key}`, {from}");
+            return Err(s.conflict(&at.span(), what, "give the lower end as `from`"));
+        }
     }
     Ok(read)
 }

@@ -8,7 +8,7 @@ mod torque;
 use integrate::Scheme;
 use serde::Serialize;
 
-use crate::{ContinuationScene, RampScene};
+use crate::{BasinScene, ContinuationScene, RampScene};
 
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
@@ -222,6 +222,9 @@ pub struct MotionScene {
     /// Continuation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationScene>,
+    /// Basins of attraction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub basins: Option<BasinScene>,
 }
 
 choices! {
@@ -239,6 +242,20 @@ choices! {
         Sweep = "sweep",
         /// Periodic motions along a key, stable and unstable.
         Continuation = "continuation",
+        /// To which motion the pair settles from each state of a plane.
+        Basins = "basins",
+    }
+}
+
+impl BasinScene {
+    /// Initial transmission errors (um) and rates (mm/s) of all starts, rate by rate.
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        let at = |[low, high]: [f64; 2], count: u32, i: u32| {
+            if count < 2 { 0.5 * (low + high) } else { low + (high - low) * f64::from(i) / f64::from(count - 1) }
+        };
+        let column = |i| at([self.from_um, self.to_um], self.columns, i);
+        let row = |k| at([self.from_mm_s, self.to_mm_s], self.rows, k);
+        (0..self.rows).flat_map(|k| (0..self.columns).map(move |i| [column(i), row(k)])).collect()
     }
 }
 

@@ -21,7 +21,7 @@ pub use json::json_schema;
 pub(crate) use ladder::*;
 pub use ladder::{ImpactScene, Lumped12Scene, SupportScene};
 pub(crate) use motion::*;
-pub use motion::{ContinuationScene, RampScene};
+pub use motion::{BasinScene, ContinuationScene, RampScene};
 pub(crate) use scene::*;
 pub use scene::{MisalignmentScene, Operation};
 
@@ -329,6 +329,10 @@ mod tests {
             (
                 "motion.sweep",
                 "from_rpm = 1.0\nto_rpm = 2.0\n[analysis]\nkind = \"dynamic\"\n[motion]\nrun = \"sweep\"\n",
+            ),
+            (
+                "motion.basins",
+                "from_um = -1.0\nto_um = 2.0\nfrom_mm_s = -1.0\nto_mm_s = 1.0\n[analysis]\nkind = \"dynamic\"\n[motion]\nrun = \"basins\"\n",
             ),
             (
                 "motion.continuation",

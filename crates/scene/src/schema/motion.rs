@@ -79,13 +79,14 @@ table! {
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
         mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of the mesh";
         mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
-        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a period over the peak to peak that counts as none (steady, shooting, sweep; continuation: of motions in time)";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a period over the peak to peak that counts as none (steady, shooting, sweep, basins; continuation: of motions in time)";
         warm_up_cycles: whole(0, 100_000_000, 1000), "mesh cycles to wait for the periodic state at the most (the same)";
         duration_s: bare(1e-9, 1e9), "length of a span, s, in place of cycles";
         checkpoint_every_cycles: whole(0, 100_000_000, 0), "a checkpoint every so many mesh cycles; 0: none (steady, span, ramp)";
         ramp: table(RAMP: RawRamp);
         sweep: table(SWEEP: RawSweep);
         continuation: table(CONTINUATION: RawContinuation);
+        basins: table(BASINS: RawBasins);
     }
 }
 
@@ -126,5 +127,17 @@ table! {
         longest_step: number(1e-4, 1.0, 0.05), "longest step along the branch, in ranges of the key and static deflections";
         motions: whole(2, 100_000, 1000), "largest number of motions";
         time_points: whole(0, 1000, 8), "stable motions that are run in time as well";
+    }
+}
+
+table! {
+    /// `[motion.basins]`
+    BASINS, RawBasins => BasinScene: "to which motion the pair settles from each state of a plane", needed ["from_um", "to_um", "from_mm_s", "to_mm_s"]; {
+        from_um: must(-1e5, 1e5), "lowest initial transmission error beside that of rest, um";
+        to_um: must(-1e5, 1e5), "highest initial transmission error beside that of rest, um";
+        from_mm_s: must(-1e6, 1e6), "lowest initial rate of the transmission error beside that of rest, mm/s";
+        to_mm_s: must(-1e6, 1e6), "highest initial rate of the transmission error beside that of rest, mm/s";
+        columns: whole(1, 2000, 41), "initial transmission errors, evenly spaced";
+        rows: whole(1, 2000, 41), "initial rates, evenly spaced";
     }
 }

@@ -78,13 +78,18 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
         other => other,
     })?;
     if let Some(motion) = &scene.motion {
-        if matches!(motion.run, Run::Sweep | Run::Continuation) {
-            let which = if motion.run == Run::Sweep { "sweep" } else { "continuation" };
+        let which = match motion.run {
+            Run::Sweep => Some("sweep"),
+            Run::Continuation => Some("continuation"),
+            Run::Basins => Some("search for basins"),
+            _ => None,
+        };
+        if let Some(which) = which {
             let what = format!("{} is a {which}, which has no rows over time", path.display());
             return Err(s.conflict(
                 &word.span(),
                 what,
-                "use a scene at one speed, or a ramp; sweeps and continuations draw their own figures",
+                "use a scene at one speed, or a ramp; sweeps, continuations and basins draw their own figures",
             ));
         }
         if motion.checkpoint_every_cycles.is_some_and(|every| every > 0) {

@@ -152,6 +152,9 @@ const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; mo
 /// The same with so few harmonics that more are wanted.
 const MORE: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=2; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.harmonics=2; motion.continuation.tail=1e-3";
 
+/// A plane of four starts.
+const BASINS: &str = "motion.run=basins; motion.basins.from_um=-1; motion.basins.to_um=2; motion.basins.from_mm_s=-1; motion.basins.to_mm_s=2; motion.basins.columns=2; motion.basins.rows=2; motion.warm_up_cycles=3";
+
 /// Keys that stand once in a scene.
 const SCENE: &[Row] = &[
     ("name", Iso, "", "another"),
@@ -240,6 +243,12 @@ const SCENE: &[Row] = &[
     ("motion.continuation.longest_step", Motion, BRANCH, "0.2"),
     ("motion.continuation.motions", Motion, BRANCH, "3"),
     ("motion.continuation.time_points", Motion, BRANCH, "1"),
+    ("motion.basins.from_um", Lumped8, BASINS, "-3"),
+    ("motion.basins.to_um", Lumped8, BASINS, "3"),
+    ("motion.basins.from_mm_s", Lumped8, BASINS, "-3"),
+    ("motion.basins.to_mm_s", Lumped8, BASINS, "3"),
+    ("motion.basins.columns", Lumped8, BASINS, "3"),
+    ("motion.basins.rows", Lumped8, BASINS, "3"),
     ("mesh.stiffness_from", Lumped8, "", "iso"),
     ("mesh.stiffness_n_per_um", Lumped8, "", "4000"),
     ("mesh.stiffness_cos_n_per_um", Lumped8, "", "[300.0]"),

@@ -104,6 +104,7 @@ impl SweepOptions {
             ramp: None,
             sweep: None,
             continuation: None,
+            basins: None,
             ..motion
         });
         Ok(own)

@@ -6,12 +6,13 @@ use dynamics::{MotionSettings, PairMechanism};
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 use mesh::Mesh;
+use reduction::RecordKey;
 use scene::{Flanks, MotionScene, Scene};
 
 use super::{Elasticity, motion_options, scheme};
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork, body_warnings, dof_after,
-    elastic_gears::{ElasticGears, elastic_gears},
+    elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     facts::Facts,
     failure::Failure,
     foreseen_s, free_dofs, gears,
@@ -93,6 +94,8 @@ pub(crate) struct PreparedMotion {
     pub elasticity: Elasticity,
     pub facts: Facts,
     pub warnings: Vec<String>,
+    /// What the cache knows the gears by; none where nothing is cached.
+    pub keys: Vec<RecordKey>,
 }
 
 /// Reduced gears of the driving flanks, and of the coast flanks where the scene has them.
@@ -165,7 +168,8 @@ pub(crate) fn prepare(
         });
     }
     let settings = settings(motion, pair, &system, &quasi_static);
-    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, warnings })
+    let keys = [&keys].into_iter().chain(&coast_keys).flat_map(RecordKeys::keys).flatten().copied().collect();
+    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, warnings, keys })
 }
 
 fn reduce(

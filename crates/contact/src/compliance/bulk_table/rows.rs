@@ -159,12 +159,14 @@ pub struct TableWork {
 impl TableWork {
     /// Memory for `rows` rows on a table, for use with this table until [`TableWork::enter`] says otherwise.
     pub fn new(table: &BulkTable, rows: usize) -> Self {
-        let most = RUN * table.points().min(rows * DIRECTIONS * RUNS);
+        // A line of points along a profile has a run for every three of them.
+        let runs = table.points().div_ceil(RUN - 1).min(rows * DIRECTIONS * RUNS);
+        let most = RUN * runs;
         Self {
-            used: Vec::with_capacity(most),
-            before: Vec::with_capacity(most),
+            used: Vec::with_capacity(runs),
+            before: Vec::with_capacity(runs),
             rank: vec![u32::MAX; table.points()],
-            part: Vec::new(),
+            part: Vec::with_capacity(most * most),
             column: Vec::with_capacity(most),
             loaded: Vec::with_capacity(most),
             places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],

@@ -1,4 +1,4 @@
-//! Reduced gears on disk, so that a second run of the same gears starts at once.
+//! Reduced gears and maps of their contact on disk, so that a second run of the same gears starts at once.
 
 use std::{
     fs::{self, File},
@@ -6,12 +6,13 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use analysis::GearCache;
+use analysis::{GearCache, MapKey};
+use contact_map::ContactMap;
 use reduction::{RecordKey, ReductionRecord};
 
-use report::folder::Partial;
+use super::Partial;
 
-/// A folder of reduced gears, or none.
+/// A folder of reduced gears and maps, or none.
 ///
 /// Losing the folder loses time, never a result: a file that is damaged, foreign or of another version is told of and
 /// made again, and one that cannot be written is left out.
@@ -22,8 +23,9 @@ pub struct Cache {
 
 /// What the folder may hold, bytes; the files that were not used for the longest time go first.
 const LIMIT: u64 = 4_000_000_000;
-/// Suffix of the files.
+/// Suffixes of the files: of gears and of maps.
 const SUFFIX: &str = "reduced";
+const MAP_SUFFIX: &str = "map";
 /// And of those that are being written, before the number of the process.
 const TORN: &str = "partial-";
 /// Nobody writes for so long.
@@ -47,8 +49,12 @@ impl Cache {
     }
 
     /// Where the record of a key is kept, there or not; `None` without a folder.
-    pub(crate) fn file(&self, key: &RecordKey) -> Option<PathBuf> {
+    pub fn file(&self, key: &RecordKey) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
+    }
+
+    fn map_file(&self, key: &MapKey) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join(format!("{key}.{MAP_SUFFIX}")))
     }
 
     /// Beside its place first, then renamed: whoever reads sees a whole file or none.
@@ -91,6 +97,41 @@ impl GearCache for Cache {
         let written = self.write(&file, &record.to_bytes(key));
         written.err().map(|e| format!("{}: {e}; the next run will reduce the gear again", file.display()))
     }
+
+    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+        let Some(file) = self.map_file(key) else { return (None, None) };
+        let complain = |what: String| (None, Some(format!("{}: {what}; the contact was mapped again", file.display())));
+        match fs::read(&file) {
+            Ok(bytes) => match maps_from(&bytes) {
+                Some(maps) => {
+                    touch(&file);
+                    (Some(maps), None)
+                }
+                None => complain("damaged".into()),
+            },
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => (None, None),
+            Err(e) => complain(e.to_string()),
+        }
+    }
+
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+        let file = self.map_file(key)?;
+        let written = map_bytes(maps).map_err(std::io::Error::other).and_then(|bytes| self.write(&file, &bytes));
+        written.err().map(|e| format!("{}: {e}; the next run will map the contact again", file.display()))
+    }
+}
+
+/// Maps as JSON, which keeps every digit, after a line with its BLAKE3.
+fn map_bytes(maps: &[&ContactMap]) -> Result<Vec<u8>, serde_json::Error> {
+    let text = serde_json::to_string(maps)?;
+    Ok(format!("{}\n{text}", blake3::hash(text.as_bytes()).to_hex()).into_bytes())
+}
+
+/// Maps that [`map_bytes`] wrote; `None` of anything else.
+fn maps_from(bytes: &[u8]) -> Option<Vec<ContactMap>> {
+    let (digest, text) = std::str::from_utf8(bytes).ok()?.split_once('\n')?;
+    let sound = blake3::hash(text.as_bytes()).to_hex().as_str() == digest;
+    serde_json::from_str(text).ok().filter(|_| sound)
 }
 
 /// Marks a file as used now. Where the system does not let it, the file is only taken for older than it is.
@@ -118,7 +159,7 @@ fn make_room(folder: &Path, newest: &Path) {
         .filter_map(|entry| {
             let path = entry.ok()?.path();
             let data = fs::metadata(&path).ok()?;
-            let ours = path.extension().is_some_and(|e| e == SUFFIX) && path != newest;
+            let ours = path.extension().is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX) && path != newest;
             ours.then_some((data.modified().ok()?, data.len(), path))
         })
         .collect();

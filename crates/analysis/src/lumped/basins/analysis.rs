@@ -1,0 +1,149 @@
+//! Runs of a scene from all states of a plane.
+
+use std::sync::Arc;
+
+use integrate::LONGEST_PERIOD;
+use rayon::prelude::*;
+use scene::{MotionScene, Run, Scene};
+
+use super::{
+    super::{
+        LumpedInputs,
+        analysis::{self, checked_run, motion_of},
+        excitation::ExcitationSource,
+        warnings::no_backlash,
+    },
+    Attractor, BasinHeadline,
+    attractor::told_apart,
+    plane::StatePlane,
+};
+use crate::{
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, gears, resolution::with_slices,
+    run_phase,
+};
+
+/// A scene with `run = "basins"`.
+#[derive(Clone, Copy)]
+pub struct BasinAnalysis<'a> {
+    scene: &'a Scene,
+    cache: &'a dyn GearCache,
+}
+
+impl std::fmt::Debug for BasinAnalysis<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("BasinAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+    }
+}
+
+/// One start, and where it leads; units are in the names.
+#[derive(Debug, Clone)]
+pub struct BasinStart {
+    /// Transmission error beside that of rest, um.
+    pub initial_dte_um: f64,
+    /// Its rate beside that of rest, mm/s.
+    pub initial_dte_rate_mm_s: f64,
+    /// Number of the motion that it ends in; `None` where none comes out.
+    pub attractor: Option<usize>,
+    /// Mesh cycles until it is there.
+    pub warm_up_cycles: u64,
+    /// Why no motion comes out.
+    pub failed: Option<Arc<AnalysisError>>,
+}
+
+/// The answer to a search for basins.
+#[derive(Debug)]
+pub struct BasinResult {
+    /// What it was made of, and what must hold of it.
+    pub facts: Facts,
+    /// Rate by rate, in ascending order, errors ascending in each.
+    pub starts: Vec<BasinStart>,
+    /// Motions that they end in.
+    pub attractors: Vec<Attractor>,
+    /// The few numbers that it is made for.
+    pub headline: BasinHeadline,
+    /// What a user should hear.
+    pub warnings: Vec<String>,
+}
+
+impl<'a> BasinAnalysis<'a> {
+    /// Of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, cache: &NoCache }
+    }
+
+    /// With reduced gears from a cache.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Runs all starts, telling nobody.
+    ///
+    /// # Errors
+    /// As [`BasinAnalysis::solve_with`].
+    pub fn solve(&self) -> Result<BasinResult, AnalysisError> {
+        self.solve_with(&mut NoObserver)
+    }
+
+    /// Runs all starts of the plane, in parallel, each until it repeats itself or for as long as the scene waits for
+    /// that.
+    ///
+    /// # Errors
+    /// Those of the model; that of the first start where none has a motion.
+    pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<BasinResult, AnalysisError> {
+        let asked = with_slices(self.scene.clone());
+        let words = asked.motion.as_ref().and_then(|m| m.basins);
+        let words = words.ok_or_else(|| AnalysisError::other_analysis(&asked, "search for basins"))?;
+        let scene = &steady(&asked)?;
+        let inputs = LumpedInputs::gather(scene, &mut ExcitationSource::new(observer, self.cache))?;
+        let mut system = inputs.build()?;
+        let (coordinates, resonance_hz) = (system.coordinates(), system.resonance_hz);
+        let facts = analysis::facts(&inputs, coordinates);
+        let plane = StatePlane::new(&mut system.model).map_err(|e| e.of(scene))?;
+        let tolerance = motion_of(scene)?.periodic_tolerance.unwrap_or(0.0);
+        let places = words.places();
+        let runs = run_phase(observer, "basins", PhaseWork::Steps(places.len() as u64), |progress| {
+            let one = |&[error, rate]: &[f64; 2]| {
+                let found = inputs.build().and_then(|mut own| {
+                    let from = plane.state(error, rate);
+                    checked_run(&inputs, &mut own.model, resonance_hz, Some(&from))
+                });
+                progress.tick();
+                found.map(|run| Attractor::of(&run, tolerance)).map_err(Arc::new)
+            };
+            places.par_iter().map(one).collect::<Vec<_>>()
+        });
+        if let (Some(Err(first)), true) = (runs.first(), runs.iter().all(Result::is_err)) {
+            return Err(AnalysisError::Shared(Arc::clone(first)));
+        }
+        let of_starts: Vec<Option<Attractor>> = runs.iter().map(|run| run.as_ref().ok().cloned()).collect();
+        let (attractors, belongs) = told_apart(&of_starts);
+        let starts: Vec<BasinStart> = places
+            .iter()
+            .zip(runs)
+            .zip(belongs)
+            .map(|((&[error, rate], run), attractor)| BasinStart {
+                initial_dte_um: error,
+                initial_dte_rate_mm_s: rate,
+                attractor,
+                warm_up_cycles: run.as_ref().map_or(0, |run| run.most_warm_up_cycles),
+                failed: run.err(),
+            })
+            .collect();
+        let headline = BasinHeadline::new(&words, (coordinates, resonance_hz), &starts, &attractors);
+        let mut warnings = system.warnings;
+        warnings.extend(gears::warnings(&inputs.pair));
+        warnings.extend(no_backlash(&inputs));
+        warnings.extend(headline.warnings(&starts));
+        warnings.extend(inputs.left_out_of_sweeps());
+        Ok(BasinResult { facts, starts, attractors, headline, warnings })
+    }
+}
+
+/// The scene of one start: to the periodic state, and the longest period of it.
+fn steady(scene: &Scene) -> Result<Scene, AnalysisError> {
+    let mut own = scene.clone();
+    own.analysis.cycles = own.analysis.cycles.max(LONGEST_PERIOD as u32);
+    own.motion = Some(MotionScene { run: Run::Steady, basins: None, ..motion_of(scene)?.clone() });
+    Ok(own)
+}

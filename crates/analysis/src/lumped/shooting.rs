@@ -1,0 +1,170 @@
+//! The periodic state without waiting: Newton's method on the map over a period, its derivative from the tangent flow.
+//!
+//! ```text
+//! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
+//! ```
+//! A motion that settles already is taken to where it settles to. An answer is one only where it is near, so that of
+//! several periodic motions it is the one that waiting leads to, and where disturbances of it fade.
+
+use std::f64::consts::TAU;
+
+use ::lumped::LumpedError;
+use integrate::{Forces, Mechanism, MotionError, State};
+use nalgebra::{DMatrix, DVector};
+use periodic::TangentFlow;
+use scene::MotionScene;
+
+use super::{
+    free_turn::FreeTurn,
+    mechanism::{BoxedMechanism, ModelFailure},
+    run_loop::{self, MeshFrequencies},
+};
+
+/// Newton steps before it is left to waiting; three or four do.
+const STEPS: usize = 6;
+/// Largest change of a coordinate, over the largest peak to peak, that is near.
+const NEAR: f64 = 0.3;
+/// Change of a Newton step over the one before, from which on it leads nowhere.
+const SLOW: f64 = 0.5;
+/// Part of the tolerance to which the state comes back: the cycles that follow are judged by all of it.
+const OF_TOLERANCE: f64 = 0.1;
+/// Singular values over the largest below which a direction is free: no turn of all gears is sought.
+const FREE: f64 = 1e-9;
+
+/// What a search takes beside the model.
+pub(super) struct Shooting<'a> {
+    pub motion: &'a MotionScene,
+    pub frequencies: MeshFrequencies,
+    /// Mesh cycles of a period.
+    pub period: usize,
+    /// Difference after a period, over the peak to peak, that is none.
+    pub tolerance: f64,
+}
+
+/// One period from a state on, in units of the coordinates' sizes and of velocities that belong to them.
+struct Period {
+    end: State,
+    /// P(x) - x.
+    rest: DVector<f64>,
+    /// dP/dx.
+    monodromy: DMatrix<f64>,
+    /// Largest peak to peak of a coordinate or velocity.
+    size: f64,
+}
+
+impl Shooting<'_> {
+    /// The stable periodic state near `from`, at the same time; `None` where there is none near.
+    ///
+    /// # Errors
+    /// [`ModelFailure`] of a step.
+    pub fn near(&self, model: &mut BoxedMechanism, from: &State) -> Result<Option<State>, ModelFailure> {
+        let free = FreeTurn::of(model)?;
+        let units = self.units(model);
+        let mut here = from.clone();
+        let mut before = f64::INFINITY;
+        let mut gone = DVector::zeros(units.len());
+        for _ in 0..STEPS {
+            let Period { end, rest, monodromy, size } = self.period(model, &here, &units, free.as_ref())?;
+            let off = rest.amax();
+            if off <= OF_TOLERANCE * self.tolerance * size {
+                return Ok(is_stable(monodromy).then(|| State::new(from.time, end.q, end.v)));
+            }
+            if off.is_nan() || off > SLOW * before {
+                return Ok(None);
+            }
+            before = off;
+            let map = DMatrix::identity(units.len(), units.len()) - monodromy;
+            let svd = map.svd(true, true);
+            let least = FREE * svd.singular_values.max();
+            let Ok(step) = svd.solve(&rest, least) else { return Ok(None) };
+            gone += &step;
+            if gone.amax().is_nan() || gone.amax() > NEAR * size {
+                return Ok(None);
+            }
+            let moved = units.component_mul(&step);
+            let n = here.q.len();
+            here = State::new(from.time, &here.q + moved.rows(0, n), &here.v + moved.rows(n, n));
+        }
+        Ok(None)
+    }
+
+    /// Sizes of coordinates and of velocities.
+    fn units(&self, model: &BoxedMechanism) -> DVector<f64> {
+        let lengths = model.scale();
+        let fastest = TAU * self.frequencies.mesh_hz.max(self.frequencies.resonance_hz);
+        let n = lengths.len();
+        DVector::from_fn(2 * n, |i, _| if i < n { lengths[i] } else { fastest * lengths[i - n] })
+    }
+
+    fn period(
+        &self,
+        model: &mut BoxedMechanism,
+        from: &State,
+        units: &DVector<f64>,
+        free: Option<&FreeTurn>,
+    ) -> Result<Period, ModelFailure> {
+        let (n, mass) = (from.q.len(), model.mass().clone());
+        let unit = DMatrix::from_diagonal(units);
+        let mut flow = TangentFlow { places: unit.rows(0, n).into_owned(), rates: unit.rows(n, n).into_owned() };
+        let mut tangents = [Forces::zeros(n), Forces::zeros(n)];
+        let asked = model.forces(from.time, &from.q, &from.v, &mut tangents[0]);
+        asked.map_err(ModelFailure::at(from.time))?;
+        let mut state = State::new(from.time, from.q.clone(), from.v.clone());
+        let mut extent = [stacked(&state, units), stacked(&state, units)];
+        let mut integrator = run_loop::integrator(model, self.motion, self.frequencies.step(self.motion));
+        let (mut last, mut failure) = (from.time, None);
+        let until = from.time + self.period as f64 / self.frequencies.mesh_hz;
+        integrator.advance(model, &mut state, until, |model, now| {
+            let time = now.state.time;
+            let mut step = || {
+                let [here, next] = &mut tangents;
+                next.clear();
+                model.forces(time, &now.state.q, &now.state.v, next).map_err(ModelFailure::at(time))?;
+                let places = [[&here.stiffness, &here.damping], [&next.stiffness, &next.damping]];
+                let singular = || LumpedError::from(MotionError::Singular { time, which: "tangent" });
+                flow.step(&mass, places[0], places[1], time - last).ok_or_else(singular)?;
+                Ok::<_, ModelFailure>(())
+            };
+            failure = failure.take().or_else(|| step().err());
+            tangents.swap(0, 1);
+            last = time;
+            let place = stacked(now.state, units);
+            extent[0].zip_apply(&place, |low, x| *low = low.min(x));
+            extent[1].zip_apply(&place, |high, x| *high = high.max(x));
+        })?;
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
+        // What the gears' free turn has become says nothing of the motion.
+        let mut rest =
+            [&state.q - &from.q, &state.v - &from.v].map(|part| DMatrix::from_column_slice(n, 1, part.as_slice()));
+        if let Some(free) = free {
+            rest.iter_mut().for_each(|part| free.remove(part));
+            flow.places.column_iter_mut().chain(flow.rates.column_iter_mut()).for_each(|mut column| {
+                let mut own = DMatrix::from_column_slice(n, 1, column.as_slice());
+                free.remove(&mut own);
+                column.copy_from(&own.column(0));
+            });
+        }
+        let over = |i: usize, x: f64| x / units[i];
+        let [places, rates] = &rest;
+        Ok(Period {
+            end: state,
+            rest: DVector::from_fn(2 * n, |i, _| over(i, if i < n { places[i] } else { rates[i - n] })),
+            monodromy: DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+                over(i, if i < n { flow.places[(i, j)] } else { flow.rates[(i - n, j)] })
+            }),
+            size: (&extent[1] - &extent[0]).amax(),
+        })
+    }
+}
+
+fn stacked(state: &State, units: &DVector<f64>) -> DVector<f64> {
+    let n = state.q.len();
+    DVector::from_fn(2 * n, |i, _| if i < n { state.q[i] } else { state.v[i - n] } / units[i])
+}
+
+/// Whether disturbances fade; the free turn has been taken out and fades at once.
+fn is_stable(monodromy: DMatrix<f64>) -> bool {
+    monodromy.complex_eigenvalues().iter().all(|m| m.norm() < 1.0)
+}

@@ -1,0 +1,33 @@
+//! Fields in motion: the loads on the flanks that a row hands on bend the teeth as they do at rest.
+
+use ale::Station;
+use dynamics::quasi_static_start;
+
+use crate::pair_course::bench;
+
+/// Gears that creep stand as at rest: boundary displacements under the loads of a row are those of the static position,
+/// and the loads carry the torque.
+#[test]
+fn slow_gears_bend_as_gears_at_rest() {
+    let bench = bench();
+    let mut system = bench.system(1e-3, |_| ());
+    let scale = system.coordinates().scales(bench.ste[0], bench.case.pair.wheel.base_radius());
+    let start = quasi_static_start(&mut system, 0.0, bench.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
+    let now = system.instant(0.0, &start.q, &start.v).unwrap_or_else(|e| panic!("{e}"));
+    let sides = system.side_loads(&now);
+    let [driving] = &sides[..] else { panic!("{} sides press", sides.len()) };
+    let moving = driving.displacements().unwrap();
+    let mut model = bench.case.reduced(bench.contact.clone());
+    model.solve(Station { cycle: 0, phase: 0.0 }).unwrap_or_else(|e| panic!("{e}"));
+    let still = model.last().unwrap().displacements_on(model.contact_set());
+    for (gear, (a, b)) in ["pinion", "wheel"].into_iter().zip(moving.iter().zip(&still)) {
+        let largest = b.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert_eq!(a.len(), b.len());
+        assert!(off <= 1e-4 * largest, "{gear}: {off:e} mm of {largest:e} mm");
+    }
+    let base_radius = bench.case.pair.wheel.base_radius();
+    let along = bench.case.pair.base_helix_angle().cos();
+    let torque = base_radius * along * driving.forces.iter().sum::<f64>();
+    assert!((torque / bench.contact.torque - 1.0).abs() < 1e-4, "{torque} N mm, not {}", bench.contact.torque);
+}
