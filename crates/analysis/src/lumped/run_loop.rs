@@ -14,7 +14,7 @@ use crate::{
     motion::{EnergyRow, scheme},
 };
 
-/// Mesh cycles before the periodic state is sought by Newton's method; the next tries come after twice as many.
+/// Mesh cycles before the periodic state is sought by Newton's method; the next tries come after half as many again.
 const FIRST_SHOT: u64 = 8;
 /// Difference after a period, over the peak to peak, from which on it is sought: the motion is on its way.
 const SETTLING: f64 = 0.05;
@@ -259,17 +259,30 @@ impl RunPlan<'_> {
                 break;
             }
             if warm_up >= next_shot && model.shoots() && found.residual <= SETTLING {
-                next_shot = 2 * warm_up;
-                let (frequencies, period) = (self.frequencies, found.period);
-                let near = Shooting { motion, frequencies, period, tolerance }.near(model, state)?;
+                next_shot = warm_up + warm_up / 2;
+                let near = self.periodic_state(model, state, (found.period, tolerance))?;
                 if let Some(there) = near {
                     *state = there;
-                    *integrator = self::integrator(model, motion, frequencies.step(motion));
+                    *integrator =
+                        self::integrator(model, motion, self.frequencies.step(motion)).resumed(opened(model, state)?);
                     (monitor, booked) = (PeriodicityMonitor::default(), 0);
                 }
             }
         }
         Ok(Settled { warm_up, booked, periodicity })
+    }
+
+    /// The periodic state near a state: of one mesh cycle, else of as many as the motion looks like having.
+    fn periodic_state(
+        &self,
+        model: &mut BoxedMechanism,
+        state: &State,
+        (period, tolerance): (usize, f64),
+    ) -> Result<Option<State>, ModelFailure> {
+        let Self { motion, frequencies, .. } = *self;
+        let search = |period: usize| Shooting { motion, frequencies, period, tolerance };
+        let once = search(1).near(model, state)?;
+        if once.is_some() || period == 1 { Ok(once) } else { search(period).near(model, state) }
     }
 }
 
@@ -278,6 +291,11 @@ fn ledger(model: &mut BoxedMechanism, integrator: &Integrator, state: &State) ->
     if let Some(ledger) = integrator.ledger() {
         return Ok(*ledger);
     }
+    opened(model, state)
+}
+
+/// A ledger that begins at a state.
+fn opened(model: &mut BoxedMechanism, state: &State) -> Result<Ledger, ModelFailure> {
     let potential = model.potential(state.time, &state.q).map_err(ModelFailure::at(state.time))?;
     Ok(Ledger::open(model.mass(), &state.v, potential))
 }

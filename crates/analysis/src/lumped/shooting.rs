@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use ::lumped::LumpedError;
-use integrate::{Forces, Mechanism, MotionError, State};
+use integrate::{Forces, Ledger, Mechanism, MotionError, State};
 use nalgebra::{DMatrix, DVector};
 use periodic::TangentFlow;
 use scene::MotionScene;
@@ -67,7 +67,7 @@ impl Shooting<'_> {
             let Period { end, rest, monodromy, size } = self.period(model, &here, &units, free.as_ref())?;
             let off = rest.amax();
             if off <= OF_TOLERANCE * self.tolerance * size {
-                return Ok(is_stable(monodromy).then(|| State::new(from.time, end.q, end.v)));
+                return Ok(is_stable(monodromy).then_some(State { time: from.time, ..end }));
             }
             if off.is_nan() || off > SLOW * before {
                 return Ok(None);
@@ -83,7 +83,9 @@ impl Shooting<'_> {
             }
             let moved = units.component_mul(&step);
             let n = here.q.len();
-            here = State::new(from.time, &here.q + moved.rows(0, n), &here.v + moved.rows(n, n));
+            // The integrator's own acceleration comes along with the motion.
+            let (q, v) = (&here.q + moved.rows(0, n), &here.v + moved.rows(n, n));
+            here = State { time: from.time, q, v, ..end };
         }
         Ok(None)
     }
@@ -109,9 +111,11 @@ impl Shooting<'_> {
         let mut tangents = [Forces::zeros(n), Forces::zeros(n)];
         let asked = model.forces(from.time, &from.q, &from.v, &mut tangents[0]);
         asked.map_err(ModelFailure::at(from.time))?;
-        let mut state = State::new(from.time, from.q.clone(), from.v.clone());
+        let mut state = from.clone();
         let mut extent = [stacked(&state, units), stacked(&state, units)];
-        let mut integrator = run_loop::integrator(model, self.motion, self.frequencies.step(self.motion));
+        let integrator = run_loop::integrator(model, self.motion, self.frequencies.step(self.motion));
+        // Nobody asks for the energy of the search, and the state has all that a start would have to find.
+        let mut integrator = integrator.resumed(Ledger::default());
         let (mut last, mut failure) = (from.time, None);
         let until = from.time + self.period as f64 / self.frequencies.mesh_hz;
         integrator.advance(model, &mut state, until, |model, now| {

@@ -172,17 +172,16 @@ fn what_does_not_come_back_after_mesh_cycles_is_refused() {
 /// mesh cycles that damping takes.
 #[test]
 fn a_steady_run_does_not_wait() {
-    for scene in [lumped8(), spur("mapped").set("operation.speed_rpm", 9000.0)] {
+    for (scene, most) in [(lumped8(), 12), (spur("mapped").set("operation.speed_rpm", 9000.0), 100)] {
         let scene = scene.set("motion.mesh_damping_ratio", 0.01).set("motion.steps_per_mesh_cycle", 256);
         let run = |tolerance: f64| {
             let own =
                 scene.clone().set("motion.periodic_tolerance", tolerance).build().unwrap_or_else(|e| panic!("{e}"));
             LumpedAnalysis::new(&own).solve().unwrap_or_else(|e| panic!("{e}")).headline
         };
-        // Half of 1 % of critical: a disturbance fades to a millionth in some 2,200 / order radians of the resonance.
         let found = run(1e-9);
         let cycles = found.certificate.warm_up_cycles;
-        assert!(cycles <= 40, "{cycles} mesh cycles");
+        assert!(cycles <= most, "{cycles} mesh cycles");
         let rough = run(1e-4);
         let off = (found.peak_to_peak_dte_um / rough.peak_to_peak_dte_um - 1.0).abs();
         assert!(off < 1e-3, "{} um, less exactly {} um", found.peak_to_peak_dte_um, rough.peak_to_peak_dte_um);

@@ -235,6 +235,9 @@ impl TableWork {
             return;
         }
         self.part.resize((RUN * self.used.len()).pow(2), 0.0);
+        if self.used.is_empty() {
+            return;
+        }
         let columns = self.used.iter().flat_map(|&first| first as usize..first as usize + RUN);
         for (q, own) in columns.zip(self.part.chunks_exact_mut(RUN * self.used.len())) {
             let column = &table.table[q * table.points()..][..table.points()];
