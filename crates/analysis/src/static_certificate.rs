@@ -10,10 +10,12 @@ const TORQUE: f64 = 1e-8;
 const COMPLEMENTARITY: f64 = 1e-6;
 /// Sum of the forces on both gears over the largest.
 const ACTION_REACTION: f64 = 1e-8;
+/// Round-off of places over the approach of the flanks.
+const ROUND_OFF: f64 = 1e-2;
 
 const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
-/// The worst of all positions: torque balance, complementarity, action and reaction.
+/// The worst of all positions: torque balance, complementarity, action and reaction, digits that are left.
 pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
     let check = |name, value, bound| Check { name, value, bound, way_out: WAY_OUT };
@@ -21,6 +23,7 @@ pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
         check("torque_residual", worst(|p| p.certificate.torque_residual), TORQUE),
         check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),
         check("action_reaction_residual", worst(|p| p.certificate.action_reaction_residual), ACTION_REACTION),
+        check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
     ])
 }
 

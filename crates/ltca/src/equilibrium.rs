@@ -110,7 +110,7 @@ pub(crate) fn equilibrium(
     let unloaded = Unloaded::new(pair, &options.contact, station)?;
     let kinematic = unloaded.transmission_error();
     let mut solver = match mesh {
-        Some(mesh) => PoseSolver::Mesh { mesh, held: None },
+        Some(mesh) => PoseSolver::Mesh { mesh, held: None, solved: 0 },
         None => PoseSolver::General {
             line: set.line_points(&options.contact, &poses(windowed, station, unloaded.rotation)),
             warm_start: guess.map(Equilibrium::warm_start).unwrap_or_default(),

@@ -7,6 +7,7 @@ use geometry::{Gear, GearPair, ModifiedFlank};
 use crate::{
     StaticError,
     flank_gap::{FlankGap, STATIONS},
+    pose_steps::round_off_of_places,
 };
 
 /// Steps of the rotation before giving up; the gap is nearly linear in it, so three or four do.
@@ -52,7 +53,7 @@ impl<'a> Unloaded<'a> {
         if unloaded.is_nominal() {
             return Ok(unloaded);
         }
-        let round_off = 16.0 * f64::EPSILON * pair.centre_distance();
+        let round_off = round_off_of_places(pair.centre_distance());
         let mut teeth: Vec<i64> = unloaded.teeth().collect();
         for _ in 0..STEPS {
             let poses = unloaded.poses();

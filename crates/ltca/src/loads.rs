@@ -2,7 +2,10 @@
 
 use contact::{ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, slice_result, wrenches};
 
-use crate::{Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line};
+use crate::{
+    Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line,
+    pose_steps::round_off_of_places,
+};
 
 /// Difference between the forces on the two gears, relative to the larger: action = reaction. Where rows rest on nodes
 /// (points, and gears whose compliance has no table) it is that of the nodal forces, as the meshes see it.
@@ -43,6 +46,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
             e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
         }
     };
+    let tangent_stiffness = e.solution.stiffness / (base_radius * base_radius);
     let friction_work = e
         .rows
         .iter()
@@ -60,7 +64,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         } else {
             options.torque / base_radius / e.elastic_error()
         },
-        tangent_stiffness: e.solution.stiffness / (base_radius * base_radius),
+        tangent_stiffness,
         contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
         geometric_line_length: pair.contact_line_length(side, theta1),
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
@@ -73,12 +77,24 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
             torque_residual: if moment == 0.0 { 0.0 } else { (torque / moment - 1.0).abs() },
             complementarity_residual: e.solution.residual,
             action_reaction_residual: action_reaction(e),
+            round_off_share: round_off_share(windowed, tangent_stiffness),
             iterations: e.iterations,
             bulk_compliance_error: bulk_error(windowed),
             window_edge_load: if total > 0.0 { edge / total } else { 0.0 },
         },
         pairs,
     }
+}
+
+/// Round-off of places over the approach under the load, with the stiffness (N/mm) at the solution.
+fn round_off_share(windowed: &WindowedPair, tangent_stiffness: f64) -> f64 {
+    let WindowedPair { pair, options, .. } = *windowed;
+    if options.torque == 0.0 {
+        return 0.0;
+    }
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+    let approach = options.torque / base_radius / tangent_stiffness;
+    round_off_of_places(pair.centre_distance()) / approach
 }
 
 fn bulk_error(windowed: &WindowedPair) -> f64 {

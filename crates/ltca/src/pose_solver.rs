@@ -16,20 +16,24 @@ pub(crate) struct PoseSolution {
     pub displacements: [Vec<f64>; 2],
 }
 
+/// Violation of the conditions, relative to the approach, with which the contact of a station's first pose is solved: the
+/// next pose makes up for it.
+const FIRST_POSE: f64 = 1e-8;
+
 /// Rows that were found at an earlier pose and serve near it.
 pub(crate) struct HeldRows {
     /// Largest gap of a row there, mm.
     reach: f64,
     /// Turn of the driven gear since, the one of the last step included, rad.
     turned: f64,
-    /// Forces of the step before the last, N; none before there is one.
-    before: Vec<f64>,
+    /// Forces (N) and openings (mm) of the step before the last; none before there is one.
+    before: [Vec<f64>; 2],
 }
 
 /// How the contact of a pose is solved.
 pub(crate) enum PoseSolver<'a> {
-    /// Slices on reduced gears.
-    Mesh { mesh: &'a mut MeshContact, held: Option<HeldRows> },
+    /// Slices on reduced gears; `solved`: how many poses of the station.
+    Mesh { mesh: &'a mut MeshContact, held: Option<HeldRows>, solved: usize },
     /// Points, and gears with all their degrees of freedom; the last solution is kept.
     General { line: LinePoints, warm_start: WarmStart, last: Option<Box<PoseSolution>> },
 }
@@ -55,14 +59,17 @@ impl PoseSolver<'_> {
         // Every row that the step can close must be among the rows.
         let short = |farthest: f64, reach: f64| 1.05 * farthest > reach;
         match self {
-            Self::Mesh { mesh, held } => {
+            Self::Mesh { mesh, held, solved } => {
                 // Loads on other teeth close some gaps as well.
                 let enough = |rows: &HeldRows, mesh: &MeshContact| {
                     !short((1.0 + NEIGHBOURS_CLOSE) * farthest(mesh.rows(), rows.turned), rows.reach)
                 };
                 if let Some(rows) = held {
-                    rows.before.clear();
-                    rows.before.extend(mesh.solver().forces());
+                    let solver = mesh.solver();
+                    for (before, now) in rows.before.iter_mut().zip([solver.forces(), solver.openings()]) {
+                        before.clear();
+                        before.extend(now);
+                    }
                 }
                 if let Some(rows) = held
                     && enough(rows, mesh)
@@ -71,6 +78,7 @@ impl PoseSolver<'_> {
                     let turn = mesh.solver().rotation();
                     rows.turned += turn;
                     if enough(rows, mesh) {
+                        *solved += 1;
                         return Ok(PoseStep::Turn(turn, mesh.solver().iterations()));
                     }
                 }
@@ -79,13 +87,14 @@ impl PoseSolver<'_> {
                 if !carries(mesh.rows()) {
                     return Ok(PoseStep::OutOfReach);
                 }
-                mesh.solve(Balance::Moment(moment), driven)?;
+                mesh.solve_to(if *solved == 0 { FIRST_POSE } else { 0.0 }, Balance::Moment(moment), driven)?;
                 let (turn, iterations) = (mesh.solver().rotation(), mesh.solver().iterations());
                 let moved = farthest(mesh.rows(), turn);
                 if short(moved, reach) {
                     return Ok(PoseStep::ReachExceeded(moved));
                 }
-                *held = Some(HeldRows { reach, turned: turn, before: Vec::new() });
+                *solved += 1;
+                *held = Some(HeldRows { reach, turned: turn, before: Default::default() });
                 Ok(PoseStep::Turn(turn, iterations))
             }
             Self::General { line, warm_start, last } => {
@@ -113,7 +122,7 @@ impl PoseSolver<'_> {
 
     /// Whether the forces of the last two poses tell where they go.
     pub fn tells_forces(&self) -> bool {
-        matches!(self, Self::Mesh { held: Some(rows), .. } if !rows.before.is_empty())
+        matches!(self, Self::Mesh { held: Some(rows), .. } if !rows.before[0].is_empty())
     }
 
     /// The last solution; `left`: the change of the pose that is still to come, over that of the last step. Forces are
@@ -121,22 +130,30 @@ impl PoseSolver<'_> {
     pub fn take_solution(&mut self, left: f64) -> Option<Box<PoseSolution>> {
         match self {
             Self::General { last, .. } => last.take(),
-            Self::Mesh { mesh, held } => {
+            // The contact of the first pose is not solved to the last digits.
+            Self::Mesh { solved: ..2, .. } => None,
+            Self::Mesh { mesh, held, .. } => {
                 let rows = mesh.rows().to_vec();
                 let solver = mesh.solver();
-                let before = held.as_ref().map_or(&[][..], |rows| &rows.before);
-                let mut forces = solver.forces().to_vec();
-                forces.iter_mut().zip(before).for_each(|(f, before)| *f += left * (*f - before));
+                let before = held.as_ref().map_or([&[][..]; 2], |rows| rows.before.each_ref().map(|list| &list[..]));
+                let goes_on = |now: &[f64], before: &[f64]| {
+                    let mut all = now.to_vec();
+                    all.iter_mut().zip(before).for_each(|(now, before)| *now += left * (*now - before));
+                    all
+                };
+                let forces = goes_on(solver.forces(), before[0]);
+                let openings = goes_on(solver.openings(), before[1]);
+                let states = mesh.states(&forces).collect();
                 let solution = Solution {
                     forces,
                     active: solver.active().to_vec(),
                     rotation: solver.rotation(),
-                    openings: solver.openings().to_vec(),
+                    openings,
                     stiffness: solver.stiffness(),
                     iterations: solver.iterations(),
                     residual: solver.residual(),
                 };
-                let (slices, states) = (mesh.slices().to_vec(), mesh.states().collect());
+                let slices = mesh.slices().to_vec();
                 Some(Box::new(PoseSolution { rows, slices, states, solution, displacements: Default::default() }))
             }
         }

@@ -13,6 +13,12 @@ const GEOMETRIC: f64 = 0.05;
 /// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
 const ROUND_OFF: f64 = 1e-9;
 
+/// Smallest step (mm) that the flanks of gears this far apart (mm) resolve.
+pub(crate) fn round_off_of_places(centre_distance: f64) -> f64 {
+    // An angle of a few radians resolves no smaller steps.
+    16.0 * f64::EPSILON * centre_distance
+}
+
 /// Steps of a rotation.
 ///
 /// Compliance and levers move with the pose, and the tangent leaves that out: each step is some 3e-4 of the one before,
@@ -39,8 +45,7 @@ pub(crate) struct PoseSteps {
 impl PoseSteps {
     /// Of a gear with this base radius in a pair with this centre distance, mm.
     pub fn new(radius: f64, centre_distance: f64) -> Self {
-        // An angle of a few radians resolves no smaller steps.
-        let round_off = 16.0 * f64::EPSILON * centre_distance;
+        let round_off = round_off_of_places(centre_distance);
         let (turns, step_mm, before_mm) = ([None; 2], f64::INFINITY, f64::INFINITY);
         Self { radius, round_off, taken: 0, turns, step_mm, before_mm, below: None, above: None }
     }

@@ -36,6 +36,8 @@ pub struct Certificate {
     pub complementarity_residual: f64,
     /// Largest component of (force on pinion + force on wheel) / largest force.
     pub action_reaction_residual: f64,
+    /// Round-off of places over the approach of the flanks under the load: what digits of the load's work are lost.
+    pub round_off_share: f64,
     /// Newton (active-set) iterations.
     pub iterations: usize,
     /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0

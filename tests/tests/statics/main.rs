@@ -11,4 +11,5 @@ mod online;
 mod phase_independence;
 mod published_pairs;
 mod slices;
+mod starts_alike;
 mod tooth_change;

@@ -88,13 +88,13 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("the result does not hold: torque_residual is "), "{}", run.stderr);
-    assert!(run.stderr.contains(", the bound is 1e-8"), "{}", run.stderr);
+    assert!(run.stderr.contains("the result does not hold: round_off_share is "), "{}", run.stderr);
+    assert!(run.stderr.contains(", the bound is 1e-2"), "{}", run.stderr);
     assert!(run.stdout.contains("THE RESULT DOES NOT HOLD"), "{}", run.stdout);
     let summary = json(&scratch.read("o/summary.json"));
     assert_eq!(summary["certificate"], "failed");
-    let check = &summary["certificate_checks"]["torque_residual"];
-    assert!(check["bound"] == 1e-8 && check["value"].as_f64().is_none_or(|v| v > 1e-8), "{check}");
+    let check = &summary["certificate_checks"]["round_off_share"];
+    assert!(check["bound"] == 1e-2 && check["value"].as_f64().is_none_or(|v| v > 1e-2), "{check}");
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 
     let fine = scratch.ale_gear(["run", "b.toml", "--out", "p"]);
@@ -103,10 +103,10 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     assert!(!scratch.read("p/report.html").contains("does not hold"));
 
     let compared = scratch.ale_gear(["compare", "p", "o", "--out", "c"]);
-    assert!(compared.stdout.contains("DOES NOT HOLD: torque_residual"), "{}", compared.stdout);
+    assert!(compared.stdout.contains("DOES NOT HOLD: round_off_share"), "{}", compared.stdout);
     assert!(scratch.read("c/compare.html").contains("<b>does not hold</b>"));
     let again = scratch.ale_gear(["report", "o"]);
-    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: torque_residual"), "{}", again.stdout);
+    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: round_off_share"), "{}", again.stdout);
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 }
 

@@ -136,8 +136,10 @@ impl ElasticPair {
 /// All but the gears that a map depends on, in words: the scene without what it does in time, and the flanks with what
 /// stands in files of their own.
 fn contact_words(scene: &Scene, pair: &GearPair, request: &MapRequest) -> String {
-    let at_rest = Scene { name: String::new(), file: PathBuf::new(), motion: None, set: Vec::new(), ..scene.clone() };
-    format!("{request:?} {pair:?} {at_rest:?}")
+    let at_rest = Scene { name: String::new(), file: PathBuf::new(), motion: None, ..without_speed(scene) };
+    // What stands in the file: not how it was written.
+    let at_rest = serde_json::to_string(&at_rest).expect("a scene is written as JSON");
+    format!("{request:?} {pair:?} {at_rest}")
 }
 
 /// The pair on its maps: those of the cache, or new ones.

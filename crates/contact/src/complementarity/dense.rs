@@ -158,9 +158,24 @@ impl DenseSolver {
         local: impl Fn(usize, f64) -> (f64, f64),
         start: impl Fn(usize) -> f64,
     ) -> Result<(), ContactError> {
+        self.solve_to(0.0, problem, local, start)
+    }
+
+    /// The same until the conditions are violated by no more than `accuracy`, relative to the largest approach; at least
+    /// by as much as in any solution.
+    ///
+    /// # Errors
+    /// As [`DenseSolver::solve`].
+    pub fn solve_to(
+        &mut self,
+        accuracy: f64,
+        problem: &DenseProblem<'_>,
+        local: impl Fn(usize, f64) -> (f64, f64),
+        start: impl Fn(usize) -> f64,
+    ) -> Result<(), ContactError> {
         self.forces.clear();
         self.forces.extend((0..problem.gaps.len()).map(start));
-        self.newton(problem, local)
+        self.newton(problem, local, accuracy)
     }
 
     /// The same from the forces as they are.
@@ -168,6 +183,7 @@ impl DenseSolver {
         &mut self,
         problem: &DenseProblem<'_>,
         local: impl Fn(usize, f64) -> (f64, f64),
+        accuracy: f64,
     ) -> Result<(), ContactError> {
         let n = problem.gaps.len();
         for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
@@ -197,7 +213,7 @@ impl DenseSolver {
                 continue;
             }
             self.residual = self.violation(problem);
-            if self.residual < TOLERANCE {
+            if self.residual < accuracy.max(TOLERANCE) {
                 self.finish();
                 return Ok(());
             }

@@ -25,6 +25,8 @@ pub struct SavedSolution {
 
 /// Steps with the saved tangent before full Newton steps; three or four are enough.
 const STEPS: usize = 8;
+/// Accuracy of the stiffness, relative.
+const STIFFNESS_ACCURACY: f64 = 1e-9;
 /// Largest ratio of two successive violations with which the saved tangent is kept.
 const SLOW: f64 = 0.25;
 
@@ -93,7 +95,7 @@ impl DenseSolver {
         }
         self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
         let iterations = self.iterations;
-        self.newton(problem, local)?;
+        self.newton(problem, local, 0.0)?;
         self.iterations += iterations;
         Ok(())
     }
@@ -124,7 +126,38 @@ impl DenseSolver {
             solver.openings.fill(0.0);
             open(&solver.forces, &mut solver.openings);
         };
-        self.keeps_factor(problem, follow, TOLERANCE)
+        let solved = self.keeps_factor(problem, follow, TOLERANCE);
+        if solved && problem.balance != Balance::Held {
+            self.stiffness = self.refined_stiffness(problem, open);
+        }
+        solved
+    }
+
+    /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did.
+    fn refined_stiffness(&mut self, problem: &DenseProblem<'_>, mut open: impl FnMut(&[f64], &mut [f64])) -> f64 {
+        let n = problem.gaps.len();
+        let [mut found, mut opened] = [vec![0.0; n], vec![0.0; n]];
+        let mut stiffness = 0.0;
+        for step in 0..STEPS {
+            self.x.clear();
+            for &i in &self.active {
+                self.x.push(problem.levers[i] - opened[i] - self.slopes[i] * found[i]);
+            }
+            self.back_substitute(self.active.len(), 1);
+            let mut change = 0.0;
+            for (x, &i) in self.x.iter().zip(&self.active) {
+                found[i] += x;
+                change += problem.torque_levers[i] * x;
+            }
+            stiffness += change;
+            // What the next step would add is to this one as this one is to the first.
+            if step > 0 && change * change <= STIFFNESS_ACCURACY * stiffness * stiffness {
+                break;
+            }
+            opened.fill(0.0);
+            open(&found, &mut opened);
+        }
+        stiffness
     }
 
     /// Steps with the factor at hand, until the conditions hold to `accuracy`; false where rows become active or

@@ -133,7 +133,12 @@ impl MeshSide {
     /// Slices that carried load in the last evaluation.
     pub fn loaded_slices(&self) -> Vec<LoadedSlice> {
         let (contact, set) = (&self.contact, self.contact.contact_set());
-        let loaded = contact.rows().iter().zip(contact.slices()).zip(contact.solver().forces()).zip(contact.states());
+        let loaded = contact
+            .rows()
+            .iter()
+            .zip(contact.slices())
+            .zip(contact.solver().forces())
+            .zip(contact.states(contact.solver().forces()));
         loaded
             .filter(|((_, f), _)| **f > 0.0)
             .map(|(((row, slice), &f), state)| LoadedSlice {

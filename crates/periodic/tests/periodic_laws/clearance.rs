@@ -9,10 +9,14 @@ use periodic::{BalanceOptions, Branch, BranchOptions, Loss, PeriodicMotion, Trac
 use crate::oscillator::Oscillator;
 
 fn curve() -> (Oscillator, Branch<Infallible>) {
+    curve_in_steps(0.03)
+}
+
+fn curve_in_steps(longest_step: f64) -> (Oscillator, Branch<Infallible>) {
     let of = Oscillator::new(0.05, 1.0, 0.1, 0.05);
     let mut system = of.clone();
     let mut tracer = Tracer::new(&mut system, BalanceOptions::default(), 1.0).unwrap();
-    let options = BranchOptions { range: [0.5, 1.1], first_step: 0.01, longest_step: 0.03, most: 400 };
+    let options = BranchOptions { range: [0.5, 1.1], first_step: 0.01, longest_step, most: 4000 };
     let branch = tracer.branch(0.5, &of.at_rest(), &options, |_| ControlFlow::Continue(())).unwrap();
     (of, branch)
 }
@@ -69,4 +73,59 @@ fn waiting_confirms_every_verdict() {
         );
         assert!(!motion.floquet.is_stable() || near || off < 1e-4, "W {}: off by {off:.1e}", motion.parameter);
     }
+}
+
+/// At twenty places of the branch, stable or not, amplitudes equal those of shooting within 1e-4, and the largest
+/// multipliers within two hundredths (next to a fold).
+#[test]
+fn amplitudes_are_those_of_shooting() {
+    let (of, branch) = curve();
+    let count = branch.motions.len();
+    let mut unstable = 0;
+    for motion in (0..20).map(|k| &branch.motions[k * (count - 1) / 19]) {
+        let system = Oscillator { frequency: motion.parameter, ..of.clone() };
+        let rate = std::f64::consts::TAU / motion.period;
+        let [amplitude, multiplier] = system.shot([motion.series.at(0.0)[0], rate * motion.series.rate(0.0)[0]]);
+        let off = (peak_to_peak(motion) / amplitude - 1.0).abs();
+        assert!(off < 1e-4, "W {}: {} by balance, {amplitude} by shooting", motion.parameter, peak_to_peak(motion));
+        let verdict = motion.floquet.largest();
+        assert!(
+            (verdict - multiplier).abs() < 1e-2 * multiplier,
+            "W {}: {verdict}, not {multiplier}",
+            motion.parameter
+        );
+        unstable += usize::from(!motion.floquet.is_stable());
+    }
+    assert!(unstable > 0, "none of them is unstable");
+}
+
+/// Fifty motions of the branch, drawn at random: those that are called stable stay when they are disturbed by a
+/// thousandth and run in time, those that are called unstable do not.
+#[test]
+fn fifty_random_verdicts_are_those_of_time() {
+    let (of, branch) = curve_in_steps(0.004);
+    let mut drawn = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = || {
+        drawn ^= drawn << 13;
+        drawn ^= drawn >> 7;
+        drawn ^= drawn << 17;
+        drawn as usize % branch.motions.len()
+    };
+    let (mut stable, mut unstable) = (0, 0);
+    while stable + unstable < 50 {
+        let motion = &branch.motions[next()];
+        // On the edge neither has a verdict within two hundred periods.
+        if (motion.floquet.largest() - 1.0).abs() < 0.04 {
+            continue;
+        }
+        let system = Oscillator { frequency: motion.parameter, ..of.clone() };
+        let rate = std::f64::consts::TAU / motion.period;
+        let start = [1.001 * motion.series.at(0.0)[0], rate * motion.series.rate(0.0)[0]];
+        let stays = (system.waited(start, 200) / peak_to_peak(motion) - 1.0).abs() < 1e-3;
+        let verdict = motion.floquet.is_stable();
+        assert_eq!(stays, verdict, "W {}: multiplier {}", motion.parameter, motion.floquet.largest());
+        if verdict { stable += 1 } else { unstable += 1 }
+    }
+    println!("{} motions, of fifty {stable} stable and {unstable} unstable", branch.motions.len());
+    assert!(unstable >= 5, "{unstable} unstable");
 }

@@ -46,6 +46,51 @@ impl Oscillator {
         FourierSeries::at_rest(&dvector![self.half_width + self.mean], 4)
     }
 
+    /// Where a period leads from a state, and the least and largest coordinate on the way, by Runge and Kutta's method.
+    fn over_a_period(&self, start: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+        let period = self.period();
+        let mut system = self.clone();
+        let mut integrator = Integrator::new(Scheme::RungeKutta4, StepControl::Fixed(period / 2000.0), dvector![1.0]);
+        let mut state = State::new(0.0, dvector![start[0]], dvector![start[1]]);
+        let mut extent = [start[0]; 2];
+        let seen = |_: &mut Self, now: integrate::Progress<'_>| {
+            let x = now.state.q[0];
+            extent = [extent[0].min(x), extent[1].max(x)];
+        };
+        integrator
+            .advance(&mut system, &mut state, period, seen)
+            .unwrap_or_else(|e| panic!("W {}: {e}", self.frequency));
+        ([state.q[0], state.v[0]], extent)
+    }
+
+    /// The periodic motion near a state by shooting, dP/dx by differences: its peak to peak, and the size of its largest
+    /// multiplier.
+    pub fn shot(&self, start: [f64; 2]) -> [f64; 2] {
+        const STEP: f64 = 1e-6;
+        let mut here = start;
+        for _ in 0..12 {
+            let (end, extent) = self.over_a_period(here);
+            let [a, b] = [0, 1].map(|k| {
+                let mut beside = here;
+                beside[k] += STEP;
+                let there = self.over_a_period(beside).0;
+                [0, 1].map(|i| (there[i] - end[i]) / STEP)
+            });
+            let off = [end[0] - here[0], end[1] - here[1]];
+            if off[0].abs().max(off[1].abs()) < 1e-10 {
+                let (half, det) = (0.5 * (a[0] + b[1]), a[0] * b[1] - a[1] * b[0]);
+                let root = half * half - det;
+                let largest = if root >= 0.0 { half.abs() + root.sqrt() } else { det.sqrt() };
+                return [extent[1] - extent[0], largest];
+            }
+            // (1 - dP/dx) dx = P(x) - x.
+            let det = (1.0 - a[0]) * (1.0 - b[1]) - a[1] * b[0];
+            here[0] += ((1.0 - b[1]) * off[0] + b[0] * off[1]) / det;
+            here[1] += (a[1] * off[0] + (1.0 - a[0]) * off[1]) / det;
+        }
+        panic!("W {}: shooting ends at {here:?}", self.frequency);
+    }
+
     /// Peak to peak in the last of many periods from a state on, integrated in time.
     pub fn waited(&self, start: [f64; 2], cycles: usize) -> f64 {
         let period = self.period();

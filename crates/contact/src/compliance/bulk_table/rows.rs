@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use super::{BulkTable, DIRECTIONS, RUN, RUNS, TablePoint};
 
+/// No point of a table.
+const NOWHERE: Range<usize> = Range { start: usize::MAX, end: 0 };
+
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
     /// loads are the openings, and the lower triangle is enough.
@@ -20,7 +23,7 @@ impl BulkTable {
         let loads = if symmetric { &*openings } else { &*loads };
         needed.clear();
         if symmetric {
-            needed.extend(openings.iter().rev().scan(usize::MAX..0, |all, place| {
+            needed.extend(openings.iter().rev().scan(NOWHERE, |all, place| {
                 place.widen(all);
                 Some(all.clone())
             }));

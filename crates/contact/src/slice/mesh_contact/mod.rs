@@ -283,12 +283,24 @@ impl MeshContact {
     }
 
     /// Solves the contact of the rows. With a moment to balance, gear `body` turns.
+    ///
+    /// # Errors
+    /// [`ContactError`].
     pub fn solve(&mut self, balance: Balance, body: usize) -> Result<(), ContactError> {
+        self.solve_to(0.0, balance, body)
+    }
+
+    /// The same to a violation of the conditions, relative to the largest approach, that a solution at a pose nearby
+    /// makes up for; no less than that of any solution.
+    ///
+    /// # Errors
+    /// [`ContactError`].
+    pub fn solve_to(&mut self, accuracy: f64, balance: Balance, body: usize) -> Result<(), ContactError> {
         self.take_levers(body);
         let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
         let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
         let keys = &contact.keys;
-        solver.solve(&problem, local(contact), |i| last_forces[keys[i]])?;
+        solver.solve_to(accuracy, &problem, local(contact), |i| last_forces[keys[i]])?;
         self.keep_forces();
         Ok(())
     }
@@ -319,9 +331,9 @@ impl MeshContact {
         &self.contact.slices
     }
 
-    /// The local approach of each row at the last solution.
-    pub fn states(&self) -> impl Iterator<Item = SliceState> {
-        let rows = self.contact.laws.iter().zip(&self.contact.slices).zip(self.solver.forces());
+    /// The local approach of each row under forces (N): those of the last solution, or what becomes of them.
+    pub fn states<'a>(&'a self, forces: &'a [f64]) -> impl Iterator<Item = SliceState> + 'a {
+        let rows = self.contact.laws.iter().zip(&self.contact.slices).zip(forces);
         rows.map(|((law, slice), &force)| SliceState::new(law, slice.length, force))
     }
 
