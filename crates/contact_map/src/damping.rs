@@ -90,18 +90,22 @@ impl ContactMap {
         let (loads, shares) = (self.loads + 3, self.damping.shares + 3);
         let load = self.load_axis().axis().splines_at(load.min(self.loads as f64));
         let own = Axis::Open(self.damping.shares).splines_at(sigma * self.damping.shares as f64);
-        let mut sums = [0.0; 3];
+        let [mut e, mut by_sigma, mut by_load] = [0.0; 3];
         for i in 0..4 {
+            let first = ((place.phase.first + i) * loads + load.first) * shares + own.first;
             for k in 0..4 {
-                let at = ((place.phase.first + i) * loads + load.first + k) * shares + own.first;
-                let [of, slope] = [load.values[k], load.slopes[k]].map(|w| w * place.phase.values[i]);
-                for (c, e) in self.damping.share[at..at + 4].iter().enumerate() {
-                    sums[0] += of * own.values[c] * e;
-                    sums[1] += of * own.slopes[c] * e;
-                    sums[2] += slope * own.values[c] * e;
-                }
+                let at = first + k * shares;
+                let row = &self.damping.share[at..at + 4];
+                let along = |weights: &[f64; 4]| {
+                    (weights[0] * row[0] + weights[1] * row[1]) + (weights[2] * row[2] + weights[3] * row[3])
+                };
+                let (of_row, [of, slope]) =
+                    (along(&own.values), [load.values[k], load.slopes[k]].map(|w| w * place.phase.values[i]));
+                e += of * of_row;
+                by_sigma += of * along(&own.slopes);
+                by_load += slope * of_row;
             }
         }
-        [sums[0], sums[1] * self.damping.shares as f64, sums[2]]
+        [e, by_sigma * self.damping.shares as f64, by_load]
     }
 }

@@ -2,12 +2,6 @@
 
 use crate::spline::Axis;
 
-/// Most intervals of the load axis.
-pub const MOST_LOADS: usize = 96;
-
-/// Coefficients of the splines of a curve over load, at one phase and tilt.
-pub type Coefficients = [f64; MOST_LOADS + 3];
-
 /// Places over load are those of evenly spaced square roots of the force,
 ///
 /// ```text
@@ -15,7 +9,7 @@ pub type Coefficients = [f64; MOST_LOADS + 3];
 /// ```
 /// Lines of contact that grow shorter with load, and tips that press a point, then have approaches that are smooth in
 /// nu down to no load at all.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LoadAxis {
     intervals: usize,
     force: f64,
@@ -54,16 +48,30 @@ impl LoadAxis {
 
 /// A curve over load: cubic splines. What belongs to an interval is made of its four coefficients where it is asked for:
 /// of a place in a motion that is one interval of all.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadCurve {
     axis: LoadAxis,
-    coefficients: Coefficients,
+    /// Of the splines, one more than the intervals' ends and one beyond either.
+    coefficients: Vec<f64>,
 }
 
 impl LoadCurve {
-    /// From the coefficients of its splines.
-    pub fn new(axis: LoadAxis, coefficients: Coefficients) -> Self {
-        Self { axis, coefficients }
+    /// Becomes nothing, in its own memory.
+    pub fn clear(&mut self, axis: LoadAxis) {
+        self.axis = axis;
+        self.coefficients.clear();
+        self.coefficients.resize(axis.intervals + 3, 0.0);
+    }
+
+    /// Adds rows of coefficients with weights.
+    #[inline]
+    pub fn add(&mut self, weights: &[f64; 4], rows: [&[f64]; 4]) {
+        let [w0, w1, w2, w3] = weights;
+        let n = self.coefficients.len();
+        let [r0, r1, r2, r3] = rows.map(|row| &row[..n]);
+        for (i, sum) in self.coefficients.iter_mut().enumerate() {
+            *sum += (w0 * r0[i] + w1 * r1[i]) + (w2 * r2[i] + w3 * r3[i]);
+        }
     }
 
     /// Of an interval, a cubic in the place from its beginning.

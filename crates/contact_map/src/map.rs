@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     damping::DampingTable,
-    load_axis::{Coefficients, LoadAxis, LoadCurve, MOST_LOADS},
+    load_axis::{LoadAxis, LoadCurve},
     spline::{Axis, Splines},
 };
 
@@ -81,6 +81,8 @@ pub struct Wanted {
 
 /// A map at one phase and tilt: what is left is a function of the approach. Whoever asks for several approaches there
 /// has most of the work done once.
+///
+/// One that was never asked for stands nowhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPlace {
     /// Phase (mesh cycles) and tilt (rad) that it was made for.
@@ -93,6 +95,20 @@ pub struct CutPlace {
     pub(crate) length: LoadCurve,
     /// L_1 and L_2, where the map has a tilt.
     pub(crate) levers: Option<Box<[LoadCurve; 2]>>,
+}
+
+impl Default for CutPlace {
+    fn default() -> Self {
+        Self {
+            at: [f64::NAN; 2],
+            phase: Splines::NONE,
+            tilt: Splines::NONE,
+            curve: LoadCurve::default(),
+            by_tilt: None,
+            length: LoadCurve::default(),
+            levers: None,
+        }
+    }
 }
 
 impl ContactMap {
@@ -125,41 +141,49 @@ impl ContactMap {
 
     /// All that belongs to a phase (mesh cycles) and a tilt (rad).
     pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
+        let mut place = CutPlace::default();
+        self.move_place(&mut place, [phase, tilt]);
+        place
+    }
+
+    /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory.
+    pub fn move_place(&self, place: &mut CutPlace, [phase, tilt]: [f64; 2]) {
         let tilt_place = if self.tilts == 0 { 0.0 } else { (tilt - self.tilt[0]) * self.per_tilt() };
         let p = Axis::Periodic(self.phases).splines_at((phase - phase.floor()) * self.phases as f64);
         let t = self.tilt_axis().splines_at(tilt_place);
-        let curve = self.sum(&self.approach, [&p, &t], [&p.values, &t.values]);
-        let by_tilt = (self.tilts > 0).then(|| {
-            let of = |weights| self.sum(&self.approach, [&p, &t], [&p.values, weights]);
-            Box::new([of(&t.slopes), of(&t.curvatures)])
-        });
-        let length = |k: usize| self.sum(&self.damping.lengths[k], [&p, &t], [&p.values, &t.values]);
-        CutPlace {
-            at: [phase, tilt],
-            curve,
-            by_tilt,
-            length: length(0),
-            // Without a tilt nobody asks for the levers.
-            levers: (self.tilts > 0).then(|| Box::new([length(1), length(2)])),
-            phase: p,
-            tilt: t,
-        }
-    }
-
-    /// Sum of a table over phases and tilts with weights: a curve over load.
-    fn sum(&self, table: &[f64], [phase, tilt]: [&Splines; 2], weights: [&[f64; 4]; 2]) -> LoadCurve {
-        let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
-        let mut curve: Coefficients = [0.0; MOST_LOADS + 3];
-        for (i, of_phase) in weights[0].iter().enumerate() {
-            for (j, of_tilt) in weights[1].iter().enumerate().take(tilt.count) {
-                let at = ((phase.first + i) * tilts + tilt.first + j) * loads;
-                let weight = of_phase * of_tilt;
-                for (c, value) in curve.iter_mut().zip(&table[at..at + loads]) {
-                    *c += weight * value;
-                }
+        place.at = [phase, tilt];
+        let lengths = &self.damping.lengths;
+        self.sum(&mut place.curve, &self.approach, [&p, &t], [&p.values, &t.values]);
+        self.sum(&mut place.length, &lengths[0], [&p, &t], [&p.values, &t.values]);
+        // Without a tilt nobody asks for slopes over it, nor for levers.
+        if self.tilts > 0 {
+            let [first, second] = &mut **place.by_tilt.get_or_insert_default();
+            self.sum(first, &self.approach, [&p, &t], [&p.values, &t.slopes]);
+            self.sum(second, &self.approach, [&p, &t], [&p.values, &t.curvatures]);
+            for (k, lever) in place.levers.get_or_insert_default().iter_mut().enumerate() {
+                self.sum(lever, &lengths[k + 1], [&p, &t], [&p.values, &t.values]);
             }
         }
-        LoadCurve::new(self.load_axis(), curve)
+        (place.phase, place.tilt) = (p, t);
+    }
+
+    /// Makes a curve over load the sum of a table over phases and tilts with weights.
+    fn sum(
+        &self,
+        curve: &mut LoadCurve,
+        table: &[f64],
+        [phase, tilt]: [&Splines; 2],
+        [of_phase, of_tilt]: [&[f64; 4]; 2],
+    ) {
+        let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
+        curve.clear(self.load_axis());
+        for (j, of_tilt) in of_tilt.iter().enumerate().take(tilt.count) {
+            let row = |i: usize| {
+                let at = ((phase.first + i) * tilts + tilt.first + j) * loads;
+                &table[at..at + loads]
+            };
+            curve.add(&of_phase.map(|w| w * of_tilt), [row(0), row(1), row(2), row(3)]);
+        }
     }
 
     /// Approach (mm) under a force (N) at a phase (mesh cycles) and tilt (rad).
@@ -177,6 +201,17 @@ impl ContactMap {
         place.curve.begin()
     }
 
+    /// Elastic energy V at a place of this map and an approach (mm), N mm.
+    pub fn energy(&self, place: &CutPlace, approach: f64) -> f64 {
+        let found = place.curve.solve(approach);
+        found.map_or(0.0, |load| self.load_axis().force(load) * approach - place.curve.integral(load))
+    }
+
+    /// Force along the approach at a place of this map and an approach (mm), N.
+    pub fn force(&self, place: &CutPlace, approach: f64) -> f64 {
+        place.curve.solve(approach).map_or(0.0, |load| self.load_axis().force(load))
+    }
+
     /// The contact at a place of this map and an approach (mm).
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         let axis = self.load_axis();
@@ -192,8 +227,9 @@ impl ContactMap {
             contact.energy = force * approach - curve.integral(load);
         }
         if wanted.phase_rate {
-            let by_phase =
-                self.sum(&self.approach, [&place.phase, &place.tilt], [&place.phase.slopes, &place.tilt.values]);
+            let mut by_phase = LoadCurve::default();
+            let weights = [&place.phase.slopes, &place.tilt.values];
+            self.sum(&mut by_phase, &self.approach, [&place.phase, &place.tilt], weights);
             contact.phase_rate = -(self.phases as f64) * integral(&by_phase);
         }
         if let Some(by_tilt) = &place.by_tilt {

@@ -117,7 +117,8 @@ impl Axis {
 }
 
 impl Splines {
-    const NONE: Self = Self { first: 0, count: 0, values: [0.0; 4], slopes: [0.0; 4], curvatures: [0.0; 4] };
+    /// None at all.
+    pub(crate) const NONE: Self = Self { first: 0, count: 0, values: [0.0; 4], slopes: [0.0; 4], curvatures: [0.0; 4] };
 }
 
 /// The four cubic B-splines of an interval at `s`, 0 .. 1.

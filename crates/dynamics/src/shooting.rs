@@ -181,6 +181,8 @@ fn moved(state: &State, by: &DVector<f64>) -> State {
     next
 }
 
+/// Its size; infinite where none is found, so that nothing is called stable that is not known to be.
 fn largest_eigenvalue(matrix: &DMatrix<f64>) -> f64 {
-    matrix.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
+    let all = integrate::eigenvalues(matrix.clone());
+    all.map_or(f64::INFINITY, |all| all.iter().map(|e| e.norm()).fold(0.0, f64::max))
 }

@@ -10,12 +10,12 @@
 //! and gained) do only the work that their potential accounts for. The change of V with time alone between t_0 and t_1
 //! is booked as parametric work.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::{
-    Forces, Ledger, Mechanism, MotionError, State,
-    newton::{ITERATIONS, Newton},
-    stepper::{Step, Stepped, Stepper},
+    Forces, Mechanism, MotionError, State,
+    newton::ITERATIONS,
+    stepper::{Step, StepWork, Stepped, Stepper},
 };
 
 /// Relative accuracy of V. Over the short path of a motion that just begins, noise of that size would be a large force.
@@ -34,35 +34,29 @@ impl Stepper for DiscreteGradient {
     }
 
     /// The forces that are left are those of the middle of the step.
-    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
-        let Step { system, from, h, scale, forces, ledger, .. } = step;
+    fn step<M: Mechanism>(&self, mut step: Step<'_, M>) -> Stepped<M> {
         // The derivative of c is left out as long as the iteration converges without it: over a short path it would
         // contain the noise of V.
-        match iterate(system, from, h, scale, forces, ledger, false) {
-            Err(MotionError::NotConverged { .. }) => iterate(system, from, h, scale, forces, ledger, true),
+        match iterate(&mut step, false) {
+            Err(MotionError::NotConverged { .. }) => iterate(&mut step, true),
             done => done,
         }
     }
 }
 
 /// Newton's method from the predictor on, `exact` with dc/dq_1.
-fn iterate<M: Mechanism>(
-    system: &mut M,
-    from: &State,
-    h: f64,
-    scale: &DVector<f64>,
-    forces: &mut Forces,
-    book: &mut Ledger,
-    exact: bool,
-) -> Stepped<M> {
+fn iterate<M: Mechanism>(step: &mut Step<'_, M>, exact: bool) -> Stepped<M> {
+    let Step { system, from, h, scale, forces, to, ledger: book, work, .. } = step;
+    let (StepWork { error, newton, .. }, h) = (&mut **work, *h);
     let (middle, end) = (from.time + 0.5 * h, from.time + h);
     let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
     let before = system.potential(middle, &from.q).map_err(fail(middle))?;
-    let mut to = from.clone();
+    to.copy_from(from);
     to.time = end;
-    to.q = &from.q + h * &from.v + 0.5 * h * h * &from.a;
-    let mut newton = Newton::new(forces);
-    let mut at_end = Forces::zeros(to.q.len());
+    to.q.axpy(h, &from.v, 1.0);
+    to.q.axpy(0.5 * h * h, &from.a, 1.0);
+    newton.begin(forces);
+    let mut at_end = Forces::zeros(if exact { to.q.len() } else { 0 });
     for iteration in 0..ITERATIONS {
         let moved = &to.q - &from.q;
         let velocity = &moved / h;
@@ -104,13 +98,14 @@ fn iterate<M: Mechanism>(
             book.supplied += h * forces.supplied - forces.other.dot(step);
             let known = book.potential;
             let after = system.potential(middle, &to.q).map_err(fail(middle))?;
-            finish(&mut to, from, h);
+            finish(to, from, h);
             book.dissipated += h * forces.dissipated;
             book.potential = system.potential(end, &to.q).map_err(fail(end))?;
             book.parametric += (book.potential - after) + (before - known);
             // Third differences of the motion: the leading error of a midpoint step.
-            let error = h * h / 12.0 * (&to.a - &from.a);
-            return Ok((to, error));
+            error.copy_from(&to.a);
+            error.zip_apply(&from.a, |after, before| *after = h * h / 12.0 * (*after - before));
+            return Ok(());
         }
         newton.measure(&to.q, scale);
     }

@@ -64,16 +64,13 @@ pub(crate) fn root<E>(ends: [f64; 2], mut value: impl FnMut(f64) -> Result<f64, 
 /// Values of all events of a system at a state.
 pub(crate) fn event_values<M: Mechanism>(
     system: &mut M,
-    time: f64,
-    q: &DVector<f64>,
-    v: &DVector<f64>,
-) -> Result<Vec<f64>, MotionError<M::Error>> {
-    let mut values = vec![0.0; system.events()];
-    if !values.is_empty() {
-        let fail = |source| MotionError::Mechanism { time, source };
-        system.event_values(time, q, v, &mut values).map_err(fail)?;
+    (time, q, v): (f64, &DVector<f64>, &DVector<f64>),
+    values: &mut [f64],
+) -> Result<(), MotionError<M::Error>> {
+    if values.is_empty() {
+        return Ok(());
     }
-    Ok(values)
+    system.event_values(time, q, v, values).map_err(|source| MotionError::Mechanism { time, source })
 }
 
 /// Events within a step between values `before` and `after`, in the order of time.
@@ -85,11 +82,14 @@ pub(crate) fn crossings<M: Mechanism>(
     after: &[f64],
 ) -> Result<Vec<Crossing>, MotionError<M::Error>> {
     let mut found = Vec::new();
+    let mut values = Vec::new();
     for event in (0..before.len()).filter(|&i| (before[i] >= 0.0) != (after[i] >= 0.0)) {
         let h = to.time - from.time;
         let share = root([before[event], after[event]], |share| {
             let (q, v) = interpolated(from, to, share);
-            event_values(system, from.time + share * h, &q, &v).map(|values| values[event])
+            values.resize(before.len(), 0.0);
+            event_values(system, (from.time + share * h, &q, &v), &mut values)?;
+            Ok(values[event])
         })?;
         let direction = if before[event] < 0.0 { Direction::Up } else { Direction::Down };
         found.push(Crossing { event, time: from.time + share * h, direction });

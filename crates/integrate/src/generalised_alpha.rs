@@ -8,12 +8,10 @@
 //! (1 - a_m) b_1 + a_m b_0 = (1 - a_f) a_1 + a_f a_0,        M a_1 = f(t_1, q_1, v_1)
 //! ```
 
-use nalgebra::DVector;
-
 use crate::{
-    Forces, Mechanism, MotionError, State,
-    newton::{ITERATIONS, Newton},
-    stepper::{Step, Stepped, Stepper},
+    Forces, Mechanism, MotionError,
+    newton::ITERATIONS,
+    stepper::{Step, StepWork, Stepped, Stepper},
 };
 
 /// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
@@ -39,29 +37,23 @@ impl Coefficients {
         Self { a_m: 0.0, a_f: 0.0, beta, gamma }
     }
 
-    /// The state at the end of a step of length `h` from `from`, and the local error of its coordinates. `forces` are
-    /// those of the end.
-    fn solve<M: Mechanism>(
-        &self,
-        system: &mut M,
-        from: &State,
-        h: f64,
-        scale: &DVector<f64>,
-        forces: &mut Forces,
-    ) -> Result<(State, DVector<f64>), MotionError<M::Error>> {
+    /// The state at the end of a step, and the local error of its coordinates. The forces are those of the end.
+    fn solve<M: Mechanism>(&self, step: &mut Step<'_, M>) -> Stepped<M> {
         let Self { a_m, a_f, beta, gamma } = *self;
+        let Step { system, from, h, scale, forces, to, work, .. } = step;
+        let (StepWork { error, newton, begun: b0, rest }, h) = (&mut **work, *h);
         let time = from.time + h;
         // The averaged acceleration belongs to a place within the step: a new step moves it.
         let stretch = if from.last_step > 0.0 { h / from.last_step } else { 1.0 };
-        let b0 = from.a.zip_map(&from.averaged, |a, averaged| a + (averaged - a) * stretch);
-        let mut to = from.clone();
+        b0.copy_from(&from.a);
+        b0.zip_apply(&from.averaged, |a, averaged| *a += (averaged - *a) * stretch);
+        to.copy_from(from);
         to.time = time;
         for i in 0..b0.len() {
             to.q[i] = from.q[i] + h * from.v[i] + 0.5 * h * h * b0[i];
         }
         let mass_share = (1.0 - a_m) / ((1.0 - a_f) * beta * h * h);
-        let mut newton = Newton::new(forces);
-        let mut rest = b0.clone();
+        newton.begin(forces);
         for iteration in 0..ITERATIONS {
             for i in 0..b0.len() {
                 let b1 = (to.q[i] - from.q[i] - h * from.v[i]) / (beta * h * h) - (0.5 - beta) / beta * b0[i];
@@ -72,18 +64,22 @@ impl Coefficients {
             if newton.settled() {
                 let share = (beta - 1.0 / 6.0).abs().max(1.0 / 12.0) * h * h;
                 to.last_step = h;
-                let error = to.a.zip_map(&from.a, |after, before| share * (after - before));
-                return Ok((to, error));
+                error.copy_from(&to.a);
+                error.zip_apply(&from.a, |after, before| *after = share * (*after - before));
+                return Ok(());
             }
             newton.prepare(forces);
             system.forces(time, &to.q, &to.v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
             rest.gemv(1.0, system.mass(), &to.a, 0.0);
-            rest -= &forces.conservative;
-            rest -= &forces.other;
-            let matrix =
-                |forces: &Forces| mass_share * system.mass() + gamma / (beta * h) * &forces.damping + &forces.stiffness;
+            *rest -= &forces.conservative;
+            *rest -= &forces.other;
+            let matrix = |forces: &Forces| {
+                let (mut sum, damping_share) = (forces.stiffness.clone(), gamma / (beta * h));
+                sum.zip_zip_apply(system.mass(), &forces.damping, |k, m, c| *k += mass_share * m + damping_share * c);
+                sum
+            };
             let singular = MotionError::Singular { time, which: "iteration" };
-            to.q -= newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+            to.q -= newton.step(forces, matrix, rest, iteration).ok_or(singular)?;
             newton.measure(&to.q, scale);
         }
         let change = newton.change();
@@ -102,9 +98,9 @@ impl Stepper for Coefficients {
     }
 
     /// Work of drives, loads and dampers is integrated by the trapezoidal rule.
-    fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
-        let Step { system, from, h, scale, forces, ledger, .. } = step;
-        let (mut to, error) = self.solve(system, from, h, scale, forces)?;
+    fn step<M: Mechanism>(&self, mut step: Step<'_, M>) -> Stepped<M> {
+        self.solve(&mut step)?;
+        let Step { system, from, h, forces, to, ledger, .. } = step;
         to.powers = forces.powers();
         let work = [0, 1].map(|i| 0.5 * h * (from.powers[i] + to.powers[i]));
         ledger.supplied += work[0];
@@ -118,6 +114,6 @@ impl Stepper for Coefficients {
         ledger.potential = system.potential(to.time, &to.q).map_err(fail(to.time))?;
         let held = [still - known, ledger.potential - moved];
         ledger.parametric += 0.5 * (held[0] + held[1]);
-        Ok((to, error))
+        Ok(())
     }
 }

@@ -6,6 +6,7 @@
 //! The same integrators run the meshed pair, the lumped models and a one-degree oscillator: what is shown for one holds
 //! for all.
 
+mod eigenvalues;
 mod energy;
 mod error;
 mod events;
@@ -21,6 +22,7 @@ mod stability;
 mod state;
 mod stepper;
 
+pub use eigenvalues::eigenvalues;
 pub use error::MotionError;
 pub use events::{Crossing, Direction};
 pub use integrator::{Integrator, Progress};

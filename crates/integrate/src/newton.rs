@@ -31,7 +31,7 @@ const SLOW_CONTRACTION: f64 = 0.05;
 const REMAINDER: f64 = 0.5;
 
 /// The iteration of one step.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Newton {
     factor: Option<LU<f64, Dyn, Dyn>>,
     step: DVector<f64>,
@@ -47,7 +47,7 @@ pub(crate) struct Newton {
 }
 
 /// A step on the way along its line: q = q_0 - share step.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct LineSearch {
     step: DVector<f64>,
     /// Work of the residual along the step where the line begins, > 0.
@@ -89,10 +89,17 @@ impl LineSearch {
 }
 
 impl Newton {
-    pub fn new(forces: &mut Forces) -> Self {
-        (forces.tangents, forces.rates) = (true, false);
+    /// For `n` coordinates.
+    pub fn new(n: usize) -> Self {
         let changes = [f64::INFINITY; 2];
-        Self { factor: None, step: DVector::zeros(0), changes, last: f64::INFINITY, line: None, part: false }
+        Self { factor: None, step: DVector::zeros(n), changes, last: f64::INFINITY, line: None, part: false }
+    }
+
+    /// Before the first evaluation of a step.
+    pub fn begin(&mut self, forces: &mut Forces) {
+        (forces.tangents, forces.rates) = (true, false);
+        (self.factor, self.line, self.part) = (None, None, false);
+        (self.changes, self.last) = ([f64::INFINITY; 2], f64::INFINITY);
     }
 
     /// Discards the factor: the next evaluation makes a new one.
@@ -125,7 +132,10 @@ impl Newton {
         }
         (self.line, self.part) = (None, false);
         let factor = self.factor.get_or_insert_with(|| LU::new(matrix(forces)));
-        self.step = factor.solve(rest).filter(|x| x.iter().all(|x| x.is_finite()))?;
+        self.step.copy_from(rest);
+        if !factor.solve_mut(&mut self.step) || self.step.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
         if iteration >= LINE_SEARCH_AFTER {
             self.line = LineSearch::along(&self.step, rest);
         }

@@ -77,7 +77,7 @@ impl<const S: usize> Stepper for &Table<S> {
     }
 
     fn step<M: Mechanism>(&self, step: Step<'_, M>) -> Stepped<M> {
-        let Step { system, mass, from, h, forces, ledger, tangents, .. } = step;
+        let Step { system, mass, from, h, forces, to, ledger, work, tangents, .. } = step;
         let mut rates: Vec<(DVector<f64>, DVector<f64>, [f64; 3])> = Vec::with_capacity(S);
         for (i, (stage, &node)) in self.stages.iter().zip(&self.nodes).enumerate() {
             // The last stage has no weight in the work.
@@ -95,9 +95,10 @@ impl<const S: usize> Stepper for &Table<S> {
             mass.solve_mut(&mut a);
             rates.push((v, a, [forces.supplied, forces.parametric, forces.dissipated]));
         }
-        let mut to = from.clone();
+        to.copy_from(from);
         to.time = from.time + h;
-        let mut error = DVector::zeros(to.q.len());
+        let error = &mut work.error;
+        error.fill(0.0);
         for (i, (v, a, powers)) in rates.iter().enumerate() {
             let weight = self.stages[S - 1][i];
             to.q.axpy(h * weight, v, 1.0);
@@ -113,6 +114,6 @@ impl<const S: usize> Stepper for &Table<S> {
         to.last_step = h;
         let time = to.time;
         ledger.potential = system.potential(time, &to.q).map_err(|source| MotionError::Mechanism { time, source })?;
-        Ok((to, error))
+        Ok(())
     }
 }

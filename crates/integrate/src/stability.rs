@@ -8,7 +8,7 @@
 
 use nalgebra::{Cholesky, Complex, DMatrix, Dyn};
 
-use crate::{Forces, Scheme};
+use crate::{Forces, Scheme, eigenvalues::eigenvalues};
 
 /// Growth in a step that counts as none.
 const GROWTH_TOLERANCE: f64 = 1e-9;
@@ -71,7 +71,11 @@ fn limit(polynomial: &[f64], stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -
     first_order.view_mut((0, n), (n, n)).fill_with_identity();
     first_order.view_mut((n, 0), (n, n)).copy_from(&(stiffness / (-scale * scale)));
     first_order.view_mut((n, n), (n, n)).copy_from(&(damping / -scale));
-    let all = first_order.complex_eigenvalues();
+    let Some(all) = eigenvalues(first_order) else {
+        // No eigenvalue lies beyond the norms, in whatever direction.
+        let rate = bound([stiffness.norm(), damping.norm()]);
+        return rate.is_finite().then(|| StepLimit { step: shortest_reach(polynomial) / rate, rate });
+    };
     let largest = all.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let moving = all.iter().filter(|x| x.norm() > RIGID_SHARE * largest);
     let limits = moving.map(|x| StepLimit { step: reach(polynomial, *x) / (scale * x.norm()), rate: scale * x.norm() });

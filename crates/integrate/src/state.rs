@@ -31,4 +31,15 @@ impl State {
         let rest = || DVector::zeros(n);
         Self { time, q, v, a: rest(), averaged: rest(), powers: [0.0; 2], next_step: 0.0, last_step: 0.0 }
     }
+
+    /// Becomes another state of as many coordinates, in its own memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let Self { time, q, v, a, averaged, powers, next_step, last_step } = self;
+        q.copy_from(&other.q);
+        v.copy_from(&other.v);
+        a.copy_from(&other.a);
+        averaged.copy_from(&other.averaged);
+        (*time, *powers) = (other.time, other.powers);
+        (*next_step, *last_step) = (other.next_step, other.last_step);
+    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DVector, Dyn};
 
-use crate::{Forces, Ledger, Mechanism, MotionError, State};
+use crate::{Forces, Ledger, Mechanism, MotionError, State, newton::Newton};
 
 /// A step to be taken.
 #[derive(Debug)]
@@ -19,14 +19,39 @@ pub(crate) struct Step<'a, M> {
     pub scale: &'a DVector<f64>,
     /// Forces of the last evaluation: at the end of the step, unless the method says otherwise.
     pub forces: &'a mut Forces,
+    /// State at the end, which the step finds.
+    pub to: &'a mut State,
     /// Energy up to the beginning; the step enters its work and the potential energy at its end.
     pub ledger: &'a mut Ledger,
+    /// Vectors of its own.
+    pub work: &'a mut StepWork,
     /// Whether `forces` must hold the tangents at the end of the step.
     pub tangents: bool,
 }
 
-/// State at the end of a step, and the local error of its coordinates.
-pub(crate) type Stepped<M> = Result<(State, DVector<f64>), MotionError<<M as Mechanism>::Error>>;
+/// Whether a step was found.
+pub(crate) type Stepped<M> = Result<(), MotionError<<M as Mechanism>::Error>>;
+
+/// What steps write into, kept from one to the next: a small system's steps would spend half of their time on memory.
+#[derive(Debug, Clone)]
+pub(crate) struct StepWork {
+    /// Local error of the coordinates of the last step.
+    pub error: DVector<f64>,
+    /// Its Newton iteration.
+    pub newton: Newton,
+    /// Accelerations that an implicit step begins with.
+    pub begun: DVector<f64>,
+    /// Residual of its balance of forces.
+    pub rest: DVector<f64>,
+}
+
+impl StepWork {
+    /// For `n` coordinates.
+    pub fn new(n: usize) -> Self {
+        let zeros = || DVector::zeros(n);
+        Self { error: zeros(), newton: Newton::new(n), begun: zeros(), rest: zeros() }
+    }
+}
 
 /// A method of integration.
 ///

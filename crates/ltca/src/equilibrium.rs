@@ -5,6 +5,7 @@ use contact::{
     ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, SliceState, Solution, WarmStart, frames,
 };
 use geometry::GearPair;
+use nalgebra::{Rotation3, Vector3};
 
 use crate::{
     DeflectionCourse, StaticError, WindowedPair,
@@ -159,6 +160,7 @@ pub(crate) fn equilibrium(
             }
         };
         iterations += newton;
+        let of_rows = rotation;
         rotation = steps.next(rotation, turn);
         let elastic_mm = base_radius * (rotation - unloaded.rotation).abs();
         if steps.is_last(elastic_mm, solver.tells_forces())
@@ -170,7 +172,14 @@ pub(crate) fn equilibrium(
             let PoseSolution { mut rows, slices, states, solution, displacements } = *found;
             // Poses and gaps as they are after the last step, which no search follows any more.
             let poses = self::poses(windowed, station, rotation);
-            rows.iter_mut().for_each(|row| row.gap += row.levers[options.driven()] * solution.rotation);
+            let driven = options.driven();
+            // Forces keep their direction in space: in the frame of the gear that went on they turn back.
+            let back = Rotation3::from_axis_angle(&Vector3::z_axis(), of_rows - rotation);
+            for row in &mut rows {
+                row.gap += row.levers[driven] * solution.rotation;
+                let support = &mut row.supports[driven];
+                (support.direction, support.load) = (back * support.direction, back * support.load);
+            }
             return Ok(Equilibrium {
                 station,
                 poses,

@@ -134,8 +134,7 @@ fn eigenvalues(a: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         let symmetric = 0.5 * (a + a.transpose());
         return Some(symmetric.symmetric_eigenvalues().iter().map(|&x| Complex::new(x, 0.0)).collect());
     }
-    let schur = nalgebra::Schur::try_new(a.clone(), f64::EPSILON, 10_000)?;
-    Some(schur.complex_eigenvalues().iter().copied().collect())
+    Some(integrate::eigenvalues(a.clone())?.iter().copied().collect())
 }
 
 fn shape(inverse: &DMatrix<f64>, scaled: &DMatrix<f64>, value: Complex<f64>, largest: f64) -> DVector<Complex<f64>> {

@@ -105,10 +105,7 @@ impl Floquet {
         let mut monodromy = DMatrix::zeros(2 * n, 2 * n);
         monodromy.rows_mut(0, n).copy_from(&places);
         monodromy.rows_mut(n, n).copy_from(&(rates / unit));
-        if monodromy.iter().any(|x| !x.is_finite()) {
-            return None;
-        }
-        let mut multipliers: Vec<Complex<f64>> = monodromy.complex_eigenvalues().iter().copied().collect();
+        let mut multipliers: Vec<Complex<f64>> = integrate::eigenvalues(monodromy)?.iter().copied().collect();
         multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
         Some(Self { multipliers })
     }

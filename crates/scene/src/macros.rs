@@ -162,6 +162,11 @@ macro_rules! choices {
 
         impl $name {
             pub(crate) const WORDS: &'static [&'static str] = &[$($word),*];
+
+            /// As scenes write it.
+            pub fn word(self) -> &'static str {
+                Self::WORDS[self as usize]
+            }
         }
 
         impl $crate::schema::Choice for $name {

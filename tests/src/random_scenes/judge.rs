@@ -9,9 +9,13 @@ use super::{
     balance::{equilibrium, ledger, pull, torque},
 };
 
+/// Tables of runs that have no history.
+const TABLES: [&str; 5] = ["resonance.csv", "sweep.csv", "branch.csv", "basins.csv", "attractors.csv"];
+
 /// Figures of a headline that have no value in some results: not asked for, of another model, or where nothing is to be
 /// measured (`docs/outputs.md`).
-const MAY_BE_NULL: [&str; 27] = [
+const MAY_BE_NULL: [&str; 28] = [
+    ".attractors.period_cycles",
     ".certificate.lyapunov",
     ".difference_in_time",
     ".broken",
@@ -45,7 +49,8 @@ const MAY_BE_NULL: [&str; 27] = [
 const OF_A_LOADED_MESH: [&str; 2] = [".mean_mesh_stiffness_n_per_um", ".mean_contact_line_length_mm"];
 
 /// Columns of a sweep that have no value where the motion does not come back, or was not asked.
-const MAY_BE_NAN: [&str; 4] = ["section_period", "lyapunov_per_s", "lyapunov_error_per_s", "periodicity"];
+const MAY_BE_NAN: [&str; 5] =
+    ["period_cycles", "section_period", "lyapunov_per_s", "lyapunov_error_per_s", "periodicity"];
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -100,8 +105,8 @@ pub fn judge(folder: &Path) -> Judged {
     }
     judged.wrong.extend(headline(&summary));
     let Ok(history) = Csv::read(&folder.join("history.csv")) else {
-        if !["resonance.csv", "sweep.csv", "branch.csv"].iter().any(|name| folder.join(name).exists()) {
-            judged.wrong.push("there is neither history.csv nor rows of a sweep or a branch".into());
+        if !TABLES.iter().any(|name| folder.join(name).exists()) {
+            judged.wrong.push("there is neither history.csv nor rows of a sweep, a branch or basins".into());
         }
         judged.wrong.extend(sweep(folder));
         return judged;
@@ -170,7 +175,7 @@ fn no_numbers(case: &Case<'_>) -> Vec<String> {
 
 /// Values and speeds that have a result have numbers.
 fn sweep(folder: &Path) -> Vec<String> {
-    ["resonance.csv", "sweep.csv"].iter().flat_map(|name| swept(folder, name)).collect()
+    TABLES.iter().flat_map(|name| swept(folder, name)).collect()
 }
 
 fn swept(folder: &Path, file: &str) -> Vec<String> {

@@ -142,10 +142,10 @@ fn draw_bearing(d: &mut Draft, gear: &str, free: &[&str], mass: f64, asked: &Ask
 fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'static str {
     let runs: &[&str] = match asked.model {
         m if m.starts_with("reduced") => {
-            &["steady", "steady", "shooting", "span", "span", "ramp", "sweep", "continuation"]
+            &["steady", "steady", "shooting", "span", "span", "ramp", "sweep", "continuation", "basins"]
         }
         "impact" => &["steady", "span", "span", "ramp", "sweep"],
-        _ => &["steady", "span", "sweep", "continuation"],
+        _ => &["steady", "span", "sweep", "continuation", "basins"],
     };
     let run = d.pick(runs);
     d.set("motion.run", run);
@@ -169,6 +169,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
         "ramp" => draw_ramp(d, rpm, cycle_s, elastic),
         "sweep" => draw_sweep(d, rpm, elastic),
         "continuation" => draw_branch(d, rpm),
+        "basins" => draw_basins(d),
         "span" if d.chance(0.4) => {
             let cycles = f64::from(d.whole(1, 3));
             d.set("motion.duration_s", (cycles * cycle_s).clamp(1e-9, 1e9));
@@ -178,7 +179,7 @@ fn draw_run(d: &mut Draft, sizes: &Sizes, asked: &Asked, elastic: bool) -> &'sta
             d.set("analysis.cycles", i64::from(cycles));
         }
     }
-    if matches!(run, "steady" | "shooting" | "sweep" | "continuation") {
+    if matches!(run, "steady" | "shooting" | "sweep" | "continuation" | "basins") {
         let waits = d.whole(0, 8);
         d.set("motion.warm_up_cycles", i64::from(waits));
         let tolerance = d.mostly_log([1e-5, 1e-2], [1e-12, 0.5]);
@@ -245,6 +246,18 @@ fn draw_branch(d: &mut Draft, rpm: f64) {
     let (tail, step) = (d.log(1e-3, 0.1), d.log(0.01, 0.2));
     d.set("motion.continuation.tail", tail);
     d.set("motion.continuation.longest_step", step);
+}
+
+fn draw_basins(d: &mut Draft) {
+    for unit in ["um", "mm_s"] {
+        let [from, to] = [-d.log(0.1, 100.0), d.log(0.1, 100.0)];
+        d.set(&format!("motion.basins.from_{unit}"), from);
+        d.set(&format!("motion.basins.to_{unit}"), to);
+    }
+    for key in ["columns", "rows"] {
+        let number = d.whole(2, 3);
+        d.set(&format!("motion.basins.{key}"), i64::from(number));
+    }
 }
 
 fn draw_torques(d: &mut Draft, asked: &Asked, elastic: bool, run: &str) {

@@ -145,7 +145,7 @@ pub fn draw_accuracy(d: &mut Draft, asked: &Asked) {
         }
     }
     if asked.in_time && d.chance(0.9) {
-        ["drive", "load", "motion.ramp", "motion.sweep", "motion.continuation", "motion.duration_s"]
+        ["drive", "load", "motion.ramp", "motion.sweep", "motion.continuation", "motion.basins", "motion.duration_s"]
             .iter()
             .for_each(|key| d.unset(key));
         ["motion.error_tolerance", "motion.checkpoint_every_cycles"].iter().for_each(|key| d.unset(key));

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use analysis::accuracy_chart::ChartOptions;
+use analysis::accuracy_chart::{ChartOptions, resonance_precision};
 use analysis::motion::motion_precision;
-use report::accuracy_chart::{chart_tables, write_work_precision};
+use report::accuracy_chart::{chart_tables, write_resonance_precision, write_work_precision};
 use report::motion_files::write_motion_precision;
 
 use super::overrides::Overrides;
@@ -27,6 +27,9 @@ pub(super) struct ChartArgs {
     /// Methods of integration of a scene in time instead: error against step and wall time
     #[arg(long, conflicts_with = "motion")]
     methods: bool,
+    /// Models in motion over the speeds of `[motion.sweep]` instead: error of the resonance curve against wall time
+    #[arg(long, conflicts_with_all = ["motion", "methods"])]
+    resonance: bool,
     /// Coarse meshes and few positions, or steps that are not small: less than a minute
     #[arg(long)]
     quick: bool,
@@ -57,7 +60,11 @@ impl ChartArgs {
             MarkedPlace::find(file, &scene.name)?;
         }
         if self.methods && scene.motion.is_none() {
-            return Err(self.not_in_time());
+            return Err(self.other_scene("--methods", "an analysis in time", "say `kind = \"dynamic\"` in [analysis]"));
+        }
+        if self.resonance && scene.motion.as_ref().is_none_or(|m| m.sweep.is_none()) {
+            let way_out = "say `run = \"sweep\"` in [motion], and the speeds in [motion.sweep]";
+            return Err(self.other_scene("--resonance", "a sweep over speed", way_out));
         }
         let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
@@ -77,46 +84,35 @@ impl ChartArgs {
         let mut phases = Phases::with_bars();
         let quick = if self.quick { " --quick" } else { "" };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
+        let command = |words: &str| format!("ale-gear chart {} --out DIR{quick}{words}{set}", self.scene.display());
         if self.methods {
-            let command = format!("ale-gear chart {} --out DIR{quick} --methods{set}", self.scene.display());
-            return self.of_methods(&scene, &mut phases, results, &command);
+            let found = motion_precision(&scene, &mut phases, self.quick)?;
+            let table = write_motion_precision(&scene.name, &found, &command(" --methods"), &results)?;
+            return self.told(&scene, table, results);
+        }
+        if self.resonance {
+            let found = resonance_precision(&scene, &mut phases, self.quick)?;
+            let table = write_resonance_precision(&scene.name, &found, &command(" --resonance"), &results)?;
+            return self.told(&scene, table, results);
         }
         let points = chart(&scene, &options, &mut phases)?;
-        let motion = if self.motion { " --motion" } else { "" };
-        let command = format!("ale-gear chart {} --out DIR{quick}{motion}{set}", self.scene.display());
+        let command = command(if self.motion { " --motion" } else { "" });
         let tables = chart_tables(&points, &command, rayon::current_num_threads());
         write_work_precision(&scene.name, &points, &tables, &results)?;
+        self.told(&scene, tables, results)
+    }
+
+    /// What is said at the end: the tables, which go into a page as well where one is named.
+    fn told(&self, scene: &Scene, tables: String, results: ResultDirectory) -> Result<String, CommandError> {
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
             MarkedPlace::find(file, &scene.name)?.replace(&tables)?;
         }
         Ok(format!("{tables}\nresults: {}\n", self.out.display()))
     }
-}
 
-impl ChartArgs {
-    fn not_in_time(&self) -> CommandError {
-        let what = format_args!("{}: `--methods` is for an analysis in time", self.scene.display());
-        CommandError::input(what, Some("say `kind = \"dynamic\"` in [analysis]".into()))
-    }
-
-    /// The methods of integration of a scene in time.
-    fn of_methods(
-        &self,
-        scene: &Scene,
-        phases: &mut Phases,
-        results: ResultDirectory,
-        command: &str,
-    ) -> Result<String, CommandError> {
-        if scene.motion.is_none() {
-            return Err(self.not_in_time());
-        }
-        let found = motion_precision(scene, phases, self.quick)?;
-        let table = write_motion_precision(&scene.name, &found, command, &results)?;
-        results.finish(talk::note)?;
-        if let Some(file) = &self.into {
-            MarkedPlace::find(file, &scene.name)?.replace(&table)?;
-        }
-        Ok(format!("{table}\nresults: {}\n", self.out.display()))
+    fn other_scene(&self, word: &str, wanted: &str, way_out: &str) -> CommandError {
+        let what = format_args!("{}: `{word}` is for {wanted}", self.scene.display());
+        CommandError::input(what, Some(way_out.into()))
     }
 }

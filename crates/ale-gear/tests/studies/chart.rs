@@ -104,3 +104,34 @@ fn methods_of_integration_have_their_chart() {
     assert_eq!(refused.code, Some(2), "{}", refused.stderr);
     assert!(refused.stderr.contains("`--methods` is for an analysis in time"), "{}", refused.stderr);
 }
+
+/// Every model has its curve over the scene's speeds, and comes the nearer to gears with normal modes the more of the
+/// gears it knows; a scene without speeds has none.
+#[test]
+fn models_have_their_chart_over_speed() {
+    let sweep = "run = \"sweep\"\nperiodic_tolerance = 1e-3\nwarm_up_cycles = 40\n\
+                 [motion.sweep]\nfrom_rpm = 5000\nto_rpm = 7000\nspeeds = 2\nways = [\"up\"]\n[modes]\ncount = 2\n";
+    let scene = crate::util::motion_scene(1, sweep)
+        .replace("kind = \"dynamic\"\n", "kind = \"dynamic\"\nmodel = \"reduced+modes\"\n");
+    let scratch = Scratch::new().file("a.toml", scene).file("steady.toml", crate::util::motion_scene(1, ""));
+    let run = scratch.ale_gear(["chart", "a.toml", "--out", "o", "--resonance", "--quick"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let csv = scratch.read("o/resonance_precision.csv");
+    let rows: Vec<Vec<String>> = csv.lines().skip(1).map(fields).collect();
+    let error = |model: &str| -> f64 {
+        let row = rows.iter().find(|r| r[0] == model).unwrap_or_else(|| panic!("no {model}:\n{csv}"));
+        row[4].parse().unwrap_or_else(|_| panic!("no error of {model}:\n{csv}"))
+    };
+    assert_eq!(rows.len(), 7, "{csv}");
+    let [modes, reduced, mapped] = ["reduced+modes", "reduced", "mapped"].map(error);
+    let [fed, iso] = ["lumped12, fed by slice", "lumped8"].map(error);
+    // Sixteen steps are few: what they leave is the error of all models that know the gears.
+    assert!(modes < 0.12 && (reduced - mapped).abs() < 0.05 * reduced, "{csv}");
+    assert!(reduced < 0.5 * fed && fed < 0.5 * iso, "{csv}");
+    assert_eq!(scratch.read("o/resonance_curves.csv").lines().count(), 1 + 7 * 2);
+    assert!(scratch.read("o/resonance_precision.svg").contains("Motions alone"));
+    assert!(scratch.read("o/resonance_curves.svg").contains("reference"));
+    let refused = scratch.ale_gear(["chart", "steady.toml", "--out", "p", "--resonance"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("`--resonance` is for a sweep over speed"), "{}", refused.stderr);
+}

@@ -52,7 +52,7 @@ fn lumped(scene: &mut Scene, model: Model, free: &[Axis], from: StiffnessFrom) {
     }
     let held = |axis: Axis, k: f64| free.contains(&axis).then_some(k);
     for gear in [&mut scene.pinion, &mut scene.wheel] {
-        gear.body = Some(BodyScene { free: free.to_vec(), ..BodyScene::default() });
+        gear.body = Some(BodyScene { free: free.to_vec(), ..gear.body.take().unwrap_or_default() });
         gear.bearing = BearingScene {
             stiffness_x_n_per_mm: held(Axis::X, HELD[0]),
             stiffness_y_n_per_mm: held(Axis::Y, HELD[0]),

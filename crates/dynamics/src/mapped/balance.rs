@@ -6,7 +6,7 @@ use contact_map::Wanted;
 use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
-use super::MappedPair;
+use super::{KeptPlaces, MappedPair, MappedSide};
 
 impl Mechanism for MappedPair {
     type Error = Infallible;
@@ -18,16 +18,26 @@ impl Mechanism for MappedPair {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
         let nominal = self.system.nominal_state(t);
         let external = self.system.external(t, &nominal);
-        out.conservative.gemv(-1.0, &self.bearing, q, 1.0);
         out.other.gemv(1.0, &self.loading, &external, 1.0);
         out.supplied += self.system.coordinates().power(&external, v);
-        out.other.gemv(-1.0, &self.damping, v, 1.0);
-        out.other.gemv(-nominal.velocity[0], &self.gyroscopic, v, 1.0);
-        out.dissipated += power(&self.damping, v);
-        if out.tangents {
-            out.stiffness += &self.bearing;
-            out.damping += &self.damping;
-            out.damping.zip_apply(&self.gyroscopic, |c, g| *c += nominal.velocity[0] * g);
+        if let Some(bearing) = &self.bearing {
+            out.conservative.gemv(-1.0, bearing, q, 1.0);
+            if out.tangents {
+                out.stiffness += bearing;
+            }
+        }
+        if let Some(damping) = &self.damping {
+            out.other.gemv(-1.0, damping, v, 1.0);
+            out.dissipated += power(damping, v);
+            if out.tangents {
+                out.damping += damping;
+            }
+        }
+        if let Some(gyroscopic) = &self.gyroscopic {
+            out.other.gemv(-nominal.velocity[0], gyroscopic, v, 1.0);
+            if out.tangents {
+                out.damping.zip_apply(gyroscopic, |c, g| *c += nominal.velocity[0] * g);
+            }
         }
         let phase = self.phase(t, q);
         let wanted = Wanted { energy: false, phase_rate: out.rates || self.phase_of_driver.is_some() };
@@ -65,21 +75,24 @@ impl Mechanism for MappedPair {
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
         let phase = self.phase(t, q);
-        let wanted = Wanted { energy: true, phase_rate: false };
-        let sides = self.sides.iter().zip(&mut self.kept);
-        let of_sides: f64 = sides.map(|(side, kept)| side.contact(kept, phase, q, wanted).energy).sum();
-        Ok(of_sides + 0.5 * power(&self.bearing, q))
+        let energy = |(side, kept): (&MappedSide, &mut KeptPlaces)| {
+            let [approach, tilt] = side.motion(q);
+            side.map.energy(kept.at(&side.map, phase, tilt), approach)
+        };
+        let of_sides: f64 = self.sides.iter().zip(&mut self.kept).map(energy).sum();
+        Ok(of_sides + self.bearing.as_ref().map_or(0.0, |bearing| 0.5 * power(bearing, q)))
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), Infallible> {
         let phase = self.phase(t, q);
         for (side, kept) in self.sides.iter().zip(&mut self.kept) {
-            let contact = side.contact(kept, phase, q, Wanted::default());
+            let [approach, tilt] = side.motion(q);
+            let force = side.map.force(kept.at(&side.map, phase, tilt), approach);
             let excess = &mut self.excess;
-            excess.force = excess.force.max(contact.force / side.map.largest_force());
+            excess.force = excess.force.max(force / side.map.largest_force());
             // Without contact a tilt does nothing.
-            if let Some([low, high]) = side.map.tilts().filter(|_| contact.force > 0.0) {
-                let from_middle = (side.motion(q)[1] - 0.5 * (low + high)).abs();
+            if let Some([low, high]) = side.map.tilts().filter(|_| force > 0.0) {
+                let from_middle = (tilt - 0.5 * (low + high)).abs();
                 excess.tilt = excess.tilt.max(from_middle / (0.5 * (high - low)));
             }
         }

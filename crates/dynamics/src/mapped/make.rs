@@ -152,9 +152,9 @@ impl MappedPair {
         let phase_of_driver = system.coordinates().driver_turn().map(|i| (i, sense / teeth.pitch_angle()));
         Self {
             mass: integrate::Mechanism::mass(&system).clone(),
-            bearing: map.transpose() * bearing * &map,
-            damping: on_coordinates(&damping),
-            gyroscopic: on_coordinates(&system.gyroscopic_at_unit_speed()),
+            bearing: unless_zero(map.transpose() * bearing * &map),
+            damping: unless_zero(on_coordinates(&damping)),
+            gyroscopic: unless_zero(on_coordinates(&system.gyroscopic_at_unit_speed())),
             loading: DMatrix::from_fn(n, 12, |i, j| loading[(i, j)]),
             kept: vec![KeptPlaces::default(); sides.len()],
             sides,
@@ -163,6 +163,11 @@ impl MappedPair {
             system,
         }
     }
+}
+
+/// A matrix that does something.
+fn unless_zero(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    Some(matrix).filter(|m| m.iter().any(|x| *x != 0.0))
 }
 
 /// Whether free coordinates tilt the flanks in the plane of action.

@@ -26,12 +26,12 @@ pub struct MappedPair {
     system: PairMechanism,
     sides: Vec<MappedSide>,
     mass: DMatrix<f64>,
-    /// T' K_b T.
-    bearing: DMatrix<f64>,
-    /// T' P C_b T, P: with the torque of a driver that balances.
-    damping: DMatrix<f64>,
-    /// T' P G T at the unit speed of the pinion.
-    gyroscopic: DMatrix<f64>,
+    /// T' K_b T; none without bearings that yield.
+    bearing: Option<DMatrix<f64>>,
+    /// T' P C_b T, P: with the torque of a driver that balances; likewise.
+    damping: Option<DMatrix<f64>>,
+    /// T' P G T at the unit speed of the pinion; none without gears that tilt.
+    gyroscopic: Option<DMatrix<f64>>,
     /// T' P.
     loading: DMatrix<f64>,
     /// Mesh cycles a radian of the driver's turn, where that is a coordinate.
@@ -70,8 +70,11 @@ struct MappedSide {
 
 impl MappedSide {
     /// Approach (mm) and tilt (rad), or their rates, of the free coordinates.
+    #[inline]
     fn motion(&self, q: &DVector<f64>) -> [f64; 2] {
-        [self.approach.dot(q), self.tilt.dot(q)]
+        // A product of nalgebra takes longer to call than so few coordinates to sum.
+        let along = |of: &DVector<f64>| of.iter().zip(q).map(|(a, x)| a * x).sum();
+        [along(&self.approach), if self.map.tilts().is_some() { along(&self.tilt) } else { 0.0 }]
     }
 
     /// Contact with the gears displaced: several states of a step are at one phase, and share what belongs to it.
@@ -83,25 +86,27 @@ impl MappedSide {
 
 /// The last two places at which a side was asked: a step begins at one and ends at the other.
 #[derive(Debug, Clone, Default)]
-struct KeptPlaces(Vec<CutPlace>);
+struct KeptPlaces {
+    both: [CutPlace; 2],
+    /// Which was asked last.
+    last: usize,
+}
 
 impl KeptPlaces {
-    /// The last one stands first.
     fn at(&mut self, map: &ContactMap, phase: f64, tilt: f64) -> &CutPlace {
         let wanted = [phase, if map.tilts().is_some() { tilt } else { 0.0 }];
-        match self.0.iter().position(|place| place.at == wanted) {
-            Some(0) => {}
-            Some(other) => self.0.swap(0, other),
-            None => {
-                self.0.truncate(1);
-                self.0.insert(0, map.place(wanted[0], wanted[1]));
+        if self.both[self.last].at != wanted {
+            self.last = 1 - self.last;
+            let place = &mut self.both[self.last];
+            if place.at != wanted {
+                map.move_place(place, wanted);
             }
         }
-        &self.0[0]
+        &self.both[self.last]
     }
 
     fn last(&self) -> &CutPlace {
-        &self.0[0]
+        &self.both[self.last]
     }
 }
 

@@ -2,12 +2,13 @@
 
 mod step;
 
-use nalgebra::{Cholesky, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::{
     Crossing, Forces, Ledger, Mechanism, MotionError, Scheme, State, StepControl,
     events::{crossings, event_values},
     stability::StabilityGuard,
+    stepper::StepWork,
 };
 
 /// Steps in one go from which on it matters how short they are.
@@ -40,15 +41,29 @@ pub struct Integrator {
     /// Time (s) of the tangents in `forces`; none where they are of another place.
     tangents_at: Option<f64>,
     forces: Forces,
+    work: StepWork,
+    kept: Option<Kept>,
     ledger: Option<Ledger>,
     steps: u64,
     refused: u64,
 }
 
+/// What goes on from one call to the next: callers advance by a step as well as by thousands.
+#[derive(Debug, Clone)]
+struct Kept {
+    /// Mass matrix and its factor.
+    mass: DMatrix<f64>,
+    factor: Cholesky<f64, Dyn>,
+    /// State before a step.
+    before: State,
+    /// Values of the events before and behind it.
+    values: [Vec<f64>; 2],
+}
+
 impl Integrator {
     /// `scale`: what counts as a large motion of each coordinate, > 0; tolerances are relative to it.
     pub fn new(scheme: Scheme, control: StepControl, scale: DVector<f64>) -> Self {
-        let forces = Forces::zeros(scale.len());
+        let (forces, work) = (Forces::zeros(scale.len()), StepWork::new(scale.len()));
         let (guard, tangents_at) = (None, None);
         Self {
             scheme,
@@ -58,6 +73,8 @@ impl Integrator {
             guard,
             tangents_at,
             forces,
+            work,
+            kept: None,
             ledger: None,
             steps: 0,
             refused: 0,
@@ -105,13 +122,45 @@ impl Integrator {
         system: &mut M,
         state: &mut State,
         until: f64,
+        seen: impl FnMut(&mut M, Progress<'_>),
+    ) -> Result<(), MotionError<M::Error>> {
+        self.check(system, state)?;
+        let known = self.kept.take().filter(|kept| kept.mass == *system.mass());
+        let mut kept = match known {
+            Some(kept) => kept,
+            None => Kept {
+                mass: system.mass().clone(),
+                factor: Cholesky::new(system.mass().clone())
+                    .ok_or(MotionError::Singular { time: state.time, which: "mass" })?,
+                before: state.clone(),
+                values: Default::default(),
+            },
+        };
+        let done = self.steps_until(system, state, until, &mut kept, seen);
+        if done.is_err() {
+            // What was found of a step that failed is no state.
+            state.copy_from(&kept.before);
+        }
+        self.kept = Some(kept);
+        done
+    }
+
+    fn steps_until<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        state: &mut State,
+        until: f64,
+        Kept { factor: mass, before, values: [values, now], .. }: &mut Kept,
         mut seen: impl FnMut(&mut M, Progress<'_>),
     ) -> Result<(), MotionError<M::Error>> {
-        let mass = self.check(system, state)?;
+        before.copy_from(state);
         if self.ledger.is_none() {
-            self.open(system, &mass, state)?;
+            self.open(system, mass, state)?;
         }
-        let mut values = event_values(system, state.time, &state.q, &state.v)?;
+        for all in [&mut *values, &mut *now] {
+            all.resize(system.events(), 0.0);
+        }
+        event_values(system, (state.time, &state.q, &state.v), values)?;
         let (begun, before_it) = (state.time, self.steps);
         while until - state.time > 1e-12 * (until.abs() + self.first_step()) {
             let wanted = match self.control {
@@ -124,33 +173,32 @@ impl Integrator {
                     }
                 }
             };
-            let before = state.clone();
+            before.copy_from(state);
             let h = wanted.min(until - state.time);
             let shortened = h < wanted;
             // Avoids a last step of round-off length.
             let h = if until - state.time - h < 1e-9 * h { until - state.time } else { h };
-            let (mut to, mut book, next) = self.accepted_step(system, &mass, &before, h)?;
-            let mut now = event_values(system, to.time, &to.q, &to.v)?;
-            let mut crossed = crossings(system, &before, &to, &values, &now)?;
+            let (mut book, next) = self.accepted_step(system, mass, before, h, state)?;
+            event_values(system, (state.time, &state.q, &state.v), now)?;
+            let mut crossed = crossings(system, before, state, values, now)?;
             let first = crossed.iter().map(|c| c.time).fold(f64::INFINITY, f64::min);
-            if self.stop_at_events && first < to.time - 1e-9 * h && first > before.time + 1e-9 * h {
+            if self.stop_at_events && first < state.time - 1e-9 * h && first > before.time + 1e-9 * h {
                 let shorter = first - before.time;
-                (to, book) = match self.control {
-                    StepControl::Fixed(_) => self.fixed_step(system, &mass, &before, shorter)?,
-                    StepControl::Adaptive { .. } => {
-                        self.one_step(system, &mass, &before, shorter).map(|(s, _, b)| (s, b))?
-                    }
+                book = match self.control {
+                    StepControl::Fixed(_) => self.fixed_step(system, mass, before, shorter, state)?,
+                    StepControl::Adaptive { .. } => self.one_step(system, mass, before, shorter, state)?,
                 };
-                now = event_values(system, to.time, &to.q, &to.v)?;
+                event_values(system, (state.time, &state.q, &state.v), now)?;
                 crossed.retain(|c| c.time <= first);
             }
             // A step that was shortened to meet the end says nothing against the length wanted.
-            to.next_step = if shortened && next >= h { next.max(wanted) } else { next };
+            state.next_step = if shortened && next >= h { next.max(wanted) } else { next };
             self.ledger = Some(book);
             self.steps += 1;
-            *state = to;
+            // The step stands, whatever comes of the rest.
+            before.copy_from(state);
             self.crawls(state.time - begun, self.steps - before_it, state.time)?;
-            values = now;
+            std::mem::swap(values, now);
             let time = state.time;
             system.accepted(time, &state.q, &state.v).map_err(|source| MotionError::Mechanism { time, source })?;
             seen(system, Progress { state, forces: &self.forces, ledger: &book, crossings: &crossed });
@@ -175,7 +223,7 @@ impl Integrator {
         }
     }
 
-    fn check<M: Mechanism>(&self, system: &M, state: &State) -> Result<Cholesky<f64, Dyn>, MotionError<M::Error>> {
+    fn check<M: Mechanism>(&self, system: &M, state: &State) -> Result<(), MotionError<M::Error>> {
         let n = system.mass().nrows();
         if self.scale.len() != n || state.q.len() != n || state.v.len() != n {
             let (scale, coordinates, velocities) = (self.scale.len(), state.q.len(), state.v.len());
@@ -196,7 +244,7 @@ impl Integrator {
         {
             return Err(MotionError::SpectralRadius { rho });
         }
-        Cholesky::new(system.mass().clone()).ok_or(MotionError::Singular { time: state.time, which: "mass" })
+        Ok(())
     }
 
     /// Accelerations and energy at the start.
@@ -210,7 +258,9 @@ impl Integrator {
         let fail = |source| MotionError::Mechanism { time, source };
         self.forces.clear();
         system.forces(time, &state.q, &state.v, &mut self.forces).map_err(fail)?;
-        state.a = mass.solve(&(&self.forces.conservative + &self.forces.other));
+        state.a.copy_from(&self.forces.conservative);
+        state.a += &self.forces.other;
+        mass.solve_mut(&mut state.a);
         state.averaged.copy_from(&state.a);
         state.powers = self.forces.powers();
         let potential = system.potential(time, &state.q).map_err(fail)?;

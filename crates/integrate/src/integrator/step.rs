@@ -1,6 +1,6 @@
 //! One step: by the scheme, as long as its error allows, in halves where it has no solution.
 
-use nalgebra::{Cholesky, DVector, Dyn};
+use nalgebra::{Cholesky, Dyn};
 
 use super::Integrator;
 use crate::{Ledger, Mechanism, MotionError, State, StepControl, stepper::Step};
@@ -13,24 +13,25 @@ const PARTS: f64 = 1000.0;
 const WITHIN: f64 = 0.98;
 
 impl Integrator {
-    /// A step whose error is small enough, the energy with it, and the length of the next one.
+    /// A step to `to` whose error is small enough: the energy with it, and the length of the next one.
     pub(super) fn accepted_step<M: Mechanism>(
         &mut self,
         system: &mut M,
         mass: &Cholesky<f64, Dyn>,
         from: &State,
         mut h: f64,
-    ) -> Result<(State, Ledger, f64), MotionError<M::Error>> {
+        to: &mut State,
+    ) -> Result<(Ledger, f64), MotionError<M::Error>> {
         let StepControl::Adaptive { tolerance, least, largest, .. } = self.control else {
-            let (to, book) = self.fixed_step(system, mass, from, h)?;
-            return Ok((to, book, h));
+            return Ok((self.fixed_step(system, mass, from, h, to)?, h));
         };
         let order = self.scheme.error_order();
         loop {
-            let tried = self.one_step(system, mass, from, h);
+            let tried = self.one_step(system, mass, from, h, to);
             let factor = match &tried {
-                Ok((_, error, _)) => {
-                    let size = error.iter().zip(self.scale.iter()).map(|(e, s)| (e / s).abs()).fold(0.0, f64::max);
+                Ok(_) => {
+                    let size =
+                        self.work.error.iter().zip(self.scale.iter()).map(|(e, s)| (e / s).abs()).fold(0.0, f64::max);
                     let factor = (0.9 * (tolerance / size.max(1e-30)).powf(1.0 / order)).clamp(0.2, 2.0);
                     if size <= tolerance { Ok(factor) } else { Err(factor) }
                 }
@@ -39,8 +40,7 @@ impl Integrator {
             };
             match factor {
                 Ok(factor) => {
-                    let (to, _, book) = tried?;
-                    return Ok((to, book, (factor * h).min(largest)));
+                    return Ok((tried?, (factor * h).min(largest)));
                 }
                 Err(factor) => {
                     self.refused += 1;
@@ -53,17 +53,18 @@ impl Integrator {
         }
     }
 
-    /// A step of given length, in parts where an explicit method is not stable with the whole.
+    /// A step of given length to `to`, in parts where an explicit method is not stable with the whole.
     pub(super) fn fixed_step<M: Mechanism>(
         &mut self,
         system: &mut M,
         mass: &Cholesky<f64, Dyn>,
         from: &State,
         h: f64,
-    ) -> Result<(State, Ledger), MotionError<M::Error>> {
+        to: &mut State,
+    ) -> Result<Ledger, MotionError<M::Error>> {
         let longest = self.longest_stable(system, mass, from, h)?;
         if h <= longest {
-            return self.whole_step(system, mass, from, h, HALVINGS);
+            return self.whole_step(system, mass, from, h, (to, HALVINGS));
         }
         let parts = (h / (WITHIN * longest)).ceil();
         if parts.is_nan() || parts > PARTS {
@@ -74,12 +75,12 @@ impl Integrator {
         let (mut here, mut book) = (from.clone(), opened.unwrap_or_default());
         for i in 1..=parts as usize {
             let until = from.time + h * (i as f64 / parts);
-            let (to, _, closed) = self.one_step(system, mass, &here, until - here.time)?;
-            (here, book) = (to, closed);
+            book = self.one_step(system, mass, &here, until - here.time, to)?;
+            here.copy_from(to);
             self.ledger = Some(book);
         }
         self.ledger = opened;
-        Ok((here, book))
+        Ok(book)
     }
 
     /// Longest step with which an explicit method is stable at a state, as far as it matters for a step of length `h`;
@@ -111,38 +112,39 @@ impl Integrator {
         mass: &Cholesky<f64, Dyn>,
         from: &State,
         h: f64,
-        halvings: u32,
-    ) -> Result<(State, Ledger), MotionError<M::Error>> {
-        match self.one_step(system, mass, from, h) {
+        (to, halvings): (&mut State, u32),
+    ) -> Result<Ledger, MotionError<M::Error>> {
+        match self.one_step(system, mass, from, h, to) {
             Err(MotionError::NotConverged { .. }) if halvings > 0 => {
                 self.refused += 1;
-                let (middle, book) = self.whole_step(system, mass, from, 0.5 * h, halvings - 1)?;
-                let opened = self.ledger.replace(book);
+                let book = self.whole_step(system, mass, from, 0.5 * h, (to, halvings - 1))?;
+                let (middle, opened) = (to.clone(), self.ledger.replace(book));
                 let rest = from.time + h - middle.time;
-                let second = self.whole_step(system, mass, &middle, rest, halvings - 1);
+                let second = self.whole_step(system, mass, &middle, rest, (to, halvings - 1));
                 self.ledger = opened;
                 second
             }
-            other => other.map(|(to, _, book)| (to, book)),
+            other => other,
         }
     }
 
-    /// One step by the scheme: where it ends, its local error, and the ledger closed behind it.
+    /// One step by the scheme to `to`, and the ledger closed behind it.
     pub(super) fn one_step<M: Mechanism>(
         &mut self,
         system: &mut M,
         mass: &Cholesky<f64, Dyn>,
         from: &State,
         h: f64,
-    ) -> Result<(State, DVector<f64>, Ledger), MotionError<M::Error>> {
+        to: &mut State,
+    ) -> Result<Ledger, MotionError<M::Error>> {
         let before = self.ledger.unwrap_or_default();
         let mut ledger = before;
         let tangents = self.guard.is_some();
         self.tangents_at = tangents.then_some(from.time + h);
-        let Self { scheme, scale, forces, .. } = self;
-        let step = Step { system: &mut *system, mass, from, h, scale, forces, ledger: &mut ledger, tangents };
-        let (to, error) = scheme.step(step)?;
+        let Self { scheme, scale, forces, work, .. } = self;
+        let (system, book) = (&mut *system, &mut ledger);
+        scheme.step(Step { system, mass, from, h, scale, forces, to, ledger: book, work, tangents })?;
         ledger.close_step(&before, system.mass(), &to.v);
-        Ok((to, error, ledger))
+        Ok(ledger)
     }
 }

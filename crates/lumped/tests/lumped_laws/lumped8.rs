@@ -221,7 +221,7 @@ fn energy_ledger_closes() {
 
 /// What holds the turn against friction's torque: N mm/rad, N mm s/rad; some 70 Hz on both gears' inertia, a third of
 /// critical damping.
-const MOTOR: (f64, f64) = (1e7, 13e3);
+pub const MOTOR: (f64, f64) = (1e7, 13e3);
 
 /// Seed 004 as printed (1000/min, 300 / 900 N m): time history, phase portraits and sections of y_p, y_g and z_g; the
 /// settled motion repeats with every mesh cycle.

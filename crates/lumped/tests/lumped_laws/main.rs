@@ -12,6 +12,7 @@ mod ladder;
 mod lumped12;
 mod lumped8;
 mod mill;
+mod on_a_map;
 mod plane_of_action;
 mod shaft18;
 mod shaft18_backlash;

@@ -76,7 +76,7 @@ fn waiting_confirms_every_verdict() {
 }
 
 /// At twenty places of the branch, stable or not, amplitudes equal those of shooting within 1e-4, and the largest
-/// multipliers within two hundredths (next to a fold).
+/// multipliers within two hundredths: next to a fold they change by that over 6e-5 of the frequency.
 #[test]
 fn amplitudes_are_those_of_shooting() {
     let (of, branch) = curve();
@@ -90,7 +90,7 @@ fn amplitudes_are_those_of_shooting() {
         assert!(off < 1e-4, "W {}: {} by balance, {amplitude} by shooting", motion.parameter, peak_to_peak(motion));
         let verdict = motion.floquet.largest();
         assert!(
-            (verdict - multiplier).abs() < 1e-2 * multiplier,
+            (verdict - multiplier).abs() < 2e-2 * multiplier,
             "W {}: {verdict}, not {multiplier}",
             motion.parameter
         );

@@ -207,7 +207,7 @@ fn times(ratio: f64) -> String {
 }
 
 /// Three significant digits.
-fn seconds(value: f64) -> String {
+pub(super) fn seconds(value: f64) -> String {
     let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
     format!("{value:.digits$}")
 }

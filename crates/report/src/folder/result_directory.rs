@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 41] = [
+const OURS: [&str; 48] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -173,6 +173,13 @@ const OURS: [&str; 41] = [
     "motion_precision.md",
     "motion_precision.png",
     "motion_precision.svg",
+    "resonance_curves.csv",
+    "resonance_curves.png",
+    "resonance_curves.svg",
+    "resonance_precision.csv",
+    "resonance_precision.md",
+    "resonance_precision.png",
+    "resonance_precision.svg",
     "envelope.csv",
     "maps.csv",
     "work_precision.svg",

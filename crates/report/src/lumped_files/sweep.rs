@@ -1,7 +1,6 @@
 //! Files of a sweep over a key.
 
 use analysis::lumped::{SweepHeadline, SweepOptions, SweepPoint};
-use scene::SweepWay;
 use serde::Serialize;
 
 use crate::csv::{push_row, quoted};
@@ -21,14 +20,6 @@ pub struct SweepPage<'a> {
     pub again: Option<&'a str>,
 }
 
-fn way_name(way: SweepWay) -> &'static str {
-    match way {
-        SweepWay::Apart => "apart",
-        SweepWay::Up => "up",
-        SweepWay::Down => "down",
-    }
-}
-
 /// `sweep.csv`: one row a point.
 pub fn sweep_csv(options: &SweepOptions, points: &[SweepPoint]) -> String {
     let of = &options.quantity.name;
@@ -38,7 +29,7 @@ pub fn sweep_csv(options: &SweepOptions, points: &[SweepPoint]) -> String {
         options.key
     );
     for p in points {
-        csv.push_str(way_name(p.way));
+        csv.push_str(p.way.word());
         csv.push(',');
         let none = f64::NAN;
         push_row(
@@ -71,7 +62,7 @@ pub fn bifurcation_csv(options: &SweepOptions, points: &[SweepPoint]) -> String 
     let mut csv = format!("way,{},point,{}\n", options.key, options.quantity.name);
     for p in points {
         for (k, x) in p.points.iter().enumerate() {
-            csv.push_str(way_name(p.way));
+            csv.push_str(p.way.word());
             csv.push(',');
             push_row(&mut csv, [p.value, k as f64, *x]);
         }

@@ -1,7 +1,6 @@
 //! `resonance.csv` of a sweep over speed.
 
 use analysis::motion::{SWEEP_ORDERS, SweepRow, SweepStatus};
-use scene::SweepWay;
 
 use crate::csv::{push_row, quoted};
 
@@ -23,11 +22,8 @@ pub fn resonance_csv(rows: &[SweepRow]) -> String {
         harmonics.join(",")
     );
     for row in rows {
-        csv.push_str(match row.way {
-            SweepWay::Apart => "apart,",
-            SweepWay::Up => "up,",
-            SweepWay::Down => "down,",
-        });
+        csv.push_str(row.way.word());
+        csv.push(',');
         let lines = (0..SWEEP_ORDERS).map(|h| row.dte_harmonics_um.get(h).copied().unwrap_or(f64::NAN));
         let first = [row.speed_rpm, row.mesh_frequency_hz, row.mean_dte_um, row.peak_to_peak_dte_um];
         let last = [

@@ -273,13 +273,6 @@ choices! {
     }
 }
 
-impl ContinuationKey {
-    /// The key as scenes write it.
-    pub fn word(self) -> &'static str {
-        Self::WORDS[self as usize]
-    }
-}
-
 choices! {
     /// Method of integration.
     pub enum Integration {
