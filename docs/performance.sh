@@ -20,6 +20,14 @@ if [ "${1:-}" != --benches ]; then
     for kind in svg png csv; do
         cp "$out/motion_precision.$kind" "docs/performance/helical-30x30-beta20-motion.$kind"
     done
+    out=out/chart-resonance
+    "$program" chart --resonance scenes/resonance.toml --out "$out" --into docs/performance.md \
+        --set motion.sweep.speeds=11 --set 'motion.sweep.ways=["up"]' --set motion.mesh_damping_ratio=0.05
+    for kind in svg png; do
+        cp "$out/resonance_precision.$kind" "docs/performance/helical-30x30-beta20-resonance.$kind"
+        cp "$out/resonance_curves.$kind" "docs/performance/helical-30x30-beta20-resonance-curves.$kind"
+    done
+    cp "$out/resonance_precision.csv" docs/performance/helical-30x30-beta20-resonance.csv
 fi
 
 # Puts what a bench prints between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/performance.md.

@@ -10,7 +10,6 @@
 //! | [`output`] | what of `analysis` and `report` the command names |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`] | time and peak memory of each phase, progress bars |
-//! | [`cache`] | reduced gears on disk |
 //! | [`certificate`] | a result whose files stand, and whether it holds |
 //! | [`error`] | one message, one hint, one exit status |
 

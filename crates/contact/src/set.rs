@@ -31,7 +31,7 @@ struct Shared {
     sides: [Vec<Side>; 2],
     /// First tooth of each gear's window in the frame of its matrices.
     first: [u32; 2],
-    slices: Option<SliceSet>,
+    slices: Option<Arc<SliceSet>>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
     pitch_errors: [bool; 2],
 }
@@ -91,7 +91,7 @@ impl ContactSet {
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        let slices = slices.map(|s| s.with_tables([&p1, &p2], windows.as_ref(), options));
+        let slices = slices.map(|s| Arc::new(s.with_tables([&p1, &p2], windows.as_ref(), options)));
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
@@ -99,21 +99,63 @@ impl ContactSet {
         Ok(Self { shared, windows })
     }
 
-    /// Whether this set serves another window too: same matrices, same teeth in their frames.
-    pub fn move_to(&mut self, gears: &[ElasticGear; 2], window: &ToothWindow) -> Result<bool, ContactError> {
-        let Some(mine) = &mut self.windows else { return Ok(false) };
+    /// A window of the same gears with other micro-geometry, `pair`'s: matrices, tables and faces are shared. `None` where
+    /// that window has matrices of its own.
+    ///
+    /// # Errors
+    /// [`ContactError`] for a window that the gears do not have.
+    pub fn modified(
+        &self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        options: &ContactOptions,
+    ) -> Result<Option<Self>, ContactError> {
+        let Some(windows) = self.windows_with_these_matrices(gears, window)? else { return Ok(None) };
+        let (shared, geometry) = (&self.shared, [&pair.pinion, &pair.wheel]);
+        let patches = [0, 1].map(|i| {
+            let shift = i64::from(windows[i].shift);
+            let of_flank = |(patch, &side): (&FlankPatch, &Side)| {
+                patch.with_surface(Box::new(geometry[i].modified_flank_at(side, patch.tooth, patch.tooth + shift)))
+            };
+            shared.patches[i].iter().zip(&shared.sides[i]).map(of_flank).collect::<Vec<_>>()
+        });
+        let nodal = shared.nodal.as_ref().map(|_| NodalFlanks::new(patches.each_ref().map(|p| &p[..]), options));
+        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let (sides, first, slices) = (shared.sides.clone(), shared.first, shared.slices.clone());
+        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, pitch_errors });
+        Ok(Some(Self { shared, windows: Some(windows) }))
+    }
+
+    /// A window's own where its matrices are those of this set, of the same teeth in their frames.
+    fn windows_with_these_matrices(
+        &self,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+    ) -> Result<Option<[Window; 2]>, ContactError> {
+        let Some(mine) = &self.windows else { return Ok(None) };
         let first = window.first_teeth();
-        let mut next = Vec::with_capacity(2);
+        let mut next = mine.clone();
         for i in 0..2 {
             let w = gears[i].window(first[i]).map_err(|source| ContactError::Reduction { gear: NAMES[i], source })?;
-            let Some(w) = w else { return Ok(false) };
-            let other_flanks = w.shift != mine[i].shift && self.shared.pitch_errors[i];
-            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() || other_flanks {
-                return Ok(false);
+            let Some(w) = w else { return Ok(None) };
+            if !Arc::ptr_eq(&w.reduced, &mine[i].reduced) || w.reduced.teeth.len() != window.count() {
+                return Ok(None);
             }
-            next.push(w);
+            next[i] = w;
         }
-        mine.iter_mut().zip(next).for_each(|(m, n)| *m = n);
+        Ok(Some(next))
+    }
+
+    /// Whether this set serves another window too: same matrices, same teeth in their frames.
+    pub fn move_to(&mut self, gears: &[ElasticGear; 2], window: &ToothWindow) -> Result<bool, ContactError> {
+        let next = self.windows_with_these_matrices(gears, window)?;
+        let (Some(mine), Some(next)) = (&mut self.windows, next) else { return Ok(false) };
+        // Teeth with errors of their own are others in another place.
+        if (0..2).any(|i| next[i].shift != mine[i].shift && self.shared.pitch_errors[i]) {
+            return Ok(false);
+        }
+        *mine = next;
         Ok(true)
     }
 
@@ -223,7 +265,7 @@ impl ContactSet {
 
     /// Slices, when contact is made of them.
     pub fn slices(&self) -> Option<&SliceSet> {
-        self.shared.slices.as_ref()
+        self.shared.slices.as_deref()
     }
 
     /// Pairs of patches that face each other.

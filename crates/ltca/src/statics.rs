@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{ContactSet, Method, check_offsets};
+use contact::{ContactOptions, ContactSet, Method, check_offsets};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
@@ -41,7 +41,34 @@ impl StaticModel {
         gears: impl Into<Arc<[ElasticGear; 2]>>,
         options: StaticOptions,
     ) -> Result<Self, StaticError> {
-        let gears = gears.into();
+        Self::with_set(pair, gears.into(), options, None)
+    }
+
+    /// A model at the start of cycle 0 of the same gears with another micro-geometry, torque, friction or misalignment.
+    ///
+    /// Matrices are shared, and so are the tables of the contact wherever `options` asks for the same. The results are
+    /// those of [`StaticModel::new`], bit by bit.
+    ///
+    /// # Errors
+    /// As [`StaticModel::new`].
+    pub fn modified(&self, pair: GearPair, options: StaticOptions) -> Result<Self, StaticError> {
+        let (own, asked) = (&self.options.contact, &options.contact);
+        let alike = ContactOptions { friction: asked.friction, offsets: asked.offsets, ..own.clone() } == *asked;
+        let nominal = |a: &GearPair, b: &GearPair| {
+            let distance = a.centre_distance() == b.centre_distance();
+            distance && a.pinion.data() == b.pinion.data() && a.wheel.data() == b.wheel.data()
+        };
+        let known = (alike && nominal(&self.pair, &pair)).then(|| self.contact_set());
+        Self::with_set(pair, Arc::clone(&self.gears), options, known)
+    }
+
+    /// With matrices and tables of any window of these gears, where one is known.
+    fn with_set(
+        pair: GearPair,
+        gears: Arc<[ElasticGear; 2]>,
+        options: StaticOptions,
+        known: Option<&ContactSet>,
+    ) -> Result<Self, StaticError> {
         let fine = options.torque.is_finite() && options.torque >= 0.0;
         if !fine {
             let value = options.torque;
@@ -67,7 +94,14 @@ impl StaticModel {
         }
         check_offsets(&pair, &options.contact)?;
         let window = first_window(&pair, &options)?;
-        let set = ContactSet::new(&pair, &gears, window.window(), &options.contact)?;
+        let shared = match known {
+            Some(set) => set.modified(&pair, &gears, window.window(), &options.contact)?,
+            None => None,
+        };
+        let set = match shared {
+            Some(set) => set,
+            None => ContactSet::new(&pair, &gears, window.window(), &options.contact)?,
+        };
         let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
         let inputs = CycleInputs { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
         let solver = CycleSolver::new(&inputs, window, set)?;

@@ -217,3 +217,36 @@ fn the_unloaded_model_is_the_kinematic_one() {
         assert_eq!(p.transmission_error, kinematic_transmission_error(&case.pair, &options.contact, station).unwrap());
     }
 }
+
+/// A model that takes gears and tables from one with other micro-geometry, wherever that stands, has the results of one
+/// that is made anew, bit by bit: both ways, with pitch errors, friction, misalignment and another load too.
+#[test]
+fn modified_models_are_as_new() {
+    let case = generated(20.0, SMALL);
+    let flank = relieved(&case, 0.012);
+    let pitched = GearModifications { pitch_errors: scatter(0.002), ..GearModifications::both(flank.clone()) };
+    let offset = Misalignment { inclination: 2e-4, ..Misalignment::default() };
+    for options in methods(&case) {
+        let other = options.clone().with_contact(|c| {
+            c.friction = 0.05;
+            c.offsets = [offset.wheel_offset(&case.pair, options.side()), Offset::default()];
+        });
+        let other = StaticOptions { torque: 0.6 * options.torque, ..other };
+        let variants = [
+            (verification::modified(&case.pair, [pitched.clone(), GearModifications::both(flank.clone())]), other),
+            (case.pair.clone(), options.clone()),
+        ];
+        let mut last = case.reduced(options.clone());
+        last.run(5, 2, |_, _, _| ()).unwrap();
+        for (pair, options) in variants {
+            let gears = std::sync::Arc::new(case.reduced_gears(&options));
+            let mut anew = ltca::StaticModel::new(pair.clone(), gears, options.clone()).unwrap();
+            let mut taken = last.modified(pair, options).unwrap();
+            let shares = taken.contact_set().slices().map(|s| s as *const _);
+            assert_eq!(shares, last.contact_set().slices().map(|s| s as *const _), "tables are shared");
+            let [a, b] = [&mut anew, &mut taken].map(|model| model.run(6, 1, |_, _, _| ()).unwrap());
+            assert_eq!(format!("{a:?}"), format!("{b:?}"));
+            last = taken;
+        }
+    }
+}

@@ -288,7 +288,7 @@ pub(super) fn checked_run(
 }
 
 /// Refuses steps of given length that are too long for an explicit method.
-fn refuse_unstable(
+pub(super) fn refuse_unstable(
     scene: &Scene,
     motion: &MotionScene,
     model: &mut BoxedMechanism,

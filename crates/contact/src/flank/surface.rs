@@ -37,6 +37,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
+    /// Foot point of `p` on the nominal surface.
+    fn locate_nominal(&self, p: &Vec3) -> Option<Foot> {
+        self.locate(p)
+    }
     /// Unit normal and unit direction of the profile of the nominal surface, without micro-geometry: smooth wherever
     /// that has kinks.
     fn nominal_frame(&self, at: [f64; 2]) -> [Vec3; 2] {
@@ -138,6 +142,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn depth(&self, [u, z]: [f64; 2]) -> f64 {
         geometry::ModifiedFlank::depth(self, u, z).value
+    }
+
+    fn locate_nominal(&self, p: &Vec3) -> Option<Foot> {
+        self.nominal().locate(p).map(foot)
     }
 
     fn nominal_frame(&self, [u, z]: [f64; 2]) -> [Vec3; 2] {

@@ -10,7 +10,7 @@ use study::extent;
 use super::{
     super::{
         LumpedInputs,
-        analysis::motion_of,
+        analysis::{motion_of, refuse_unstable},
         inputs::LumpedSystem,
         mechanism::ModelFailure,
         run_loop::{LumpedRun, NoRunObserver, RunPlan, integrator},
@@ -92,6 +92,7 @@ fn steady(inputs: &LumpedInputs, system: &mut LumpedSystem, from: Option<&State>
     let scene = &inputs.scene;
     let motion = MotionScene { run: Run::Steady, ..motion_of(scene)?.clone() };
     let frequencies = inputs.frequencies(&motion, system.resonance_hz);
+    refuse_unstable(scene, &motion, &mut system.model, frequencies)?;
     let plan = RunPlan { scene, motion: &motion, frequencies, from };
     plan.run(&mut system.model, &mut NoRunObserver).map_err(|e| e.of(scene))
 }

@@ -5,21 +5,25 @@ mod bins;
 mod face;
 mod locate;
 
+use std::sync::Arc;
+
 use mesh::{Face, FaceKind};
 
 use crate::{ContactError, Surface, Vec3};
 use bins::Bins;
 use face::{PatchFace, PatchNode, range};
 
-/// Faces of one flank, and where their nodes sit on its smooth surface.
+/// Faces of one flank, and where their nodes sit on its smooth nominal surface.
+///
+/// Patches of one flank with other micro-geometry share their faces ([`FlankPatch::with_surface`]).
 #[derive(Debug)]
 pub struct FlankPatch {
     /// Tooth (or any other number) the flank belongs to.
     pub tooth: i64,
     surface: Box<dyn Surface>,
-    faces: Vec<PatchFace>,
-    nodes: Vec<PatchNode>,
-    bins: Bins,
+    faces: Arc<[PatchFace]>,
+    nodes: Arc<[PatchNode]>,
+    bins: Arc<Bins>,
     range: [[f64; 2]; 2],
     profile_length: f64,
 }
@@ -74,10 +78,9 @@ impl FlankPatch {
         let mut nodes = Vec::with_capacity(numbers.len());
         for &node in &numbers {
             let position = Vec3::from(mesh_nodes[node as usize]);
-            let foot = surface.locate(&position).ok_or_else(|| off(node, f64::INFINITY))?;
-            let nominal = foot.distance - surface.depth(foot.at);
-            if nominal.abs() > tolerance || nominal.is_nan() {
-                return Err(off(node, nominal));
+            let foot = surface.locate_nominal(&position).ok_or_else(|| off(node, f64::INFINITY))?;
+            if foot.distance.abs() > tolerance || foot.distance.is_nan() {
+                return Err(off(node, foot.distance));
             }
             let boundary = boundary(node)
                 .ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })?;
@@ -96,14 +99,24 @@ impl FlankPatch {
         let bins = Bins::new(&faces, &nodes);
         let range = range(nodes.iter().map(|n| n.at));
         let profile_length = profile_length(&*surface, range);
+        let (faces, nodes, bins) = (faces.into(), nodes.into(), bins.into());
         Ok(Self { tooth, surface, faces, nodes, bins, range, profile_length })
+    }
+
+    /// The same faces on a surface that differs in its micro-geometry alone.
+    #[must_use]
+    pub fn with_surface(&self, surface: Box<dyn Surface>) -> Self {
+        let Self { tooth, range, .. } = *self;
+        let (faces, nodes, bins) = (Arc::clone(&self.faces), Arc::clone(&self.nodes), Arc::clone(&self.bins));
+        let profile_length = profile_length(&*surface, range);
+        Self { tooth, surface, faces, nodes, bins, range, profile_length }
     }
 
     /// A flank without a mesh, for rigid bodies: its smooth surface over a range [low, high] of surface coordinates.
     pub fn rigid(tooth: i64, surface: Box<dyn Surface>, range: [[f64; 2]; 2]) -> Self {
-        let bins = Bins::new(&[], &[]);
+        let bins = Bins::new(&[], &[]).into();
         let profile_length = profile_length(&*surface, range);
-        Self { tooth, surface, faces: Vec::new(), nodes: Vec::new(), bins, range, profile_length }
+        Self { tooth, surface, faces: Arc::new([]), nodes: Arc::new([]), bins, range, profile_length }
     }
 
     /// The smooth surface.
