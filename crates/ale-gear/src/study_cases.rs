@@ -10,7 +10,10 @@ use report::study_files::{CaseMiss, CaseResult, CaseRun};
 use report::{checkpoint::HISTORY, read_columns};
 use scene::study::{Study, StudyCase};
 
+use study::Columns;
+
 use crate::{
+    certificate::Written,
     error::CommandError,
     facts::Cost,
     gears,
@@ -74,4 +77,23 @@ fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
         let hint = Some("does another program write into the folder?".into());
         CommandError::failed(format_args!("{}: {e}", path.display()), hint)
     })
+}
+
+/// Rows and headline of a scene that is run into a folder, which is taken away again.
+///
+/// # Errors
+/// Those of the run; that of its certificate among them.
+pub(crate) fn numbers(
+    folder: &Path,
+    solve: impl FnOnce(&ResultDirectory) -> Result<Written, CommandError>,
+) -> Result<(Columns, serde_json::Value), CommandError> {
+    std::fs::create_dir_all(folder).map_err(|e| CommandError::write(folder, &e))?;
+    let own = ResultDirectory::create(folder)?;
+    let written = solve(&own)?;
+    own.finish(|_| ())?;
+    written.verdict?;
+    let found = (read_columns(&folder.join(HISTORY))?, summary(folder)?["headline"].take());
+    // What stays goes with the folder around it.
+    let _ = std::fs::remove_dir_all(folder);
+    Ok(found)
 }

@@ -50,6 +50,7 @@ pub mod parameter_study;
 pub mod reduction_alone;
 pub mod resolution;
 pub mod results;
+mod shared_models;
 mod side_by_side;
 mod static_certificate;
 mod statics;
@@ -60,6 +61,7 @@ pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};
 pub use options::options;
+pub use shared_models::SharedModels;
 pub use side_by_side::side_by_side;
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{

@@ -32,12 +32,7 @@ fn convert(from: &Path, to: &Path) -> Result<(), ParquetError> {
     let mut lines = BufReader::new(File::open(from)?).lines();
     let header = lines.next().transpose()?.unwrap_or_default();
     let names: Vec<&str> = header.split(',').collect();
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_dictionary_enabled(false)
-        // Bytes of like weight beside each other: neighbours of a curve share the leading ones.
-        .set_encoding(Encoding::BYTE_STREAM_SPLIT);
-    let mut writer = SerializedFileWriter::new(File::create(to)?, schema(&names)?, Arc::new(properties.build()))?;
+    let mut writer = SerializedFileWriter::new(File::create(to)?, schema("history", &names)?, Arc::new(properties()))?;
     let mut columns = vec![Vec::new(); names.len()];
     for line in lines {
         push(&mut columns, &line?)?;
@@ -52,13 +47,43 @@ fn convert(from: &Path, to: &Path) -> Result<(), ParquetError> {
     Ok(())
 }
 
-fn schema(names: &[&str]) -> Result<Arc<Type>, ParquetError> {
+/// Columns of doubles as a file in memory; its rows are called `name`.
+///
+/// # Errors
+/// When a name is none that the format takes.
+pub(crate) fn parquet_of(name: &'static str, names: &[&str], columns: &[Vec<f64>]) -> Result<Vec<u8>, ReportError> {
+    let written = || -> Result<Vec<u8>, ParquetError> {
+        let mut bytes = Vec::new();
+        let mut writer = SerializedFileWriter::new(&mut bytes, schema(name, names)?, Arc::new(properties()))?;
+        let mut group = writer.next_row_group()?;
+        for column in columns {
+            let Some(mut to) = group.next_column()? else { break };
+            to.typed::<DoubleType>().write_batch(column, None, None)?;
+            to.close()?;
+        }
+        group.close()?;
+        writer.close()?;
+        Ok(bytes)
+    };
+    written().map_err(|cause| ReportError::Parquet { file: name, cause })
+}
+
+fn properties() -> WriterProperties {
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_dictionary_enabled(false)
+        // Bytes of like weight beside each other: neighbours of a curve share the leading ones.
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT);
+    properties.build()
+}
+
+fn schema(rows: &str, names: &[&str]) -> Result<Arc<Type>, ParquetError> {
     let column = |name: &&str| {
         let of = Type::primitive_type_builder(name, Physical::DOUBLE).with_repetition(Repetition::REQUIRED);
         of.build().map(Arc::new)
     };
     let fields = names.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-    Ok(Arc::new(Type::group_type_builder("history").with_fields(fields).build()?))
+    Ok(Arc::new(Type::group_type_builder(rows).with_fields(fields).build()?))
 }
 
 fn push(columns: &mut [Vec<f64>], line: &str) -> Result<(), ParquetError> {

@@ -14,6 +14,7 @@
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`envelope_files`] | failure modes with their figures, maps of where methods fail |
 //! | [`study_files`] | the same figures of several scenes, side by side |
+//! | [`plan_files`] | many cases of one scene, a row a case |
 //! | [`checkpoint`] | rows and state of a motion that can be gone on from |
 //! | [`folder`] | a result folder that is there as a whole or not at all |
 //! | [`paraview`] | `.vtu` and `.pvd` |
@@ -42,6 +43,7 @@ pub mod motion_files;
 mod motion_result;
 pub mod page;
 pub mod paraview;
+pub mod plan_files;
 mod rows;
 mod static_sink;
 pub mod study_files;

@@ -27,6 +27,7 @@ mod motion;
 mod operation;
 mod origin;
 mod output;
+pub mod plan;
 mod raw;
 mod rexs;
 mod schema;

@@ -15,6 +15,7 @@ mod schema;
 mod shell;
 mod study;
 mod sweep;
+mod vary;
 
 use clap::{
     ArgAction, Args, Parser, Subcommand,
@@ -69,6 +70,8 @@ enum Command {
     Curve(curve::CurveArgs),
     /// Run several scenes and draw the same figures of all
     Study(study::StudyArgs),
+    /// Run a scene with some of its keys varied, by list, grid or sample: a row of wanted numbers a case
+    Vary(vary::VaryArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
@@ -141,6 +144,7 @@ impl Cli {
             Some(Command::Curve(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
+            Some(Command::Vary(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Reduce(args)) => args.execute(),

@@ -8,3 +8,4 @@ mod study;
 mod sweep;
 #[path = "../util/mod.rs"]
 mod util;
+mod vary;

@@ -53,6 +53,11 @@ impl StaticLayout {
         Self::new(scene, history.positions.first().map_or(0.0, |p| p.pinion_angle))
     }
 
+    /// Pitch angle of the pinion, rad.
+    pub fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
     /// Where the largest pressure of a position is.
     fn place(&self, p: &StaticPosition) -> [f64; 3] {
         place_values(self.base_radius, p.pairs.iter().flat_map(|pair| &pair.slices))

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 48] = [
+const OURS: [&str; 50] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -167,6 +167,8 @@ const OURS: [&str; 48] = [
     "in_time.csv",
     "bifurcation.svg",
     "study.csv",
+    "cases.csv",
+    "cases.parquet",
     "chart.csv",
     "chart.md",
     "motion_precision.csv",

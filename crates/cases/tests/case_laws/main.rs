@@ -1,6 +1,6 @@
 //! Laws of plans: every combination once, samples that fill their distributions, the same numbers for the same seed.
 
-use variants::{Axis, Cases, Design, Distribution, Sampling, VariantError};
+use cases::{Axis, Cases, CasesError, Design, Distribution, Sampling};
 
 const DESIGNS: [Design; 3] = [Design::LatinHypercube, Design::Sobol, Design::Random];
 
@@ -94,7 +94,7 @@ fn limits_and_seeds_hold() {
 #[test]
 fn senseless_plans_are_errors() {
     let of = |axes: Vec<Axis>, samples| Cases::new(axes, &sampling(Design::Sobol, samples)).map(|_| ()).unwrap_err();
-    assert_eq!(of(vec![Axis::Each(vec![])], 1), VariantError::NoValues { axis: 0 });
+    assert_eq!(of(vec![Axis::Each(vec![])], 1), CasesError::NoValues { axis: 0 });
     let unit = Axis::Drawn(Distribution::Uniform { from: 0.0, to: 1.0 });
     for bad in [
         Distribution::Uniform { from: 1.0, to: 1.0 },
@@ -103,9 +103,9 @@ fn senseless_plans_are_errors() {
         normal(f64::NAN, 1.0),
         Distribution::Normal { mean: 0.0, deviation: 1.0, least: 9.0, largest: 10.0 },
     ] {
-        assert!(matches!(of(vec![unit.clone(), Axis::Drawn(bad)], 4), VariantError::NoDistribution { axis: 1, .. }));
+        assert!(matches!(of(vec![unit.clone(), Axis::Drawn(bad)], 4), CasesError::NoDistribution { axis: 1, .. }));
     }
-    assert!(matches!(of(vec![unit; 1], 70_000), VariantError::TooMany { .. }));
+    assert!(matches!(of(vec![unit; 1], 70_000), CasesError::TooMany { .. }));
     let many = Axis::Each(vec![0.0; 10_000]);
-    assert!(matches!(of(vec![many.clone(), many], 1), VariantError::TooMany { what: "cases", .. }));
+    assert!(matches!(of(vec![many.clone(), many], 1), CasesError::TooMany { what: "cases", .. }));
 }

@@ -60,7 +60,7 @@ impl Distribution {
     /// The value below which a share `p` (0 .. 1) of all lies.
     ///
     /// ```
-    /// use variants::Distribution;
+    /// use cases::Distribution;
     /// let normal = Distribution::Normal { mean: 5.0, deviation: 2.0, least: f64::NEG_INFINITY, largest: f64::INFINITY };
     /// assert!((normal.quantile(0.5) - 5.0).abs() < 1e-12 && (normal.quantile(0.841_344_746_068_543) - 7.0).abs() < 1e-9);
     /// assert_eq!(Distribution::Uniform { from: -1.0, to: 3.0 }.quantile(0.25), 0.0);

@@ -1,6 +1,6 @@
 //! The cases of a plan by number.
 
-use crate::{Axis, Sampling, VariantError, sampling::Points};
+use crate::{Axis, CasesError, Sampling, sampling::Points};
 
 /// Cases of a plan at the most.
 const MOST_CASES: u64 = 10_000_000;
@@ -25,23 +25,23 @@ impl Cases {
     /// Of axes; without an axis that is drawn there is one sample.
     ///
     /// # Errors
-    /// [`VariantError`].
-    pub fn new(axes: Vec<Axis>, sampling: &Sampling) -> Result<Self, VariantError> {
+    /// [`CasesError`].
+    pub fn new(axes: Vec<Axis>, sampling: &Sampling) -> Result<Self, CasesError> {
         let mut combinations: u64 = 1;
         for (axis, of) in axes.iter().enumerate() {
             match of {
-                Axis::Each(values) if values.is_empty() => return Err(VariantError::NoValues { axis }),
+                Axis::Each(values) if values.is_empty() => return Err(CasesError::NoValues { axis }),
                 Axis::Each(values) => combinations = combinations.saturating_mul(values.len() as u64),
                 Axis::Drawn(distribution) => {
                     if let Some(what) = distribution.fault() {
-                        return Err(VariantError::NoDistribution { axis, what });
+                        return Err(CasesError::NoDistribution { axis, what });
                     }
                 }
             }
         }
         let drawn = axes.iter().filter(|axis| matches!(axis, Axis::Drawn(_))).count();
         let samples = if drawn == 0 { 1 } else { sampling.samples };
-        let too_many = |what, asked, most| Err(VariantError::TooMany { what, asked, most });
+        let too_many = |what, asked, most| Err(CasesError::TooMany { what, asked, most });
         let asked = combinations.saturating_mul(u64::from(samples));
         if asked > MOST_CASES {
             return too_many("cases", asked, MOST_CASES);

@@ -4,7 +4,7 @@ use rand::{Rng, RngExt, SeedableRng, seq::SliceRandom};
 use rand_chacha::ChaCha12Rng;
 use serde::{Deserialize, Serialize};
 
-use crate::VariantError;
+use crate::CasesError;
 
 /// How samples are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,12 +45,12 @@ pub(crate) enum Points {
 
 impl Points {
     /// Of as many axes.
-    pub fn new(sampling: &Sampling, axes: usize) -> Result<Self, VariantError> {
+    pub fn new(sampling: &Sampling, axes: usize) -> Result<Self, CasesError> {
         let Sampling { design, samples, seed } = *sampling;
         let mut random = ChaCha12Rng::seed_from_u64(seed);
         match design {
             Design::Sobol => {
-                let too_many = |what, asked, most| VariantError::TooMany { what, asked, most: u64::from(most) };
+                let too_many = |what, asked, most| CasesError::TooMany { what, asked, most: u64::from(most) };
                 if samples > SOBOL[0] {
                     return Err(too_many("samples of Sobol's sequence", u64::from(samples), SOBOL[0]));
                 }

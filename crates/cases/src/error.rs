@@ -2,7 +2,7 @@
 
 /// A plan that has no cases, or none that could be told apart.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum VariantError {
+pub enum CasesError {
     /// An axis without values.
     #[error("axis {axis} has no values")]
     NoValues {

@@ -18,7 +18,7 @@ impl Axis {
     /// So many values from one to another, evenly spaced, or their logarithms; both ends are among them.
     ///
     /// ```
-    /// use variants::Axis;
+    /// use cases::Axis;
     /// assert_eq!(Axis::grid([0.0, 10.0], 3, false), Axis::Each(vec![0.0, 5.0, 10.0]));
     /// assert_eq!(Axis::grid([1.0, 100.0], 3, true), Axis::Each(vec![1.0, 10.0, 100.0]));
     /// ```

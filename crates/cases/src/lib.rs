@@ -13,5 +13,5 @@ mod sampling;
 pub use axis::Axis;
 pub use cases::Cases;
 pub use distribution::Distribution;
-pub use error::VariantError;
+pub use error::CasesError;
 pub use sampling::{Design, Sampling};

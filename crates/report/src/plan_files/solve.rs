@@ -1,0 +1,60 @@
+//! Solves the cases of a plan side by side, and writes each down as it comes.
+
+use std::{
+    io,
+    sync::{Mutex, PoisonError},
+};
+
+use analysis::{SharedModels, side_by_side};
+use scene::{Kind, Scene, plan::Plan};
+use serde_json::Value;
+use study::Columns;
+
+use super::{CaseRow, CaseTable, DoneCases, case_values, static_case_values};
+
+/// Rows and headline of a scene in time, or why there are none.
+pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), String> + Sync);
+
+/// Solves the cases of a plan that are not done yet, each on a thread of its own; `done` gets each as it comes, and
+/// `tick` is called for it.
+///
+/// A case without a result takes nothing from the others: its row says why.
+///
+/// # Errors
+/// When the system refuses to write a row.
+pub fn solve_cases(
+    plan: &Plan,
+    models: &SharedModels<'_>,
+    in_time: InTime<'_>,
+    done: &DoneCases,
+    tick: &(dyn Fn() + Sync),
+) -> io::Result<()> {
+    let open: Vec<usize> = (0..plan.cases.count()).filter(|&case| !done.has(case)).collect();
+    let (table, failed) = (CaseTable::of(plan), Mutex::new(None));
+    let failure = || failed.lock().unwrap_or_else(PoisonError::into_inner);
+    side_by_side(open.len(), |i| {
+        if failure().is_some() {
+            return;
+        }
+        let case = open[i];
+        let row = CaseRow { case, values: plan.cases.values(case), outcome: solve(plan, models, in_time, case) };
+        if let Err(e) = done.add(case, table.line(&row)) {
+            *failure() = Some(e);
+        }
+        tick();
+    });
+    failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// The numbers of a case, or why there are none.
+fn solve(plan: &Plan, models: &SharedModels<'_>, in_time: InTime<'_>, case: usize) -> Result<Vec<f64>, String> {
+    let mut scene = plan.scene(case).map_err(|e| e.to_string())?;
+    // Nobody looks at these.
+    (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
+    if scene.analysis.kind == Kind::Static {
+        let (scene, history) = models.solve(&scene).map_err(|e| e.to_string())?;
+        return static_case_values(&plan.outputs, &scene, &history);
+    }
+    let (rows, headline) = in_time(case, &scene)?;
+    case_values(&plan.outputs, &rows, &headline, scene.analysis.cycles)
+}

@@ -1,0 +1,76 @@
+//! The numbers that a plan wants of a case, read off its rows and its headline.
+
+use analysis::results::{pairs, static_headline};
+use ltca::StaticHistory;
+use scene::{
+    Scene,
+    plan::{PlanOutput, PlanTake},
+    study::Take,
+};
+use serde_json::Value;
+use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
+
+use crate::columns::{STATIC_HISTORY, StaticLayout};
+
+/// Of a case at rest.
+///
+/// # Errors
+/// Why there is none: a name that stands for no number, a headline without value.
+pub fn static_case_values(outputs: &[PlanOutput], scene: &Scene, history: &StaticHistory) -> Result<Vec<f64>, String> {
+    let needs = |headline: bool| outputs.iter().any(|o| matches!(o, PlanOutput::Headline(_)) == headline);
+    let layout = StaticLayout::of(scene, history);
+    let rows = if needs(false) {
+        let sheet = STATIC_HISTORY.sheet(&layout, &pairs::columns(history, layout.pitch()));
+        sheet.columns(&layout, &history.positions)
+    } else {
+        Columns::default()
+    };
+    let headline = if needs(true) {
+        let headline = static_headline(scene, history).map_err(|e| e.to_string())?;
+        serde_json::to_value(headline).map_err(|e| e.to_string())?
+    } else {
+        Value::Null
+    };
+    case_values(outputs, &rows, &headline, scene.analysis.cycles)
+}
+
+/// Of the rows of a case over whole mesh cycles and the headline of its summary.
+///
+/// # Errors
+/// Why there is none.
+pub fn case_values(outputs: &[PlanOutput], rows: &Columns, headline: &Value, cycles: u32) -> Result<Vec<f64>, String> {
+    let one = |output: &PlanOutput| match output {
+        PlanOutput::Headline(key) => of_headline(headline, key),
+        PlanOutput::Column { column, take } => {
+            let series = rows.series(column).map_err(|e| e.to_string())?;
+            of_column(series, *take, cycles as usize).map_err(|what| format!("{column}: {what}"))
+        }
+    };
+    outputs.iter().map(one).collect()
+}
+
+fn of_headline(headline: &Value, key: &str) -> Result<f64, String> {
+    let mut value = headline;
+    for part in key.split('.') {
+        let next = match value {
+            Value::Array(list) => part.parse::<usize>().ok().and_then(|i| list.get(i)),
+            other => other.get(part),
+        };
+        value = next.ok_or_else(|| format!("the headline has no `{key}`"))?;
+    }
+    value.as_f64().ok_or_else(|| format!("`{key}` of the headline is no number"))
+}
+
+fn of_column(series: &[f64], take: PlanTake, cycles: usize) -> Result<f64, String> {
+    let value = match take {
+        PlanTake::Of(Take::Mean) => mean(series),
+        PlanTake::Of(Take::PeakToPeak) => peak_to_peak(series),
+        PlanTake::Of(Take::Least) => extent(series)[0],
+        PlanTake::Of(Take::Largest) => extent(series)[1],
+        PlanTake::Harmonic(order) => {
+            let all = mesh_harmonics(series, cycles, order as usize).map_err(|e| e.to_string())?;
+            all.last().map_or(f64::NAN, |harmonic| harmonic.amplitude)
+        }
+    };
+    if value.is_finite() { Ok(value) } else { Err("no number comes of it".into()) }
+}

@@ -1,0 +1,102 @@
+//! A checked plan.
+
+use std::path::PathBuf;
+
+use cases::{Cases, Sampling};
+
+use crate::{Scene, SceneError, Setting, study::Take};
+
+/// A scene, what of it is varied, and what is wanted of each case.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Title.
+    pub name: String,
+    /// Where it stands; the path of the scene is relative to its folder.
+    pub file: PathBuf,
+    /// The scene file.
+    pub scene_file: PathBuf,
+    /// Its text.
+    pub scene_text: String,
+    /// Keys that all cases have otherwise.
+    pub settings: Vec<Setting>,
+    /// What is varied.
+    pub axes: Vec<PlanAxis>,
+    /// How samples are spread; of no meaning where nothing is drawn.
+    pub sampling: Sampling,
+    /// The cases.
+    pub cases: Cases,
+    /// What is wanted of each.
+    pub outputs: Vec<PlanOutput>,
+}
+
+/// Keys that have one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanAxis {
+    /// At least one; the first one names the axis.
+    pub keys: Vec<String>,
+}
+
+/// A number of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PlanOutput {
+    /// A number of the headline of `summary.json`, by its key; parts of it behind dots, entries of lists from 0.
+    Headline(String),
+    /// A number that is read off a column of `history.csv`.
+    Column {
+        /// The column.
+        column: String,
+        /// What is taken of it.
+        take: PlanTake,
+    },
+}
+
+/// What is taken of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlanTake {
+    /// Over all rows.
+    Of(Take),
+    /// Amplitude of a mesh harmonic, 1 ...
+    Harmonic(u32),
+}
+
+impl PlanAxis {
+    /// The key that it is named by.
+    pub fn name(&self) -> &str {
+        self.keys.first().map_or("", String::as_str)
+    }
+}
+
+impl PlanOutput {
+    /// Name of its column in the table of cases.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Headline(key) => key.clone(),
+            Self::Column { column, take: PlanTake::Of(take) } => format!("{}_{column}", take.word()),
+            Self::Column { column, take: PlanTake::Harmonic(order) } => format!("harmonic_{order}_{column}"),
+        }
+    }
+}
+
+impl Plan {
+    /// The settings of a case: its keys and their values.
+    ///
+    /// # Errors
+    /// [`SceneError::Setting`] for a key that is none.
+    pub fn settings_of(&self, case: usize) -> Result<Vec<Setting>, SceneError> {
+        let mut all = self.settings.clone();
+        for (axis, value) in self.axes.iter().zip(self.cases.values(case)) {
+            for key in &axis.keys {
+                all.push(Setting::number(key, value)?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// The scene of a case.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the scene does not allow.
+    pub fn scene(&self, case: usize) -> Result<Scene, SceneError> {
+        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings_of(case)?)
+    }
+}

@@ -1,0 +1,17 @@
+//! The plan file: which keys of a scene are varied, how, and which numbers of each case are wanted.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `file` | a checked plan |
+//! | `read` | from a file, or from words of a command line, to that |
+//! | `raw`, `check` | its words, and what they mean: every complaint is made here |
+//! | `word` | one varied key in one word: `key=0:40:9`, `key~normal:0:5` |
+
+mod check;
+mod file;
+mod raw;
+mod read;
+mod word;
+
+pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
+pub use read::PlanWords;

@@ -1,0 +1,88 @@
+//! From a file, or from words, to a checked plan.
+
+use std::path::Path;
+
+use cases::{Cases, Sampling};
+
+use super::{
+    Plan, PlanAxis, PlanOutput,
+    check::{DESIGNS, SAMPLES, SEED, check, finish},
+    raw::{RawPlan, tables},
+    word,
+};
+use crate::{SceneError, Setting, Source, nearest, read_text};
+
+/// What a command line says of a plan.
+#[derive(Debug, Clone, Default)]
+pub struct PlanWords<'a> {
+    /// Varied keys.
+    pub vary: &'a [String],
+    /// Wanted numbers of the headline.
+    pub outputs: &'a [String],
+    /// Design, samples, seed.
+    pub design: Option<&'a str>,
+    /// How many samples.
+    pub samples: Option<u32>,
+    /// Which ones.
+    pub seed: Option<u32>,
+}
+
+impl Plan {
+    /// Reads and checks a plan file and the scene that it names.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the plan file or in the scene.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of a plan file; `file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// As [`Plan::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        let source = Source::of(file, text, tables);
+        let raw: RawPlan = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        check(&source, &raw)
+    }
+
+    /// The plan of a scene file that a command line says.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, by the word that it is about.
+    pub fn of_words(scene_file: &Path, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
+        let wrong = |label: String, what: String| SceneError::Setting { label, what };
+        let scene_text =
+            read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
+        let (mut axes, mut kinds) = (Vec::new(), Vec::new());
+        for written in words.vary {
+            let (key, axis) = word::axis(written).map_err(|what| wrong(format!("--vary {written}"), what))?;
+            axes.push(PlanAxis { keys: vec![key] });
+            kinds.push(axis);
+        }
+        let design = match words.design {
+            None => DESIGNS[0].1,
+            Some(name) => {
+                let names = DESIGNS.map(|(name, _)| name);
+                let known = DESIGNS.iter().find(|(word, _)| *word == name).map(|(_, design)| *design);
+                known.ok_or_else(|| {
+                    let near = nearest(name, &names).unwrap_or(names[0]);
+                    wrong(format!("--design {name}"), format!("is none; did you mean `{near}`?"))
+                })?
+            }
+        };
+        let sampling = Sampling {
+            design,
+            samples: words.samples.unwrap_or(SAMPLES[0]),
+            seed: u64::from(words.seed.unwrap_or(SEED)),
+        };
+        let cases = Cases::new(kinds, &sampling).map_err(|e| wrong("--vary".into(), e.to_string()))?;
+        let outputs = words.outputs.iter().map(|key| PlanOutput::Headline(key.clone())).collect();
+        let name = scene_file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
+        let file = scene_file.to_owned();
+        let scene_file = scene_file.to_owned();
+        let settings = settings.to_vec();
+        finish(Self { name, file, scene_file, scene_text, settings, axes, sampling, cases, outputs })
+    }
+}

@@ -1,0 +1,70 @@
+//! One varied key in one word of a command line.
+
+use cases::{Axis, Distribution};
+
+/// A key and how it is varied.
+///
+/// ```text
+/// key=1,2,5              each of these            key~0:40                   drawn, uniform
+/// key=0:40:9             nine, evenly spaced      key~0.1:10:log             its logarithm uniform
+/// key=0.1:10:9:log       their logarithms are     key~normal:0:5             mean, standard deviation
+///                                                 key~normal:0:5:-10:10      between limits
+/// ```
+/// The error says what is wrong with it.
+pub(super) fn axis(word: &str) -> Result<(String, Axis), String> {
+    let at = word.find(['=', '~']).ok_or("it has neither `=` (each value) nor `~` (drawn)")?;
+    let (key, rest) = word.split_at(at);
+    let (drawn, values) = (rest.starts_with('~'), &rest[1..]);
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is no number", part.trim()));
+    let numbers = |parts: &[&str]| parts.iter().map(|part| number(part)).collect::<Result<Vec<f64>, String>>();
+    let parts: Vec<&str> = values.split(':').collect();
+    let axis = match (drawn, &parts[..]) {
+        (false, [list]) => Axis::Each(numbers(&list.split(',').collect::<Vec<_>>())?),
+        (false, [from, to, count, scale @ ..]) => {
+            let logarithmic = is_logarithmic(scale)?;
+            let wrong = || format!("`{}` is no number of values, 1 or more", count.trim());
+            let count = count.trim().parse::<u32>().ok().filter(|n| *n > 0).ok_or_else(wrong)?;
+            grid([number(from)?, number(to)?], count, logarithmic)?
+        }
+        (true, ["normal", rest @ ..]) => match numbers(rest)?[..] {
+            [mean, deviation] => normal(mean, deviation, [f64::NEG_INFINITY, f64::INFINITY]),
+            [mean, deviation, least, largest] => normal(mean, deviation, [least, largest]),
+            _ => return Err("a normal distribution is `normal:MEAN:DEVIATION`, or with `:LEAST:LARGEST`".into()),
+        },
+        (true, [from, to, scale @ ..]) => {
+            let (from, to) = (number(from)?, number(to)?);
+            let logarithmic = is_logarithmic(scale)?;
+            Axis::Drawn(if logarithmic {
+                Distribution::LogUniform { from, to }
+            } else {
+                Distribution::Uniform { from, to }
+            })
+        }
+        _ => return Err("say `=A,B,C`, `=FROM:TO:COUNT`, `~FROM:TO` or `~normal:MEAN:DEVIATION`".into()),
+    };
+    Ok((key.trim().to_owned(), axis))
+}
+
+fn is_logarithmic(rest: &[&str]) -> Result<bool, String> {
+    match rest {
+        [] => Ok(false),
+        ["log"] => Ok(true),
+        _ => Err(format!("`{}` is not understood; `log` may stand there", rest.join(":"))),
+    }
+}
+
+/// Evenly spaced values.
+pub(super) fn grid(ends: [f64; 2], count: u32, logarithmic: bool) -> Result<Axis, String> {
+    if ends.iter().any(|x| !x.is_finite()) {
+        return Err("its ends are numbers".into());
+    }
+    if logarithmic && (ends[0] <= 0.0 || ends[1] <= 0.0) {
+        return Err("on a logarithmic scale both ends lie above 0".into());
+    }
+    Ok(Axis::grid(ends, count, logarithmic))
+}
+
+/// A normal distribution between limits.
+pub(super) fn normal(mean: f64, deviation: f64, [least, largest]: [f64; 2]) -> Axis {
+    Axis::Drawn(Distribution::Normal { mean, deviation, least, largest })
+}
