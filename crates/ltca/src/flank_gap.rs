@@ -1,7 +1,9 @@
 //! The gap between the two flanks of a pair without load, along the face.
 
-use contact::{Pose, SurfacePair, last_inside};
-use geometry::ModifiedFlank;
+use std::f64::consts::{PI, TAU};
+
+use contact::{Pose, SurfacePair, Vec3, last_inside};
+use geometry::{Flank, ModifiedFlank};
 
 /// Axial stations at which the least gap is looked at first.
 pub(crate) const STATIONS: usize = 41;
@@ -14,6 +16,8 @@ const GOLDEN_STEPS: usize = 40;
 pub(crate) struct FlankGap<'a> {
     flanks: &'a [ModifiedFlank; 2],
     poses: &'a [Pose; 2],
+    /// Where the gap of each station may be least; none where nominal flanks tell nothing.
+    guide: Option<Guide>,
     /// Where it dips along the face, the deepest first.
     dips: Vec<Dip>,
 }
@@ -25,10 +29,90 @@ struct Dip {
     lowest: f64,
 }
 
+/// Places along the profile at which the gap is looked at to first order.
+const SCAN: usize = 24;
+/// What the gap to first order may be off by: so much, mm, and this share of what the nominal flanks part by.
+const FIRST_ORDER: (f64, f64) = (2e-3, 0.3);
+
+/// Part of a stride by which a place may lie beyond the second flank and still face it.
+const NEARLY: f64 = 0.25;
+
+/// The gap to first order: nominal flanks that touch along a line part by their curvature, and depths are added.
+///
+/// ```text
+/// g(u, z) = kappa s^2 / 2 + h_1(u, z) + h_2(u_2, z),   s = r_b1 (u^2 - u_0(z)^2) / 2 = r_b2 (u_2,0(z)^2 - u_2^2) / 2
+/// ```
+/// Nominal flanks on parallel axes touch where the generating angle of the first is -sigma alpha_w against the line of
+/// centres, and both roll angles make up the length between the base circles,
+///
+/// ```text
+/// r_b1 u_0 + r_b2 u_2,0 = a sin(alpha_w)
+/// ```
+/// It says in which dip the least gap lies; where in it, and how large it is, the flanks themselves say.
+struct Guide {
+    /// Roll angles of nominal contact at mid-face; they go beyond the flanks as if these went on.
+    touch: [f64; 2],
+    stride: f64,
+}
+
+impl Guide {
+    fn new(flanks: &[ModifiedFlank; 2], poses: &[Pose; 2]) -> Option<Self> {
+        let [first, second] = flanks.each_ref().map(ModifiedFlank::nominal);
+        let stride = (first.roll_tip - first.roll_form) / (SCAN - 1) as f64;
+        let across = poses[1].translation.vector - poses[0].translation.vector;
+        let distance = across.x.hypot(across.y);
+        let pressure_angle = ((first.base_radius + second.base_radius) / distance).acos();
+        if !(pressure_angle.is_finite() && stride > 0.0) {
+            return None;
+        }
+        let s = first.side.sign();
+        let turned = poses[0].rotation * Vec3::x();
+        let touching = across.y.atan2(across.x) - s * pressure_angle;
+        let at_root = turned.y.atan2(turned.x) + first.generating_angle(0.0, 0.0);
+        let middle = 0.5 * (first.roll_form + first.roll_tip);
+        let u = middle + (s * (at_root - touching) - middle + PI).rem_euclid(TAU) - PI;
+        let u2 = (distance * pressure_angle.sin() - first.base_radius * u) / second.base_radius;
+        Some(Self { touch: [u, u2], stride })
+    }
+
+    /// Where downhill ways to the dips begin that may be the deepest at a height; none where nothing is faced.
+    fn starts(&self, flanks: &[ModifiedFlank; 2], z: f64) -> Vec<f64> {
+        let [first, second] = flanks.each_ref().map(ModifiedFlank::nominal);
+        let [u, u2] = self.touch;
+        let u0 = u + first.side.sign() * first.twist * z;
+        let u20 = u2 - first.base_radius * (u0 - u) / second.base_radius;
+        let arc = |flank: &Flank, u: f64| flank.base_radius * u.max(self.stride);
+        let curvature = 1.0 / arc(first, u0) + 1.0 / arc(second, u20);
+        let gap = |i: usize| -> Option<[f64; 3]> {
+            let u = (first.roll_form + self.stride * i as f64).min(first.roll_tip);
+            let s = 0.5 * first.base_radius * (u * u - u0 * u0);
+            let u2 = (u20 * u20 - 2.0 * s / second.base_radius).max(0.0).sqrt();
+            // What is faced is known to first order as well: to a hundredth of a millimetre where flanks are near.
+            let beyond = (second.roll_form - u2).max(u2 - second.roll_tip) * second.base_radius;
+            if beyond > NEARLY * self.stride * first.base_radius {
+                return None;
+            }
+            let parted = 0.5 * curvature * s * s;
+            Some([u, parted + flanks[0].depth(u, z).value + flanks[1].depth(u2, z).value, parted])
+        };
+        let all: Vec<Option<[f64; 3]>> = (0..SCAN).map(gap).collect();
+        let at = |i: Option<usize>| i.and_then(|i| *all.get(i)?).map_or(f64::INFINITY, |g| g[1]);
+        let dips = (0..SCAN).filter_map(|i| {
+            let own = all[i]?;
+            (own[1] <= at(i.checked_sub(1)) && own[1] <= at(Some(i + 1))).then_some(own)
+        });
+        let dips: Vec<[f64; 3]> = dips.collect();
+        let Some(best) = dips.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) else { return Vec::new() };
+        let (amount, share) = FIRST_ORDER;
+        let may_be = |dip: &&[f64; 3]| dip[1] - best[1] <= amount + share * (dip[2] + best[2]);
+        dips.iter().filter(may_be).map(|dip| dip[0]).collect()
+    }
+}
+
 impl<'a> FlankGap<'a> {
     /// At the stations along the face.
     pub fn new(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2]) -> Self {
-        let mut gap = Self { flanks, poses, dips: Vec::new() };
+        let mut gap = Self { flanks, poses, guide: Guide::new(flanks, poses), dips: Vec::new() };
         let half = gap.half_width();
         let z = |i: usize| half * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0);
         let gaps: Vec<f64> = (0..STATIONS).map(|i| gap.at(z(i)).map_or(f64::INFINITY, |g| g.1)).collect();
@@ -58,7 +142,17 @@ impl<'a> FlankGap<'a> {
         // The foot of an end face's point lies on the end face to round-off.
         let end = s.half_width * (1.0 + 1e-9);
         let covers = |[u, z]: [f64; 2]| u >= s.roll_form && u <= s.roll_tip && z.abs() <= end;
-        SurfacePair { first, second, poses: self.poses }.least_gap([f.roll_form, f.roll_tip], &covers, z)
+        let (pair, range) = (SurfacePair { first, second, poses: self.poses }, [f.roll_form, f.roll_tip]);
+        let near = self.guide.as_ref().and_then(|guide| {
+            let starts = guide.starts(self.flanks, z);
+            Some((pair.least_gap_near(range, &covers, z, (&starts, guide.stride)), starts.is_empty()))
+        });
+        match near {
+            // Nothing is faced, not even nearly.
+            Some((_, true)) => None,
+            Some((Some(found), _)) => Some(found),
+            _ => pair.least_gap(range, &covers, z),
+        }
     }
 
     /// What the gap may fall to between the stations: beside each by as much again as it differs from its neighbours,

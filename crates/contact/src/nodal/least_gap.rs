@@ -74,6 +74,66 @@ impl SurfacePair<'_> {
     }
 }
 
+impl SurfacePair<'_> {
+    /// As [`SurfacePair::least_gap`], for a caller who knows near which places the gap may be least: from each of them
+    /// downhill in strides to the next dip. `None` where one of them faces nothing.
+    pub fn least_gap_near(
+        &self,
+        range: [f64; 2],
+        covers: &dyn Fn([f64; 2]) -> bool,
+        z: f64,
+        (starts, stride): (&[f64], f64),
+    ) -> Option<(f64, f64)> {
+        let mut best: Option<(f64, f64)> = None;
+        for &start in starts {
+            let found = self.downhill(range, covers, z, (start, stride))?;
+            best = Some(found).filter(|f| best.is_none_or(|b| f.1 < b.1)).or(best);
+        }
+        best
+    }
+
+    /// The next dip downhill from a place, and the gap there.
+    fn downhill(
+        &self,
+        range: [f64; 2],
+        covers: &dyn Fn([f64; 2]) -> bool,
+        z: f64,
+        (start, stride): (f64, f64),
+    ) -> Option<(f64, f64)> {
+        let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
+        // A place that just faces nothing has a neighbour that faces something.
+        let near = [start, start - stride, start + stride].map(|u| u.clamp(range[0], range[1]));
+        let (mut here, (gap, mut slope)) = near.into_iter().find_map(|u| Some((u, gap_and_slope(u)?)))?;
+        if slope == 0.0 {
+            return Some((here, gap));
+        }
+        let way = -slope.signum();
+        let last = if way > 0.0 { range[1] } else { range[0] };
+        loop {
+            if here == last {
+                return Some((here, gap_and_slope(here)?.0));
+            }
+            let wanted = (here + way * stride).clamp(range[0], range[1]);
+            // Where the facing part of the station ends before it: that end.
+            let (next, ends) = match gap_and_slope(wanted) {
+                Some(_) => (wanted, false),
+                None => (last_inside(|u| gap_and_slope(u).is_some(), [here, wanted], BISECTIONS, 0.0), true),
+            };
+            let (gap, there) = gap_and_slope(next)?;
+            if there * way >= 0.0 {
+                let slope_at = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);
+                let [a, b] = bracket_zero(slope_at, [here, next], [slope, there]);
+                let u = 0.5 * (a + b);
+                return Some((u, gap_and_slope(u)?.0));
+            }
+            if ends {
+                return Some((next, gap));
+            }
+            (here, slope) = (next, there);
+        }
+    }
+}
+
 /// Surface coordinates on `first` at height `z` (mm) where the gap to the smooth surface of `second` is least; ends of
 /// the faces included. `None` where no point of the station faces `second`. See [`SurfacePair::least_gap`].
 pub fn least_gap(first: &FlankPatch, second: &FlankPatch, poses: &[Pose; 2], z: f64) -> Option<[f64; 2]> {
