@@ -10,6 +10,8 @@ const TORQUE: f64 = 1e-8;
 const COMPLEMENTARITY: f64 = 1e-6;
 /// Sum of the forces on both gears over the largest.
 const ACTION_REACTION: f64 = 1e-8;
+/// What the pose is off by over the approach of the flanks: the solver's own bound where forces jump.
+const POSE: f64 = 2e-3;
 /// Round-off of places over the approach of the flanks.
 const ROUND_OFF: f64 = 1e-2;
 
@@ -24,6 +26,7 @@ pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
         check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),
         check("action_reaction_residual", worst(|p| p.certificate.action_reaction_residual), ACTION_REACTION),
         check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
+        check("pose_residual", worst(|p| p.certificate.pose_residual), POSE),
     ])
 }
 

@@ -40,6 +40,8 @@ pub struct Equilibrium {
     /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames. Empty for slices on reduced
     /// gears: [`Equilibrium::displacements_on`] computes them where they are needed.
     pub displacements: [Vec<f64>; 2],
+    /// What the pose was off by at the last step, over the approach.
+    pub pose_residual: f64,
     /// Active-set iterations over all pose steps.
     pub iterations: usize,
     /// Rotation due to load here and at the stations before.
@@ -192,6 +194,7 @@ pub(crate) fn equilibrium(
                 states,
                 solution,
                 displacements,
+                pose_residual: steps.left_mm() / elastic_mm.max(f64::MIN_POSITIVE),
                 iterations,
                 course: course.and(station, rotation - unloaded.rotation),
             });

@@ -78,6 +78,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
             complementarity_residual: e.solution.residual,
             action_reaction_residual: action_reaction(e),
             round_off_share: round_off_share(windowed, tangent_stiffness),
+            pose_residual: e.pose_residual,
             iterations: e.iterations,
             bulk_compliance_error: bulk_error(windowed),
             window_edge_load: if total > 0.0 { edge / total } else { 0.0 },

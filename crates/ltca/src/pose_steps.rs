@@ -13,6 +13,11 @@ const GEOMETRIC: f64 = 0.05;
 /// Steps below this that no longer decrease are round-off of the gaps at kinks and edges.
 const ROUND_OFF: f64 = 1e-9;
 
+/// Jump of the equilibrium, relative to the approach, that a pose may lie in: where the place of a slice goes over from
+/// one part of a profile to another with the same gap and another curvature, its force jumps, and no pose balances the
+/// load any better. The tables of the compliance are off by half as much.
+const JUMP: f64 = 2e-3;
+
 /// Smallest step (mm) that the flanks of gears this far apart (mm) resolve.
 pub(crate) fn round_off_of_places(centre_distance: f64) -> f64 {
     // An angle of a few radians resolves no smaller steps.
@@ -60,10 +65,13 @@ impl PoseSteps {
         } else {
             self.above = Some(from)
         }
-        let stays = self.taken > NEWTON_STEPS && self.step_mm > 0.5 * self.before_mm;
+        let (newton, late) = (from + turn, self.taken > NEWTON_STEPS);
+        let stays = |below: f64, above: f64| self.step_mm > 0.5 * self.before_mm || newton <= below || newton >= above;
         let (next, newton) = match (self.below, self.above) {
-            (Some(below), Some(above)) if stays && below < above => (0.5 * (below + above), false),
-            _ => (from + turn, true),
+            (Some(below), Some(above)) if late && below < above && stays(below, above) => {
+                (0.5 * (below + above), false)
+            }
+            _ => (newton, true),
         };
         self.turns = [newton.then_some(turn), self.turns[0]];
         next
@@ -97,6 +105,19 @@ impl PoseSteps {
         let remainder = if forces { REMAINDER } else { REMAINDER_OF_FORCES };
         let stays = self.step_mm > 0.5 * self.before_mm && self.step_mm.max(self.before_mm) <= ROUND_OFF * approach;
         let told = self.series().is_some_and(|rest| (rest * self.radius).abs() <= remainder * approach);
-        stays || told || self.step_mm <= (TOLERANCE * approach).max(self.round_off)
+        let jumps = self.is_between_bits() && self.step_mm <= JUMP * approach;
+        stays || told || jumps || self.step_mm <= (TOLERANCE * approach).max(self.round_off)
+    }
+
+    /// Whether the equilibrium lies between two poses that no digits lie between.
+    fn is_between_bits(&self) -> bool {
+        let (Some(below), Some(above)) = (self.below, self.above) else { return false };
+        (above - below).abs() * self.radius <= self.round_off
+    }
+
+    /// What the pose is off by beyond round-off of places, mm, as the last steps say.
+    pub fn left_mm(&self) -> f64 {
+        let left = self.series().map_or(self.step_mm, |rest| (rest * self.radius).abs());
+        (left - self.round_off).max(0.0)
     }
 }

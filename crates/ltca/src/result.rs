@@ -38,6 +38,9 @@ pub struct Certificate {
     pub action_reaction_residual: f64,
     /// Round-off of places over the approach of the flanks under the load: what digits of the load's work are lost.
     pub round_off_share: f64,
+    /// What the pose was off by at the last step, over the approach of the flanks; above round-off where the force jumps
+    /// as the gear turns.
+    pub pose_residual: f64,
     /// Newton (active-set) iterations.
     pub iterations: usize,
     /// Largest error of the interpolated bulk compliance between two slices, relative to the largest self-compliance; 0

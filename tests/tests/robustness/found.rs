@@ -39,3 +39,26 @@ fn a_result_without_digits_does_not_hold() {
     assert_eq!(status, Some(1), "{said}");
     assert!(said.contains("the result does not hold: round_off_share is"), "{said}");
 }
+
+/// Two places on the profile of a slice have the same gap and not the same curvature: its force jumps where the nearer
+/// one changes, and the load is balanced by no pose. The pose between the two is taken, and says what it is off by.
+#[test]
+fn a_force_that_jumps_is_balanced_between() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = verification::meshes_folder().parent().unwrap().join("scenes/default.toml");
+    let set =
+        |gear: &str, key: &str, value: &str| ["--set".to_owned(), format!("{gear}.modification.drive.{key}={value}")];
+    let mut words: Vec<String> = ["run", scene.to_str().unwrap(), "--out", "o", "--no-cache"].map(String::from).into();
+    for gear in ["pinion", "wheel"] {
+        words.extend(set(gear, "tip_relief_um", "24.2108471423535"));
+        words.extend(set(gear, "tip_relief_start_diameter_mm", "98"));
+    }
+    words.extend(set("pinion", "lead_crowning_um", "5.1569202168851564"));
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let output = ale_gear(program(), folder.path(), &words).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let summary = fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let residual = summary["certificate_checks"]["pose_residual"]["value"].as_f64().unwrap();
+    assert!(residual <= 2e-3, "{residual:e}");
+}
