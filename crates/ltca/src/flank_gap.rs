@@ -143,9 +143,9 @@ impl<'a> FlankGap<'a> {
         let end = s.half_width * (1.0 + 1e-9);
         let covers = |[u, z]: [f64; 2]| u >= s.roll_form && u <= s.roll_tip && z.abs() <= end;
         let (pair, range) = (SurfacePair { first, second, poses: self.poses }, [f.roll_form, f.roll_tip]);
-        let near = self.guide.as_ref().and_then(|guide| {
+        let near = self.guide.as_ref().map(|guide| {
             let starts = guide.starts(self.flanks, z);
-            Some((pair.least_gap_near(range, &covers, z, (&starts, guide.stride)), starts.is_empty()))
+            (pair.least_gap_near(range, &covers, z, (&starts, guide.stride)), starts.is_empty())
         });
         match near {
             // Nothing is faced, not even nearly.

@@ -206,7 +206,7 @@ fn of_run(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     if let (Some(asked), true, Some(run)) = (&raw.output.parquet, scene.output.parquet, without_history) {
         return Err(s.conflict(
             &asked.span(),
-            &format!("`parquet` writes the history, and {run} has none"),
+            format!("`parquet` writes the history, and {run} has none"),
             "leave it out: its tables are CSV files",
         ));
     }
