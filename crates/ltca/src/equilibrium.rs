@@ -9,7 +9,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::{
     DeflectionCourse, StaticError, WindowedPair,
-    kinematic::Unloaded,
+    kinematic::{Nearest, Unloaded},
     pose_solver::{PoseSolution, PoseSolver, PoseStep},
     pose_steps::PoseSteps,
 };
@@ -25,6 +25,8 @@ pub struct Equilibrium {
     pub rotation: f64,
     /// The same without load: where the flanks just touch.
     pub unloaded_rotation: f64,
+    /// Where they touch there; none where nominal flanks do so along their lines.
+    pub(crate) unloaded_touch: Option<Nearest>,
     /// Transmission error, mm; positive when the driven gear lags.
     pub transmission_error: f64,
     /// Transmission error without load, mm.
@@ -187,6 +189,7 @@ pub(crate) fn equilibrium(
                 poses,
                 rotation,
                 unloaded_rotation: unloaded.rotation,
+                unloaded_touch: unloaded.touch,
                 transmission_error: error,
                 kinematic_transmission_error: kinematic,
                 rows,

@@ -78,6 +78,14 @@ pub enum StaticError {
     /// Nodal contact with corner contact switched off.
     #[error("corner contact cannot be switched off in nodal contact: points cannot tell an edge from a flank")]
     NodalCornerContact,
+    /// The derivatives of a position were asked for where there are none.
+    #[error("at mesh phase {phase:.6} there are no derivatives {what}")]
+    NoDerivative {
+        /// Phase, 0 .. 1; no number where it is the same everywhere.
+        phase: f64,
+        /// Of or where what.
+        what: &'static str,
+    },
     /// A value out of its range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
@@ -126,6 +134,7 @@ impl StaticError {
             Self::Apart { .. } => Some("are offsets, tilts and modifications in their units (um, mm)?".into()),
             Self::Window(e) => e.hint(),
             Self::NodalCornerContact => Some("leave corner contact on, or take `contact.method = \"slice\"`".into()),
+            Self::NoDerivative { .. } => Some("derivatives want slices, gears reduced by one sector, and a load".into()),
             Self::OutOfRange { name, expected, .. } => Some(format!("give {name} {expected}")),
         }
     }

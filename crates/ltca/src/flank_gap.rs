@@ -110,9 +110,14 @@ impl Guide {
 }
 
 impl<'a> FlankGap<'a> {
+    /// Not looked at yet.
+    pub fn unseen(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2]) -> Self {
+        Self { flanks, poses, guide: Guide::new(flanks, poses), dips: Vec::new() }
+    }
+
     /// At the stations along the face.
     pub fn new(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2]) -> Self {
-        let mut gap = Self { flanks, poses, guide: Guide::new(flanks, poses), dips: Vec::new() };
+        let mut gap = Self::unseen(flanks, poses);
         let half = gap.half_width();
         let z = |i: usize| half * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0);
         let gaps: Vec<f64> = (0..STATIONS).map(|i| gap.at(z(i)).map_or(f64::INFINITY, |g| g.1)).collect();

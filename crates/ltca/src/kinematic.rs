@@ -14,6 +14,10 @@ use crate::{
 const STEPS: usize = 30;
 /// Share by which gaps of two pairs may change differently as the gear turns.
 const OTHER_LEVERS: f64 = 0.05;
+/// Heights between which a parabola tells where the gap is least, over half the face width.
+const POLISH: f64 = 0.001;
+/// Turn by which a difference tells how the gap follows the rotation, mm on the base circle.
+const TURN: f64 = 1e-4;
 /// Flanks nearer than this touch, mm: a nanometre.
 const TOUCHING: f64 = 1e-6;
 
@@ -25,11 +29,13 @@ pub(crate) struct Unloaded<'a> {
     station: Station,
     /// Rotation of the driven gear from the position of zero transmission error to where the flanks touch, rad.
     pub rotation: f64,
+    /// Where they touch; none where nominal flanks do so along their lines.
+    pub touch: Option<Nearest>,
 }
 
 /// Least gap of one tooth pair.
 #[derive(Debug, Clone, Copy)]
-struct Nearest {
+pub(crate) struct Nearest {
     gap: f64,
     /// Roll angle and height on the pinion.
     at: [f64; 2],
@@ -49,7 +55,7 @@ impl<'a> Unloaded<'a> {
     /// # Errors
     /// [`StaticError::Apart`] when no flanks face each other.
     pub fn new(pair: &'a GearPair, options: &'a ContactOptions, station: Station) -> Result<Self, StaticError> {
-        let mut unloaded = Self { pair, options, station, rotation: 0.0 };
+        let mut unloaded = Self { pair, options, station, rotation: 0.0, touch: None };
         if unloaded.is_nominal() {
             return Ok(unloaded);
         }
@@ -66,6 +72,7 @@ impl<'a> Unloaded<'a> {
                 return Err(apart);
             }
             unloaded.rotation += step;
+            unloaded.touch = Some(nearest);
             if nearest.gap.abs() <= round_off {
                 return Ok(unloaded);
             }
@@ -161,6 +168,41 @@ impl<'a> Unloaded<'a> {
         let arm = position - poses[driven].translation.vector;
         let sign = if driven == 0 { 1.0 } else { -1.0 };
         sign * arm.cross(&normal).dot(&(poses[driven].rotation * Vec3::z()))
+    }
+
+    /// How the transmission error changes as the gap at the place of touch does by `gap` (mm), mm: the place itself is
+    /// one of least gap and moves it by nothing, to first order. `None` where nothing is faced beside it.
+    pub fn error_by_gap(&self, touch: &Nearest, gap: f64) -> Option<f64> {
+        let driven = self.options.driven();
+        let base_radius = [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven];
+        let turn = TURN / base_radius;
+        let at = |turn: f64| Self { rotation: self.rotation + turn, ..self.clone() }.gap_at(touch);
+        let lever = (at(turn)? - at(-turn)?) / (2.0 * turn);
+        Some(-self.options.side().sign() * base_radius * gap / lever)
+    }
+
+    /// The same touch at the very height of least gap: a golden section knows it to the root of the gap's round-off.
+    pub fn polished(&self, touch: &Nearest) -> Nearest {
+        let (flanks, poses) = (self.flanks(touch.tooth), self.poses());
+        let gap = FlankGap::unseen(&flanks, &poses);
+        let step = POLISH * gap.half_width();
+        let at = |z: f64| if z.abs() <= gap.half_width() { gap.at(z).map(|(_, gap)| gap) } else { None };
+        let z = touch.at[1];
+        let (Some(below), Some(here), Some(above)) = (at(z - step), at(z), at(z + step)) else { return *touch };
+        let moved = 0.5 * step * (below - above) / (below - 2.0 * here + above);
+        let fine = below > here && above > here && moved.abs() < 0.5 * step;
+        Nearest { at: [touch.at[0], z + if fine { moved } else { 0.0 }], ..*touch }
+    }
+
+    /// Gap at the height at which another pair like this one touches, mm.
+    pub fn gap_at(&self, touch: &Nearest) -> Option<f64> {
+        let (flanks, poses) = (self.flanks(touch.tooth), self.poses());
+        FlankGap::unseen(&flanks, &poses).at(touch.at[1]).map(|(_, gap)| gap)
+    }
+
+    /// A pair at a rotation of its driven gear, wherever its flanks are.
+    pub fn turned(pair: &'a GearPair, options: &'a ContactOptions, station: Station, rotation: f64) -> Self {
+        Self { pair, options, station, rotation, touch: None }
     }
 
     /// Length of the contact line (mm) of the pair of a running number: the stretch on which the flanks touch to a

@@ -4,4 +4,5 @@ mod crowning;
 mod harris_map;
 mod kinematic;
 mod modified;
+mod sensitivity;
 mod width_and_crowning;

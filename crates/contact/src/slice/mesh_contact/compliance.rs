@@ -67,7 +67,7 @@ impl MeshContact {
 }
 
 /// Where rows open (`load`: where their loads stand) in the table of gear `b`.
-fn places(
+pub(in crate::slice) fn places(
     set: &ContactSet,
     (b, table): (usize, &BulkTable),
     (rows, slices): (&[ContactRow], &[Slice]),

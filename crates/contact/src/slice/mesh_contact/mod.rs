@@ -24,6 +24,7 @@ use crate::{
     line_station, opening_by_motion, slice_line, wrenches,
 };
 
+pub(super) use compliance::places;
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 

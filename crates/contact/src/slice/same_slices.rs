@@ -1,0 +1,150 @@
+//! The slices of a solved contact on other flanks or at other poses, and their conditions under forces held as they
+//! are: what derivatives of the solution are made of. Theory (40).
+
+use faer::Mat;
+
+use super::{SliceHint, flank_pair::FlankPair, flank_pair::Slice, mesh_contact::places};
+use crate::{BulkTable, ContactRow, ContactSet, Friction, Pose, TablePoint, TableWork};
+
+/// Slices and their rows, pair by pair and by height.
+#[derive(Debug, Clone, Default)]
+pub struct SameSlices {
+    /// Rows, gaps undeformed.
+    pub rows: Vec<ContactRow>,
+    /// The slice of each row.
+    pub slices: Vec<Slice>,
+}
+
+impl ContactSet {
+    /// The slices at the heights of `like` with the gears' frames at `poses`; `None` where the flanks do not face each
+    /// other at one of them.
+    pub fn same_slices(
+        &self,
+        friction: Option<&Friction>,
+        poses: &[Pose; 2],
+        like: &SameSlices,
+    ) -> Option<SameSlices> {
+        let slice_set = self.slices()?;
+        let patches = [&self.patches()[0][..], &self.patches()[1][..]];
+        let mut found = SameSlices::default();
+        let mut from = 0;
+        for of_pair in like.rows.chunk_by(|a, b| a.patches == b.patches) {
+            let numbers = of_pair[0].patches;
+            let pair = FlankPair::new(slice_set.flanks(patches, numbers), poses);
+            for (row, slice) in of_pair.iter().zip(&like.slices[from..]) {
+                let mut hint = SliceHint::near(slice);
+                let point = pair.nearest_point(slice.z, &mut hint)?;
+                let (mut row, slice) = pair.slice(&point, numbers, row.point, slice_set.length())?;
+                if !slice_set.may_touch(&slice) {
+                    return None;
+                }
+                // Tables of compliance do not use the nodes of a row.
+                if slice_set.bulk().is_none() && !pair.support(&mut row, &slice, &mut hint) {
+                    return None;
+                }
+                found.rows.push(friction.map_or(row, |f| f.on(poses, row)));
+                found.slices.push(slice);
+            }
+            from += of_pair.len();
+        }
+        Some(found)
+    }
+
+    /// Memory to read the tables of both gears for up to `rows` rows; none where there are no tables.
+    pub fn table_work(&self, rows: usize) -> Vec<TableWork> {
+        self.tables().map(|both| both.iter().map(|table| TableWork::new(table, rows)).collect()).unwrap_or_default()
+    }
+
+    fn tables(&self) -> Option<&[BulkTable; 2]> {
+        self.slices().and_then(|s| s.bulk())
+    }
+}
+
+impl SameSlices {
+    /// Those of a list of rows.
+    pub fn of(rows: &[ContactRow], slices: &[Slice], which: &[usize]) -> Self {
+        Self { rows: which.iter().map(|&i| rows[i]).collect(), slices: which.iter().map(|&i| slices[i]).collect() }
+    }
+
+    /// What the flanks are apart under forces (N) with their own deformation, mm: 0 where they press.
+    ///
+    /// ```text
+    /// R_i = g_i + sum_j S_ij F_j + delta_i(F_i)
+    /// ```
+    /// `work`: [`ContactSet::table_work`] of this set or of one with the same tables.
+    pub fn distances(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Vec<f64> {
+        let n = self.rows.len();
+        let mut out: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
+        match set.tables() {
+            Some(tables) => {
+                let (mut openings, mut loads) = (Vec::new(), Vec::new());
+                for (b, (table, work)) in tables.iter().zip(work).enumerate() {
+                    self.stand(set, (b, table), &mut openings, &mut loads);
+                    work.stand_on(table, &openings, &loads);
+                    work.add_openings(forces, &mut out);
+                }
+            }
+            None => {
+                let mut matrix = Vec::new();
+                set.exact_compliance(&self.rows, &mut matrix);
+                for (column, f) in matrix.chunks(n.max(1)).zip(forces) {
+                    out.iter_mut().zip(column).for_each(|(o, s)| *o += s * f);
+                }
+            }
+        }
+        for ((out, slice), &f) in out.iter_mut().zip(&self.slices).zip(forces).filter(|(_, f)| **f > 0.0) {
+            *out += slice.local.under(f / slice.length).approach;
+        }
+        out
+    }
+
+    /// dR/dF, mm/N.
+    pub fn compliance(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Mat<f64> {
+        let n = self.rows.len();
+        let mut matrix = Vec::new();
+        match set.tables() {
+            Some(tables) => {
+                matrix.resize(n * n, 0.0);
+                let (mut openings, mut loads) = (Vec::new(), Vec::new());
+                for (b, (table, work)) in tables.iter().zip(work).enumerate() {
+                    self.stand(set, (b, table), &mut openings, &mut loads);
+                    let loads = if loads.is_empty() { &openings } else { &loads };
+                    table.add(&openings, loads, false, work, &mut matrix);
+                }
+            }
+            None => set.exact_compliance(&self.rows, &mut matrix),
+        }
+        let own = |i: usize| {
+            let slice = &self.slices[i];
+            slice.local.under(forces[i] / slice.length).slope / slice.length
+        };
+        Mat::from_fn(n, n, |i, j| matrix[j * n + i] + if i == j { own(i) } else { 0.0 })
+    }
+
+    /// Moment of forces (N) about the axis of gear `body`, N mm.
+    pub fn moment(&self, body: usize, forces: &[f64]) -> f64 {
+        self.rows.iter().zip(forces).map(|(row, f)| row.torque_levers[body] * f).sum()
+    }
+
+    /// Largest pressure of a slice under its force (N), MPa.
+    pub fn pressure(&self, slice: usize, force: f64) -> f64 {
+        let slice = &self.slices[slice];
+        slice.local.under(force / slice.length).pressure
+    }
+
+    /// Where rows open and where their loads stand in the table of gear `b`; no loads where they stand on the openings.
+    fn stand(
+        &self,
+        set: &ContactSet,
+        table: (usize, &BulkTable),
+        openings: &mut Vec<TablePoint>,
+        loads: &mut Vec<TablePoint>,
+    ) {
+        let of = (&self.rows[..], &self.slices[..]);
+        places(set, table, of, openings, false);
+        loads.clear();
+        if self.rows.iter().any(|row| row.traction != row.normal) {
+            places(set, table, of, loads, true);
+        }
+    }
+}

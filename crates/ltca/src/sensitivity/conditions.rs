@@ -1,0 +1,133 @@
+//! What a small turn of the driven gear, and a neighbour of the pair, change of the conditions of contact, forces held.
+
+use contact::{ContactSet, Friction, Pose, SameSlices, TableWork};
+
+use super::variation::{Neighbour, SMALLEST, Variation, rates};
+use crate::{Equilibrium, WindowedPair, equilibrium::poses};
+
+/// Gap (mm) over the approach, and force over the largest one, below which a row is about to touch or to leave.
+const UNDECIDED: f64 = 1e-8;
+/// Turn of the driven gear by which differences are taken, mm on its base circle.
+const STEP: f64 = 1e-5;
+/// Change of moments and pressures, over them, that is no kink's.
+const SMALLEST_SHARE: f64 = 1e-9;
+
+/// Rows that press or may do so at once, and the forces on them.
+pub(super) struct Conditions {
+    pub slices: SameSlices,
+    pub forces: Vec<f64>,
+    /// Rows that press, and do so whatever the next small change is.
+    pub presses: Vec<bool>,
+    /// Rows that are about to touch or to leave.
+    pub undecided: Vec<usize>,
+    /// The row with the largest pressure.
+    pub hardest: usize,
+    pub pressure: f64,
+}
+
+/// Rates of the conditions at held forces, below and above.
+#[derive(Debug)]
+pub(super) struct Rates {
+    /// Of the distances R, mm, a row each.
+    pub distances: Vec<[f64; 2]>,
+    /// Of the moment of the forces less that of the load, N mm.
+    pub moment: [f64; 2],
+    /// Of the largest pressure, MPa.
+    pub pressure: [f64; 2],
+    /// Of the load on the base circle, N.
+    pub load: f64,
+}
+
+/// Distances, moment and pressure at one place.
+type Sample = (Vec<f64>, f64, f64);
+
+impl Conditions {
+    pub fn new(windowed: &WindowedPair, e: &Equilibrium) -> Self {
+        let approach = e.approach(windowed.pair);
+        let forces = &e.solution.forces;
+        let strong = UNDECIDED * forces.iter().fold(0.0f64, |m, f| m.max(*f));
+        let near = |i: usize| (e.rows[i].gap + e.solution.openings[i]).abs() <= UNDECIDED * approach;
+        let which: Vec<usize> = (0..forces.len()).filter(|&i| forces[i] > 0.0 || near(i)).collect();
+        let presses: Vec<bool> = which.iter().map(|&i| forces[i] > strong).collect();
+        let pressures = which.iter().map(|&i| e.states[i].local.pressure);
+        let (hardest, pressure) =
+            pressures.enumerate().fold((0, 0.0), |best, (i, p)| if p > best.1 { (i, p) } else { best });
+        Self {
+            slices: SameSlices::of(&e.rows, &e.slices, &which),
+            forces: which.iter().map(|&i| forces[i]).collect(),
+            undecided: (0..which.len()).filter(|&k| !presses[k]).collect(),
+            presses,
+            hardest,
+            pressure,
+        }
+    }
+
+    fn sample(
+        &self,
+        windowed: &WindowedPair,
+        (set, poses): (&ContactSet, &[Pose; 2]),
+        friction: Option<&Friction>,
+        work: &mut [TableWork],
+    ) -> Option<Sample> {
+        let found = set.same_slices(friction, poses, &self.slices)?;
+        let moment = found.moment(windowed.options.driven(), &self.forces);
+        let pressure = self.forces.get(self.hardest).map_or(0.0, |&f| found.pressure(self.hardest, f));
+        Some((found.distances(set, &self.forces, work), moment, pressure))
+    }
+
+    fn rates(&self, samples: [&Sample; 3], steps: [f64; 2], [moment_more, load]: [f64; 2]) -> Rates {
+        let [less, here, more] = samples;
+        let distance = |i: usize| rates([less.0[i], here.0[i], more.0[i]], steps, SMALLEST);
+        let moment = rates([less.1, here.1, more.1], steps, SMALLEST_SHARE * here.1.abs());
+        Rates {
+            distances: (0..here.0.len()).map(distance).collect(),
+            moment: moment.map(|m| m - moment_more),
+            pressure: rates([less.2, here.2, more.2], steps, SMALLEST_SHARE * here.2),
+            load,
+        }
+    }
+
+    /// By the rotation of the driven gear, per radian.
+    pub fn by_rotation(
+        &self,
+        windowed: &WindowedPair,
+        e: &Equilibrium,
+        friction: Option<&Friction>,
+        work: &mut [TableWork],
+    ) -> Option<Rates> {
+        let WindowedPair { pair, set, options, .. } = *windowed;
+        let step = STEP / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+        let mut at = |turn: f64| {
+            let poses = poses(windowed, e.station, e.rotation + turn);
+            self.sample(windowed, (set, &poses), friction, work)
+        };
+        Some(self.rates([&at(-step)?, &at(0.0)?, &at(step)?], [step; 2], [0.0; 2]))
+    }
+
+    /// By a parameter, per unit.
+    pub fn by_variation(
+        &self,
+        windowed: &WindowedPair,
+        e: &Equilibrium,
+        variation: &Variation,
+        varied: &[ContactSet; 2],
+        work: &mut [TableWork],
+    ) -> Option<Rates> {
+        let WindowedPair { pair, set, options, .. } = *windowed;
+        let friction = Friction::new(pair, &options.contact);
+        let here = self.sample(windowed, (set, &e.poses), friction.as_ref(), work)?;
+        let mut of_side = |i: usize| {
+            let Neighbour { pair, options } = &variation.sides[i];
+            let beside = WindowedPair { pair, options, set: &varied[i], ..*windowed };
+            let poses = poses(&beside, e.station, e.rotation);
+            let friction = Friction::new(pair, &options.contact);
+            self.sample(&beside, (&varied[i], &poses), friction.as_ref(), work)
+        };
+        let samples = [of_side(0)?, of_side(1)?];
+        let torque = |i: usize| variation.sides[i].options.torque;
+        let torque = (torque(1) - torque(0)) / variation.steps.iter().sum::<f64>();
+        let load = torque / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+        let moment = -options.side().sign() * torque;
+        Some(self.rates([&samples[0], &here, &samples[1]], variation.steps, [moment, load]))
+    }
+}

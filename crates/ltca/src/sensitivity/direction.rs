@@ -1,0 +1,143 @@
+//! The solution's answer to a change of its conditions.
+
+use contact::{ContactSet, TableWork};
+use faer::{Mat, prelude::Solve};
+
+use super::{Conditions, PositionRates, Rates, Sensitivity};
+use crate::{Equilibrium, WindowedPair};
+
+/// What both gears answer with: compliance of the rows, what the rotation does, levers.
+pub(super) struct Directions<'a> {
+    at: &'a Conditions,
+    turned: &'a Rates,
+    /// dR/dF of all rows, mm/N.
+    compliance: Mat<f64>,
+    torque_levers: Vec<f64>,
+}
+
+/// Rates of forces (N, a row each) and of the rotation (rad).
+struct Answer {
+    forces: Vec<f64>,
+    rotation: f64,
+}
+
+impl<'a> Directions<'a> {
+    pub fn new(
+        windowed: &WindowedPair,
+        at: &'a Conditions,
+        turned: &'a Rates,
+        work: &mut [TableWork],
+    ) -> Self {
+        let set: &ContactSet = windowed.set;
+        let driven = windowed.options.driven();
+        let torque_levers = at.slices.rows.iter().map(|row| row.torque_levers[driven]).collect();
+        Self { at, turned, compliance: at.slices.compliance(set, &at.forces, work), torque_levers }
+    }
+
+    /// Answer of the rows that press, the other forces held at 0.
+    ///
+    /// ```text
+    /// A dF + R_theta dtheta + R_p = 0,   l . dF + M_theta dtheta + M_p = 0
+    /// dtheta = (M_p - l . A^-1 R_p) / (l . A^-1 R_theta - M_theta)
+    /// ```
+    fn answer(&self, presses: &[usize], by_rotation: usize, rates: &Rates, side: usize) -> Option<Answer> {
+        let m = presses.len();
+        let matrix = Mat::from_fn(m, m, |i, j| self.compliance[(presses[i], presses[j])]);
+        let right = Mat::from_fn(m, 2, |i, k| {
+            let row = presses[i];
+            if k == 0 { self.turned.distances[row][by_rotation] } else { rates.distances[row][side] }
+        });
+        let found = matrix.partial_piv_lu().solve(&right);
+        let torque = |k: usize| (0..m).map(|i| self.torque_levers[presses[i]] * found[(i, k)]).sum::<f64>();
+        let rotation = (rates.moment[side] - torque(1)) / (torque(0) - self.turned.moment[by_rotation]);
+        let mut forces = vec![0.0; self.at.forces.len()];
+        for (i, &row) in presses.iter().enumerate() {
+            forces[row] = -(found[(i, 0)] * rotation + found[(i, 1)]);
+        }
+        rotation.is_finite().then_some(Answer { forces, rotation })
+    }
+
+    /// Answer in one direction (side 0: as the parameter falls): rows that are about to touch or to leave press if they
+    /// are pressed on, and kinks of the rotation count on the side that it turns to.
+    fn in_direction(&self, rates: &Rates, side: usize) -> Option<Answer> {
+        let sign = [-1.0, 1.0][side];
+        let mut presses: Vec<bool> = self.at.presses.clone();
+        let mut by_rotation = side;
+        let mut answer = None;
+        for _ in 0..2 + 2 * self.at.undecided.len() {
+            let rows: Vec<usize> = (0..presses.len()).filter(|&i| presses[i]).collect();
+            let found = self.answer(&rows, by_rotation, rates, side)?;
+            let turns_to = usize::from(found.rotation * sign > 0.0);
+            // The row that is most against what it does changes over; one at a time comes to an end.
+            let against = |&&i: &&usize| {
+                if presses[i] {
+                    sign * found.forces[i] < 0.0
+                } else {
+                    let opens: f64 = rows.iter().map(|&j| self.compliance[(i, j)] * found.forces[j]).sum();
+                    let by = self.turned.distances[i][by_rotation] * found.rotation + rates.distances[i][side];
+                    sign * (opens + by) < 0.0
+                }
+            };
+            let changes = self.at.undecided.iter().find(against).copied();
+            let settled = turns_to == by_rotation && changes.is_none();
+            answer = Some(found);
+            if settled {
+                break;
+            }
+            by_rotation = turns_to;
+            if let Some(i) = changes {
+                presses[i] = !presses[i];
+            }
+        }
+        answer
+    }
+
+    /// Derivatives of a position.
+    pub fn follow(
+        &self,
+        windowed: &WindowedPair,
+        e: &Equilibrium,
+        rates: &Rates,
+        kinematic: [f64; 2],
+    ) -> Option<Sensitivity> {
+        let of_side = |side: usize| self.position(windowed, e, rates, (side, kinematic[side]));
+        let kinked = |all: &Rates| all.distances.iter().any(|[a, b]| a != b);
+        let is_smooth = self.at.undecided.is_empty() && !kinked(self.turned) && !kinked(rates);
+        Some(Sensitivity { sides: [of_side(0)?, of_side(1)?], is_smooth: is_smooth && kinematic[0] == kinematic[1] })
+    }
+
+    fn position(
+        &self,
+        windowed: &WindowedPair,
+        e: &Equilibrium,
+        rates: &Rates,
+        (side, kinematic): (usize, f64),
+    ) -> Option<PositionRates> {
+        let WindowedPair { pair, set, window, options, .. } = *windowed;
+        let Answer { forces, rotation } = self.in_direction(rates, side)?;
+        let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+        let error = options.side().sign() * base_radius * rotation;
+        let stiffness = options.torque / base_radius / e.elastic_error();
+        let hardest = self.at.hardest;
+        let by_force = match self.at.forces.get(hardest) {
+            // The pressure of Hertz grows with the root of the force.
+            Some(&force) if force > 0.0 => 0.5 * self.at.pressure / force * forces[hardest],
+            _ => 0.0,
+        };
+        let of_pair = |k: usize| {
+            let own = |(row, _): &(&contact::ContactRow, &f64)| set.pair_of(row.patches.0) == k;
+            self.at.slices.rows.iter().zip(&forces).filter(own).map(|(_, f)| f).sum::<f64>()
+        };
+        let mut pair_forces: Vec<(i64, f64)> = (0..window.count())
+            .map(|k| (options.contact.sense.sign() * (window.first() + k as i64), of_pair(k)))
+            .collect();
+        pair_forces.sort_by_key(|(number, _)| *number);
+        Some(PositionRates {
+            transmission_error: error,
+            kinematic_transmission_error: kinematic,
+            secant_stiffness: (rates.load - stiffness * (error - kinematic)) / e.elastic_error(),
+            max_pressure: by_force + self.turned.pressure[side] * rotation + rates.pressure[side],
+            pair_forces: pair_forces.into_iter().map(|(_, rate)| rate).collect(),
+        })
+    }
+}

@@ -1,0 +1,158 @@
+//! How does a solved position follow a change of the pair? Theory (40).
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `variation` | a parameter, as two neighbours of the pair |
+//! | `conditions` | what the neighbours change of the conditions of contact, forces held |
+//! | `direction` | the solution's answer, in either direction of the parameter |
+
+mod conditions;
+mod direction;
+mod variation;
+
+use contact::{ContactSet, Friction, TableWork};
+
+use crate::{Equilibrium, StaticError, StaticModel, WindowedPair};
+
+use conditions::{Conditions, Rates};
+use direction::Directions;
+pub use variation::{Neighbour, Variation};
+
+/// Derivatives of a position by one parameter, per unit of it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PositionRates {
+    /// Of the transmission error, mm.
+    pub transmission_error: f64,
+    /// Of the transmission error without load, mm.
+    pub kinematic_transmission_error: f64,
+    /// Of F_bt / (te - kinematic te), N/mm.
+    pub secant_stiffness: f64,
+    /// Of the largest contact pressure, MPa.
+    pub max_pressure: f64,
+    /// Of the normal force of each pair of the window, N, in the order of [`crate::StaticPosition::pairs`].
+    pub pair_forces: Vec<f64>,
+}
+
+/// Derivatives in either direction of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// As the parameter falls, and as it grows; per unit of it, the sign that of its growth.
+    pub sides: [PositionRates; 2],
+    /// Whether both are the same: no slice is about to touch or to leave, none presses on a kink.
+    pub is_smooth: bool,
+}
+
+impl Sensitivity {
+    /// The derivative; the middle of both where they differ.
+    pub fn rates(&self) -> PositionRates {
+        let [a, b] = &self.sides;
+        let middle = |of: fn(&PositionRates) -> f64| 0.5 * (of(a) + of(b));
+        PositionRates {
+            transmission_error: middle(|r| r.transmission_error),
+            kinematic_transmission_error: middle(|r| r.kinematic_transmission_error),
+            secant_stiffness: middle(|r| r.secant_stiffness),
+            max_pressure: middle(|r| r.max_pressure),
+            pair_forces: a.pair_forces.iter().zip(&b.pair_forces).map(|(a, b)| 0.5 * (a + b)).collect(),
+        }
+    }
+}
+
+/// Parameters of a model, and its flanks at their neighbouring values.
+#[derive(Debug)]
+pub struct Sensitivities {
+    variations: Vec<Variation>,
+    sets: Option<VariedSets>,
+}
+
+/// Flanks of the window as the model has them, and with each parameter a step down and up.
+#[derive(Debug)]
+struct VariedSets {
+    base: ContactSet,
+    varied: Vec<[ContactSet; 2]>,
+    work: Vec<TableWork>,
+}
+
+impl Sensitivities {
+    /// By some parameters of a model.
+    pub fn new(variations: Vec<Variation>) -> Self {
+        Self { variations, sets: None }
+    }
+
+    /// Derivatives of the model's last solution, one entry a parameter.
+    ///
+    /// The contact conditions are differentiated at the solution (implicit differentiation): forces and rotation follow
+    /// by one back-substitution a parameter, no contact is solved again. Partial derivatives at held forces are central
+    /// differences of places, laws and compliance of the loaded slices. Exact to some 1e-7 where the solution is smooth.
+    ///
+    /// # Errors
+    /// [`StaticError::NoDerivative`] for contact of points, for gears with all their degrees of freedom, without a
+    /// solution, and where a loaded slice is about to leave the flanks.
+    pub fn of(&mut self, model: &StaticModel) -> Result<Vec<Sensitivity>, StaticError> {
+        let options = model.options();
+        let Some(e) = model.last().filter(|_| options.torque > 0.0) else {
+            return Err(StaticError::NoDerivative { phase: f64::NAN, what: "of a pair without load" });
+        };
+        let none = |what| StaticError::NoDerivative { phase: e.station.phase, what };
+        let set = model.contact_set();
+        if set.slices().is_none() || set.windows().is_none() {
+            return Err(none("of points, or of gears with all their degrees of freedom"));
+        }
+        let mut sets = self.sets.take().filter(|s| s.base.shares_flanks(set));
+        if let Some(known) = &mut sets {
+            for varied in known.varied.iter_mut().flatten() {
+                if !varied.move_to(model.gears(), model.window())? {
+                    sets = None;
+                    break;
+                }
+            }
+        }
+        let sets = match sets {
+            Some(sets) => self.sets.insert(sets),
+            None => self.sets.insert(VariedSets::new(model, &self.variations)?),
+        };
+        let windowed =
+            WindowedPair { pair: model.pair(), gears: model.gears(), set, window: model.window(), options };
+        position(&windowed, e, &self.variations, sets).ok_or_else(|| none("where a loaded slice leaves the flanks"))
+    }
+}
+
+impl VariedSets {
+    fn new(model: &StaticModel, variations: &[Variation]) -> Result<Self, StaticError> {
+        let set = model.contact_set();
+        let of_one = |variation: &Variation| -> Result<[ContactSet; 2], StaticError> {
+            let [down, up] = variation.sides.each_ref().map(|side| {
+                set.modified(&side.pair, model.gears(), model.window(), &side.options.contact)?.ok_or(
+                    StaticError::NoDerivative {
+                        phase: f64::NAN,
+                        what: "of gears whose windows have matrices of their own",
+                    },
+                )
+            });
+            Ok([down?, up?])
+        };
+        let varied = variations.iter().map(of_one).collect::<Result<_, _>>()?;
+        let most = set.candidate_count();
+        Ok(Self { base: set.clone(), varied, work: set.table_work(most) })
+    }
+}
+
+/// Derivatives of a position by all parameters; `None` where a slice that counts is not on the flanks of a neighbour.
+fn position(
+    windowed: &WindowedPair,
+    e: &Equilibrium,
+    variations: &[Variation],
+    sets: &mut VariedSets,
+) -> Option<Vec<Sensitivity>> {
+    let friction = Friction::new(windowed.pair, &windowed.options.contact);
+    let at = Conditions::new(windowed, e);
+    let here = windowed.set.same_slices(friction.as_ref(), &e.poses, &at.slices)?;
+    let at = Conditions { slices: here, ..at };
+    let turned = at.by_rotation(windowed, e, friction.as_ref(), &mut sets.work)?;
+    let directions = Directions::new(windowed, &at, &turned, &mut sets.work);
+    let of_one = |(variation, varied): (&Variation, &[ContactSet; 2])| -> Option<Sensitivity> {
+        let rates: Rates = at.by_variation(windowed, e, variation, varied, &mut sets.work)?;
+        let kinematic = variation.kinematic_rates(windowed, e)?;
+        directions.follow(windowed, e, &rates, kinematic)
+    };
+    variations.iter().zip(&sets.varied).map(of_one).collect()
+}
