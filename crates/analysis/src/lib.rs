@@ -44,6 +44,7 @@ pub mod iso_root;
 pub mod lumped;
 pub mod meshes;
 pub mod motion;
+pub mod optimum;
 mod observer;
 mod options;
 pub mod parameter_study;
@@ -61,7 +62,7 @@ pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase};
 pub use options::options;
-pub use shared_models::SharedModels;
+pub use shared_models::{SharedModels, SolvedWithRates, VariedScene};
 pub use side_by_side::side_by_side;
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{

@@ -3,13 +3,14 @@
 
 use std::{
     cell::RefCell,
+    ops::ControlFlow,
     sync::{Arc, Mutex, PoisonError},
 };
 
 use ale::solve_widening;
 use geometry::GearPair;
-use ltca::{StaticHistory, StaticModel, StaticOptions};
-use scene::{Method, Model, ModificationScene, Scene};
+use ltca::{Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, StaticOptions, Variation};
+use scene::{ContactScene, Method, Model, ModificationScene, Scene};
 
 use crate::{
     AnalysisError, GearCache, NoObserver, NoSink,
@@ -47,6 +48,40 @@ struct Base {
     model: StaticModel,
 }
 
+/// A scene with a little less and a little more of a parameter that meshes and matrices do not know.
+#[derive(Debug, Clone)]
+pub struct VariedScene {
+    /// With less, and with more.
+    pub sides: [Scene; 2],
+    /// By how much, in the parameter's unit.
+    pub steps: [f64; 2],
+}
+
+/// Positions and their derivatives.
+#[derive(Debug, Clone)]
+pub struct SolvedWithRates {
+    /// The scene as it was solved.
+    pub scene: Scene,
+    /// Its positions.
+    pub history: StaticHistory,
+    /// Of each position, by each parameter.
+    pub rates: Vec<Vec<Sensitivity>>,
+}
+
+impl VariedScene {
+    /// The pairs beside the one of `scene`, which is solved with `options`.
+    fn variation(&self, scene: &Scene, solved: &StaticOptions) -> Result<Variation, Failure> {
+        let side = |own: &Scene| -> Result<(GearPair, StaticOptions), Failure> {
+            let own = Scene { contact: ContactScene { slices: scene.contact.slices, ..own.contact.clone() }, ..own.clone() };
+            let pair = own.gear_pair().map_err(AnalysisError::from)?;
+            let options = StaticOptions { window: solved.window, ..options(&own, &pair) };
+            Ok((pair, options))
+        };
+        let [down, up] = &self.sides;
+        Ok(Variation::new([side(down)?, side(up)?], self.steps))
+    }
+}
+
 impl std::fmt::Debug for SharedModels<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("SharedModels").finish_non_exhaustive()
@@ -77,7 +112,26 @@ impl<'a> SharedModels<'a> {
         Ok((scene, result.history))
     }
 
+    /// Positions of a scene at rest with their derivatives by some parameters, and the scene as it was solved.
+    ///
+    /// # Errors
+    /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
+    pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
+        let (scene, history, rates) = self.positions(scene, varied)?;
+        static_certificate(&history.positions).verdict(&scene)?;
+        Ok(SolvedWithRates { scene, history, rates })
+    }
+
     fn shared(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
+        let (scene, history, _) = self.positions(scene, &[])?;
+        Ok((scene, history))
+    }
+
+    fn positions(
+        &self,
+        scene: &Scene,
+        varied: &[VariedScene],
+    ) -> Result<(Scene, StaticHistory, Vec<Vec<Sensitivity>>), AnalysisError> {
         let scene = settled_scene(scene, false);
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
@@ -90,15 +144,28 @@ impl<'a> SharedModels<'a> {
                 let mut model = base.model.modified(pair.clone(), with(window))?;
                 last.replace(Some(base));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
-                Ok(model.run(per_cycle as usize, cycles as usize, |_, _, _| ())?)
+                let variations = varied.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
+                let mut sensitivities = Sensitivities::new(variations);
+                let mut rates = Vec::new();
+                let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
+                    if varied.is_empty() {
+                        return ControlFlow::Continue(());
+                    }
+                    rates.push(sensitivities.of(model));
+                    if rates.last().is_some_and(Result::is_err) {
+                        return ControlFlow::Break(());
+                    }
+                    ControlFlow::Continue(())
+                })?;
+                Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?))
             },
             |window, failure| {
                 let (Failure::Static(e), Some(base)) = (failure, &*last.borrow()) else { return None };
                 wider_window(&scene, &pair, &base.meshes, &with(window), e)
             },
         );
-        let history = solved.map_err(|failure: Failure| failure.into_error(&scene))?;
-        Ok((scene, history))
+        let (history, rates) = solved.map_err(|failure: Failure| failure.into_error(&scene))?;
+        Ok((scene, history, rates))
     }
 
     /// The model that a scene shares with others of its kind.

@@ -10,8 +10,10 @@ use crate::{
     pose_steps::round_off_of_places,
 };
 
-/// Steps of the rotation before giving up; the gap is nearly linear in it, so three or four do.
-const STEPS: usize = 30;
+/// Steps of the rotation before giving up, and those of Newton's method, after which the middle is taken between
+/// rotations on either side; the gap is nearly linear in it, so three or four do.
+const STEPS: usize = 80;
+const NEWTON_STEPS: usize = 10;
 /// Share by which gaps of two pairs may change differently as the gear turns.
 const OTHER_LEVERS: f64 = 0.05;
 /// Heights between which a parabola tells where the gap is least, over half the face width.
@@ -60,8 +62,11 @@ impl<'a> Unloaded<'a> {
             return Ok(unloaded);
         }
         let round_off = round_off_of_places(pair.centre_distance());
+        let radius = pair.pinion.base_radius().max(pair.wheel.base_radius());
         let mut teeth: Vec<i64> = unloaded.teeth().collect();
-        for _ in 0..STEPS {
+        // Rotations with the flanks apart, and with them in each other.
+        let mut between = [None::<f64>; 2];
+        for taken in 0..STEPS {
             let poses = unloaded.poses();
             let apart = StaticError::Apart { cycle: station.cycle, phase: station.phase };
             let Some((nearest, beside)) = unloaded.nearest(&poses, &teeth) else { return Err(apart) };
@@ -71,18 +76,24 @@ impl<'a> Unloaded<'a> {
             if !step.is_finite() || step.abs() > 0.5 * pair.pinion.pitch_angle() {
                 return Err(apart);
             }
-            unloaded.rotation += step;
+            between[usize::from(nearest.gap < 0.0)] = Some(unloaded.rotation);
             unloaded.touch = Some(nearest);
-            if nearest.gap.abs() <= round_off {
+            let touches = nearest.gap.abs() <= round_off;
+            match between {
+                // Steps that go to and fro over a kink: the end of what two flanks face of each other, another pair.
+                [Some(out), Some(within)] if taken >= NEWTON_STEPS && !touches => {
+                    unloaded.rotation = 0.5 * (out + within);
+                    if (out - within).abs() * radius <= round_off {
+                        return Ok(unloaded);
+                    }
+                }
+                _ => unloaded.rotation += step,
+            }
+            if touches {
                 return Ok(unloaded);
             }
         }
-        // Two pairs that touch alternately at the last bits: the gap is far below any tolerance by then, or it is an
-        // error.
-        match unloaded.nearest(&unloaded.poses(), &teeth) {
-            Some((nearest, _)) if nearest.gap.abs() <= 1e-3 * TOUCHING => Ok(unloaded),
-            _ => Err(StaticError::Apart { cycle: station.cycle, phase: station.phase }),
-        }
+        Err(StaticError::Apart { cycle: station.cycle, phase: station.phase })
     }
 
     /// Whether the loaded flanks are unmodified and the axes parallel.
@@ -150,8 +161,9 @@ impl<'a> Unloaded<'a> {
         }
         let best = best?;
         let reach = best.gap + OTHER_LEVERS * best.gap.abs() + TOUCHING;
-        let beside =
-            teeth.iter().zip(&gaps).filter(|(_, gap)| gap.lowest() <= reach).map(|(&tooth, _)| tooth).collect();
+        // What stations foretell of a pair may be more than what was found.
+        let near = |tooth: i64, gap: &FlankGap<'_>| tooth == best.tooth || gap.lowest() <= reach;
+        let beside = teeth.iter().zip(&gaps).filter(|(tooth, gap)| near(**tooth, gap)).map(|(&tooth, _)| tooth).collect();
         Some((best, beside))
     }
 
@@ -181,17 +193,23 @@ impl<'a> Unloaded<'a> {
         Some(-self.options.side().sign() * base_radius * gap / lever)
     }
 
-    /// The same touch at the very height of least gap: a golden section knows it to the root of the gap's round-off.
-    pub fn polished(&self, touch: &Nearest) -> Nearest {
+    /// The same touch at the very height of least gap, which a golden section knows to the root of the gap's round-off;
+    /// `None` where the flanks touch at the end of what they face of each other, which moves with the gears.
+    pub fn polished(&self, touch: &Nearest) -> Option<Nearest> {
         let (flanks, poses) = (self.flanks(touch.tooth), self.poses());
         let gap = FlankGap::unseen(&flanks, &poses);
-        let step = POLISH * gap.half_width();
-        let at = |z: f64| if z.abs() <= gap.half_width() { gap.at(z).map(|(_, gap)| gap) } else { None };
-        let z = touch.at[1];
-        let (Some(below), Some(here), Some(above)) = (at(z - step), at(z), at(z + step)) else { return *touch };
+        let (z, half) = (touch.at[1], gap.half_width());
+        if z.abs() == half {
+            return Some(*touch);
+        }
+        let step = POLISH * half;
+        let at = |z: f64| gap.at(z).filter(|_| z.abs() <= half).map(|(_, gap)| gap);
+        let [below, here, above] = [at(z - step)?, at(z)?, at(z + step)?];
         let moved = 0.5 * step * (below - above) / (below - 2.0 * here + above);
-        let fine = below > here && above > here && moved.abs() < 0.5 * step;
-        Nearest { at: [touch.at[0], z + if fine { moved } else { 0.0 }], ..*touch }
+        let is_least = below > here && above > here && moved.abs() < 0.5 * step;
+        // Over a kink there is no parabola.
+        let is_smooth = at(z + moved)? <= here + round_off_of_places(self.pair.centre_distance());
+        (is_least && is_smooth).then(|| Nearest { at: [touch.at[0], z + moved], ..*touch })
     }
 
     /// Gap at the height at which another pair like this one touches, mm.

@@ -14,6 +14,7 @@
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`envelope_files`] | failure modes with their figures, maps of where methods fail |
 //! | [`study_files`] | the same figures of several scenes, side by side |
+//! | [`optimum_files`] | an optimisation: the scene of the optimum, tables, report |
 //! | [`plan_files`] | many cases of one scene, a row a case |
 //! | [`checkpoint`] | rows and state of a motion that can be gone on from |
 //! | [`folder`] | a result folder that is there as a whole or not at all |
@@ -43,6 +44,7 @@ pub mod motion_files;
 mod motion_result;
 pub mod page;
 pub mod paraview;
+pub mod optimum_files;
 pub mod plan_files;
 mod rows;
 mod static_sink;

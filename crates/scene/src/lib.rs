@@ -27,6 +27,7 @@ mod motion;
 mod operation;
 mod origin;
 mod output;
+pub mod optimum;
 pub mod plan;
 mod raw;
 mod rexs;
@@ -184,6 +185,20 @@ impl Scene {
     pub fn to_toml(&self) -> String {
         // A struct of numbers, strings and tables: there is nothing that TOML could refuse.
         toml::to_string(self).unwrap_or_default()
+    }
+
+    /// The same scene with the paths of its files as they are from anywhere.
+    pub fn standing_alone(&self) -> Self {
+        let mut all = self.clone();
+        for gear in [&mut all.pinion, &mut all.wheel] {
+            let GearScene { modification, mesh, pitch_errors_file, .. } = gear;
+            let flanks = [&mut modification.drive.topography, &mut modification.coast.topography];
+            for path in flanks.into_iter().chain([mesh, pitch_errors_file]).flatten() {
+                let whole = self.resolve(path);
+                *path = std::path::absolute(&whole).unwrap_or(whole);
+            }
+        }
+        all
     }
 
     /// The path that a path written in the scene stands for.

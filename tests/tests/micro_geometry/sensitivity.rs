@@ -78,7 +78,7 @@ fn designed(case: &Case, p: &Design, rubs: bool) -> (GearPair, StaticOptions) {
 
 fn solved(base: &StaticModel, case: &Case, p: &Design, rubs: bool, station: Station) -> StaticPosition {
     let (pair, options) = designed(case, p, rubs);
-    base.modified(pair, options).unwrap().solve(station).unwrap()
+    base.modified(pair, options).unwrap().solve(station).unwrap_or_else(|e| panic!("{e}: {p:?}, {station:?}"))
 }
 
 /// Quantities in the order of [`of_rates`].

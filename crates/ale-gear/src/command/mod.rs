@@ -7,6 +7,7 @@ mod curve;
 mod envelope;
 mod init;
 mod mesh;
+mod optimise;
 mod overrides;
 mod reduce;
 mod report;
@@ -72,6 +73,8 @@ enum Command {
     Study(study::StudyArgs),
     /// Run a scene with some of its keys varied, by list, grid or sample: a row of wanted numbers a case
     Vary(vary::VaryArgs),
+    /// Search the micro-geometry that is quietest, within bounds and limits
+    Optimise(optimise::OptimiseArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
@@ -145,6 +148,7 @@ impl Cli {
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Vary(args)) => args.execute().map(told),
+            Some(Command::Optimise(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Reduce(args)) => args.execute(),

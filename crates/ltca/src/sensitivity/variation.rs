@@ -44,7 +44,7 @@ impl Variation {
     fn rates_at_touch(&self, windowed: &WindowedPair, e: &Equilibrium) -> Option<[f64; 2]> {
         let (station, rotation) = (e.station, e.unloaded_rotation);
         let here = Unloaded::turned(windowed.pair, &windowed.options.contact, station, rotation);
-        let touch = here.polished(e.unloaded_touch.as_ref()?);
+        let touch = here.polished(e.unloaded_touch.as_ref()?)?;
         let gap = |i: usize| {
             let Neighbour { pair, options } = &self.sides[i];
             Unloaded::turned(pair, &options.contact, station, rotation).gap_at(&touch)

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 50] = [
+const OURS: [&str; 55] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -169,6 +169,11 @@ const OURS: [&str; 50] = [
     "study.csv",
     "cases.csv",
     "cases.parquet",
+    "optimum.toml",
+    "steps.csv",
+    "harris.csv",
+    "influences.csv",
+    "front.csv",
     "chart.csv",
     "chart.md",
     "motion_precision.csv",

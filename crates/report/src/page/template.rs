@@ -34,6 +34,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("ladder_sweep.html", include_str!("ladder_sweep.html")),
         ("basins.html", include_str!("basins.html")),
         ("branch.html", include_str!("branch.html")),
+        ("optimum.html", include_str!("optimum.html")),
         ("study.html", include_str!("study.html")),
         ("compare.html", include_str!("compare.html")),
         ("envelope.html", include_str!("envelope.html")),

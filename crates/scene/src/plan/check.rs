@@ -15,12 +15,12 @@ use crate::{Scene, SceneError, Setting, Source, Word, read_text, study::Take};
 type Checked<T> = Result<T, SceneError>;
 
 /// Designs by their words; the first one where none is written.
-pub(super) const DESIGNS: [(&str, Design); 3] =
+pub(crate) const DESIGNS: [(&str, Design); 3] =
     [("latin-hypercube", Design::LatinHypercube), ("sobol", Design::Sobol), ("random", Design::Random)];
 /// Samples where none are stated, and most of them.
 pub(super) const SAMPLES: [u32; 2] = [100, 10_000_000];
 /// Seed where none is stated.
-pub(super) const SEED: u32 = 1;
+pub(crate) const SEED: u32 = 1;
 /// Mesh harmonics at the most.
 const ORDERS: u32 = 1000;
 /// Word for a mesh harmonic among what may be taken of a column.
@@ -52,7 +52,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan) -> Checked<Plan> {
     };
     let (mut axes, mut kinds) = (Vec::new(), Vec::new());
     for table in &raw.vary {
-        let (own, kind) = vary(s, table)?;
+        let (own, kind) = vary(s, table, "[[vary]]")?;
         axes.push(own);
         kinds.push(kind);
     }
@@ -112,7 +112,7 @@ fn fault(e: &CasesError) -> String {
     }
 }
 
-fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
+pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
     let place = s.place(&word.span());
     match Setting::parse(word.get_ref()) {
         Err(SceneError::Setting { what, .. }) => Err(SceneError::Setting { label: format!("{place}: set"), what }),
@@ -120,17 +120,18 @@ fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
     }
 }
 
-fn vary(s: &Source<'_>, table: &Spanned<RawVary>) -> Checked<(PlanAxis, Axis)> {
+/// A varied key; `called`: the name of its table.
+pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Checked<(PlanAxis, Axis)> {
     let raw = table.get_ref();
     let conflict = |what: &str, advice: &str| s.conflict(&table.span(), what, advice);
-    let key = raw.key.as_ref().ok_or_else(|| conflict("[[vary]] has no `key`", "name the key that is varied"))?;
+    let key = raw.key.as_ref().ok_or_else(|| conflict(&format!("{called} has no `key`"), "name the key that is varied"))?;
     let keys = [key].into_iter().chain(&raw.also).map(|word| word.get_ref().clone()).collect();
     let logarithmic = s.choice("scale", &raw.scale, &[("linear", false), ("log", true)])?;
     let (drawn, ends, list) =
         (raw.mean.is_some() || raw.deviation.is_some(), raw.from.is_some() || raw.to.is_some(), raw.values.is_some());
     if usize::from(drawn) + usize::from(ends) + usize::from(list) != 1 {
         let advice = "give `values`, or `from` and `to`, or `mean` and `deviation`";
-        return Err(conflict("[[vary]] says in one way what values there are", advice));
+        return Err(conflict(&format!("{called} says in one way what values there are"), advice));
     }
     let beside = |is: bool, what: &str, advice: &str| if is { Err(conflict(what, advice)) } else { Ok(()) };
     beside(raw.count.is_some() && !ends, "`count` goes with `from` and `to`", "leave it out")?;
@@ -139,7 +140,7 @@ fn vary(s: &Source<'_>, table: &Spanned<RawVary>) -> Checked<(PlanAxis, Axis)> {
     beside(limited && !drawn, "`least` and `largest` go with `mean` and `deviation`", "leave them out")?;
     let number = |key: &str, value: &crate::Number, default: f64| s.number(key, value, default, -1e300, 1e300);
     let needed = |key: &str, value: &crate::Number| {
-        value.as_ref().ok_or_else(|| conflict(&format!("[[vary]] has no `{key}`"), "give both numbers"))?;
+        value.as_ref().ok_or_else(|| conflict(&format!("{called} has no `{key}`"), "give both numbers"))?;
         number(key, value, 0.0)
     };
     let axis = if let Some(values) = &raw.values {

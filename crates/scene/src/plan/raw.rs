@@ -35,7 +35,7 @@ pub(super) struct RawPlan {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawVary {
+pub(crate) struct RawVary {
     pub key: Word,
     #[serde(default)]
     pub also: Vec<Spanned<String>>,

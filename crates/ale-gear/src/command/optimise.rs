@@ -1,0 +1,106 @@
+//! `ale-gear optimise`: the micro-geometry that is quietest.
+
+use std::path::PathBuf;
+
+use analysis::{
+    SharedModels,
+    optimum::{Optimised, Optimum, optimise, told},
+};
+use report::optimum_files::{Goals, OptimumResult, write_optimum};
+use scene::{
+    read_text,
+    optimum::{Optimisation, OptimisationWords},
+};
+
+use super::{cache_args::CacheArgs, overrides::Overrides};
+use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
+
+/// Words of `ale-gear optimise`.
+#[derive(Debug, clap::Args)]
+pub(super) struct OptimiseArgs {
+    /// Optimisation file, or a scene file
+    file: PathBuf,
+    /// Folder for the results; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+    /// A key that may change within bounds, `KEY=FROM:TO` or `KEY=FROM:TO:START`; may be given again [default: tip
+    /// reliefs, where they begin, lead crowning]
+    #[arg(long, value_name = "WORDS")]
+    parameter: Vec<String>,
+    /// Torques at which it counts, N m, with commas between [default: the scene's]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    torques: Vec<f64>,
+    /// What shall be small: peak-to-peak, rms or harmonics (the first) [default: peak-to-peak]
+    #[arg(long, value_name = "NAME")]
+    measure: Option<String>,
+    /// Limit of the contact pressure, MPa
+    #[arg(long, value_name = "MPA")]
+    max_pressure: Option<f64>,
+    /// Evaluations at the most [default: 20]
+    #[arg(long, value_name = "N")]
+    evaluations: Option<u32>,
+    /// Points of the trade-off against a lower pressure [default: none]
+    #[arg(long, value_name = "N")]
+    front: Option<u32>,
+    #[command(flatten)]
+    overrides: Overrides,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+impl OptimiseArgs {
+    /// Every complaint about the words and the files is made here, before any work starts or any file is written.
+    fn plan(&self) -> Result<Optimisation, CommandError> {
+        let Self { file, parameter, torques, measure, max_pressure, evaluations, front, .. } = self;
+        let settings = self.overrides.settings()?;
+        let words = !parameter.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
+        let words = words || evaluations.is_some() || front.is_some() || !settings.is_empty();
+        // What cannot be read is complained about as a scene is.
+        if read_text(file).is_ok_and(|text| Optimisation::is_one(&text)) {
+            if words {
+                let hint = "write it into the file, or give a scene file";
+                return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
+            }
+            return Ok(Optimisation::read(file)?);
+        }
+        let words = OptimisationWords {
+            parameters: parameter,
+            torques_nm: torques,
+            measure: measure.as_deref(),
+            max_pressure_mpa: *max_pressure,
+            evaluations: evaluations.unwrap_or(20),
+            front: front.unwrap_or(0),
+        };
+        Ok(Optimisation::of_words(file, &settings, &words)?)
+    }
+
+    /// Searches, and writes the results; the text is the closing table.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let (plan, mut phases) = (self.plan()?, Phases::with_bars());
+        let results = ResultDirectory::create(&self.out)?;
+        let cache = self.cache.open();
+        let models = SharedModels::new(&cache);
+        let optimum: Optimum = phases.run("search", || {
+            optimise(&models, &plan, |count, goal| match goal {
+                Some(goal) => talk::note(format!("evaluation {count}: {goal:.4} um")),
+                None => talk::note(format!("evaluation {count}: no result")),
+            })
+        })?;
+        let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
+        let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
+        let goals = Goals::of(&optimum);
+        let again = format!("ale-gear optimise {} --out DIR", self.file.display());
+        let of = OptimumResult {
+            optimum: &optimum,
+            told: &told,
+            scene: &scene,
+            goals: &goals,
+            cost: &phases.cost(),
+            warnings: &[],
+            again: &again,
+        };
+        let text = write_optimum(of, &results)?;
+        results.finish(talk::note)?;
+        Ok(format!("{text}\nresults: {}\n", self.out.display()))
+    }
+}

@@ -1,0 +1,14 @@
+//! Which micro-geometry is quiet? Designs of an optimisation, evaluated with their derivatives.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `evaluate` | all torques and samples of a design |
+//! | `run` | the search, whole values of a machine, the trade-off against pressure |
+//! | `told` | what a user is told of the optimum: before and after, over torques, what each parameter does |
+
+mod evaluate;
+mod run;
+mod told;
+
+pub use run::{FrontPoint, Optimum, optimise};
+pub use told::{HarrisPoint, Influence, Optimised, TorqueLine, told};

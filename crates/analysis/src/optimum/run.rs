@@ -1,0 +1,97 @@
+//! The search for the optimum.
+
+use design::{Evaluation, Found, Goal, Search, rounded};
+use scene::optimum::Optimisation;
+use serde::Serialize;
+
+use super::evaluate::{evaluate, slices};
+use crate::{AnalysisError, SharedModels};
+
+/// The optimum of a plan.
+#[derive(Debug, Clone)]
+pub struct Optimum {
+    /// The plan as it was searched: with its number of slices.
+    pub plan: Optimisation,
+    /// The search.
+    pub found: Found,
+    /// Values that a machine can be set to; those of the search where that is any.
+    pub values: Vec<f64>,
+    /// All that is known there.
+    pub evaluation: Evaluation,
+    /// Optima with lower limits of the pressure, from the highest.
+    pub front: Vec<FrontPoint>,
+}
+
+/// An optimum below a limit of the pressure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrontPoint {
+    /// The limit; none for the optimum itself, MPa.
+    pub limit_mpa: Option<f64>,
+    /// Largest pressure, MPa.
+    pub max_pressure_mpa: f64,
+    /// What shall be small, um.
+    pub goal_um: f64,
+    /// Values of the parameters.
+    pub values: Vec<f64>,
+}
+
+/// Share of the optimum's pressure down to which the front goes.
+const FRONT: f64 = 0.3;
+/// Evaluations for each point of the front.
+const FRONT_EVALUATIONS: usize = 8;
+
+/// Searches the optimum; `seen` is told of every evaluation: how many there were, and the goal, um.
+///
+/// # Errors
+/// [`AnalysisError`] of the start, or of the rounded optimum.
+pub fn optimise(
+    models: &SharedModels<'_>,
+    plan: &Optimisation,
+    mut seen: impl FnMut(usize, Option<f64>),
+) -> Result<Optimum, AnalysisError> {
+    let plan = Optimisation { slices: plan.slices.or_else(|| slices(plan)), ..plan.clone() };
+    let bounds: Vec<[f64; 2]> = plan.parameters.iter().map(|p| p.bounds).collect();
+    let search = Search { goal: plan.goal.clone(), bounds: bounds.clone(), evaluations: plan.evaluations as usize };
+    let mut count = 0;
+    let mut at = |values: &[f64], limit: Option<f64>| {
+        let found = evaluate(models, &plan, values, limit);
+        count += 1;
+        seen(count, found.as_ref().ok().map(|e| plan.goal.value(&e.curves)));
+        found
+    };
+    let found = search.run(&plan.start(), |values| at(values, plan.max_pressure_mpa))?;
+    let grains: Vec<f64> = plan.parameters.iter().map(|p| p.grain).collect();
+    let values = rounded(&found.values, &grains, &bounds, &found.evaluation, &plan.goal);
+    let evaluation =
+        if values == found.values { found.evaluation.clone() } else { at(&values, plan.max_pressure_mpa)? };
+    let mut front = Vec::new();
+    if plan.front > 0 {
+        // Limits far above make the pressure known and bind nothing.
+        let unbound = at(&found.values, Some(UNBOUND))?;
+        let mut last = point(&plan.goal, &unbound, None, &found.values);
+        let highest = last.max_pressure_mpa;
+        front.push(last.clone());
+        for k in 1..=plan.front {
+            let limit = highest * (1.0 - FRONT * f64::from(k) / f64::from(plan.front));
+            let search = Search { evaluations: FRONT_EVALUATIONS, ..search.clone() };
+            let below = search.run(&last.values, |values| at(values, Some(limit)))?;
+            // Below the least pressure that there is, no further point is one.
+            if below.evaluation.over_limits() > HELD {
+                break;
+            }
+            last = point(&plan.goal, &below.evaluation, Some(limit), &below.values);
+            front.push(last.clone());
+        }
+    }
+    Ok(Optimum { plan: plan.clone(), found, values, evaluation, front })
+}
+
+/// A pressure that no gear stands, MPa.
+const UNBOUND: f64 = 1e6;
+/// Share by which a limit may be passed.
+const HELD: f64 = 2e-3;
+
+fn point(goal: &Goal, evaluation: &Evaluation, limit_mpa: Option<f64>, values: &[f64]) -> FrontPoint {
+    let max_pressure_mpa = evaluation.limited.iter().map(|l| l.value).fold(0.0, f64::max);
+    FrontPoint { limit_mpa, max_pressure_mpa, goal_um: goal.value(&evaluation.curves), values: values.to_vec() }
+}

@@ -1,0 +1,152 @@
+//! What a user is told of an optimum.
+
+use design::{Goal, Measure};
+use ltca::StaticHistory;
+use scene::{Scene, optimum::Optimisation};
+use serde::Serialize;
+
+use super::Optimum;
+use crate::{AnalysisError, SharedModels, side_by_side};
+
+/// Before and after.
+#[derive(Debug, Clone)]
+pub struct Optimised {
+    /// At each torque that counts, as the drawing says and without deviations.
+    pub torques: Vec<TorqueLine>,
+    /// Over the torque.
+    pub harris: Vec<HarrisPoint>,
+    /// What each parameter does.
+    pub influences: Vec<Influence>,
+}
+
+/// A torque before and after.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct TorqueLine {
+    pub torque_nm: f64,
+    pub peak_to_peak_before_um: f64,
+    pub peak_to_peak_after_um: f64,
+    pub max_pressure_before_mpa: f64,
+    pub max_pressure_after_mpa: f64,
+    /// Transmission error over the mesh cycle before and after, um.
+    #[serde(skip)]
+    pub curves: [Vec<f64>; 2],
+}
+
+/// A torque of the Harris map.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct HarrisPoint {
+    pub torque_nm: f64,
+    pub peak_to_peak_before_um: Option<f64>,
+    pub peak_to_peak_after_um: Option<f64>,
+}
+
+/// What a parameter does at the optimum.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct Influence {
+    pub key: String,
+    pub start: f64,
+    pub found: f64,
+    pub value: f64,
+    pub lowest: f64,
+    pub highest: f64,
+    /// The step that the goal's changes are told for: that of the machine, else a hundredth of the bounds.
+    pub step: f64,
+    pub goal_change_less_um: f64,
+    pub goal_change_more_um: f64,
+}
+
+/// Torques of the Harris map over the largest that counts.
+const SHARES: [f64; 12] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4];
+
+/// Solves what a user is told of; every position with slices of its own number, as a run does.
+///
+/// # Errors
+/// [`AnalysisError`] at a torque that counts.
+pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, AnalysisError> {
+    let Optimum { plan, values, .. } = optimum;
+    let plan = &Optimisation { slices: None, ..plan.clone() };
+    let start = plan.start();
+    let most = plan.torques.iter().map(|t| t.torque_nm).fold(0.0, f64::max);
+    let counted: Vec<f64> = plan.torques.iter().map(|t| t.torque_nm).collect();
+    let mut all: Vec<f64> = counted.iter().copied().chain(SHARES.iter().map(|s| s * most)).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let solved: Vec<Result<(Scene, StaticHistory), AnalysisError>> = side_by_side(2 * all.len(), |i| {
+        let values = if i % 2 == 0 { &start } else { values };
+        models.solve(&plan.scene(values, all[i / 2], None)?)
+    });
+    let curve = |h: &StaticHistory| h.positions.iter().map(|p| 1e3 * p.transmission_error).collect::<Vec<f64>>();
+    let span = |values: &[f64]| values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min);
+    let pressure = |h: &StaticHistory| h.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
+    let harris = all
+        .iter()
+        .zip(solved.chunks(2))
+        .map(|(&torque_nm, both)| {
+            let of = |side: usize| both[side].as_ref().ok().map(|(_, h)| span(&curve(h)));
+            HarrisPoint { torque_nm, peak_to_peak_before_um: of(0), peak_to_peak_after_um: of(1) }
+        })
+        .collect();
+    let mut of_torque: Vec<Option<[Result<(Scene, StaticHistory), AnalysisError>; 2]>> = Vec::new();
+    let mut rest = solved.into_iter();
+    while let (Some(before), Some(after)) = (rest.next(), rest.next()) {
+        of_torque.push(Some([before, after]));
+    }
+    let mut torques = Vec::new();
+    for &torque_nm in &counted {
+        let place = all.iter().position(|t| *t == torque_nm).and_then(|i| of_torque[i].take());
+        let Some([before, after]) = place else { continue };
+        let both = [before?.1, after?.1];
+        let curves = both.each_ref().map(curve);
+        let [a, b] = curves.each_ref().map(|c| span(c));
+        torques.push(TorqueLine {
+            torque_nm,
+            peak_to_peak_before_um: a,
+            peak_to_peak_after_um: b,
+            max_pressure_before_mpa: pressure(&both[0]),
+            max_pressure_after_mpa: pressure(&both[1]),
+            curves,
+        });
+    }
+    Ok(Optimised { torques, harris, influences: influences(optimum) })
+}
+
+fn influences(optimum: &Optimum) -> Vec<Influence> {
+    let Optimum { plan, found, values, evaluation, .. } = optimum;
+    let goal: &Goal = &plan.goal;
+    let here = goal.value(&evaluation.curves);
+    let of_one = |(k, parameter): (usize, &scene::optimum::DesignParameter)| {
+        let [lowest, highest] = parameter.bounds;
+        let step = if parameter.grain > 0.0 { parameter.grain } else { 0.01 * (highest - lowest) };
+        let by = |amount: f64| {
+            let mut change = vec![0.0; values.len()];
+            change[k] = amount;
+            goal.value_after(&evaluation.curves, &change) - here
+        };
+        Influence {
+            key: parameter.name().to_owned(),
+            start: parameter.start,
+            found: found.values[k],
+            value: values[k],
+            lowest,
+            highest,
+            step,
+            goal_change_less_um: by(-step),
+            goal_change_more_um: by(step),
+        }
+    };
+    plan.parameters.iter().enumerate().map(of_one).collect()
+}
+
+impl Optimised {
+    /// Words for what was made small.
+    pub fn goal_words(goal: &Goal) -> &'static str {
+        match goal.measure {
+            Measure::PeakToPeak => "peak to peak of the transmission error",
+            Measure::Rms => "rms of the transmission error less its mean",
+            Measure::Harmonics(_) => "rms of mesh harmonics of the transmission error",
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Files of an optimisation: the scene of the optimum, tables, report.
+
+mod page;
+mod tables;
+mod write;
+
+pub use write::{Goals, OptimumResult, write_optimum};

@@ -1,0 +1,91 @@
+//! Writes the files of an optimisation.
+
+use analysis::optimum::{Optimised, Optimum};
+use scene::Scene;
+use serde::Serialize;
+use serde_json::json;
+
+use super::{page, tables};
+use crate::{Cost, ReportError, ResultFiles};
+
+/// What files of an optimisation are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct OptimumResult<'a> {
+    /// The optimum.
+    pub optimum: &'a Optimum,
+    /// What is told of it.
+    pub told: &'a Optimised,
+    /// The scene of the optimum.
+    pub scene: &'a Scene,
+    /// The goal along the way.
+    pub goals: &'a Goals,
+    /// What it took.
+    pub cost: &'a Cost,
+    /// What a user should hear.
+    pub warnings: &'a [String],
+    /// The command that makes it again.
+    pub again: &'a str,
+}
+
+/// The goal along the way, um.
+#[derive(Debug, Clone, Serialize)]
+#[allow(missing_docs)]
+pub struct Goals {
+    pub start_um: f64,
+    pub found_um: f64,
+    pub optimum_um: f64,
+}
+
+impl Goals {
+    /// Of an optimum.
+    pub fn of(optimum: &Optimum) -> Self {
+        let goal = &optimum.plan.goal;
+        let start = optimum.found.steps.first().and_then(|step| step.goal);
+        Self {
+            start_um: start.unwrap_or(f64::NAN),
+            found_um: goal.value(&optimum.found.evaluation.curves),
+            optimum_um: goal.value(&optimum.evaluation.curves),
+        }
+    }
+}
+
+/// Writes them all; what comes back is the closing table.
+///
+/// # Errors
+/// When the system refuses.
+pub fn write_optimum(of: OptimumResult<'_>, results: &dyn ResultFiles) -> Result<String, ReportError> {
+    let OptimumResult { optimum, told, scene, goals, cost, warnings, .. } = of;
+    let plan = &optimum.plan;
+    results.write("optimum.toml", scene.to_toml().as_bytes())?;
+    results.write("steps.csv", tables::steps_csv(&of).as_bytes())?;
+    results.write("harris.csv", tables::harris_csv(&of).as_bytes())?;
+    results.write("influences.csv", tables::influences_csv(&of).as_bytes())?;
+    if !optimum.front.is_empty() {
+        results.write("front.csv", tables::front_csv(&of).as_bytes())?;
+    }
+    page::page(&of)?.write(results)?;
+    let summary = json!({
+        "program": "ale-gear",
+        "version": env!("CARGO_PKG_VERSION"),
+        "name": plan.name,
+        "scene": plan.scene_file,
+        "goal": plan.goal,
+        "headline": {
+            "goal_start_um": goals.start_um,
+            "goal_found_um": goals.found_um,
+            "goal_optimum_um": goals.optimum_um,
+            "evaluations": optimum.found.steps.len(),
+            "stop": optimum.found.stop,
+            "over_limits": optimum.evaluation.over_limits(),
+            "torques": told.torques,
+            "parameters": told.influences,
+            "samples": plan.samples(),
+        },
+        "cost": cost,
+        "warnings": warnings,
+    });
+    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
+    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
+    results.write("summary.json", text.as_bytes())?;
+    Ok(tables::closing_table(&of))
+}

@@ -1,0 +1,138 @@
+//! A checked optimisation, and the scenes of its designs.
+
+use std::path::PathBuf;
+
+use cases::{Cases, Sampling};
+use design::Goal;
+
+use crate::{Scene, SceneError, Setting, plan::PlanAxis};
+
+/// A scene, what of it may change, and what shall be small.
+#[derive(Debug, Clone)]
+pub struct Optimisation {
+    /// Title.
+    pub name: String,
+    /// Where it stands; the path of the scene is relative to its folder.
+    pub file: PathBuf,
+    /// The scene file.
+    pub scene_file: PathBuf,
+    /// Its text.
+    pub scene_text: String,
+    /// Keys that all designs have otherwise.
+    pub settings: Vec<Setting>,
+    /// What may change.
+    pub parameters: Vec<DesignParameter>,
+    /// Torques at which it counts; at least one.
+    pub torques: Vec<TorqueWeight>,
+    /// What shall be small.
+    pub goal: Goal,
+    /// Limit of the contact pressure, MPa.
+    pub max_pressure_mpa: Option<f64>,
+    /// Evaluations at the most.
+    pub evaluations: u32,
+    /// Points of the trade-off between the goal and the largest pressure; 0: none.
+    pub front: u32,
+    /// Slices of all designs; `None`: each chooses its own.
+    pub slices: Option<u32>,
+    /// Keys that scatter, and how samples of them are drawn; deviations from what the design says.
+    pub tolerances: Vec<PlanAxis>,
+    /// How they are spread.
+    pub sampling: Sampling,
+    /// Samples of the deviations; one without deviations where nothing scatters.
+    pub samples: Cases,
+}
+
+/// Keys of one value that may change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignParameter {
+    /// At least one; the first one names it.
+    pub keys: Vec<String>,
+    /// Lowest and highest value.
+    pub bounds: [f64; 2],
+    /// Where the search begins.
+    pub start: f64,
+    /// What values are whole multiples of in the end; 0: any.
+    pub grain: f64,
+}
+
+/// A torque of the pinion and what it counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueWeight {
+    /// Torque, N m.
+    pub torque_nm: f64,
+    /// Weight, above 0.
+    pub weight: f64,
+}
+
+impl DesignParameter {
+    /// The key that it is named by.
+    pub fn name(&self) -> &str {
+        self.keys.first().map_or("", String::as_str)
+    }
+
+    /// A step that moves flanks by some 1e-5 mm, for differences.
+    pub fn step(&self) -> f64 {
+        let unit = |ending: &str| self.name().ends_with(ending);
+        if unit("_um") {
+            0.01
+        } else if unit("_deg") || unit("_mm") {
+            1e-3
+        } else {
+            1e-5 * (self.bounds[1] - self.bounds[0]).max(f64::MIN_POSITIVE)
+        }
+    }
+}
+
+/// Key of the torque.
+pub(super) const TORQUE: &str = "operation.torque_nm";
+
+impl Optimisation {
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        if self.tolerances.is_empty() { 1 } else { self.samples.count() }
+    }
+
+    /// Settings of a design at a torque, in a sample.
+    fn settings_of(&self, values: &[f64], torque_nm: f64, sample: Option<usize>) -> Result<Vec<Setting>, SceneError> {
+        let mut all = self.settings.clone();
+        for (parameter, value) in self.parameters.iter().zip(values) {
+            for key in &parameter.keys {
+                all.push(Setting::number(key, *value)?);
+            }
+        }
+        let deviations = sample.filter(|_| !self.tolerances.is_empty()).map(|s| self.samples.values(s));
+        for (axis, deviation) in self.tolerances.iter().zip(deviations.unwrap_or_default()) {
+            for key in &axis.keys {
+                let own = Setting::number_at(&self.scene_text, &all, key).unwrap_or(0.0);
+                all.push(Setting::number(key, own + deviation)?);
+            }
+        }
+        all.push(Setting::number(TORQUE, torque_nm)?);
+        if let Some(slices) = self.slices {
+            all.push(Setting::number("contact.slices", f64::from(slices))?);
+        }
+        Ok(all)
+    }
+
+    /// The scene of a design at a torque: of a sample, or as it is drawn.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the scene does not allow.
+    pub fn scene(&self, values: &[f64], torque_nm: f64, sample: Option<usize>) -> Result<Scene, SceneError> {
+        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings_of(values, torque_nm, sample)?)
+    }
+
+    /// The scene of a design as the file has it: at its own torque.
+    ///
+    /// # Errors
+    /// As [`Optimisation::scene`].
+    pub fn own_scene(&self, values: &[f64]) -> Result<Scene, SceneError> {
+        let torque = Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings)?.operation.torque_nm;
+        self.scene(values, torque, None)
+    }
+
+    /// The values at which the search begins.
+    pub fn start(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.start).collect()
+    }
+}

@@ -1,0 +1,134 @@
+//! From a file, or from words, to a checked optimisation.
+
+use std::path::Path;
+
+use cases::{Cases, Sampling};
+use design::{Goal, Measure, Over};
+
+use super::{
+    DesignParameter, Optimisation, TorqueWeight,
+    check::{check, default_parameters, finish, grain, measure, stem},
+    raw::{RawOptimisation, tables},
+};
+use crate::{
+    Scene, SceneError, Setting, Source,
+    plan::{DESIGNS, SEED},
+    read_text,
+};
+
+/// What a command line says of an optimisation.
+#[derive(Debug, Clone, Default)]
+pub struct OptimisationWords<'a> {
+    /// Keys that may change, `KEY=FROM:TO` or `KEY=FROM:TO:START`; a choice of tip reliefs and crowning without them.
+    pub parameters: &'a [String],
+    /// Torques, N m; the scene's own without them.
+    pub torques_nm: &'a [f64],
+    /// What shall be small.
+    pub measure: Option<&'a str>,
+    /// Limit of the contact pressure, MPa.
+    pub max_pressure_mpa: Option<f64>,
+    /// Evaluations at the most.
+    pub evaluations: u32,
+    /// Points of the trade-off.
+    pub front: u32,
+}
+
+impl Optimisation {
+    /// Reads and checks an optimisation file and the scene that it names.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or in the scene.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of an optimisation file; `file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// As [`Optimisation::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        let source = Source::of(file, text, tables);
+        let raw: RawOptimisation = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        check(&source, &raw)
+    }
+
+    /// Whether a file's text is that of an optimisation: it names a scene.
+    pub fn is_one(text: &str) -> bool {
+        toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("scene"))
+    }
+
+    /// The optimisation of a scene file that a command line says.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, by the word that it is about.
+    pub fn of_words(
+        scene_file: &Path,
+        settings: &[Setting],
+        words: &OptimisationWords<'_>,
+    ) -> Result<Self, SceneError> {
+        let wrong = |label: String, what: String| SceneError::Setting { label, what };
+        let scene_text =
+            read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
+        let own = Scene::parse_with(&scene_text, scene_file, settings)?;
+        let known = |key: &str| Setting::number_at(&scene_text, settings, key);
+        let mut parameters = words
+            .parameters
+            .iter()
+            .map(|word| parameter(word, known).map_err(|what| wrong(format!("--parameter {word}"), what)))
+            .collect::<Result<Vec<_>, _>>()?;
+        if parameters.is_empty() {
+            parameters = default_parameters(&own)?;
+        }
+        let list = if words.torques_nm.is_empty() { vec![own.operation.torque_nm] } else { words.torques_nm.to_vec() };
+        if let Some(none) = list.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
+            return Err(wrong(format!("--torque {none}"), "is no torque above 0".into()));
+        }
+        let measure = match words.measure {
+            None => Measure::PeakToPeak,
+            Some(word) => match measure(word).map_err(|what| wrong(format!("--measure {word}"), what))? {
+                Measure::Harmonics(_) => Measure::Harmonics(vec![1]),
+                other => other,
+            },
+        };
+        let sampling = Sampling { design: DESIGNS[0].1, samples: 1, seed: u64::from(SEED) };
+        let samples = Cases::new(Vec::new(), &sampling).map_err(|e| wrong("samples".into(), e.to_string()))?;
+        finish(Self {
+            name: stem(scene_file),
+            file: scene_file.to_owned(),
+            scene_file: scene_file.to_owned(),
+            scene_text,
+            settings: settings.to_vec(),
+            parameters,
+            torques: list.into_iter().map(|torque_nm| TorqueWeight { torque_nm, weight: 1.0 }).collect(),
+            goal: Goal { measure, over: Over::Mean },
+            max_pressure_mpa: words.max_pressure_mpa,
+            evaluations: words.evaluations.max(1),
+            front: words.front,
+            slices: None,
+            tolerances: Vec::new(),
+            sampling,
+            samples,
+        })
+    }
+}
+
+/// `KEY=FROM:TO`, or with `:START`; the error says what is wrong with it.
+fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Result<DesignParameter, String> {
+    let (key, rest) = word.split_once('=').ok_or("it has no `=`: say KEY=FROM:TO")?;
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is no number", part.trim()));
+    let numbers = rest.split(':').map(number).collect::<Result<Vec<f64>, _>>()?;
+    let (bounds, start) = match numbers[..] {
+        [from, to] => ([from, to], None),
+        [from, to, start] => ([from, to], Some(start)),
+        _ => return Err("say KEY=FROM:TO, or KEY=FROM:TO:START".into()),
+    };
+    if !(bounds[1] > bounds[0] && bounds.iter().all(|b| b.is_finite())) {
+        return Err("its second bound is not above the first".into());
+    }
+    let key = key.trim().to_owned();
+    let middle = if bounds[0] <= 0.0 && bounds[1] >= 0.0 { 0.0 } else { 0.5 * (bounds[0] + bounds[1]) };
+    let start = start.or_else(|| known(&key)).unwrap_or(middle).clamp(bounds[0], bounds[1]);
+    let grain = grain(&key);
+    Ok(DesignParameter { keys: vec![key], bounds, start, grain })
+}
