@@ -112,7 +112,7 @@ impl<'a> SharedModels<'a> {
         Ok((scene, result.history))
     }
 
-    /// Positions of a scene at rest with their derivatives by some parameters, and the scene as it was solved.
+    /// Positions of a scene at rest with the derivatives of the loaded pair by some parameters, and the scene as it was solved.
     ///
     /// # Errors
     /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
@@ -145,7 +145,7 @@ impl<'a> SharedModels<'a> {
                 last.replace(Some(base));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
                 let variations = varied.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
-                let mut sensitivities = Sensitivities::new(variations);
+                let mut sensitivities = Sensitivities::new(variations).of_loaded_pair();
                 let mut rates = Vec::new();
                 let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
                     if varied.is_empty() {

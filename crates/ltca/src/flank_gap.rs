@@ -9,8 +9,11 @@ use geometry::{Flank, ModifiedFlank};
 pub(crate) const STATIONS: usize = 41;
 /// Dips of the gap along the face that are looked into.
 const DIPS: usize = 3;
-/// Steps of the golden section in z: the bracket shrinks to a 10^8th.
-const GOLDEN_STEPS: usize = 40;
+/// Bisections to the end of what faces the other flank, to a 10^12th of a bracket.
+const END_STEPS: usize = 40;
+/// Roll angle to which a station's place of least gap is known before it is looked into, rad: its gap to a nanometre,
+/// at a kink to a ten-thousandth of a millimetre.
+const FIRST_LOOK: f64 = 1e-5;
 
 /// Gap between the two flanks of a pair.
 pub(crate) struct FlankGap<'a> {
@@ -120,7 +123,8 @@ impl<'a> FlankGap<'a> {
         let mut gap = Self::unseen(flanks, poses);
         let half = gap.half_width();
         let z = |i: usize| half * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0);
-        let gaps: Vec<f64> = (0..STATIONS).map(|i| gap.at(z(i)).map_or(f64::INFINITY, |g| g.1)).collect();
+        let gaps: Vec<f64> =
+            (0..STATIONS).map(|i| gap.at_within(z(i), FIRST_LOOK).map_or(f64::INFINITY, |g| g.1)).collect();
         let dip = |i: usize| {
             let beside = [i.checked_sub(1).and_then(|k| gaps.get(k)), gaps.get(i + 1)];
             let is_dip = gaps[i].is_finite() && beside.iter().flatten().all(|g| gaps[i] <= **g);
@@ -140,8 +144,26 @@ impl<'a> FlankGap<'a> {
         self.flanks[0].nominal().half_width
     }
 
+    /// Where an earlier look at nearly the same poses found dips: at these heights, deeper than any other place.
+    pub fn seen(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2], heights: &[f64]) -> Self {
+        let dip = |&z: &f64| Dip { z, gap: f64::NEG_INFINITY, lowest: f64::NEG_INFINITY };
+        Self { dips: heights.iter().map(dip).collect(), ..Self::unseen(flanks, poses) }
+    }
+
+    /// Heights of the dips that may fall to some gap; where stations foretell more than was found, that of `found`.
+    pub fn dips_below(&self, gap: f64, found: Option<f64>) -> Vec<f64> {
+        let step = 2.0 * self.half_width() / (STATIONS - 1) as f64;
+        let holds = |dip: &&Dip| dip.lowest <= gap || found.is_some_and(|z| (dip.z - z).abs() <= step);
+        self.dips.iter().filter(holds).map(|dip| dip.z).collect()
+    }
+
     /// Roll angle of least gap at height `z` of the pinion, and the gap.
     pub fn at(&self, z: f64) -> Option<(f64, f64)> {
+        self.at_within(z, 0.0)
+    }
+
+    /// The same with a roll angle to `within`, rad.
+    fn at_within(&self, z: f64, within: f64) -> Option<(f64, f64)> {
         let [first, second] = self.flanks;
         let (f, s) = (first.nominal(), second.nominal());
         // The foot of an end face's point lies on the end face to round-off.
@@ -150,7 +172,7 @@ impl<'a> FlankGap<'a> {
         let (pair, range) = (SurfacePair { first, second, poses: self.poses }, [f.roll_form, f.roll_tip]);
         let near = self.guide.as_ref().map(|guide| {
             let starts = guide.starts(self.flanks, z);
-            (pair.least_gap_near(range, &covers, z, (&starts, guide.stride)), starts.is_empty())
+            (pair.least_gap_near(range, &covers, z, (&starts, guide.stride), within), starts.is_empty())
         });
         match near {
             // Nothing is faced, not even nearly.
@@ -176,11 +198,10 @@ impl<'a> FlankGap<'a> {
             let step = 2.0 * self.half_width() / (STATIONS - 1) as f64;
             let half = self.half_width();
             let [from, to] = [(dip.z - step).max(-half), (dip.z + step).min(half)];
-            let place = self.golden(self.facing_end(dip.z, from), self.facing_end(dip.z, to));
-            for z in [dip.z, place] {
-                let found = self.at(z).map(|(u, gap)| (gap, [u, z]));
-                best = found.filter(|f| f.0 < best.map_or(enough, |b| b.0)).or(best);
-            }
+            let gap = |z: f64| self.at(z).map_or(f64::INFINITY, |g| g.1);
+            let (z, _) = least(gap, [self.facing_end(dip.z, from), self.facing_end(dip.z, to)], dip.z);
+            let found = self.at(z).map(|(u, gap)| (gap, [u, z]));
+            best = found.filter(|f| f.0 < best.map_or(enough, |b| b.0)).or(best);
         }
         best
     }
@@ -190,30 +211,56 @@ impl<'a> FlankGap<'a> {
         if self.at(to).is_some() {
             return to;
         }
-        last_inside(|z| self.at(z).is_some(), [from, to], GOLDEN_STEPS, 0.0)
+        last_inside(|z| self.at(z).is_some(), [from, to], END_STEPS, 0.0)
     }
+}
 
-    /// Place of the least gap between `a` and `b`, ends included.
-    fn golden(&self, mut a: f64, mut b: f64) -> f64 {
-        const RATIO: f64 = 0.618_033_988_749_894_9;
-        let gap = |z: f64| self.at(z).map_or(f64::INFINITY, |g| g.1);
-        let ends = [(a, gap(a)), (b, gap(b))];
-        let (mut x, mut y) = (b - RATIO * (b - a), a + RATIO * (b - a));
-        let (mut gx, mut gy) = (gap(x), gap(y));
-        for _ in 0..GOLDEN_STEPS {
-            if gx <= gy {
-                (b, y, gy) = (y, x, gx);
-                x = b - RATIO * (b - a);
-                gx = gap(x);
-            } else {
-                (a, x, gx) = (x, y, gy);
-                y = a + RATIO * (b - a);
-                gy = gap(y);
+/// Evaluations before the least value is taken as it is.
+const LEAST_STEPS: usize = 80;
+/// Bracket of the place of the least value, over the first one.
+const PLACE: f64 = 1e-8;
+/// Differences between gaps that are round-off, mm.
+const ROUND_OFF: f64 = 2e-15;
+
+/// Place and least value of `f` between `ends`, these included, from a place within: Brent's method (Algorithms for
+/// minimization without derivatives, 1973, chapter 5): parabolas where they serve, golden sections where they do not.
+fn least(f: impl Fn(f64) -> f64, ends: [f64; 2], within: f64) -> (f64, f64) {
+    const GOLDEN: f64 = 0.381_966_011_250_105_1;
+    let [mut a, mut b] = ends;
+    let tolerance = PLACE * (b - a);
+    let known = f(within);
+    let of_ends = ends.map(|z| (z, if z == within { known } else { f(z) }));
+    // The least value so far, the second and the third.
+    let mut three = [(within, known); 3];
+    let [mut last, mut before] = [b - a; 2];
+    for _ in 0..LEAST_STEPS {
+        let [(x, fx), (w, fw), (v, fv)] = three;
+        let middle = 0.5 * (a + b);
+        let flat = w != x && v != x && v != w && fw - fx <= ROUND_OFF && fv - fx <= ROUND_OFF;
+        if (x - middle).abs() <= 2.0 * tolerance - 0.5 * (b - a) || flat {
+            break;
+        }
+        // The lowest point of the parabola through all three.
+        let (r, q) = ((x - w) * (fx - fv), (x - v) * (fx - fw));
+        let (p, q) = ((x - v) * q - (x - w) * r, 2.0 * (q - r));
+        let way = -p / q;
+        let serves = way.is_finite() && way.abs() < 0.5 * before.abs() && x + way > a && x + way < b;
+        let step = if serves { way } else { GOLDEN * if x < middle { b - x } else { a - x } };
+        (before, last) = (if serves { last } else { step / GOLDEN }, step);
+        let at = x + if step.abs() >= tolerance { step } else { tolerance.copysign(step) };
+        let found = f(at);
+        if found <= fx {
+            if at < x { b = x } else { a = x }
+            three = [(at, found), (x, fx), (w, fw)];
+        } else {
+            if at < x { a = at } else { b = at }
+            if found <= fw || w == x {
+                three = [(x, fx), (at, found), (w, fw)];
+            } else if found <= fv || v == x || v == w {
+                three[2] = (at, found);
             }
         }
-        let inner = if gx <= gy { (x, gx) } else { (y, gy) };
-        // At an end of the flanks the gap may still fall: the end itself is the place then, and no golden section
-        // reaches it.
-        ends.into_iter().fold(inner, |best, end| if end.1 <= best.1 { end } else { best }).0
     }
+    // At an end the value may still fall: the end itself is the place then.
+    of_ends.into_iter().fold(three[0], |best, end| if end.1 < best.1 { end } else { best })
 }

@@ -45,6 +45,23 @@ pub(crate) struct Nearest {
     tooth: i64,
 }
 
+/// Where the least gap is looked for.
+enum Look {
+    /// All over the face of these teeth.
+    All(Vec<i64>),
+    /// About these heights of these teeth.
+    At(Vec<(i64, Vec<f64>)>),
+}
+
+impl Look {
+    fn teeth(&self) -> Vec<i64> {
+        match self {
+            Self::All(teeth) => teeth.clone(),
+            Self::At(places) => places.iter().map(|(tooth, _)| *tooth).collect(),
+        }
+    }
+}
+
 impl<'a> Unloaded<'a> {
     /// Turns the driven gear until the least gap over all pairs, heights and edges is zero.
     ///
@@ -63,14 +80,14 @@ impl<'a> Unloaded<'a> {
         }
         let round_off = round_off_of_places(pair.centre_distance());
         let radius = pair.pinion.base_radius().max(pair.wheel.base_radius());
-        let mut teeth: Vec<i64> = unloaded.teeth().collect();
+        let mut look = Look::All(unloaded.teeth().collect());
         // Rotations with the flanks apart, and with them in each other.
         let mut between = [None::<f64>; 2];
         for taken in 0..STEPS {
             let poses = unloaded.poses();
             let apart = StaticError::Apart { cycle: station.cycle, phase: station.phase };
-            let Some((nearest, beside)) = unloaded.nearest(&poses, &teeth) else { return Err(apart) };
-            teeth = beside;
+            let Some((nearest, beside)) = unloaded.nearest(&poses, &look) else { return Err(apart) };
+            look = beside;
             let lever = unloaded.lever(&poses, &nearest);
             let step = -nearest.gap / lever;
             if !step.is_finite() || step.abs() > 0.5 * pair.pinion.pitch_angle() {
@@ -144,13 +161,19 @@ impl<'a> Unloaded<'a> {
         low.floor() as i64..=high.ceil() as i64
     }
 
-    /// Least gap over the pairs of some teeth, and the teeth that may have it once the gear has turned to where they
-    /// touch: the gaps of all pairs change by nearly the same.
+    /// Least gap over the pairs of some teeth, and where it may be once the gear has turned to where they touch: the
+    /// gaps of all pairs change by nearly the same.
     ///
     /// Pairs are looked into in the order of what was seen of them, and no further than one may have the least gap.
-    fn nearest(&self, poses: &[Pose; 2], teeth: &[i64]) -> Option<(Nearest, Vec<i64>)> {
+    fn nearest(&self, poses: &[Pose; 2], look: &Look) -> Option<(Nearest, Look)> {
+        let teeth = look.teeth();
         let flanks: Vec<[ModifiedFlank; 2]> = teeth.iter().map(|&tooth| self.flanks(tooth)).collect();
-        let gaps: Vec<FlankGap<'_>> = flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect();
+        let gaps: Vec<FlankGap<'_>> = match look {
+            Look::All(_) => flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect(),
+            Look::At(places) => {
+                flanks.iter().zip(places).map(|(flanks, (_, at))| FlankGap::seen(flanks, poses, at)).collect()
+            }
+        };
         let mut order: Vec<usize> = (0..teeth.len()).collect();
         order.sort_by(|&i, &j| gaps[i].lowest().total_cmp(&gaps[j].lowest()));
         let mut best: Option<Nearest> = None;
@@ -160,11 +183,15 @@ impl<'a> Unloaded<'a> {
             best = Some(Nearest { gap, at, tooth: teeth[i] });
         }
         let best = best?;
+        if let Look::At(places) = look {
+            return Some((best, Look::At(places.clone())));
+        }
         let reach = best.gap + OTHER_LEVERS * best.gap.abs() + TOUCHING;
-        // What stations foretell of a pair may be more than what was found.
-        let near = |tooth: i64, gap: &FlankGap<'_>| tooth == best.tooth || gap.lowest() <= reach;
-        let beside = teeth.iter().zip(&gaps).filter(|(tooth, gap)| near(**tooth, gap)).map(|(&tooth, _)| tooth).collect();
-        Some((best, beside))
+        let places = teeth.iter().zip(&gaps).map(|(&tooth, gap)| {
+            let found = (tooth == best.tooth).then_some(best.at[1]);
+            (tooth, gap.dips_below(reach, found))
+        });
+        Some((best, Look::At(places.filter(|(_, heights)| !heights.is_empty()).collect())))
     }
 
     /// d gap / d angle of the driven gear, mm.

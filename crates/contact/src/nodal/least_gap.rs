@@ -2,7 +2,7 @@
 
 use crate::{
     FlankPatch, Pose, Surface,
-    bracketing::{bracket_zero, last_inside},
+    bracketing::{bracket_zero, bracket_zero_within, last_inside},
 };
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.
@@ -76,17 +76,19 @@ impl SurfacePair<'_> {
 
 impl SurfacePair<'_> {
     /// As [`SurfacePair::least_gap`], for a caller who knows near which places the gap may be least: from each of them
-    /// downhill in strides to the next dip. `None` where one of them faces nothing.
+    /// downhill in strides to the next dip, whose place is found to `within` (0: round-off). `None` where one of them
+    /// faces nothing.
     pub fn least_gap_near(
         &self,
         range: [f64; 2],
         covers: &dyn Fn([f64; 2]) -> bool,
         z: f64,
         (starts, stride): (&[f64], f64),
+        within: f64,
     ) -> Option<(f64, f64)> {
         let mut best: Option<(f64, f64)> = None;
         for &start in starts {
-            let found = self.downhill(range, covers, z, (start, stride))?;
+            let found = self.downhill(range, covers, z, (start, stride), within)?;
             best = Some(found).filter(|f| best.is_none_or(|b| f.1 < b.1)).or(best);
         }
         best
@@ -99,6 +101,7 @@ impl SurfacePair<'_> {
         covers: &dyn Fn([f64; 2]) -> bool,
         z: f64,
         (start, stride): (f64, f64),
+        within: f64,
     ) -> Option<(f64, f64)> {
         let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
         // A place that just faces nothing has a neighbour that faces something.
@@ -122,7 +125,7 @@ impl SurfacePair<'_> {
             let (gap, there) = gap_and_slope(next)?;
             if there * way >= 0.0 {
                 let slope_at = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);
-                let [a, b] = bracket_zero(slope_at, [here, next], [slope, there]);
+                let [a, b] = bracket_zero_within(slope_at, [here, next], [slope, there], within);
                 let u = 0.5 * (a + b);
                 return Some((u, gap_and_slope(u)?.0));
             }

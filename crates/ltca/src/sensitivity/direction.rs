@@ -103,7 +103,7 @@ impl<'a> Directions<'a> {
         let of_side = |side: usize| self.position(windowed, e, rates, (side, kinematic[side]));
         let kinked = |all: &Rates| all.distances.iter().any(|[a, b]| a != b);
         let is_smooth = self.at.undecided.is_empty() && !kinked(self.turned) && !kinked(rates);
-        Some(Sensitivity { sides: [of_side(0)?, of_side(1)?], is_smooth: is_smooth && kinematic[0] == kinematic[1] })
+        Some(Sensitivity { sides: [of_side(0)?, of_side(1)?], is_smooth: is_smooth && !(kinematic[0] < kinematic[1] || kinematic[0] > kinematic[1]) })
     }
 
     fn position(

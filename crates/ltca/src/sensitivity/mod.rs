@@ -11,6 +11,7 @@ mod direction;
 mod variation;
 
 use contact::{ContactSet, Friction, TableWork};
+use rayon::prelude::*;
 
 use crate::{Equilibrium, StaticError, StaticModel, WindowedPair};
 
@@ -23,9 +24,9 @@ pub use variation::{Neighbour, Variation};
 pub struct PositionRates {
     /// Of the transmission error, mm.
     pub transmission_error: f64,
-    /// Of the transmission error without load, mm.
+    /// Of the transmission error without load, mm; NaN where it was not asked for.
     pub kinematic_transmission_error: f64,
-    /// Of F_bt / (te - kinematic te), N/mm.
+    /// Of F_bt / (te - kinematic te), N/mm; likewise.
     pub secant_stiffness: f64,
     /// Of the largest contact pressure, MPa.
     pub max_pressure: f64,
@@ -61,6 +62,7 @@ impl Sensitivity {
 #[derive(Debug)]
 pub struct Sensitivities {
     variations: Vec<Variation>,
+    unloaded: bool,
     sets: Option<VariedSets>,
 }
 
@@ -69,13 +71,20 @@ pub struct Sensitivities {
 struct VariedSets {
     base: ContactSet,
     varied: Vec<[ContactSet; 2]>,
-    work: Vec<TableWork>,
+    /// Memory to read tables, of each parameter and of the pair itself.
+    work: Vec<Vec<TableWork>>,
 }
 
 impl Sensitivities {
     /// By some parameters of a model.
     pub fn new(variations: Vec<Variation>) -> Self {
-        Self { variations, sets: None }
+        Self { variations, unloaded: true, sets: None }
+    }
+
+    /// The same for who asks nothing of the unloaded pair, which costs as much as all the others together.
+    #[must_use]
+    pub fn of_loaded_pair(self) -> Self {
+        Self { unloaded: false, ..self }
     }
 
     /// Derivatives of the model's last solution, one entry a parameter.
@@ -112,7 +121,7 @@ impl Sensitivities {
         };
         let windowed =
             WindowedPair { pair: model.pair(), gears: model.gears(), set, window: model.window(), options };
-        position(&windowed, e, &self.variations, sets).ok_or_else(|| none("where a loaded slice leaves the flanks"))
+        position(&windowed, e, (&self.variations, self.unloaded), sets).ok_or_else(|| none("where a loaded slice leaves the flanks"))
     }
 }
 
@@ -132,7 +141,8 @@ impl VariedSets {
         };
         let varied = variations.iter().map(of_one).collect::<Result<_, _>>()?;
         let most = set.candidate_count();
-        Ok(Self { base: set.clone(), varied, work: set.table_work(most) })
+        let work = (0..=variations.len()).map(|_| set.table_work(most)).collect();
+        Ok(Self { base: set.clone(), varied, work })
     }
 }
 
@@ -140,19 +150,21 @@ impl VariedSets {
 fn position(
     windowed: &WindowedPair,
     e: &Equilibrium,
-    variations: &[Variation],
+    (variations, unloaded): (&[Variation], bool),
     sets: &mut VariedSets,
 ) -> Option<Vec<Sensitivity>> {
     let friction = Friction::new(windowed.pair, &windowed.options.contact);
     let at = Conditions::new(windowed, e);
     let here = windowed.set.same_slices(friction.as_ref(), &e.poses, &at.slices)?;
     let at = Conditions { slices: here, ..at };
-    let turned = at.by_rotation(windowed, e, friction.as_ref(), &mut sets.work)?;
-    let directions = Directions::new(windowed, &at, &turned, &mut sets.work);
-    let of_one = |(variation, varied): (&Variation, &[ContactSet; 2])| -> Option<Sensitivity> {
-        let rates: Rates = at.by_variation(windowed, e, variation, varied, &mut sets.work)?;
-        let kinematic = variation.kinematic_rates(windowed, e)?;
+    let VariedSets { varied, work, .. } = sets;
+    let (own, of_parameters) = work.split_last_mut()?;
+    let turned = at.by_rotation(windowed, e, friction.as_ref(), own)?;
+    let directions = Directions::new(windowed, &at, &turned, own);
+    let of_one = |((variation, varied), work): ((&Variation, &[ContactSet; 2]), &mut Vec<TableWork>)| {
+        let rates: Rates = at.by_variation(windowed, e, variation, varied, work)?;
+        let kinematic = if unloaded { variation.kinematic_rates(windowed, e)? } else { [f64::NAN; 2] };
         directions.follow(windowed, e, &rates, kinematic)
     };
-    variations.iter().zip(&sets.varied).map(of_one).collect()
+    variations.par_iter().zip(&*varied).zip(of_parameters).map(of_one).collect()
 }
