@@ -58,6 +58,16 @@ struct Guide {
     stride: f64,
 }
 
+/// What the gap to first order says of a height.
+#[derive(Debug, Clone)]
+struct Look {
+    /// Where downhill ways to the dips begin that may be the deepest.
+    starts: Vec<f64>,
+    /// Least gap, mm, and what it may be off by.
+    gap: f64,
+    doubt: f64,
+}
+
 impl Guide {
     fn new(flanks: &[ModifiedFlank; 2], poses: &[Pose; 2]) -> Option<Self> {
         let [first, second] = flanks.each_ref().map(ModifiedFlank::nominal);
@@ -78,8 +88,8 @@ impl Guide {
         Some(Self { touch: [u, u2], stride })
     }
 
-    /// Where downhill ways to the dips begin that may be the deepest at a height; none where nothing is faced.
-    fn starts(&self, flanks: &[ModifiedFlank; 2], z: f64) -> Vec<f64> {
+    /// What is seen at a height; `None` where nothing is faced.
+    fn look(&self, flanks: &[ModifiedFlank; 2], z: f64) -> Option<Look> {
         let [first, second] = flanks.each_ref().map(ModifiedFlank::nominal);
         let [u, u2] = self.touch;
         let u0 = u + first.side.sign() * first.twist * z;
@@ -105,10 +115,11 @@ impl Guide {
             (own[1] <= at(i.checked_sub(1)) && own[1] <= at(Some(i + 1))).then_some(own)
         });
         let dips: Vec<[f64; 3]> = dips.collect();
-        let Some(best) = dips.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])) else { return Vec::new() };
+        let best = dips.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1]))?;
         let (amount, share) = FIRST_ORDER;
         let may_be = |dip: &&[f64; 3]| dip[1] - best[1] <= amount + share * (dip[2] + best[2]);
-        dips.iter().filter(may_be).map(|dip| dip[0]).collect()
+        let starts = dips.iter().filter(may_be).map(|dip| dip[0]).collect();
+        Some(Look { starts, gap: best[1], doubt: 0.5 * amount + share * best[2] })
     }
 }
 
@@ -120,20 +131,31 @@ impl<'a> FlankGap<'a> {
 
     /// At the stations along the face.
     pub fn new(flanks: &'a [ModifiedFlank; 2], poses: &'a [Pose; 2]) -> Self {
-        let mut gap = Self::unseen(flanks, poses);
-        let half = gap.half_width();
-        let z = |i: usize| half * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0);
-        let gaps: Vec<f64> =
-            (0..STATIONS).map(|i| gap.at_within(z(i), FIRST_LOOK).map_or(f64::INFINITY, |g| g.1)).collect();
+        let gap = Self::unseen(flanks, poses);
+        gap.looked(&[Some([f64::NEG_INFINITY; 2]); STATIONS], 0.0)
+    }
+
+    /// At the stations along the face at which the gap may be as small as `enough`, mm, after what is foretold of them.
+    pub fn looked(self, foretold: &[Option<[f64; 2]>], enough: f64) -> Self {
+        let mut gap = self;
+        let z = |i: usize| gap.station(i);
+        let may_be = |i: usize| foretold[i].is_some_and(|[low, _]| low <= enough);
+        let gap_at = |i: usize| match foretold[i] {
+            Some(_) if may_be(i) => gap.at_within(z(i), FIRST_LOOK).map_or(f64::INFINITY, |g| g.1),
+            Some([low, high]) => 0.5 * (low + high),
+            None => f64::INFINITY,
+        };
+        let gaps: Vec<f64> = (0..STATIONS).map(gap_at).collect();
         let dip = |i: usize| {
             let beside = [i.checked_sub(1).and_then(|k| gaps.get(k)), gaps.get(i + 1)];
-            let is_dip = gaps[i].is_finite() && beside.iter().flatten().all(|g| gaps[i] <= **g);
+            let is_dip = may_be(i) && gaps[i].is_finite() && beside.iter().flatten().all(|g| gaps[i] <= **g);
             // Towards a station where nothing faces it falls no faster than on the other side; alone, who knows.
             let rises = beside.iter().flatten().map(|g| *g - gaps[i]).filter(|rise| rise.is_finite());
             let rise = rises.reduce(f64::max).unwrap_or(f64::INFINITY);
             is_dip.then(|| Dip { z: z(i), gap: gaps[i], lowest: gaps[i] - 2.0 * rise })
         };
-        gap.dips = (0..STATIONS).filter_map(dip).collect();
+        let dips = (0..STATIONS).filter_map(dip).collect();
+        gap.dips = dips;
         gap.dips.sort_by(|a, b| a.gap.total_cmp(&b.gap));
         // A stretch of equal gaps is one dip after another; any of them is as good.
         gap.dips.truncate(DIPS);
@@ -171,15 +193,33 @@ impl<'a> FlankGap<'a> {
         let covers = |[u, z]: [f64; 2]| u >= s.roll_form && u <= s.roll_tip && z.abs() <= end;
         let (pair, range) = (SurfacePair { first, second, poses: self.poses }, [f.roll_form, f.roll_tip]);
         let near = self.guide.as_ref().map(|guide| {
-            let starts = guide.starts(self.flanks, z);
-            (pair.least_gap_near(range, &covers, z, (&starts, guide.stride), within), starts.is_empty())
+            let look = guide.look(self.flanks, z)?;
+            Some(pair.least_gap_near(range, &covers, z, (&look.starts, guide.stride), within))
         });
         match near {
             // Nothing is faced, not even nearly.
-            Some((_, true)) => None,
-            Some((Some(found), _)) => Some(found),
+            Some(None) => None,
+            Some(Some(Some(found))) => Some(found),
             _ => pair.least_gap(range, &covers, z),
         }
+    }
+
+    /// Gaps to first order at the stations with what they may be off by, from which to which; `None` where nothing is
+    /// faced, or where nominal flanks tell nothing.
+    pub fn foretold(&self) -> Vec<Option<[f64; 2]>> {
+        // Tilted axes part flanks by as much at the ends of the face; the guide knows nothing of them.
+        let axes = self.poses.each_ref().map(|pose| pose.rotation * Vec3::z());
+        let tilt = axes[0].cross(&axes[1]).norm() * self.half_width();
+        let of_station = |i: usize| {
+            let Some(guide) = &self.guide else { return Some([f64::NEG_INFINITY, f64::INFINITY]) };
+            let Look { gap, doubt, .. } = guide.look(self.flanks, self.station(i))?;
+            Some([gap - doubt - tilt, gap + doubt + tilt])
+        };
+        (0..STATIONS).map(of_station).collect()
+    }
+
+    fn station(&self, i: usize) -> f64 {
+        self.half_width() * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0)
     }
 
     /// What the gap may fall to between the stations: beside each by as much again as it differs from its neighbours,
@@ -188,8 +228,10 @@ impl<'a> FlankGap<'a> {
         self.dips.iter().map(|dip| dip.lowest).fold(f64::INFINITY, f64::min)
     }
 
-    /// Least gap over the face and where on the pinion, where it is less than `enough`, mm.
-    pub fn nearest_below(&self, enough: f64) -> Option<(f64, [f64; 2])> {
+    /// Least gap over the face and where on the pinion, where it is less than `enough`, mm: to round-off, or to a
+    /// nanometre at the `first` look.
+    pub fn nearest_below(&self, enough: f64, first: bool) -> Option<(f64, [f64; 2])> {
+        let (within, round_off) = if first { (FIRST_LOOK, FIRST_ROUND_OFF) } else { (0.0, ROUND_OFF) };
         let mut best: Option<(f64, [f64; 2])> = None;
         for dip in &self.dips {
             if dip.lowest >= best.map_or(enough, |b| b.0) {
@@ -198,9 +240,10 @@ impl<'a> FlankGap<'a> {
             let step = 2.0 * self.half_width() / (STATIONS - 1) as f64;
             let half = self.half_width();
             let [from, to] = [(dip.z - step).max(-half), (dip.z + step).min(half)];
-            let gap = |z: f64| self.at(z).map_or(f64::INFINITY, |g| g.1);
-            let (z, _) = least(gap, [self.facing_end(dip.z, from), self.facing_end(dip.z, to)], dip.z);
-            let found = self.at(z).map(|(u, gap)| (gap, [u, z]));
+            let gap = |z: f64| self.at_within(z, within).map_or(f64::INFINITY, |g| g.1);
+            let ends = [self.facing_end(dip.z, from), self.facing_end(dip.z, to)];
+            let (z, _) = least(gap, ends, dip.z, round_off);
+            let found = self.at_within(z, within).map(|(u, gap)| (gap, [u, z]));
             best = found.filter(|f| f.0 < best.map_or(enough, |b| b.0)).or(best);
         }
         best
@@ -221,10 +264,12 @@ const LEAST_STEPS: usize = 80;
 const PLACE: f64 = 1e-8;
 /// Differences between gaps that are round-off, mm.
 const ROUND_OFF: f64 = 2e-15;
+/// The same at a first look, which another one follows.
+const FIRST_ROUND_OFF: f64 = 1e-7;
 
 /// Place and least value of `f` between `ends`, these included, from a place within: Brent's method (Algorithms for
 /// minimization without derivatives, 1973, chapter 5): parabolas where they serve, golden sections where they do not.
-fn least(f: impl Fn(f64) -> f64, ends: [f64; 2], within: f64) -> (f64, f64) {
+fn least(f: impl Fn(f64) -> f64, ends: [f64; 2], within: f64, round_off: f64) -> (f64, f64) {
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let [mut a, mut b] = ends;
     let tolerance = PLACE * (b - a);
@@ -236,7 +281,7 @@ fn least(f: impl Fn(f64) -> f64, ends: [f64; 2], within: f64) -> (f64, f64) {
     for _ in 0..LEAST_STEPS {
         let [(x, fx), (w, fw), (v, fv)] = three;
         let middle = 0.5 * (a + b);
-        let flat = w != x && v != x && v != w && fw - fx <= ROUND_OFF && fv - fx <= ROUND_OFF;
+        let flat = w != x && v != x && v != w && fw - fx <= round_off && fv - fx <= round_off;
         if (x - middle).abs() <= 2.0 * tolerance - 0.5 * (b - a) || flat {
             break;
         }

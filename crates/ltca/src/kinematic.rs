@@ -95,7 +95,7 @@ impl<'a> Unloaded<'a> {
             }
             between[usize::from(nearest.gap < 0.0)] = Some(unloaded.rotation);
             unloaded.touch = Some(nearest);
-            let touches = nearest.gap.abs() <= round_off;
+            let touches = nearest.gap.abs() <= round_off && taken > 0;
             match between {
                 // Steps that go to and fro over a kink: the end of what two flanks face of each other, another pair.
                 [Some(out), Some(within)] if taken >= NEWTON_STEPS && !touches => {
@@ -166,10 +166,16 @@ impl<'a> Unloaded<'a> {
     ///
     /// Pairs are looked into in the order of what was seen of them, and no further than one may have the least gap.
     fn nearest(&self, poses: &[Pose; 2], look: &Look) -> Option<(Nearest, Look)> {
-        let teeth = look.teeth();
+        let (teeth, first) = (look.teeth(), matches!(look, Look::All(_)));
         let flanks: Vec<[ModifiedFlank; 2]> = teeth.iter().map(|&tooth| self.flanks(tooth)).collect();
         let gaps: Vec<FlankGap<'_>> = match look {
-            Look::All(_) => flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect(),
+            Look::All(_) => {
+                let unseen: Vec<FlankGap<'_>> = flanks.iter().map(|flanks| FlankGap::unseen(flanks, poses)).collect();
+                let foretold: Vec<_> = unseen.iter().map(FlankGap::foretold).collect();
+                // Whatever the least gap is, it is no larger than the least that may be.
+                let enough = foretold.iter().flatten().flatten().map(|[_, high]| *high).fold(f64::INFINITY, f64::min);
+                unseen.into_iter().zip(&foretold).map(|(gap, told)| gap.looked(told, enough)).collect()
+            }
             Look::At(places) => {
                 flanks.iter().zip(places).map(|(flanks, (_, at))| FlankGap::seen(flanks, poses, at)).collect()
             }
@@ -179,7 +185,7 @@ impl<'a> Unloaded<'a> {
         let mut best: Option<Nearest> = None;
         for i in order {
             let enough = best.map_or(f64::INFINITY, |b| b.gap);
-            let Some((gap, at)) = gaps[i].nearest_below(enough) else { continue };
+            let Some((gap, at)) = gaps[i].nearest_below(enough, first) else { continue };
             best = Some(Nearest { gap, at, tooth: teeth[i] });
         }
         let best = best?;
@@ -256,7 +262,7 @@ impl<'a> Unloaded<'a> {
         let poses = self.poses();
         let flanks = self.flanks(running - self.station.middle_pair(self.options.sense));
         let gap = FlankGap::new(&flanks, &poses);
-        let Some((least, [_, z])) = gap.nearest_below(f64::INFINITY) else { return 0.0 };
+        let Some((least, [_, z])) = gap.nearest_below(f64::INFINITY, false) else { return 0.0 };
         if least > TOUCHING {
             return 0.0;
         }
