@@ -1,6 +1,7 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
 mod cache_args;
+mod case;
 mod chart;
 mod compare;
 mod curve;
@@ -73,6 +74,10 @@ enum Command {
     Study(study::StudyArgs),
     /// Run a scene with some of its keys varied, by list, grid or sample: a row of wanted numbers a case
     Vary(vary::VaryArgs),
+    /// Solve some cases of a plan into a file: for many machines, in any order, as often as need be
+    Case(case::CaseArgs),
+    /// Put the files of `ale-gear case` together
+    Merge(case::MergeArgs),
     /// Search the micro-geometry that is quietest, within bounds and limits
     Optimise(optimise::OptimiseArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
@@ -148,6 +153,8 @@ impl Cli {
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Vary(args)) => args.execute().map(told),
+            Some(Command::Case(args)) => args.execute(told),
+            Some(Command::Merge(args)) => args.execute().map(told),
             Some(Command::Optimise(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Init(args)) => args.execute(quiet),

@@ -1,10 +1,10 @@
 //! `ale-gear vary`: a scene with keys varied, a row a case.
 
-use std::path::PathBuf;
+use std::{ops::Range, path::PathBuf};
 
 use analysis::SharedModels;
 use report::{
-    folder::Partial,
+    folder::{Cache, Partial},
     plan_files::{DoneCases, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
@@ -80,20 +80,30 @@ impl VaryArgs {
             talk::note(format!("{before} of {count} cases were done before"));
         }
         let cache = self.cache.open();
-        let scratch = Partial::new(std::env::temp_dir().join(format!("ale-gear-cases-{}", std::process::id())));
-        let in_time = |case: usize, scene: &_| {
-            let folder = scratch.path().join(case.to_string());
-            let solve = |own: &_| write_result(&with_slices(Clone::clone(scene)), &mut Phases::quiet(), own, &cache);
-            study_cases::numbers(&folder, solve).map_err(|e| e.message)
-        };
-        phases
-            .run_steps("cases", (count - before) as u64, |progress| {
-                solve_cases(&plan, &SharedModels::new(&cache), &in_time, &done, &|| progress.tick())
-            })
-            .map_err(complain)?;
+        solve_range(&plan, 0..count, &mut phases, &cache, &done).map_err(complain)?;
         let text = write_cases(&plan, &done, &phases.cost(), &results)?;
         results.finish(talk::note)?;
         done.remove().map_err(complain)?;
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }
+}
+
+/// Solves the cases of a range that are not done yet.
+pub(super) fn solve_range(
+    plan: &Plan,
+    range: Range<usize>,
+    phases: &mut Phases,
+    cache: &Cache,
+    done: &DoneCases,
+) -> std::io::Result<()> {
+    let scratch = Partial::new(std::env::temp_dir().join(format!("ale-gear-cases-{}", std::process::id())));
+    let in_time = |case: usize, scene: &_| {
+        let folder = scratch.path().join(case.to_string());
+        let solve = |own: &_| write_result(&with_slices(Clone::clone(scene)), &mut Phases::quiet(), own, cache);
+        study_cases::numbers(&folder, solve).map_err(|e| e.message)
+    };
+    let open = range.clone().filter(|&case| !done.has(case)).count();
+    phases.run_steps("cases", open as u64, |progress| {
+        solve_cases((plan, range), &SharedModels::new(cache), &in_time, done, &|| progress.tick())
+    })
 }

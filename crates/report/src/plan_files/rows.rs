@@ -73,8 +73,8 @@ impl CaseTable {
 /// The first line says which plan they belong to. A line that was cut short is none.
 #[derive(Debug)]
 pub struct DoneCases {
-    path: PathBuf,
-    file: Mutex<File>,
+    /// None where they are kept in memory alone.
+    file: Option<(PathBuf, Mutex<File>)>,
     lines: Mutex<BTreeMap<usize, String>>,
 }
 
@@ -82,6 +82,11 @@ pub struct DoneCases {
 const OF: &str = "# cases of ";
 
 impl DoneCases {
+    /// In memory alone.
+    pub fn in_memory(lines: BTreeMap<usize, String>) -> Self {
+        Self { file: None, lines: Mutex::new(lines) }
+    }
+
     /// Those of a plan with this digest; of another plan: none.
     ///
     /// # Errors
@@ -107,7 +112,7 @@ impl DoneCases {
         fs::write(&beside, whole)?;
         fs::rename(&beside, path)?;
         let file = OpenOptions::new().append(true).open(path)?;
-        Ok(Self { path: path.to_owned(), file: Mutex::new(file), lines: Mutex::new(lines) })
+        Ok(Self { file: Some((path.to_owned(), Mutex::new(file))), lines: Mutex::new(lines) })
     }
 
     /// Whether a case is done.
@@ -125,7 +130,9 @@ impl DoneCases {
     /// # Errors
     /// When the system refuses.
     pub fn add(&self, case: usize, line: String) -> io::Result<()> {
-        self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())?;
+        if let Some((_, file)) = &self.file {
+            file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())?;
+        }
         self.lines.lock().unwrap_or_else(PoisonError::into_inner).insert(case, line);
         Ok(())
     }
@@ -140,6 +147,6 @@ impl DoneCases {
     /// # Errors
     /// When the system refuses.
     pub fn remove(self) -> io::Result<()> {
-        fs::remove_file(&self.path)
+        self.file.map_or(Ok(()), |(path, _)| fs::remove_file(path))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::{
     io,
+    ops::Range,
     sync::{Mutex, PoisonError},
 };
 
@@ -15,7 +16,7 @@ use super::{CaseRow, CaseTable, DoneCases, case_values, static_case_values};
 /// Rows and headline of a scene in time, or why there are none.
 pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), String> + Sync);
 
-/// Solves the cases of a plan that are not done yet, each on a thread of its own; `done` gets each as it comes, and
+/// Solves the cases of a plan, in a range of their numbers, that are not done yet, each on a thread of its own; `done` gets each as it comes, and
 /// `tick` is called for it.
 ///
 /// A case without a result takes nothing from the others: its row says why.
@@ -23,13 +24,13 @@ pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), Str
 /// # Errors
 /// When the system refuses to write a row.
 pub fn solve_cases(
-    plan: &Plan,
+    (plan, range): (&Plan, Range<usize>),
     models: &SharedModels<'_>,
     in_time: InTime<'_>,
     done: &DoneCases,
     tick: &(dyn Fn() + Sync),
 ) -> io::Result<()> {
-    let open: Vec<usize> = (0..plan.cases.count()).filter(|&case| !done.has(case)).collect();
+    let open: Vec<usize> = range.filter(|&case| !done.has(case)).collect();
     let (table, failed) = (CaseTable::of(plan), Mutex::new(None));
     let failure = || failed.lock().unwrap_or_else(PoisonError::into_inner);
     side_by_side(open.len(), |i| {

@@ -1,0 +1,93 @@
+//! `ale-gear case` and `ale-gear merge`: the cases of a plan on many machines.
+
+use std::{collections::BTreeMap, ops::Range, path::PathBuf};
+
+use report::plan_files::{DoneCases, Part, PartError, merged, plan_digest, write_cases};
+use scene::plan::Plan;
+
+use super::{cache_args::CacheArgs, vary::solve_range};
+use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
+
+/// Words of `ale-gear case`.
+#[derive(Debug, clap::Args)]
+pub(super) struct CaseArgs {
+    /// Plan file
+    plan: PathBuf,
+    /// Cases, from the first to before the last: `0..100`; those beyond the plan are none
+    #[arg(long, value_name = "FROM..TO", value_parser = range, required_unless_present = "list", requires = "out")]
+    range: Option<Range<usize>>,
+    /// File for the rows of these cases; left alone where it has them already
+    #[arg(long, short, value_name = "PART", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// Solve nothing, but say on stdout which ranges of so many cases the plan has
+    #[arg(long, value_name = "CASES", conflicts_with_all = ["range", "out"],
+          value_parser = clap::value_parser!(u32).range(1..))]
+    list: Option<u32>,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// Words of `ale-gear merge`.
+#[derive(Debug, clap::Args)]
+pub(super) struct MergeArgs {
+    /// Plan file
+    plan: PathBuf,
+    /// Files of `ale-gear case` that together have all cases
+    #[arg(required = true)]
+    parts: Vec<PathBuf>,
+    /// Folder for the results; it appears when they are complete
+    #[arg(long, short, value_name = "DIR")]
+    out: PathBuf,
+}
+
+fn range(word: &str) -> Result<Range<usize>, String> {
+    let ends = word.split_once("..").and_then(|(a, b)| Some((a.trim().parse().ok()?, b.trim().parse().ok()?)));
+    let (from, to): (usize, usize) = ends.ok_or("say FROM..TO, as 0..100")?;
+    if from < to { Ok(from..to) } else { Err(format!("there is no case in {from}..{to}")) }
+}
+
+impl CaseArgs {
+    /// Solves the cases of the range; the same words leave the same file, however often.
+    pub(super) fn execute(self, told: impl Fn(String) -> String) -> Result<String, CommandError> {
+        let (plan, mut phases) = (Plan::read(&self.plan)?, Phases::with_bars());
+        let count = plan.cases.count();
+        let (Some(range), Some(out)) = (&self.range, &self.out) else {
+            let chunk = self.list.unwrap_or(1) as usize;
+            // What is asked for goes to stdout, however quiet.
+            return Ok((0..count).step_by(chunk).map(|a| format!("{a}..{}\n", (a + chunk).min(count))).collect());
+        };
+        let range = range.start.min(count)..range.end.min(count);
+        let digest = plan_digest(&plan)?;
+        let (from, to) = (range.start, range.end);
+        if Part::read(out, &digest).is_ok_and(|part| part.range == range) {
+            return Ok(told(format!("{}: cases {from}..{to} of {count} are there\n", out.display())));
+        }
+        let complain = |e: std::io::Error| CommandError::write(out, &e);
+        let done = DoneCases::in_memory(BTreeMap::new());
+        solve_range(&plan, range.clone(), &mut phases, &self.cache.open(), &done).map_err(complain)?;
+        Part { range, text: done.text() }.write(out, &digest).map_err(complain)?;
+        Ok(told(format!("{}: cases {from}..{to} of {count}\n", out.display())))
+    }
+}
+
+impl MergeArgs {
+    /// Puts the parts together; the files are those of `ale-gear vary`.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let (plan, phases) = (Plan::read(&self.plan)?, Phases::quiet());
+        let lines = merged(&self.parts, &plan_digest(&plan)?, plan.cases.count()).map_err(|e| {
+            let hint = match &e {
+                PartError::Missing { missing } => missing.first().map(|range| {
+                    let (plan, from, to) = (self.plan.display(), range.start, range.end);
+                    format!("make them: `ale-gear case {plan} --range {from}..{to} --out part-{from}.csv`")
+                }),
+                PartError::Read { .. } => None,
+                _ => Some("take the file away and make it again with `ale-gear case`".to_owned()),
+            };
+            CommandError::input(&e, hint)
+        })?;
+        let results = ResultDirectory::create(&self.out)?;
+        let text = write_cases(&plan, &DoneCases::in_memory(lines), &phases.cost(), &results)?;
+        results.finish(talk::note)?;
+        Ok(format!("{text}\nresults: {}\n", self.out.display()))
+    }
+}

@@ -1,0 +1,142 @@
+//! Parts of a plan: some of its cases in a file, to be made anywhere and merged.
+
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+/// Cases of a plan that one process has solved.
+///
+/// ```text
+/// # cases FROM..TO of DIGEST      which cases of which plan
+/// a line a case, as in cases.csv
+/// # end HASH                      of the lines above: a file that was cut short is none
+/// ```
+/// The same plan and range make the same bytes, wherever and how often they are made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// Cases FROM..TO.
+    pub range: Range<usize>,
+    /// Lines of the cases, in their order.
+    pub text: String,
+}
+
+/// What is wrong with parts that are to be merged.
+#[derive(Debug, thiserror::Error)]
+pub enum PartError {
+    /// A file cannot be read.
+    #[error("{file} cannot be read: {source}")]
+    Read {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file is no whole part.
+    #[error("{file} is no whole part of this plan: {what}")]
+    NotWhole {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// Two parts have another row of the same case.
+    #[error("case {case} is in two parts with other numbers, the later one {file}")]
+    Differ {
+        /// The case.
+        case: usize,
+        /// The later part.
+        file: PathBuf,
+    },
+    /// Cases are in no part.
+    #[error("cases {} are in no part", ranges(.missing))]
+    Missing {
+        /// Ranges of cases.
+        missing: Vec<Range<usize>>,
+    },
+}
+
+/// Ranges as words.
+fn ranges(list: &[Range<usize>]) -> String {
+    let words: Vec<String> = list.iter().take(5).map(|r| format!("{}..{}", r.start, r.end)).collect();
+    words.join(", ") + if list.len() > 5 { ", ..." } else { "" }
+}
+
+impl Part {
+    fn first(&self, digest: &str) -> String {
+        format!("# cases {}..{} of {digest}\n", self.range.start, self.range.end)
+    }
+
+    fn last(&self, digest: &str) -> String {
+        let whole = self.first(digest) + &self.text;
+        format!("# end {}\n", blake3::hash(whole.as_bytes()).to_hex())
+    }
+
+    /// Writes it as a whole or not at all.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn write(&self, path: &Path, digest: &str) -> io::Result<()> {
+        let mut name = path.file_name().unwrap_or_default().to_owned();
+        // Two processes at the same part do not meet.
+        name.push(format!(".{}.new", std::process::id()));
+        let beside = path.with_file_name(name);
+        fs::write(&beside, self.first(digest) + &self.text + &self.last(digest))?;
+        fs::rename(&beside, path)
+    }
+
+    /// Reads a part of the plan with this digest.
+    ///
+    /// # Errors
+    /// [`PartError::Read`], [`PartError::NotWhole`].
+    pub fn read(path: &Path, digest: &str) -> Result<Self, PartError> {
+        let file = path.to_owned();
+        let text = fs::read_to_string(path).map_err(|source| PartError::Read { file: file.clone(), source })?;
+        let not_whole = |what| PartError::NotWhole { file: file.clone(), what };
+        let (first, rest) = text.split_once('\n').ok_or_else(|| not_whole("it has no lines"))?;
+        let words = first.strip_prefix("# cases ").and_then(|words| words.split_once(" of "));
+        let (range, of) = words.ok_or_else(|| not_whole("its first line does not say which cases it has"))?;
+        if of != digest {
+            return Err(not_whole("plan, scene or version of the program are others"));
+        }
+        let ends = range.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        let (start, end) = ends.ok_or_else(|| not_whole("its first line does not say which cases it has"))?;
+        let at = rest.rfind("# end ").ok_or_else(|| not_whole("it was cut short"))?;
+        let part = Self { range: start..end, text: rest[..at].to_owned() };
+        if rest[at..] != part.last(digest) {
+            return Err(not_whole("it was cut short, or changed"));
+        }
+        Ok(part)
+    }
+}
+
+/// Lines of all `count` cases of the plan with this digest, from parts in any order; a case may be in several, with the
+/// same line.
+///
+/// # Errors
+/// [`PartError`].
+pub fn merged(files: &[PathBuf], digest: &str, count: usize) -> Result<BTreeMap<usize, String>, PartError> {
+    let mut lines: BTreeMap<usize, String> = BTreeMap::new();
+    for file in files {
+        let part = Part::read(file, digest)?;
+        for line in part.text.split_inclusive('\n') {
+            let case: Option<usize> = line.split(',').next().and_then(|n| n.parse().ok());
+            let known = case.filter(|case| part.range.contains(case) && *case < count);
+            let not_whole = PartError::NotWhole { file: file.clone(), what: "it has a line of no case of its own" };
+            let case = known.ok_or(not_whole)?;
+            if lines.insert(case, line.to_owned()).is_some_and(|before| before != line) {
+                return Err(PartError::Differ { case, file: file.clone() });
+            }
+        }
+    }
+    let mut missing: Vec<Range<usize>> = Vec::new();
+    for case in (0..count).filter(|case| !lines.contains_key(case)) {
+        match missing.last_mut() {
+            Some(last) if last.end == case => last.end = case + 1,
+            _ => missing.push(case..case + 1),
+        }
+    }
+    if missing.is_empty() { Ok(lines) } else { Err(PartError::Missing { missing }) }
+}
