@@ -1,5 +1,6 @@
 //! What the writers need to know of a run beside its scene and its history.
 
+use geometry::GeometrySheet;
 use serde::Serialize;
 
 pub use crate::resolution::Resolution;
@@ -12,6 +13,9 @@ use crate::{AnalysisError, accuracy::Accuracy, certificate::Certificate};
 pub struct Facts {
     /// Geometry of the pair.
     pub geometry: GeometryFacts,
+    /// What a geometry sheet says of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub geometry_sheet: Option<GeometrySheet>,
     /// Meshes of pinion and wheel; empty for a model without meshes.
     pub meshes: Vec<MeshFacts>,
     /// Degrees of freedom of pinion and wheel before reduction.

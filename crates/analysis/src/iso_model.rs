@@ -57,7 +57,8 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
          solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess"
     )];
     warnings.extend(doubts(pair, bending / mean_te));
-    let mut facts = Facts { geometry: gears::geometry_facts(pair), model, ..Facts::default() };
+    let mut facts =
+        Facts { geometry: gears::geometry_facts(pair), geometry_sheet: Some(pair.sheet()), model, ..Facts::default() };
     warnings.extend(iso_root::add(&mut facts, scene, pair));
     Ok((StaticHistory { positions, warnings, ..StaticHistory::default() }, facts))
 }

@@ -191,6 +191,7 @@ fn facts_of(model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     let mut facts = Facts {
         geometry: gears::geometry_facts(model.pair()),
+        geometry_sheet: Some(model.pair().sheet()),
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),

@@ -57,8 +57,8 @@ pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};
 pub use result::{MeshForce, Site, SliceResult, SliceState, Wrench, opening_by_motion, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
-    ContactWork, EvaluationLevel, FlankPair, MeshContact, NearestPoint, RigidFlanks, SameSlices, Slice, SliceFlank, SliceHint,
-    SlicePoint, SliceSet, ToothLayer, slice,
+    ContactWork, EvaluationLevel, FlankPair, MeshContact, NearestPoint, RigidFlanks, SameSlices, Slice, SliceFlank,
+    SliceHint, SlicePoint, SliceSet, ToothLayer, slice,
 };
 
 pub use window::WindowContact;

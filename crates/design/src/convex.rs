@@ -149,8 +149,12 @@ fn spans(programme: &mut Programme, evaluation: &Evaluation, goal: &Goal, (scale
             span.extend([(high, weight), (low, -weight)]);
             for (value, rates) in curve.values.iter().zip(&curve.rates) {
                 let entries = |sign: f64, column: usize| {
-                    let mut all: Vec<(usize, f64)> =
-                        rates.iter().zip(ranges).enumerate().map(|(k, (r, range))| (k, sign * r * range / scale)).collect();
+                    let mut all: Vec<(usize, f64)> = rates
+                        .iter()
+                        .zip(ranges)
+                        .enumerate()
+                        .map(|(k, (r, range))| (k, sign * r * range / scale))
+                        .collect();
                     all.push((column, -sign));
                     all
                 };

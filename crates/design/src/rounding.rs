@@ -7,13 +7,7 @@ const TOGETHER: usize = 10;
 
 /// The values that are whole multiples of `grains` (0: any value) next to `values` and within bounds, for which the goal
 /// is least and limits are held, all to first order.
-pub fn rounded(
-    values: &[f64],
-    grains: &[f64],
-    bounds: &[Bounds],
-    evaluation: &Evaluation,
-    goal: &Goal,
-) -> Vec<f64> {
+pub fn rounded(values: &[f64], grains: &[f64], bounds: &[Bounds], evaluation: &Evaluation, goal: &Goal) -> Vec<f64> {
     let neighbours = |k: usize| -> Vec<f64> {
         let (x, grain) = (values[k], grains[k]);
         if grain <= 0.0 {

@@ -83,11 +83,7 @@ impl Search {
     ///
     /// # Errors
     /// That of the evaluation of the start; later ones count as bad designs.
-    pub fn run<E>(
-        &self,
-        start: &[f64],
-        mut evaluate: impl FnMut(&[f64]) -> Result<Evaluation, E>,
-    ) -> Result<Found, E> {
+    pub fn run<E>(&self, start: &[f64], mut evaluate: impl FnMut(&[f64]) -> Result<Evaluation, E>) -> Result<Found, E> {
         let clamped = |x: f64, [low, high]: Bounds| x.clamp(low, high);
         let mut values: Vec<f64> = start.iter().zip(&self.bounds).map(|(x, b)| clamped(*x, *b)).collect();
         let ranges: Vec<f64> = self.bounds.iter().map(|[low, high]| high - low).collect();
@@ -106,7 +102,8 @@ impl Search {
         let mut stop = Stop::Evaluations;
         while steps.len() < self.evaluations {
             let changes = values.iter().zip(&self.bounds).zip(&ranges);
-            let changes = changes.map(|((x, [low, high]), range)| [(low - x).max(-region * range), (high - x).min(region * range)]);
+            let changes = changes
+                .map(|((x, [low, high]), range)| [(low - x).max(-region * range), (high - x).min(region * range)]);
             let within = Region { ranges: &ranges, changes: changes.collect() };
             let change = step(&evaluation, &self.goal, squared, &within);
             let expected = change.as_ref().map_or(f64::INFINITY, |c| self.merit_after(&evaluation, c, scale));

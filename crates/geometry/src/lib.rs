@@ -19,6 +19,7 @@ pub mod modification;
 mod pair;
 mod profile;
 mod rotation;
+mod sheet;
 
 pub use contact_lines::ContactLine;
 pub use data::GearData;
@@ -30,6 +31,7 @@ pub use modification::{FlankModification, GearModifications, ModifiedFlank};
 pub use pair::GearPair;
 pub use profile::TransverseProfile;
 pub use rotation::{Driver, Sense};
+pub use sheet::{Balls, GearSheet, GeometrySheet, PathPoint, Span};
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

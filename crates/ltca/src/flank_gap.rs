@@ -295,10 +295,18 @@ fn least(f: impl Fn(f64) -> f64, ends: [f64; 2], within: f64, round_off: f64) ->
         let at = x + if step.abs() >= tolerance { step } else { tolerance.copysign(step) };
         let found = f(at);
         if found <= fx {
-            if at < x { b = x } else { a = x }
+            if at < x {
+                b = x
+            } else {
+                a = x
+            }
             three = [(at, found), (x, fx), (w, fw)];
         } else {
-            if at < x { a = at } else { b = at }
+            if at < x {
+                a = at
+            } else {
+                b = at
+            }
             if found <= fw || w == x {
                 three = [(x, fx), (at, found), (w, fw)];
             } else if found <= fv || v == x || v == w {

@@ -57,7 +57,9 @@ impl Setting {
         for part in path(key)? {
             value = match value {
                 toml::Value::Table(mut table) => table.remove(&part)?,
-                toml::Value::Array(mut list) => part.parse().ok().filter(|i| *i < list.len()).map(|i: usize| list.remove(i))?,
+                toml::Value::Array(mut list) => {
+                    part.parse().ok().filter(|i| *i < list.len()).map(|i: usize| list.remove(i))?
+                }
                 _ => return None,
             };
         }

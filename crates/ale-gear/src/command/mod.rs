@@ -6,6 +6,7 @@ mod chart;
 mod compare;
 mod curve;
 mod envelope;
+mod geometry;
 mod init;
 mod mesh;
 mod optimise;
@@ -82,6 +83,8 @@ enum Command {
     Optimise(optimise::OptimiseArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
+    /// Geometry sheet of a scene's pair on stdout: diameters, roll angles, span, balls, backlash, sliding
+    Geometry(geometry::GeometryArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
     Reduce(reduce::ReduceArgs),
     /// Result folders side by side: headline numbers with differences, curves over each other
@@ -157,6 +160,7 @@ impl Cli {
             Some(Command::Merge(args)) => args.execute().map(told),
             Some(Command::Optimise(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
+            Some(Command::Geometry(args)) => args.execute(),
             Some(Command::Init(args)) => args.execute(quiet),
             Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),

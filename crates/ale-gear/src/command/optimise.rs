@@ -8,8 +8,8 @@ use analysis::{
 };
 use report::optimum_files::{Goals, OptimumResult, write_optimum};
 use scene::{
-    read_text,
     optimum::{Optimisation, OptimisationWords},
+    read_text,
 };
 
 use super::{cache_args::CacheArgs, overrides::Overrides};

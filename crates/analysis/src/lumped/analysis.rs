@@ -321,7 +321,12 @@ fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
 /// Geometry, and coordinates as degrees of freedom.
 pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
     let dof_after = [coordinates.div_ceil(2), coordinates / 2];
-    Facts { geometry: gears::geometry_facts(&inputs.pair), dof_after, ..Facts::default() }
+    Facts {
+        geometry: gears::geometry_facts(&inputs.pair),
+        geometry_sheet: Some(inputs.pair.sheet()),
+        dof_after,
+        ..Facts::default()
+    }
 }
 
 /// How rigid gears are cut into slices, with what a user should hear of it; other models are not.

@@ -79,7 +79,9 @@ pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, A
         models.solve(&plan.scene(values, all[i / 2], None)?)
     });
     let curve = |h: &StaticHistory| h.positions.iter().map(|p| 1e3 * p.transmission_error).collect::<Vec<f64>>();
-    let span = |values: &[f64]| values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min);
+    let span = |values: &[f64]| {
+        values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
+    };
     let pressure = |h: &StaticHistory| h.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
     let harris = all
         .iter()

@@ -5,7 +5,7 @@ use scene::{Driver, Scene};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{PressurePlace, RootStressHeadline, ToothChangeHeadline, root_stress_headline};
+use super::{PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, root_stress_headline};
 use crate::worse;
 
 /// Mesh harmonics of the transmission error that are listed.
@@ -33,6 +33,7 @@ pub struct StaticHeadline {
     pub mean_friction_power_loss_w: f64,
     pub efficiency: f64,
     pub max_pair_force_n: f64,
+    pub face_load_factor: Option<f64>,
     pub max_pressure_mpa: f64,
     pub max_pressure_at: Option<PressurePlace>,
     pub root_stress: Option<RootStressHeadline>,
@@ -77,6 +78,7 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         mean_friction_power_loss_w: mean(&|p| 1e-3 * p.friction_work * scene.pinion_speed()),
         efficiency: efficiency(scene, positions),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
+        face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
         max_pressure_mpa: worst(&|p| p.max_pressure),
         max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),

@@ -18,12 +18,7 @@ pub struct SameSlices {
 impl ContactSet {
     /// The slices at the heights of `like` with the gears' frames at `poses`; `None` where the flanks do not face each
     /// other at one of them.
-    pub fn same_slices(
-        &self,
-        friction: Option<&Friction>,
-        poses: &[Pose; 2],
-        like: &SameSlices,
-    ) -> Option<SameSlices> {
+    pub fn same_slices(&self, friction: Option<&Friction>, poses: &[Pose; 2], like: &SameSlices) -> Option<SameSlices> {
         let slice_set = self.slices()?;
         let patches = [&self.patches()[0][..], &self.patches()[1][..]];
         let mut found = SameSlices::default();

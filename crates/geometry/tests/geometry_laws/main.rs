@@ -3,3 +3,4 @@
 mod iso21771;
 mod modification;
 mod nonsense;
+mod sheet;

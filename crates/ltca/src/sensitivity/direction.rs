@@ -22,12 +22,7 @@ struct Answer {
 }
 
 impl<'a> Directions<'a> {
-    pub fn new(
-        windowed: &WindowedPair,
-        at: &'a Conditions,
-        turned: &'a Rates,
-        work: &mut [TableWork],
-    ) -> Self {
+    pub fn new(windowed: &WindowedPair, at: &'a Conditions, turned: &'a Rates, work: &mut [TableWork]) -> Self {
         let set: &ContactSet = windowed.set;
         let driven = windowed.options.driven();
         let torque_levers = at.slices.rows.iter().map(|row| row.torque_levers[driven]).collect();
@@ -103,7 +98,10 @@ impl<'a> Directions<'a> {
         let of_side = |side: usize| self.position(windowed, e, rates, (side, kinematic[side]));
         let kinked = |all: &Rates| all.distances.iter().any(|[a, b]| a != b);
         let is_smooth = self.at.undecided.is_empty() && !kinked(self.turned) && !kinked(rates);
-        Some(Sensitivity { sides: [of_side(0)?, of_side(1)?], is_smooth: is_smooth && !(kinematic[0] < kinematic[1] || kinematic[0] > kinematic[1]) })
+        Some(Sensitivity {
+            sides: [of_side(0)?, of_side(1)?],
+            is_smooth: is_smooth && !(kinematic[0] < kinematic[1] || kinematic[0] > kinematic[1]),
+        })
     }
 
     fn position(

@@ -119,9 +119,9 @@ impl Sensitivities {
             Some(sets) => self.sets.insert(sets),
             None => self.sets.insert(VariedSets::new(model, &self.variations)?),
         };
-        let windowed =
-            WindowedPair { pair: model.pair(), gears: model.gears(), set, window: model.window(), options };
-        position(&windowed, e, (&self.variations, self.unloaded), sets).ok_or_else(|| none("where a loaded slice leaves the flanks"))
+        let windowed = WindowedPair { pair: model.pair(), gears: model.gears(), set, window: model.window(), options };
+        position(&windowed, e, (&self.variations, self.unloaded), sets)
+            .ok_or_else(|| none("where a loaded slice leaves the flanks"))
     }
 }
 

@@ -29,7 +29,13 @@ pub(super) fn page(of: &OptimumResult<'_>) -> Result<Rendered, ReportError> {
         points: told.harris.iter().filter_map(|p| Some((p.torque_nm, of(p)?))).collect(),
     };
     let over_torque = [harris("before", |p| p.peak_to_peak_before_um), harris("after", |p| p.peak_to_peak_after_um)];
-    charts.push(line_chart("Over the torque (Harris map)", "torque [N m]", "peak-to-peak STE [um]", &over_torque, true));
+    charts.push(line_chart(
+        "Over the torque (Harris map)",
+        "torque [N m]",
+        "peak-to-peak STE [um]",
+        &over_torque,
+        true,
+    ));
     let front = Curve {
         label: "optima".to_owned(),
         points: optimum.front.iter().map(|p| (p.max_pressure_mpa, p.goal_um)).collect(),

@@ -46,7 +46,8 @@ pub(super) fn harris_csv(of: &OptimumResult<'_>) -> String {
 pub(super) fn influences_csv(of: &OptimumResult<'_>) -> String {
     let mut t = "key,lowest,highest,start,found,value,step,goal_change_less_um,goal_change_more_um\n".to_owned();
     for i in &of.told.influences {
-        let numbers = [i.lowest, i.highest, i.start, i.found, i.value, i.step, i.goal_change_less_um, i.goal_change_more_um];
+        let numbers =
+            [i.lowest, i.highest, i.start, i.found, i.value, i.step, i.goal_change_less_um, i.goal_change_more_um];
         let _ = writeln!(t, "{}{}", quoted(&i.key), values(&numbers));
     }
     t
@@ -69,7 +70,8 @@ pub(super) fn closing_table(of: &OptimumResult<'_>) -> String {
     let mut t = format!("{} ({} parameters)\n\n", plan.name, plan.parameters.len());
     let _ = writeln!(t, "  {}, um", Optimised::goal_words(&plan.goal));
     let _ = writeln!(t, "  {:<44} {:>10.4}", "start", goals.start_um);
-    let _ = writeln!(t, "  {:<44} {:>10.4}", format!("found in {} evaluations", optimum.found.steps.len()), goals.found_um);
+    let _ =
+        writeln!(t, "  {:<44} {:>10.4}", format!("found in {} evaluations", optimum.found.steps.len()), goals.found_um);
     let _ = writeln!(t, "  {:<44} {:>10.4}", "with values that a machine can be set to", goals.optimum_um);
     let _ = writeln!(t, "\n  {:<44} {:>10} {:>10} {:>10}", "parameter", "start", "found", "set to");
     for (parameter, influence) in plan.parameters.iter().zip(&told.influences) {
@@ -81,11 +83,7 @@ pub(super) fn closing_table(of: &OptimumResult<'_>) -> String {
             influence.start, influence.found, influence.value
         );
     }
-    let _ = writeln!(
-        t,
-        "\n  {:>12} {:>24} {:>28}",
-        "torque [N m]", "peak to peak STE [um]", "largest pressure [MPa]"
-    );
+    let _ = writeln!(t, "\n  {:>12} {:>24} {:>28}", "torque [N m]", "peak to peak STE [um]", "largest pressure [MPa]");
     for line in &told.torques {
         let _ = writeln!(
             t,

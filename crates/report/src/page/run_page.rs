@@ -1,12 +1,19 @@
 //! The page of a run, whatever its model: pair and load at a glance, its gears in space, what all analyses have.
 
+use std::f64::consts::PI;
+
 use analysis::facts::Facts;
 use minijinja::{context, value::Serde};
 use scene::{Driver, Scene};
 use serde::Serialize;
 
 use super::Rendered;
-use crate::{Cost, ReportError, charts::embedded, tables::model_name, view::View};
+use crate::{
+    Cost, ReportError,
+    charts::embedded,
+    tables::{geometry_table, model_name},
+    view::View,
+};
 
 /// What a page shows of a run.
 #[derive(Debug)]
@@ -40,6 +47,7 @@ impl<H: Serialize> RunPage<'_, H> {
             Some(view) => embedded("view", view),
             None => embedded("view", &View::of_geometry(scene, &scene.gear_pair()?)),
         };
+        let rpm = scene.pinion_speed() * 30.0 / PI;
         let context = context! {
             name => &scene.name,
             model => model_name(scene),
@@ -53,6 +61,7 @@ impl<H: Serialize> RunPage<'_, H> {
             headline => Serde(headline),
             facts => Serde(facts),
             cost => Serde(cost),
+            geometry_table => facts.geometry_sheet.as_ref().map(|sheet| geometry_table(&scene.name, sheet, rpm)),
             charts => charts,
             pattern => pattern,
             view => view,

@@ -34,6 +34,9 @@ pub fn closing_table(
         t.number("mean power lost to friction", h.mean_friction_power_loss_w, 2, "W");
         t.text("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
     }
+    if let Some(factor) = h.face_load_factor {
+        t.number("face load factor K_Hbeta", factor, 3, "");
+    }
     t.pressure(h.max_pressure_mpa, h.max_pressure_at.as_ref());
     if let Some(root) = &h.root_stress {
         for (name, gear) in [("pinion", &root.pinion), ("wheel", &root.wheel)] {

@@ -202,12 +202,7 @@ pub(super) fn default_parameters(scene: &Scene) -> Checked<Vec<DesignParameter>>
     let mut all = Vec::new();
     for (name, gear) in [("pinion", &pair.pinion), ("wheel", &pair.wheel)] {
         let key = |what: &str| vec![format!("{name}.modification.{what}")];
-        all.push(DesignParameter {
-            keys: key("tip_relief_um"),
-            bounds: [0.0, 15.0 * module],
-            start: 0.0,
-            grain: 1.0,
-        });
+        all.push(DesignParameter { keys: key("tip_relief_um"), bounds: [0.0, 15.0 * module], start: 0.0, grain: 1.0 });
         let profile = gear.profile();
         let roll = |share: f64| (profile.roll_form() + share * (profile.roll_tip() - profile.roll_form())).to_degrees();
         all.push(DesignParameter {

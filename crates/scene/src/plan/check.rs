@@ -124,7 +124,8 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
 pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Checked<(PlanAxis, Axis)> {
     let raw = table.get_ref();
     let conflict = |what: &str, advice: &str| s.conflict(&table.span(), what, advice);
-    let key = raw.key.as_ref().ok_or_else(|| conflict(&format!("{called} has no `key`"), "name the key that is varied"))?;
+    let key =
+        raw.key.as_ref().ok_or_else(|| conflict(&format!("{called} has no `key`"), "name the key that is varied"))?;
     let keys = [key].into_iter().chain(&raw.also).map(|word| word.get_ref().clone()).collect();
     let logarithmic = s.choice("scale", &raw.scale, &[("linear", false), ("log", true)])?;
     let (drawn, ends, list) =

@@ -193,6 +193,7 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     Facts {
         geometry: gears::geometry_facts(&inputs.pair),
+        geometry_sheet: Some(inputs.pair.sheet()),
         meshes: inputs.meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),

@@ -1,0 +1,105 @@
+//! The geometry sheet as a table.
+
+use std::fmt::Write;
+
+use geometry::{GearSheet, GeometrySheet};
+
+/// The table that `ale-gear geometry` prints; `speed_rpm` of the pinion, where speeds are to be told.
+pub fn geometry_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
+    let mut t = format!("{name}\n\n");
+    let mut row = |what: &str, values: &[f64], digits: usize, unit: &str| {
+        let numbers: String = values.iter().map(|v| format!("{v:>14.digits$}")).collect();
+        // Writing to a String cannot fail.
+        let _ = writeln!(t, "  {what:<44}{numbers:<28}  {unit}");
+    };
+    row("normal module", &[sheet.normal_module_mm], 4, "mm");
+    row("normal pressure angle", &[sheet.normal_pressure_angle_deg], 4, "deg");
+    row("helix angle at the reference cylinder", &[sheet.helix_angle_deg], 4, "deg");
+    row("transverse module", &[sheet.transverse_module_mm], 4, "mm");
+    row("transverse pressure angle", &[sheet.transverse_pressure_angle_deg], 4, "deg");
+    row("base helix angle", &[sheet.base_helix_angle_deg], 4, "deg");
+    row("centre distance, of the reference circles", &[sheet.reference_centre_distance_mm], 4, "mm");
+    row("centre distance", &[sheet.centre_distance_mm], 4, "mm");
+    row("working transverse pressure angle", &[sheet.working_pressure_angle_deg], 4, "deg");
+    row("sum of profile shift coefficients", &[sheet.sum_of_profile_shifts], 4, "");
+    row("base pitch, transverse", &[sheet.transverse_base_pitch_mm], 4, "mm");
+    row("base pitch, normal", &[sheet.normal_base_pitch_mm], 4, "mm");
+    row("path of contact", &[sheet.path_of_contact_mm], 4, "mm");
+    row("  of approach, of recess", &[sheet.approach_path_mm, sheet.recess_path_mm], 4, "mm");
+    row("transverse contact ratio", &[sheet.eps_alpha], 4, "");
+    row("overlap ratio", &[sheet.eps_beta], 4, "");
+    row("total contact ratio", &[sheet.eps_gamma], 4, "");
+    row("backlash, circumferential at the pitch circles", &[sheet.circumferential_backlash_mm], 4, "mm");
+    row("backlash, normal", &[sheet.normal_backlash_mm], 4, "mm");
+    row("backlash, radial", &[sheet.radial_backlash_mm], 4, "mm");
+    let both = [&sheet.pinion, &sheet.wheel];
+    let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "", "pinion", "wheel");
+    let mut pair = |what: &str, of: &dyn Fn(&GearSheet) -> Option<f64>, digits: usize, unit: &str| {
+        let cell = |gear: &GearSheet| of(gear).map_or_else(|| format!("{:>14}", "-"), |v| format!("{v:>14.digits$}"));
+        let _ = writeln!(t, "  {what:<44}{}{}  {unit}", cell(both[0]), cell(both[1]));
+    };
+    pair("teeth", &|g| Some(f64::from(g.teeth)), 0, "");
+    pair("profile shift coefficient", &|g| Some(g.profile_shift), 4, "");
+    pair("reference diameter d", &|g| Some(g.reference_diameter_mm), 4, "mm");
+    pair("base diameter d_b", &|g| Some(g.base_diameter_mm), 4, "mm");
+    pair("working pitch diameter d_w", &|g| Some(g.working_pitch_diameter_mm), 4, "mm");
+    pair("tip diameter d_a", &|g| Some(g.tip_diameter_mm), 4, "mm");
+    pair("root diameter d_f", &|g| Some(g.root_diameter_mm), 4, "mm");
+    pair("root form diameter d_Ff", &|g| Some(g.root_form_diameter_mm), 4, "mm");
+    pair("start of active profile d_Nf", &|g| Some(g.start_of_active_profile_diameter_mm), 4, "mm");
+    pair("lowest point of single contact", &|g| g.single_contact_diameters_mm.map(|d| d[0]), 4, "mm");
+    pair("highest point of single contact", &|g| g.single_contact_diameters_mm.map(|d| d[1]), 4, "mm");
+    pair("end of active profile d_Na", &|g| Some(g.end_of_active_profile_diameter_mm), 4, "mm");
+    pair("roll angle at d_Ff", &|g| Some(g.roll_angle_form_deg), 4, "deg");
+    pair("roll angle at d_Nf", &|g| Some(g.roll_angle_start_of_active_profile_deg), 4, "deg");
+    pair("roll angle at d_w", &|g| Some(g.roll_angle_pitch_deg), 4, "deg");
+    pair("roll angle at d_Na", &|g| Some(g.roll_angle_end_of_active_profile_deg), 4, "deg");
+    pair("tooth thickness, normal, at d", &|g| Some(g.normal_tooth_thickness_mm), 4, "mm");
+    pair("  less than nominal by", &|g| Some(g.tooth_thickness_allowance_mm), 4, "mm");
+    pair("tip thickness, normal", &|g| Some(g.normal_tip_thickness_mm), 4, "mm");
+    pair("span over teeth k", &|g| g.span.map(|s| f64::from(s.teeth)), 0, "");
+    pair("span W_k", &|g| g.span.map(|s| s.length_mm), 4, "mm");
+    pair("  without allowance", &|g| g.span.map(|s| s.nominal_length_mm), 4, "mm");
+    pair("  face width that it wants", &|g| g.span.map(|s| s.least_face_width_mm), 2, "mm");
+    pair("ball diameter D_M", &|g| g.balls.map(|b| b.ball_diameter_mm), 2, "mm");
+    pair("dimension over balls M_dK", &|g| g.balls.map(|b| b.dimension_mm), 4, "mm");
+    pair("  without allowance", &|g| g.balls.map(|b| b.nominal_dimension_mm), 4, "mm");
+    let _ = writeln!(
+        t,
+        "\n  {:<6}{:>10}{:>12}{:>12}{:>14}{:>14}{:>14}{:>14}",
+        "point", "xi [mm]", "rho_1 [mm]", "rho_2 [mm]", "zeta pinion", "zeta wheel", "d_1 [mm]", "d_2 [mm]"
+    );
+    for p in &sheet.points {
+        let _ = writeln!(
+            t,
+            "  {:<6}{:>10.4}{:>12.4}{:>12.4}{:>14.4}{:>14.4}{:>14.4}{:>14.4}",
+            p.name,
+            p.from_start_mm,
+            p.pinion_curvature_radius_mm,
+            p.wheel_curvature_radius_mm,
+            p.pinion_specific_sliding,
+            p.wheel_specific_sliding,
+            p.pinion_diameter_mm,
+            p.wheel_diameter_mm
+        );
+    }
+    if speed_rpm > 0.0 {
+        let _ = writeln!(
+            t,
+            "\n  at {speed_rpm:.0} 1/min of the pinion [m/s]: {:>10}{:>18}{:>18}",
+            "sliding", "pinion rolls at", "wheel rolls at"
+        );
+        for p in &sheet.points {
+            let at = |v: f64| 1e-3 * v * speed_rpm;
+            let _ = writeln!(
+                t,
+                "  {:<36}{:>10.4}{:>18.4}{:>18.4}",
+                p.name,
+                at(p.sliding_speed_mm_s_per_rpm),
+                at(p.pinion_rolling_speed_mm_s_per_rpm),
+                at(p.wheel_rolling_speed_mm_s_per_rpm)
+            );
+        }
+    }
+    t
+}
