@@ -38,7 +38,7 @@ pub struct TakenStep {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
-    /// To first order no step makes the goal smaller by a thousandth.
+    /// To first order no step makes the goal smaller by half a per cent.
     Converged,
     /// As many evaluations as were allowed.
     Evaluations,
@@ -60,7 +60,7 @@ pub struct Found {
 /// Part of its range that a parameter may change by in the first step.
 const FIRST_REGION: f64 = 0.5;
 /// Share of the goal that is worth a step.
-const WORTH: f64 = 1e-3;
+const WORTH: f64 = 5e-3;
 /// Regions smaller than this hold nothing new.
 const SMALLEST_REGION: f64 = 1e-4;
 /// What passing limits counts for beside the goal, over it.

@@ -88,7 +88,7 @@ impl OptimiseArgs {
         })?;
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
-        let goals = Goals::of(&optimum);
+        let (goals, warnings) = (Goals::of(&optimum), warnings(&optimum));
         let again = format!("ale-gear optimise {} --out DIR", self.file.display());
         let of = OptimumResult {
             optimum: &optimum,
@@ -96,7 +96,7 @@ impl OptimiseArgs {
             scene: &scene,
             goals: &goals,
             cost: &phases.cost(),
-            warnings: &[],
+            warnings: &warnings,
             again: &again,
         };
         let text = write_optimum(of, &results)?;
@@ -104,3 +104,19 @@ impl OptimiseArgs {
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }
 }
+
+/// What a user should hear of an optimum.
+fn warnings(optimum: &Optimum) -> Vec<String> {
+    let over = optimum.evaluation.over_limits();
+    let limit = optimum.plan.max_pressure_mpa.filter(|_| over > HELD);
+    let passed = |limit: f64| {
+        format!(
+            "the limit of the pressure, {limit} MPa, is passed by {:.1} %: no design was found that holds it",
+            100.0 * over
+        )
+    };
+    limit.map(passed).into_iter().collect()
+}
+
+/// Share by which a limit may be passed.
+const HELD: f64 = 2e-3;

@@ -91,6 +91,11 @@ fn every_kind() -> Scratch {
     let basins: Vec<&str> = words.iter().map(String::as_str).chain(["--set", "motion.run=basins"]).collect();
     run(&[&["run", &seed("004"), "--out", "out-basins"], &basins[..]].concat());
     run(&["study", "study.toml", "--out", "out-study"]);
+    let words = ["--vary", "operation.torque_nm~normal:200:5", "--output", "mean_ste_um", "--samples", "2"];
+    run(&[&["vary", "iso.toml", "--out", "out-vary"], &words[..]].concat());
+    let bounds = "pinion.modification.lead_crowning_um=0:10";
+    let words = ["--parameter", bounds, "--evaluations", "2", "--front", "1", "--set", "output.root_stress=false"];
+    run(&[&["optimise", "rest.toml", "--out", "out-optimise"], &words[..]].concat());
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
     scratch
@@ -102,7 +107,8 @@ fn folders(scratch: &Scratch) -> impl Iterator<Item = std::path::PathBuf> + '_ {
 
 /// Sections and tables whose quantities no run above writes: a chart takes minutes, and so does `full` of a study;
 /// fields of ParaView files have a test of their own.
-const NOT_TRIED: [&str; 3] = ["Files of ale-gear chart", "*.vtu, gears.pvd", "key of at_rest"];
+const NOT_TRIED: [&str; 4] =
+    ["Files of ale-gear chart", "Files of ale-gear optimise", "*.vtu, gears.pvd", "key of at_rest"];
 
 #[test]
 fn what_is_written_is_documented_and_what_is_documented_is_written() {

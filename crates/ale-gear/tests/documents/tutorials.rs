@@ -238,4 +238,4 @@ macro_rules! tutorials {
     };
 }
 
-tutorials!(first_pair, harris_map, own_mesh, run_up);
+tutorials!(cluster, first_pair, harris_map, own_mesh, quiet_over_torque, run_up);

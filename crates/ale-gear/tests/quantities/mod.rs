@@ -31,7 +31,8 @@ impl Documented {
     /// Columns of the tables and keys of the summary in `folder` that are not there, each with its file.
     pub fn missing(&self, folder: &Path) -> Vec<String> {
         let of_file = |(path, quantities): (PathBuf, BTreeSet<String>)| {
-            let missing = quantities.into_iter().filter(|q| !self.has(q));
+            // A key of the scene with its dots names its own column.
+            let missing = quantities.into_iter().filter(|q| !q.contains('.') && !self.has(q));
             missing.map(|q| format!("{q} of {}", path.display())).collect::<Vec<_>>()
         };
         written_in(folder).into_iter().flat_map(of_file).collect()

@@ -4,6 +4,8 @@ mod chart;
 mod compare;
 mod envelope;
 mod ladder;
+mod optimise;
+mod parts;
 mod study;
 mod sweep;
 #[path = "../util/mod.rs"]

@@ -35,8 +35,8 @@ pub struct FrontPoint {
     pub values: Vec<f64>,
 }
 
-/// Share of the optimum's pressure down to which the front goes.
-const FRONT: f64 = 0.3;
+/// Share of the optimum's pressure by which the front goes down where the start's pressure is no lower.
+const FRONT: f64 = 0.1;
 /// Evaluations for each point of the front.
 const FRONT_EVALUATIONS: usize = 8;
 
@@ -70,9 +70,11 @@ pub fn optimise(
         let unbound = at(&found.values, Some(UNBOUND))?;
         let mut last = point(&plan.goal, &unbound, None, &found.values);
         let highest = last.max_pressure_mpa;
+        let at_start = point(&plan.goal, &at(&plan.start(), Some(UNBOUND))?, None, &plan.start()).max_pressure_mpa;
+        let lowest = if at_start < highest { at_start } else { (1.0 - FRONT) * highest };
         front.push(last.clone());
         for k in 1..=plan.front {
-            let limit = highest * (1.0 - FRONT * f64::from(k) / f64::from(plan.front));
+            let limit = highest + (lowest - highest) * f64::from(k) / f64::from(plan.front);
             let search = Search { evaluations: FRONT_EVALUATIONS, ..search.clone() };
             let below = search.run(&last.values, |values| at(values, Some(limit)))?;
             // Below the least pressure that there is, no further point is one.

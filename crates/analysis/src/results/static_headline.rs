@@ -33,6 +33,7 @@ pub struct StaticHeadline {
     pub mean_friction_power_loss_w: f64,
     pub efficiency: f64,
     pub max_pair_force_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub face_load_factor: Option<f64>,
     pub max_pressure_mpa: f64,
     pub max_pressure_at: Option<PressurePlace>,

@@ -1,5 +1,5 @@
 //! The slices of a solved contact on other flanks or at other poses, and their conditions under forces held as they
-//! are: what derivatives of the solution are made of. Theory (40).
+//! are: what derivatives of the solution are made of. Theory (77).
 
 use faer::Mat;
 

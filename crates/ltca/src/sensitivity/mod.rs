@@ -1,4 +1,4 @@
-//! How does a solved position follow a change of the pair? Theory (40).
+//! How does a solved position follow a change of the pair? Theory (77).
 //!
 //! | module | what it does |
 //! |---|---|

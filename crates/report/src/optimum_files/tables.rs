@@ -95,6 +95,9 @@ pub(super) fn closing_table(of: &OptimumResult<'_>) -> String {
             line.max_pressure_after_mpa
         );
     }
+    for warning in of.warnings {
+        let _ = writeln!(t, "\n  warning: {warning}");
+    }
     let _ = writeln!(t, "\n  wall time {:.2} s", cost.wall_s);
     t
 }

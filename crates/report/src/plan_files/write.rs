@@ -11,6 +11,8 @@ use crate::{Cost, ReportError, ResultFiles, checkpoint::InputDigests, columnar};
 
 /// Quantiles that are told of every number.
 const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
+/// Standard deviations either way of a mean that hold 95 % of a normal distribution.
+const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -107,18 +109,32 @@ impl Spread {
         Some(self.values[low] + (at - low as f64) * (self.values[high] - self.values[low]))
     }
 
+    /// Values between which a quantile lies in 95 % of random samples: order statistics by the binomial distribution,
+    /// normal in the limit; `None` where there are too few.
+    fn interval(&self, share: f64) -> Option<[f64; 2]> {
+        let n = self.values.len() as f64;
+        let (middle, half) = (share * n, NORMAL_95 * (share * (1.0 - share) * n).sqrt());
+        let (low, high) = ((middle - half).floor(), (middle + half).ceil());
+        // Rank r counts from 1; the r-th value is at least as large as the quantile's lower end.
+        (low >= 1.0 && high <= n).then(|| [self.values[low as usize - 1], self.values[high as usize - 1]])
+    }
+
     fn json(&self) -> serde_json::Value {
         let known = |x: f64| Some(x).filter(|x| x.is_finite());
         let [least, largest] = extent(&self.values).map(known);
         json!({
             "name": self.name,
             "mean": known(mean(&self.values)),
+            "mean_within_95": known(NORMAL_95 * root_mean_square(&self.values) / (self.values.len() as f64).sqrt()),
             "standard_deviation": known(root_mean_square(&self.values)),
             "least": least,
             "largest": largest,
             "quantile_10": self.quantile(QUANTILES[0]),
             "median": self.quantile(QUANTILES[1]),
             "quantile_90": self.quantile(QUANTILES[2]),
+            "quantile_10_95": self.interval(QUANTILES[0]),
+            "median_95": self.interval(QUANTILES[1]),
+            "quantile_90_95": self.interval(QUANTILES[2]),
         })
     }
 }

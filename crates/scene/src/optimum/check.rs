@@ -114,6 +114,9 @@ pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
         let what = "optimises a scene that is not one at rest with `model = \"reduced\"`";
         return Err(wrong(format!("{what}: no other model has derivatives")));
     }
+    if scene.contact.method != crate::Method::Slice {
+        return Err(wrong("optimises contact of points: only that of slices has derivatives".into()));
+    }
     if let Some(out) = keys.iter().find(|key| !is_design(key)) {
         return Err(wrong(format!("changes `{out}`: micro-geometry, misalignment and friction may change")));
     }

@@ -1,0 +1,79 @@
+//! `ale-gear case` and `ale-gear merge`: the cases of a plan in pieces.
+
+use crate::util::{ISO_SCENE, Scratch};
+
+const PLAN: &str = r#"
+scene = "iso.toml"
+samples = 50
+[[vary]]
+key = "operation.torque_nm"
+from = 50
+to = 1e9
+[[output]]
+headline = "mean_ste_um"
+"#;
+
+fn scratch() -> Scratch {
+    Scratch::new().file("iso.toml", ISO_SCENE).file("plan.toml", PLAN)
+}
+
+fn part(scratch: &Scratch, range: &str, out: &str) {
+    let run = scratch.ale_gear(["--quiet", "case", "plan.toml", "--range", range, "--out", out]);
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (Some(0), "", ""), "{range}");
+}
+
+/// Pieces in any order, one of them twice and overlapping, make the bytes of one machine.
+#[test]
+fn pieces_make_what_one_machine_makes() {
+    let scratch = scratch();
+    assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "whole"]).code, Some(0));
+    let listed = scratch.ale_gear(["--quiet", "case", "plan.toml", "--list", "20"]).stdout;
+    assert_eq!(listed, "0..20\n20..40\n40..50\n");
+    for (range, out) in [("40..99", "c.csv"), ("0..20", "a.csv"), ("10..40", "b.csv")] {
+        part(&scratch, range, out);
+    }
+    let before = scratch.read("a.csv");
+    // Once more, with other threads: the same file.
+    let again = scratch.ale_gear(["-j", "1", "case", "plan.toml", "--range", "0..20", "--out", "a.csv"]);
+    assert!(again.stdout.contains("cases 0..20 of 50 are there"), "{}", again.stdout);
+    std::fs::remove_file(scratch.path().join("a.csv")).unwrap();
+    part(&scratch, "0..20", "a.csv");
+    assert_eq!(scratch.read("a.csv"), before);
+    let merged = scratch.ale_gear(["merge", "plan.toml", "c.csv", "a.csv", "b.csv", "--out", "all"]);
+    assert_eq!(merged.code, Some(0), "{}", merged.stderr);
+    assert_eq!(scratch.read("all/cases.csv"), scratch.read("whole/cases.csv"));
+    let parquet = |folder: &str| std::fs::read(scratch.path().join(folder).join("cases.parquet")).unwrap();
+    assert_eq!(parquet("all"), parquet("whole"));
+    assert_eq!(scratch.names().iter().filter(|name| name.contains(".new")).count(), 0, "nothing is left behind");
+}
+
+/// What is missing, cut short, changed or of another plan is named and refused.
+#[test]
+fn pieces_that_do_not_fit_are_refused() {
+    let scratch = scratch();
+    part(&scratch, "0..30", "a.csv");
+    part(&scratch, "30..50", "b.csv");
+    let refused = |parts: &[&str], wanted: &str| {
+        let run = scratch.command(&[&["merge", "plan.toml"], parts, &["--out", "all"]].concat());
+        assert_eq!(run.code, Some(2), "{}", run.stdout);
+        assert!(run.stderr.contains(wanted), "`{wanted}` is not in {}", run.stderr);
+        assert!(!scratch.path().join("all").exists());
+    };
+    refused(&["a.csv"], "cases 30..50 are in no part");
+    refused(&["a.csv", "none.csv"], "none.csv cannot be read");
+    let whole = scratch.read("b.csv");
+    let write = |text: &str| std::fs::write(scratch.path().join("cut.csv"), text).unwrap();
+    write(&whole[..whole.len() - 10]);
+    refused(&["a.csv", "cut.csv"], "it was cut short");
+    write(&whole.replacen(",ok,", ",OK,", 1));
+    refused(&["a.csv", "cut.csv"], "it was cut short, or changed");
+    // A scene with another load is another plan, for the keys that are not varied as well.
+    let other = ISO_SCENE.to_owned() + "positions_per_cycle = 7\n";
+    assert_ne!(other, ISO_SCENE);
+    std::fs::write(scratch.path().join("iso.toml"), other).unwrap();
+    refused(&["a.csv", "b.csv"], "plan, scene or version of the program are others");
+    for range in ["5..5", "7", "b..c"] {
+        let run = scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", "x.csv"]);
+        assert_eq!(run.code, Some(2), "{range}");
+    }
+}
