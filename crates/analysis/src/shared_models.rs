@@ -72,8 +72,7 @@ impl VariedScene {
     /// The pairs beside the one of `scene`, which is solved with `options`.
     fn variation(&self, scene: &Scene, solved: &StaticOptions) -> Result<Variation, Failure> {
         let side = |own: &Scene| -> Result<(GearPair, StaticOptions), Failure> {
-            let own =
-                Scene { contact: ContactScene { slices: scene.contact.slices, ..own.contact.clone() }, ..own.clone() };
+            let own = Scene { contact: ContactScene { slices: scene.contact.slices, ..own.contact }, ..own.clone() };
             let pair = own.gear_pair().map_err(AnalysisError::from)?;
             let options = StaticOptions { window: solved.window, ..options(&own, &pair) };
             Ok((pair, options))

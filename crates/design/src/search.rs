@@ -127,10 +127,11 @@ impl Search {
             if peaks && squared && (!taken || reached > (1.0 - SLOW) * merit) {
                 squared = false;
             }
+            let way = change.iter().zip(&ranges).map(|(d, range)| (d / range).abs()).fold(0.0, f64::max);
             if share < 0.25 {
-                region *= if taken { 0.5 } else { 0.25 };
+                region = way * if taken { 0.5 } else { 0.25 };
             } else if share > 0.75 {
-                region = (2.0 * region).min(1.0);
+                region = region.max(2.0 * way).min(1.0);
             }
             if let (true, Some(found)) = (taken, tried) {
                 (values, evaluation, merit) = (next, found, reached);

@@ -2,7 +2,7 @@
 
 use design::{Goal, Measure};
 use ltca::StaticHistory;
-use scene::{Scene, optimum::Optimisation};
+use scene::optimum::Optimisation;
 use serde::Serialize;
 
 use super::Optimum;
@@ -74,45 +74,56 @@ pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, A
     let mut all: Vec<f64> = counted.iter().copied().chain(SHARES.iter().map(|s| s * most)).collect();
     all.sort_by(f64::total_cmp);
     all.dedup();
-    let solved: Vec<Result<(Scene, StaticHistory), AnalysisError>> = side_by_side(2 * all.len(), |i| {
+    let solved = side_by_side(2 * all.len(), |i| {
         let values = if i % 2 == 0 { &start } else { values };
-        models.solve(&plan.scene(values, all[i / 2], None)?)
+        Ok(cycle(&models.solve(&plan.scene(values, all[i / 2], None)?)?.1))
     });
-    let curve = |h: &StaticHistory| h.positions.iter().map(|p| 1e3 * p.transmission_error).collect::<Vec<f64>>();
-    let span = |values: &[f64]| {
-        values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
-    };
-    let pressure = |h: &StaticHistory| h.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
-    let harris = all
-        .iter()
-        .zip(solved.chunks(2))
-        .map(|(&torque_nm, both)| {
-            let of = |side: usize| both[side].as_ref().ok().map(|(_, h)| span(&curve(h)));
-            HarrisPoint { torque_nm, peak_to_peak_before_um: of(0), peak_to_peak_after_um: of(1) }
+    let mut cycles = Vec::new();
+    for (i, found) in solved.into_iter().enumerate() {
+        // A torque beyond those that count may be more than the teeth stand.
+        let found: Result<Cycle, AnalysisError> = found;
+        cycles.push(if counted.contains(&all[i / 2]) { Some(found?) } else { found.ok() });
+    }
+    let both = |i: usize| [&cycles[2 * i], &cycles[2 * i + 1]];
+    let harris = (0..all.len())
+        .map(|i| {
+            let [before, after] = both(i).map(|c| c.as_ref().map(Cycle::peak_to_peak));
+            HarrisPoint { torque_nm: all[i], peak_to_peak_before_um: before, peak_to_peak_after_um: after }
         })
         .collect();
-    let mut of_torque: Vec<Option<[Result<(Scene, StaticHistory), AnalysisError>; 2]>> = Vec::new();
-    let mut rest = solved.into_iter();
-    while let (Some(before), Some(after)) = (rest.next(), rest.next()) {
-        of_torque.push(Some([before, after]));
-    }
-    let mut torques = Vec::new();
-    for &torque_nm in &counted {
-        let place = all.iter().position(|t| *t == torque_nm).and_then(|i| of_torque[i].take());
-        let Some([before, after]) = place else { continue };
-        let both = [before?.1, after?.1];
-        let curves = both.each_ref().map(curve);
-        let [a, b] = curves.each_ref().map(|c| span(c));
-        torques.push(TorqueLine {
-            torque_nm,
-            peak_to_peak_before_um: a,
-            peak_to_peak_after_um: b,
-            max_pressure_before_mpa: pressure(&both[0]),
-            max_pressure_after_mpa: pressure(&both[1]),
-            curves,
-        });
-    }
+    let line = |torque_nm: &f64| {
+        let [Some(before), Some(after)] = both(all.iter().position(|t| t == torque_nm)?) else { return None };
+        Some(TorqueLine {
+            torque_nm: *torque_nm,
+            peak_to_peak_before_um: before.peak_to_peak(),
+            peak_to_peak_after_um: after.peak_to_peak(),
+            max_pressure_before_mpa: before.max_pressure_mpa,
+            max_pressure_after_mpa: after.max_pressure_mpa,
+            curves: [before.ste_um.clone(), after.ste_um.clone()],
+        })
+    };
+    let torques = counted.iter().filter_map(line).collect();
     Ok(Optimised { torques, harris, influences: influences(optimum) })
+}
+
+/// What is kept of a solved mesh cycle.
+struct Cycle {
+    ste_um: Vec<f64>,
+    max_pressure_mpa: f64,
+}
+
+fn cycle(history: &StaticHistory) -> Cycle {
+    Cycle {
+        ste_um: history.positions.iter().map(|p| 1e3 * p.transmission_error).collect(),
+        max_pressure_mpa: history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
+    }
+}
+
+impl Cycle {
+    fn peak_to_peak(&self) -> f64 {
+        let largest = self.ste_um.iter().copied().fold(f64::MIN, f64::max);
+        largest - self.ste_um.iter().copied().fold(f64::MAX, f64::min)
+    }
 }
 
 fn influences(optimum: &Optimum) -> Vec<Influence> {

@@ -64,7 +64,7 @@ fn the_worst_samples_are_better_where_they_count() {
     let [mean, robust] =
         [Over::Mean, Over::WorstBeyond(0.8)].map(|over| found(&search(Measure::PeakToPeak, over, bounds), 5));
     let [a, b] = [mean, robust].map(|f| worst.value(&f.evaluation.curves));
-    assert!(b <= a * 1.001, "worst fifth {b} where it is sought, {a} where the mean is");
+    assert!(b <= a * 1.005, "worst fifth {b} where it is sought, {a} where the mean is");
     // Shifts from -1 to 1 in steps of a half: the best second parameter is the middle one.
     assert!((b - 2.0 * 1.0).abs() < 0.2, "{b}");
 }

@@ -122,3 +122,16 @@ fn allowances_show_on_gauges() {
     let nominal = 0.5 * std::f64::consts::PI * data.normal_module;
     close("thickness", normal_tooth_thickness_mm, nominal - 0.1, 1e-9);
 }
+
+/// Flank tolerances double every other class; of class 5, m_n 3, d 95.776, b 20 by hand.
+#[test]
+fn flank_tolerances_grow_by_class() {
+    let gear = Gear::new(GearData::default()).unwrap();
+    let of = |class: u32| geometry::FlankTolerances::new(&gear, class);
+    close("f_HaT", of(5).profile_slope_um, 0.4 * 3.0 + 0.095_776 + 4.0, 1e-4);
+    close("f_HbT", of(5).helix_slope_um, 6.0546, 1e-3);
+    close("f_pT", of(5).single_pitch_um, 6.2958, 1e-3);
+    close("two classes", of(9).helix_form_um / of(7).helix_form_um, 2.0, 1e-12);
+    assert_eq!(of(6).of_key("pinion.modification.drive.lead_slope_um"), Some(of(6).helix_slope_um));
+    assert_eq!(of(6).of_key("pinion.modification.tip_relief_um"), None);
+}

@@ -100,7 +100,8 @@ impl<'a> Directions<'a> {
         let is_smooth = self.at.undecided.is_empty() && !kinked(self.turned) && !kinked(rates);
         Some(Sensitivity {
             sides: [of_side(0)?, of_side(1)?],
-            is_smooth: is_smooth && !(kinematic[0] < kinematic[1] || kinematic[0] > kinematic[1]),
+            // None where nothing of the unloaded pair is asked.
+            is_smooth: is_smooth && (kinematic[0] == kinematic[1] || kinematic[0].is_nan()),
         })
     }
 

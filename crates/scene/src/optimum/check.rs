@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     Scene, SceneError, Setting, Source, nearest,
-    plan::{DESIGNS, SEED, setting, vary},
+    plan::{DESIGNS, SEED, iso_1328, setting, vary},
     read_text,
 };
 
@@ -52,7 +52,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
     };
     let (mut tolerances, mut kinds) = (Vec::new(), Vec::new());
     for table in &raw.tolerance {
-        let (axis, kind) = vary(s, table, "[[tolerance]]")?;
+        let (axis, kind) = vary(s, table, "[[tolerance]]", |key, class| Some([0.0, iso_1328(&own, key, class)?]))?;
         if matches!(kind, Axis::Each(_)) {
             let advice = "give `mean` and `deviation`, or `from` and `to` without `count`";
             return Err(s.conflict(&table.span(), "a tolerance is drawn", advice));

@@ -31,7 +31,20 @@ const TABLES: &[(&str, &[&str])] = &[
     ("[parameter]", &["key", "also", "from", "to", "start", "round"]),
     (
         "[tolerance]",
-        &["key", "also", "values", "from", "to", "count", "scale", "mean", "deviation", "least", "largest"],
+        &[
+            "key",
+            "also",
+            "values",
+            "from",
+            "to",
+            "count",
+            "scale",
+            "mean",
+            "deviation",
+            "least",
+            "largest",
+            "iso_1328_class",
+        ],
     ),
 ];
 

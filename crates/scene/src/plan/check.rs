@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use cases::{Axis, Cases, CasesError, Design, Distribution, Sampling};
+use geometry::{FlankTolerances, TOLERANCE_CLASSES};
 use toml::Spanned;
 
 use super::{
@@ -52,7 +53,12 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan) -> Checked<Plan> {
     };
     let (mut axes, mut kinds) = (Vec::new(), Vec::new());
     for table in &raw.vary {
-        let (own, kind) = vary(s, table, "[[vary]]")?;
+        let known = Scene::parse_with(&scene_text, &scene_file, &settings).ok();
+        let tolerance = |key: &str, class: u32| {
+            let own = Setting::number_at(&scene_text, &settings, key).unwrap_or(0.0);
+            Some([own, iso_1328(known.as_ref()?, key, class)?])
+        };
+        let (own, kind) = vary(s, table, "[[vary]]", tolerance)?;
         axes.push(own);
         kinds.push(kind);
     }
@@ -121,7 +127,14 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
 }
 
 /// A varied key; `called`: the name of its table.
-pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Checked<(PlanAxis, Axis)> {
+///
+/// `tolerance(key, class)`: of ISO 1328-1, um, with what a scene says of the key.
+pub(crate) fn vary(
+    s: &Source<'_>,
+    table: &Spanned<RawVary>,
+    called: &str,
+    tolerance: impl Fn(&str, u32) -> Option<[f64; 2]>,
+) -> Checked<(PlanAxis, Axis)> {
     let raw = table.get_ref();
     let conflict = |what: &str, advice: &str| s.conflict(&table.span(), what, advice);
     let key =
@@ -130,8 +143,9 @@ pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Ch
     let logarithmic = s.choice("scale", &raw.scale, &[("linear", false), ("log", true)])?;
     let (drawn, ends, list) =
         (raw.mean.is_some() || raw.deviation.is_some(), raw.from.is_some() || raw.to.is_some(), raw.values.is_some());
-    if usize::from(drawn) + usize::from(ends) + usize::from(list) != 1 {
-        let advice = "give `values`, or `from` and `to`, or `mean` and `deviation`";
+    let classed = raw.iso_1328_class.is_some();
+    if usize::from(drawn) + usize::from(ends) + usize::from(list) + usize::from(classed) != 1 {
+        let advice = "give `values`, or `from` and `to`, or `mean` and `deviation`, or `iso_1328_class`";
         return Err(conflict(&format!("{called} says in one way what values there are"), advice));
     }
     let beside = |is: bool, what: &str, advice: &str| if is { Err(conflict(what, advice)) } else { Ok(()) };
@@ -149,6 +163,15 @@ pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Ch
             return Err(s.conflict(&values.span(), format!("`values` holds {bad}"), "give numbers"));
         }
         Axis::Each(values.get_ref().clone())
+    } else if classed {
+        let class =
+            s.whole("iso_1328_class", &raw.iso_1328_class, 6, *TOLERANCE_CLASSES.start(), *TOLERANCE_CLASSES.end())?;
+        let [mean, most] = tolerance(key.get_ref(), class).ok_or_else(|| {
+            let what = format!("ISO 1328 has no tolerance for `{}`", key.get_ref());
+            conflict(&what, "it has of profile_slope_um, profile_crowning_um, lead_slope_um and lead_crowning_um")
+        })?;
+        // A workshop that keeps its class has its deviations within a third of it, mostly.
+        word::normal(mean, most / 3.0, [mean - most, mean + most])
     } else if drawn {
         let limit = |key: &str, value: &crate::Number, none: f64| match value {
             Some(_) => number(key, value, 0.0),
@@ -168,6 +191,17 @@ pub(crate) fn vary(s: &Source<'_>, table: &Spanned<RawVary>, called: &str) -> Ch
         }
     };
     Ok((PlanAxis { keys }, axis))
+}
+
+/// Tolerance of ISO 1328-1 of the gear that a key is of, um.
+pub(crate) fn iso_1328(scene: &Scene, key: &str, class: u32) -> Option<f64> {
+    let pair = scene.gear_pair().ok()?;
+    let gear = match key.split('.').next()? {
+        "pinion" => &pair.pinion,
+        "wheel" => &pair.wheel,
+        _ => return None,
+    };
+    FlankTolerances::new(gear, class).of_key(key)
 }
 
 fn output(s: &Source<'_>, table: &Spanned<RawOutput>) -> Checked<PlanOutput> {

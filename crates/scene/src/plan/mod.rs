@@ -13,7 +13,7 @@ mod raw;
 mod read;
 mod word;
 
-pub(crate) use check::{DESIGNS, SEED, setting, vary};
+pub(crate) use check::{DESIGNS, SEED, iso_1328, setting, vary};
 pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
 pub(crate) use raw::RawVary;
 pub use read::PlanWords;

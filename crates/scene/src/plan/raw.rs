@@ -8,7 +8,23 @@ use crate::{Number, Whole, Word};
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[
     ("", &["name", "scene", "set", "design", "samples", "seed", "vary", "output"]),
-    ("[vary]", &["key", "also", "values", "from", "to", "count", "scale", "mean", "deviation", "least", "largest"]),
+    (
+        "[vary]",
+        &[
+            "key",
+            "also",
+            "values",
+            "from",
+            "to",
+            "count",
+            "scale",
+            "mean",
+            "deviation",
+            "least",
+            "largest",
+            "iso_1328_class",
+        ],
+    ),
     ("[output]", &["headline", "column", "take", "order"]),
 ];
 
@@ -48,6 +64,7 @@ pub(crate) struct RawVary {
     pub deviation: Number,
     pub least: Number,
     pub largest: Number,
+    pub iso_1328_class: Whole,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -1,0 +1,53 @@
+//! Flank tolerances of ISO 1328-1:2013.
+
+use crate::Gear;
+
+/// Tolerance classes of the standard.
+pub const TOLERANCE_CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
+
+/// Tolerances of one gear, um.
+///
+/// ```text
+/// f_pT  = (0.001 d + 0.4 m_n + 5) s          single pitch
+/// f_HaT = (0.4 m_n + 0.001 d + 4) s          profile slope
+/// f_faT = (0.55 m_n + 5) s                   profile form
+/// f_HbT = (0.05 sqrt(d) + 0.35 sqrt(b) + 4) s    helix slope
+/// f_fbT = (0.07 sqrt(d) + 0.45 sqrt(b) + 4) s    helix form
+/// s = sqrt(2)^(A - 5)
+/// ```
+/// d reference diameter, b face width, mm; A the class. As calculated: the standard rounds them for drawings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(missing_docs)] // the names say what they are
+pub struct FlankTolerances {
+    pub single_pitch_um: f64,
+    pub profile_slope_um: f64,
+    pub profile_form_um: f64,
+    pub helix_slope_um: f64,
+    pub helix_form_um: f64,
+}
+
+impl FlankTolerances {
+    /// Of a gear in a class of [`TOLERANCE_CLASSES`].
+    pub fn new(gear: &Gear, class: u32) -> Self {
+        let (d, b, m) = (2.0 * gear.reference_radius(), gear.face_width(), gear.data().normal_module);
+        let step = 2f64.sqrt().powi(class as i32 - 5);
+        Self {
+            single_pitch_um: (0.001 * d + 0.4 * m + 5.0) * step,
+            profile_slope_um: (0.4 * m + 0.001 * d + 4.0) * step,
+            profile_form_um: (0.55 * m + 5.0) * step,
+            helix_slope_um: (0.05 * d.sqrt() + 0.35 * b.sqrt() + 4.0) * step,
+            helix_form_um: (0.07 * d.sqrt() + 0.45 * b.sqrt() + 4.0) * step,
+        }
+    }
+
+    /// The tolerance that a key of a flank's modification deviates by; `None` for one that the standard knows nothing of.
+    pub fn of_key(&self, key: &str) -> Option<f64> {
+        match key.rsplit('.').next()? {
+            "profile_slope_um" => Some(self.profile_slope_um),
+            "profile_crowning_um" => Some(self.profile_form_um),
+            "lead_slope_um" => Some(self.helix_slope_um),
+            "lead_crowning_um" => Some(self.helix_form_um),
+            _ => None,
+        }
+    }
+}
