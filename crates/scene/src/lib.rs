@@ -31,6 +31,7 @@ mod output;
 pub mod plan;
 mod raw;
 mod rexs;
+mod rexs_out;
 mod schema;
 mod setting;
 mod source;
@@ -65,6 +66,7 @@ pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
 pub use rexs::{RexsError, read_pair};
+pub use rexs_out::rexs_of;
 pub use schema::{
     BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
     all_keys, json_schema,

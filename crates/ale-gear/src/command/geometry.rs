@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use report::tables::geometry_table;
+use scene::rexs_of;
 
 use super::overrides::Overrides;
 use crate::error::CommandError;
@@ -15,6 +16,9 @@ pub(super) struct GeometryArgs {
     /// As JSON, with the names of `summary.json`
     #[arg(long)]
     json: bool,
+    /// Write the pair as a REXS file (1.4, XML) as well, for other programs
+    #[arg(long, value_name = "FILE")]
+    rexs: Option<PathBuf>,
     #[command(flatten)]
     overrides: Overrides,
 }
@@ -23,7 +27,11 @@ impl GeometryArgs {
     /// The sheet, for stdout.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let scene = self.overrides.read(&self.scene)?;
-        let sheet = scene.gear_pair()?.sheet();
+        let pair = scene.gear_pair()?;
+        if let Some(file) = &self.rexs {
+            std::fs::write(file, rexs_of(&pair)).map_err(|e| CommandError::write(file, &e))?;
+        }
+        let sheet = pair.sheet();
         if self.json {
             // Numbers and strings: there is nothing that JSON could refuse.
             return Ok(serde_json::to_string_pretty(&sheet).unwrap_or_default() + "\n");

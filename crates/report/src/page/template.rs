@@ -35,6 +35,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("basins.html", include_str!("basins.html")),
         ("branch.html", include_str!("branch.html")),
         ("optimum.html", include_str!("optimum.html")),
+        ("plan.html", include_str!("plan.html")),
         ("study.html", include_str!("study.html")),
         ("compare.html", include_str!("compare.html")),
         ("envelope.html", include_str!("envelope.html")),

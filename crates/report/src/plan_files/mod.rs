@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `values` | the numbers that a plan wants of a case |
 //! | `rows` | a case as a row; the rows that are done |
+//! | `page` | the report: spread, scatter, correlation, cases to sort |
 //! | `part` | some cases in a file of their own, and all of them together again |
 //! | `solve` | all cases, side by side |
 //! | `write` | the files and the closing table |
 
+mod page;
 mod part;
 mod rows;
 mod solve;

@@ -6,7 +6,7 @@ use scene::plan::{Plan, PlanAxis, PlanOutput};
 use serde_json::json;
 use study::{extent, mean, root_mean_square};
 
-use super::{CaseTable, DoneCases};
+use super::{CaseTable, DoneCases, page};
 use crate::{Cost, ReportError, ResultFiles, checkpoint::InputDigests, columnar};
 
 /// Quantiles that are told of every number.
@@ -57,9 +57,10 @@ pub fn write_cases(
     let numbers = 1 + plan.axes.len() + plan.outputs.len();
     let names: Vec<&str> = header.split(',').take(numbers).collect();
     let mut columns = vec![Vec::new(); numbers];
-    let mut failed = 0;
+    let (mut failed, mut reasons) = (0, Vec::new());
     for line in lines.lines() {
         let fields: Vec<&str> = line.split(',').collect();
+        reasons.push(fields.get(numbers + 1..).unwrap_or_default().join(",").trim_matches('"').replace("\"\"", "\""));
         failed += usize::from(fields.get(numbers) == Some(&"failed"));
         for (column, field) in columns.iter_mut().zip(&fields) {
             // Without a result there is no number.
@@ -86,7 +87,9 @@ pub fn write_cases(
     });
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
     results.write("summary.json", text.as_bytes())?;
-    Ok(table(plan, failed, &outputs, cost))
+    let table = table(plan, failed, &outputs, cost);
+    page::page(plan, &columns, &reasons, &table)?.write(results)?;
+    Ok(table)
 }
 
 /// How a number is spread over the cases that have it.

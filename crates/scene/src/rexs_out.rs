@@ -1,0 +1,98 @@
+//! Gear data as a REXS file (version 1.4, XML): what [`crate::read_pair`] reads, for programs that go on with a pair.
+
+use std::fmt::Write;
+
+use geometry::{Gear, GearPair};
+
+/// Identifiers of the components.
+const STAGE: u32 = 1;
+const GEARS: [u32; 2] = [2, 3];
+const FLANKS: [u32; 2] = [4, 5];
+
+/// The pair as a `cylindrical_stage` with two gears and their flanks, the axes along x, the wheel beside the pinion along
+/// z. Numbers read back to the same bits.
+pub fn rexs_of(pair: &GearPair) -> String {
+    let mut t = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    let version = env!("CARGO_PKG_VERSION");
+    // Writing to a String cannot fail.
+    let _ = writeln!(t, "<model version=\"1.4\" applicationId=\"ale-gear\" applicationVersion=\"{version}\">");
+    let (stage, [pinion, wheel]) = (STAGE, GEARS);
+    t.push_str(" <relations>\n");
+    let _ = writeln!(
+        t,
+        "  <relation id=\"1\" type=\"stage\"><ref id=\"{stage}\" role=\"stage\" hint=\"cylindrical_stage\"/>\
+         <ref id=\"{pinion}\" role=\"gear_1\" hint=\"cylindrical_gear\"/>\
+         <ref id=\"{wheel}\" role=\"gear_2\" hint=\"cylindrical_gear\"/></relation>"
+    );
+    for i in 0..2 {
+        let (gear, flank, id) = (GEARS[i], FLANKS[i], 2 + i);
+        let _ = writeln!(
+            t,
+            "  <relation id=\"{id}\" type=\"flank\"><ref id=\"{gear}\" role=\"gear\" hint=\"cylindrical_gear\"/>\
+             <ref id=\"{flank}\" role=\"left\" hint=\"cylindrical_gear_flank\"/>\
+             <ref id=\"{flank}\" role=\"right\" hint=\"cylindrical_gear_flank\"/></relation>"
+        );
+    }
+    t.push_str(" </relations>\n <components>\n");
+    let _ = writeln!(t, "  <component id=\"{stage}\" type=\"cylindrical_stage\"/>");
+    for (i, gear) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
+        component(&mut t, gear, i, [0.0, pair.centre_distance()][i]);
+    }
+    t.push_str(" </components>\n</model>\n");
+    t
+}
+
+fn component(t: &mut String, gear: &Gear, i: usize, beside: f64) {
+    let data = gear.data();
+    let vector = |x: f64, z: f64| format!("<array><c>{x}</c><c>0</c><c>{z}</c></array>");
+    let of_gear: [(&str, &str, String); 8] = [
+        ("number_of_teeth", "none", gear.teeth().to_string()),
+        ("normal_module", "mm", data.normal_module.to_string()),
+        ("face_width", "mm", data.face_width.to_string()),
+        ("helix_angle_reference_diameter", "deg", data.helix_angle.to_degrees().to_string()),
+        ("tip_diameter", "mm", (2.0 * gear.tip_radius()).to_string()),
+        ("root_diameter", "mm", (2.0 * gear.root_radius()).to_string()),
+        ("u_axis_vector", "mm", vector(1.0, 0.0)),
+        ("support_vector", "mm", vector(0.0, beside)),
+    ];
+    let of_flank: [(&str, &str, String); 2] = [
+        ("normal_pressure_angle", "deg", data.normal_pressure_angle.to_degrees().to_string()),
+        ("addendum_modification_coefficient", "none", data.profile_shift.to_string()),
+    ];
+    let lists = [(GEARS[i], "cylindrical_gear", &of_gear[..]), (FLANKS[i], "cylindrical_gear_flank", &of_flank[..])];
+    for (id, kind, attributes) in lists {
+        let _ = writeln!(t, "  <component id=\"{id}\" type=\"{kind}\">");
+        for (name, unit, value) in attributes {
+            let _ = writeln!(t, "   <attribute id=\"{name}\" unit=\"{unit}\">{value}</attribute>");
+        }
+        t.push_str("  </component>\n");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Gear, GearData, GearPair};
+
+    use super::rexs_of;
+    use crate::{Starter, read_pair};
+
+    /// What is written is read as it was.
+    #[test]
+    fn a_pair_comes_back() {
+        let data = GearData {
+            teeth: 17,
+            profile_shift: 0.145,
+            helix_angle: 15.8f64.to_radians(),
+            bore_diameter: 20.0,
+            ..GearData::default()
+        };
+        let wheel = GearData { teeth: 103, profile_shift: 0.0, helix_angle: -data.helix_angle, ..data.clone() };
+        let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), Some(187.5)).unwrap();
+        let read = read_pair(&rexs_of(&pair), 1, &Starter::default()).unwrap();
+        assert_eq!((read.teeth, read.module_mm, read.face_width_mm), ([17, 103], 3.0, 20.0));
+        assert!((read.helix_deg - 15.8).abs() < 1e-12 && read.profile_shift == [0.145, 0.0]);
+        assert!((read.centre_distance_mm.unwrap() - 187.5).abs() < 1e-9);
+        let tips = [&pair.pinion, &pair.wheel].map(|gear| Some(2.0 * gear.tip_radius()));
+        assert_eq!(read.tip_diameter_mm, tips);
+    }
+}
