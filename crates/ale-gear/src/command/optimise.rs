@@ -74,6 +74,26 @@ impl OptimiseArgs {
         Ok(Optimisation::of_words(file, &settings, &words)?)
     }
 
+    /// The words that make it again.
+    fn again(&self, optimum: &Optimum) -> String {
+        let Self { file, parameter, torques, measure, max_pressure, evaluations, front, .. } = self;
+        let mut words = vec![format!("ale-gear optimise {} --out DIR", file.display())];
+        words.extend(parameter.iter().map(|word| format!("--parameter '{word}'")));
+        if !torques.is_empty() {
+            let list: Vec<String> = torques.iter().map(f64::to_string).collect();
+            words.push(format!("--torques {}", list.join(",")));
+        }
+        words.extend(measure.iter().map(|word| format!("--measure {word}")));
+        words.extend(max_pressure.iter().map(|limit| format!("--max-pressure {limit}")));
+        words.extend(evaluations.iter().map(|n| format!("--evaluations {n}")));
+        words.extend(front.iter().map(|n| format!("--front {n}")));
+        // Those of a file stand in it.
+        if !words[1..].is_empty() || self.overrides.settings().is_ok_and(|own| !own.is_empty()) {
+            words.extend(optimum.plan.settings.iter().map(scene::Setting::word));
+        }
+        words.join(" ")
+    }
+
     /// Searches, and writes the results; the text is the closing table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let (plan, mut phases) = (self.plan()?, Phases::with_bars());
@@ -89,7 +109,7 @@ impl OptimiseArgs {
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
         let (goals, warnings) = (Goals::of(&optimum), warnings(&optimum));
-        let again = format!("ale-gear optimise {} --out DIR", self.file.display());
+        let again = self.again(&optimum);
         let of = OptimumResult {
             optimum: &optimum,
             told: &told,

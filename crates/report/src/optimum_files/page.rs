@@ -43,7 +43,7 @@ pub(super) fn page(of: &OptimumResult<'_>) -> Result<Rendered, ReportError> {
     charts.push(line_chart(
         "What a lower pressure costs",
         "largest pressure [MPa]",
-        &format!("{} [um]", Optimised::goal_words(&plan.goal)),
+        "what was made small [um]",
         &[front],
         true,
     ));
