@@ -1,0 +1,113 @@
+//! What a pair is asked beside one load at rest: in time, along a key, over many cases, at its optimum. Each is written
+//! into a folder that goes with the result, by the functions that the command has.
+
+use std::{ops::ControlFlow, path::Path};
+
+use ::mesh::Mesh;
+use ::scene::{Scene, optimum::Optimisation, plan::Plan};
+use analysis::{
+    AnalysisError, GearCache, Observer, PhaseWork, SharedModels,
+    optimum::{optimise, told},
+    resolution::with_slices,
+};
+use report::{
+    Recorder,
+    folder::ResultDirectory,
+    optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum},
+    plan_files::{DoneCases, solve_cases, write_cases},
+    read_columns, solve_in_time,
+};
+use study::Columns;
+use tempfile::TempDir;
+
+use crate::{
+    error::Complaint,
+    result::{FILES, Result},
+    work::Watch,
+};
+
+type Answer = std::result::Result<Result, Complaint>;
+
+/// What all of them are solved on.
+#[derive(Clone, Copy)]
+pub struct Held<'a> {
+    /// Models that are reduced already.
+    pub models: &'a SharedModels<'a>,
+    /// Reduced gears.
+    pub cache: &'a dyn GearCache,
+    /// Meshes of the caller.
+    pub meshes: Option<[&'a Mesh; 2]>,
+}
+
+/// A scene in time.
+pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
+    let folder = TempDir::new()?;
+    let results = ResultDirectory::create(&folder.path().join(FILES))?;
+    let (_, verdict) = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
+    results.finish(drop)?;
+    Result::written(("dynamic", &scene.name), folder, verdict.err().map(Complaint::from))
+}
+
+/// Many cases of a scene, a row a case.
+pub fn vary(plan: &Plan, held: Held<'_>, watch: &mut Watch) -> Answer {
+    let folder = TempDir::new()?;
+    let results = ResultDirectory::create(&folder.path().join(FILES))?;
+    let done = DoneCases::in_memory(Default::default());
+    let one_in_time = |case: usize, scene: &Scene| {
+        let own = folder.path().join(case.to_string());
+        rows_in_time(&with_slices(scene.clone()), &own, held).map_err(|e| e.message)
+    };
+    let count = plan.cases.count();
+    let progress = watch.begin("cases", PhaseWork::Steps(count as u64));
+    solve_cases((plan, 0..count), held.models, &one_in_time, &done, &*progress)?;
+    watch.end();
+    analysis::unless_cancelled(&*progress)?;
+    write_cases(plan, &done, &watch.cost(), &results)?;
+    results.finish(drop)?;
+    Result::written(("plan", &plan.name), folder, None)
+}
+
+/// Rows and headline of one case in time; its files are gone afterwards.
+fn rows_in_time(
+    scene: &Scene,
+    folder: &Path,
+    held: Held<'_>,
+) -> std::result::Result<(Columns, serde_json::Value), Complaint> {
+    let results = ResultDirectory::create(folder)?;
+    let (_, verdict) = solve_in_time(scene, held.meshes, &mut Watch::alone(), &results, held.cache)?;
+    verdict?;
+    let rows = read_columns(&results.path("history.csv"))?;
+    let summary = std::fs::read_to_string(results.path("summary.json"))?;
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap_or_default();
+    Ok((rows, summary["headline"].clone()))
+}
+
+/// The quietest micro-geometry; `again`: words of the command that make it again.
+pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
+    let folder = TempDir::new()?;
+    let results = ResultDirectory::create(&folder.path().join(FILES))?;
+    let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
+    let found = optimise(held.models, plan, |count, goal| {
+        progress.tick();
+        progress.say(goal.map_or_else(|| format!("evaluation {count}"), |goal| format!("{goal:.4} um")));
+        if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    watch.end();
+    watch.begin("tell", PhaseWork::Unknown);
+    let told = told(held.models, &found)?;
+    watch.end();
+    let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
+    let (goals, warnings) = (Goals::of(&found), optimum_warnings(&found));
+    let of = OptimumResult {
+        optimum: &found,
+        told: &told,
+        scene: &scene,
+        goals: &goals,
+        cost: &watch.cost(),
+        warnings: &warnings,
+        again,
+    };
+    write_optimum(of, &results)?;
+    results.finish(drop)?;
+    Result::written(("optimum", &plan.name), folder, None)
+}

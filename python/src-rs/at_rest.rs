@@ -1,0 +1,174 @@
+//! A scene at rest: solved on what the pair holds, kept in memory, written when it is asked for.
+
+use std::{sync::Mutex, sync::PoisonError};
+
+use ::scene::Scene;
+use analysis::{
+    AnalysisError, GearCache, SharedModels, SinkResult, StaticResult, StaticSink,
+    accuracy::{AccurateAnalysis, AccurateResult},
+    facts::Facts,
+    results::{pairs, root_stress_headline, root_stress_warnings, static_headline},
+    static_certificate,
+};
+use ltca::{StaticHistory, StaticModel, StaticPosition};
+use report::{
+    Cost, Recorder, ReportError,
+    columns::{STATIC_HISTORY, StaticLayout},
+    folder::ResultDirectory,
+    paraview::FieldWriter,
+    view::{View, ViewRecorder},
+    write_static_result, write_static_rows,
+};
+use study::Columns;
+use tempfile::TempDir;
+
+use crate::{error::Complaint, work::Watch};
+
+/// A solved scene with all that its files are made of.
+pub struct AtRest {
+    scene: Scene,
+    history: StaticHistory,
+    facts: Facts,
+    cost: Cost,
+    /// Files for ParaView, where they were asked for.
+    fields: Option<TempDir>,
+    gears: Mutex<InSpace>,
+}
+
+/// The gears in space: remembered, then drawn when somebody writes the result.
+enum InSpace {
+    Remembered(Box<(ViewRecorder, StaticModel)>),
+    Drawn(Option<View>, Vec<String>),
+}
+
+/// Remembers what the files are made of, and writes fields on the way.
+struct Keeper<'a> {
+    scene: &'a Scene,
+    recorder: ViewRecorder,
+    fields: Option<(FieldWriter<'a>, &'a ResultDirectory)>,
+    start: std::time::Instant,
+    first_result_s: Option<f64>,
+}
+
+impl StaticSink for Keeper<'_> {
+    fn begin(&mut self, scene: &Scene) {
+        self.recorder = ViewRecorder::new(scene);
+        self.fields = self.fields.take().map(|(_, results)| (FieldWriter::new(self.scene, results), results));
+    }
+
+    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult {
+        self.first_result_s.get_or_insert_with(|| self.start.elapsed().as_secs_f64());
+        self.recorder.position(index, position, model);
+        Ok(self.fields.as_mut().map_or(Ok(()), |(fields, _)| fields.position(index, position, model))?)
+    }
+
+    fn finish(&mut self) -> SinkResult {
+        Ok(self.fields.as_mut().map_or(Ok(()), |(fields, _)| fields.finish())?)
+    }
+}
+
+impl AtRest {
+    /// Solves a scene on what earlier ones have left.
+    pub fn solve(
+        scene: &Scene,
+        models: &SharedModels<'_>,
+        cache: &dyn GearCache,
+        watch: &mut Watch,
+    ) -> Result<Self, Complaint> {
+        let folder = if scene.output.vtu { Some(TempDir::new()?) } else { None };
+        let results = folder.as_ref().map(|f| ResultDirectory::create(&f.path().join(FIELDS))).transpose()?;
+        let mut keeper = Keeper {
+            scene,
+            recorder: ViewRecorder::new(scene),
+            fields: results.as_ref().map(|r| (FieldWriter::new(scene, r), r)),
+            start: watch.start(),
+            first_result_s: None,
+        };
+        let analysis = AccurateAnalysis::new(scene).with_cache(cache).with_shared(models);
+        let AccurateResult { scene: solved, result } = analysis.solve_into(watch, &mut keeper)?;
+        let Keeper { recorder, first_result_s, .. } = keeper;
+        if let Some(results) = results {
+            results.finish(drop)?;
+        }
+        let StaticResult { mut history, mut facts, model, .. } = result;
+        facts.certificate = static_certificate(&history.positions);
+        let gears = match model {
+            Some(model) => {
+                facts.first_result_s = first_result_s;
+                let root = root_stress_headline(&history).map(|root| root.largest_tensions());
+                history.warnings.extend(root.into_iter().flat_map(root_stress_warnings));
+                InSpace::Remembered(Box::new((recorder, model)))
+            }
+            None => InSpace::Drawn(None, Vec::new()),
+        };
+        let cost = watch.cost();
+        Ok(Self { scene: solved, history, facts, cost, fields: folder, gears: Mutex::new(gears) })
+    }
+
+    /// The rows, column by column.
+    pub fn columns(&self) -> Columns {
+        let layout = StaticLayout::of(&self.scene, &self.history);
+        let pairs = pairs::columns(&self.history, layout.pitch());
+        STATIC_HISTORY.sheet(&layout, &pairs).columns(&layout, &self.history.positions)
+    }
+
+    /// The headline numbers as JSON.
+    pub fn headline(&self) -> Result<String, Complaint> {
+        let headline = static_headline(&self.scene, &self.history).map_err(ReportError::from)?;
+        Ok(serde_json::to_string(&headline).unwrap_or_default())
+    }
+
+    /// What a user should hear.
+    pub fn warnings(&self) -> &[String] {
+        &self.history.warnings
+    }
+
+    /// Whether it holds.
+    pub fn verdict(&self) -> Result<(), AnalysisError> {
+        self.facts.verdict(&self.scene)
+    }
+
+    /// The folder of the files for ParaView.
+    pub fn fields(&self) -> Option<std::path::PathBuf> {
+        self.fields.as_ref().map(|folder| folder.path().join(FIELDS))
+    }
+
+    /// Writes all files that the command writes; what comes back is the closing table.
+    pub fn write(&self, results: &ResultDirectory) -> Result<String, ReportError> {
+        if let Some(folder) = self.fields() {
+            for file in names(&folder)? {
+                results.copy(&folder.join(&file), &file)?;
+            }
+        }
+        let mut gears = self.gears.lock().unwrap_or_else(PoisonError::into_inner);
+        if let InSpace::Remembered(remembered) = &mut *gears {
+            let (recorder, model) = &mut **remembered;
+            let recorder = std::mem::replace(recorder, ViewRecorder::new(&self.scene));
+            let mut said = Vec::new();
+            let view = recorder.view_or_warning(&self.scene, model, &mut said);
+            *gears = InSpace::Drawn(view, said);
+        }
+        let (view, said) = match &*gears {
+            InSpace::Drawn(view, said) => (view.as_ref(), &said[..]),
+            InSpace::Remembered(_) => (None, &[][..]),
+        };
+        let mut history = self.history.clone();
+        history.warnings.extend_from_slice(said);
+        let pattern = write_static_rows(&self.scene, &history, None, results)?;
+        let shown = (pattern.as_deref(), view);
+        write_static_result(&self.scene, &history, (&self.facts, &self.cost), shown, results)
+    }
+}
+
+/// Name of the folder of fields in a folder of its own.
+const FIELDS: &str = "fields";
+
+/// Names of the files of a folder, ascending.
+pub fn names(folder: &std::path::Path) -> Result<Vec<String>, ReportError> {
+    let failed = |cause| ReportError::Read { file: folder.to_owned(), cause };
+    let entries = std::fs::read_dir(folder).map_err(failed)?;
+    let names = entries.map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()));
+    let mut names = names.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+    names.sort_unstable();
+    Ok(names)
+}

@@ -1,0 +1,247 @@
+//! A checked scene: from tables, from text, from a file, from REXS, or the one of the program.
+
+use std::path::{Path, PathBuf};
+
+use ::scene::{SceneError, Setting, Starter, all_keys, json_schema, read_pair, read_text};
+use analysis::{gears, resolution::with_slices};
+use pyo3::{
+    prelude::*,
+    types::{PyDict, PyString},
+};
+use report::{available_bytes, check_memory};
+
+use crate::{
+    arguments::{Given, path, text, whole},
+    error::{Complaint, Kind},
+    mesh::Mesh,
+    values::settings,
+};
+
+/// What a scene was made of, so that some of its keys can be set otherwise.
+#[derive(Debug, Clone)]
+pub enum Written {
+    /// Text, and the name that messages give it; paths in it are relative to its folder.
+    Text(String, PathBuf),
+    /// The scene of the program.
+    Program,
+}
+
+/// A scene that was checked: a pair, its load, and what is computed.
+#[pyclass(frozen, module = "ale_gear")]
+#[derive(Debug, Clone)]
+pub struct Scene {
+    written: Written,
+    settings: Vec<Setting>,
+    scene: ::scene::Scene,
+}
+
+/// What messages call a scene that no file has.
+const NAME: &str = "scene";
+
+impl Scene {
+    fn checked(written: Written, settings: Vec<Setting>) -> Result<Self, Complaint> {
+        let scene = match &written {
+            Written::Text(text, file) => ::scene::Scene::parse_with(text, file, &settings)?,
+            Written::Program => ::scene::Scene::default_scene_with(&settings)?,
+        };
+        // Of tables alone the settings are the scene, and nothing was set beside it.
+        let alone = matches!(&written, Written::Text(text, _) if text.is_empty());
+        let scene = if alone { ::scene::Scene { set: Vec::new(), ..scene } } else { scene };
+        Ok(Self { written, settings, scene })
+    }
+
+    /// The same with more keys set.
+    pub fn with(&self, more: impl IntoIterator<Item = Setting>) -> Result<Self, Complaint> {
+        let all = self.settings.iter().cloned().chain(more).collect();
+        Self::checked(self.written.clone(), all)
+    }
+
+    /// As the command runs it.
+    pub fn ready(&self) -> ::scene::Scene {
+        with_slices(self.scene.clone())
+    }
+
+    /// Text, name and settings, for many cases of it.
+    pub fn parts(&self) -> Result<(String, PathBuf, Vec<Setting>), Complaint> {
+        match &self.written {
+            Written::Text(text, file) => Ok((text.clone(), file.clone(), self.settings.clone())),
+            Written::Program => {
+                let hint = "write one of your own, or read `scenes/default.toml` of the repository";
+                let said = "the default scene of the program has no text to be varied";
+                Err(Complaint::new(Kind::Input, said, Some(hint.into())))
+            }
+        }
+    }
+
+    /// What it says, wherever it stands.
+    fn meaning(&self) -> ::scene::Scene {
+        ::scene::Scene { file: PathBuf::new(), set: Vec::new(), ..self.scene.standing_alone() }
+    }
+
+    /// The checked scene itself.
+    pub fn inner(&self) -> &::scene::Scene {
+        &self.scene
+    }
+}
+
+/// Keys that an argument sets; none without it.
+pub fn set_of(tables: Given<'_, '_>) -> Result<Vec<Setting>, Complaint> {
+    tables.map_or_else(|| Ok(Vec::new()), settings)
+}
+
+/// JSON as Python has it.
+pub fn of_json<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (json,))
+}
+
+#[pymethods]
+impl Scene {
+    /// A scene of tables: `Scene({"pinion": {...}, ...})`, `Scene(pinion={...}, ...)`, or keys with dots.
+    #[new]
+    #[pyo3(signature = (tables = None, /, *, folder = None, **keywords))]
+    fn new(
+        tables: Given<'_, '_>,
+        folder: Given<'_, '_>,
+        keywords: Option<&Bound<'_, PyDict>>,
+    ) -> Result<Self, Complaint> {
+        let folder = folder.map_or_else(|| Ok(PathBuf::new()), |any| path("folder", any))?;
+        let mut all = set_of(tables)?;
+        if let Some(keywords) = keywords {
+            all.extend(settings(keywords.as_any())?);
+        }
+        Self::checked(Written::Text(String::new(), folder.join(NAME)), all)
+    }
+
+    /// A scene file.
+    #[staticmethod]
+    #[pyo3(signature = (file, *, set = None))]
+    fn read(file: &Bound<'_, PyAny>, set: Given<'_, '_>) -> Result<Self, Complaint> {
+        let file = path("file", file)?;
+        let text = read_text(&file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
+        Self::checked(Written::Text(text, file), set_of(set)?)
+    }
+
+    /// The text of a scene file; `file` is what messages name and what paths are relative to.
+    #[staticmethod]
+    #[pyo3(signature = (toml, *, file = None, set = None))]
+    fn from_toml(toml: &Bound<'_, PyAny>, file: Given<'_, '_>, set: Given<'_, '_>) -> Result<Self, Complaint> {
+        let file = file.map_or_else(|| Ok(PathBuf::from("scene.toml")), |any| path("file", any))?;
+        Self::checked(Written::Text(text("toml", toml)?, file), set_of(set)?)
+    }
+
+    /// The pair of a stage of a REXS file, with torque and speed of `set`.
+    #[staticmethod]
+    #[pyo3(signature = (file, *, stage = None, set = None))]
+    fn from_rexs(file: &Bound<'_, PyAny>, stage: Given<'_, '_>, set: Given<'_, '_>) -> Result<Self, Complaint> {
+        let file = path("file", file)?;
+        let stage = stage.map_or(Ok(1), |any| whole("stage", any, 1))? as usize;
+        let text = read_text(&file).map_err(|e| {
+            let hint = Some("is the path right, as seen from here?".into());
+            Complaint::new(Kind::Input, format_args!("{}: cannot be read: {e}", file.display()), hint).about(&file)
+        })?;
+        let starter = read_pair(&text, stage, &Starter::default())
+            .map_err(|e| Complaint::new(Kind::Input, format_args!("{}: {e}", file.display()), e.hint()).about(&file))?;
+        let name = file.with_extension("toml");
+        Self::checked(Written::Text(starter.text(&name.display().to_string()), name), set_of(set)?)
+    }
+
+    /// The scene of the program, with its meshes: 30/30 teeth, module 3 mm, helix angle 20 degrees, 150 N m.
+    #[staticmethod]
+    #[pyo3(signature = (*, set = None))]
+    fn default(set: Given<'_, '_>) -> Result<Self, Complaint> {
+        Self::checked(Written::Program, set_of(set)?)
+    }
+
+    /// The same with some keys set otherwise.
+    #[pyo3(signature = (tables = None, /, **keywords))]
+    fn set(&self, tables: Given<'_, '_>, keywords: Option<&Bound<'_, PyDict>>) -> Result<Self, Complaint> {
+        let mut more = set_of(tables)?;
+        if let Some(keywords) = keywords {
+            more.extend(settings(keywords.as_any())?);
+        }
+        self.with(more)
+    }
+
+    /// What the command looks at before it begins: that a pair runs, and that memory is enough. What comes back are
+    /// warnings.
+    fn validate(&self) -> Result<Vec<String>, Complaint> {
+        let scene = self.ready();
+        let pair = scene.gear_pair()?;
+        check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
+        Ok(gears::warnings(&pair))
+    }
+
+    /// Geometry of the pair as the summary has it: diameters, contact ratios, backlash.
+    fn geometry<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let pair = self.scene.gear_pair().map_err(Complaint::from)?;
+        let facts = serde_json::to_string(&gears::geometry_facts(&pair)).unwrap_or_default();
+        of_json(py, &facts)
+    }
+
+    /// Meshes of pinion and wheel: read, or made by the built-in mesher.
+    fn meshes(&self, py: Python<'_>) -> Result<(Mesh, Mesh), Complaint> {
+        let scene = self.ready();
+        let [pinion, wheel] = py.detach(|| {
+            let pair = scene.gear_pair()?;
+            analysis::meshes::pair_meshes(&scene, &pair).map_err(Complaint::from)
+        })?;
+        Ok((Mesh::of(pinion.gear.mesh().clone()), Mesh::of(wheel.gear.mesh().clone())))
+    }
+
+    /// The scene file that says the same with every default written out.
+    fn to_toml(&self) -> String {
+        self.scene.to_toml()
+    }
+
+    /// All keys with their values, defaults filled in.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        of_json(py, &serde_json::to_string(&self.scene).unwrap_or_default())
+    }
+
+    /// The number of a key, defaults filled in.
+    fn __getitem__(&self, key: &Bound<'_, PyAny>) -> PyResult<f64> {
+        let key = text("key", key)?;
+        self.scene.number_at(&key).ok_or_else(|| {
+            let what = format_args!("is \"{key}\", which is no number of this scene").to_string();
+            Complaint::argument("key", what, "tables and key with dots between them, as \"operation.torque_nm\"").into()
+        })
+    }
+
+    /// Name of the case, for titles.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.scene.name
+    }
+
+    /// What messages call it.
+    #[getter]
+    fn file(&self) -> &Path {
+        &self.scene.file
+    }
+
+    /// Every key that a scene may have, with dots.
+    #[staticmethod]
+    fn keys() -> Vec<String> {
+        all_keys()
+    }
+
+    /// JSON Schema of a scene.
+    #[staticmethod]
+    fn schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        of_json(py, &json_schema().to_string())
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| other.get().meaning() == self.meaning())
+    }
+
+    fn __repr__<'py>(&self, py: Python<'py>) -> Bound<'py, PyString> {
+        let s = &self.scene;
+        let (teeth, module) = ([s.pinion.teeth, s.wheel.teeth], s.pair.normal_module_mm);
+        let said = format!(
+            "Scene({:?}: {}/{} teeth, module {module} mm, helix angle {} deg, {} N m)",
+            s.name, teeth[0], teeth[1], s.pinion.helix_angle_deg, s.operation.torque_nm
+        );
+        PyString::new(py, &said)
+    }
+}
