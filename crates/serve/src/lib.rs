@@ -1,0 +1,33 @@
+//! How does a person try a pair by hand?
+//!
+//! A page on this machine alone: the scene as a form, sliders for load and micro-geometry, and what the pair at rest
+//! makes of them, within the time of a move. Everything is computed here, by the same [`analysis`] that runs a scene;
+//! the page draws, with the scripts of a report.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `server` | takes requests on the loopback address until it is told to stop |
+//! | `guard` | who may ask: token, host, origin |
+//! | `routes` | which address is what |
+//! | `reply` | answers with the headers that keep a page to itself |
+//! | `moves` | one solve at a time a page, the latest move wins |
+//! | `desk` | a scene with its changes, solved, as the page takes it |
+//! | `scene_text` | keys of a scene's text changed one by one; keys that a complaint is about |
+//! | `sliders` | what is moved by hand, and within which ends |
+//! | `form` | all keys of a scene at rest, from the schema |
+//! | `page` | the page itself |
+
+mod desk;
+mod fault;
+mod form;
+mod guard;
+mod moves;
+mod page;
+mod reply;
+mod routes;
+mod scene_text;
+mod server;
+mod sliders;
+
+pub use desk::Limits;
+pub use server::{ServeError, Server, Stop};

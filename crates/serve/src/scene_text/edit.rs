@@ -1,0 +1,135 @@
+//! Keys of a scene's text changed one by one: comments, order and all other keys stay.
+
+use std::collections::BTreeMap;
+
+use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+
+use crate::fault::Fault;
+
+/// A text with some keys set otherwise. Each key has dots (`operation.torque_nm`) and its value as it is typed: what is
+/// no TOML is a text, and so is all that `is_text` says of; nothing takes the key away.
+///
+/// A text that is no TOML comes back as it is: reading it complains in the scene's own words.
+///
+/// # Errors
+/// A key below something that is no table.
+pub(crate) fn changed(
+    text: &str,
+    changes: &BTreeMap<String, String>,
+    is_text: impl Fn(&str) -> bool,
+) -> Result<String, Fault> {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(text.to_owned()) };
+    for (key, typed) in changes {
+        let parts: Vec<&str> = key.split('.').collect();
+        let value = match typed.trim() {
+            "" => None,
+            text if is_text(key) => Some(Value::from(text)),
+            typed => Some(typed.parse().unwrap_or_else(|_| Value::from(typed))),
+        };
+        if !put(document.as_table_mut(), &parts, value) {
+            let message = format!("`{key}` cannot be set: what stands before a dot is no table in this scene");
+            return Err(Fault::new(message, "change it in the text of the scene").about(key));
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// Whether it could be done.
+fn put(table: &mut dyn TableLike, parts: &[&str], value: Option<Value>) -> bool {
+    let Some((first, rest)) = parts.split_first() else { return false };
+    if rest.is_empty() {
+        match (table.get_mut(first), value) {
+            (Some(Item::Value(old)), Some(mut new)) => {
+                // The comment behind it.
+                *new.decor_mut() = old.decor().clone();
+                *old = new;
+            }
+            (_, Some(new)) => _ = table.insert(first, Item::Value(new)),
+            (_, None) => _ = table.remove(first),
+        }
+        return true;
+    }
+    if table.get(first).is_none_or(Item::is_none) {
+        if value.is_none() {
+            return true;
+        }
+        let mut inner = Table::new();
+        inner.set_implicit(true);
+        table.insert(first, Item::Table(inner));
+    }
+    table.get_mut(first).and_then(Item::as_table_like_mut).is_some_and(|inner| put(inner, rest, value))
+}
+
+/// Every key of a text with dots, and its value as one would type it; lists of tables are left out. Nothing of what is
+/// no TOML.
+pub(crate) fn flat(text: &str) -> BTreeMap<String, String> {
+    let mut all = BTreeMap::new();
+    if let Ok(document) = text.parse::<DocumentMut>() {
+        walk("", document.as_table(), &mut all);
+    }
+    all
+}
+
+fn walk(path: &str, table: &dyn TableLike, all: &mut BTreeMap<String, String>) {
+    for (name, item) in table.iter() {
+        let key = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+        match (item.as_table_like(), item) {
+            (Some(inner), _) => walk(&key, inner, all),
+            (None, Item::Value(Value::String(text))) => _ = all.insert(key, text.value().clone()),
+            (None, Item::Value(value)) => {
+                // Without the comment behind it.
+                let mut bare = value.clone();
+                bare.decor_mut().clear();
+                all.insert(key, bare.to_string());
+            }
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "name = \"a\"  # title\n[pinion]\nteeth = 30 # z1\n[wheel]\nmesher = { order = 1 }\n";
+
+    fn with(key: &str, value: &str) -> String {
+        changed(TEXT, &BTreeMap::from([(key.into(), value.into())]), |key| key == "name").unwrap()
+    }
+
+    #[test]
+    fn a_change_leaves_comments_and_all_other_keys() {
+        assert_eq!(with("pinion.teeth", "31"), TEXT.replace("30", "31"));
+        assert_eq!(with("name", "7"), TEXT.replace("\"a\"", "\"7\""), "a title of digits is a text");
+        assert_eq!(with("wheel.mesher.order", "2"), TEXT.replace("order = 1", "order = 2"));
+        assert_eq!(
+            with("pinion.teeth", "many"),
+            TEXT.replace("30", "\"many\""),
+            "a word, for the scene to complain of"
+        );
+    }
+
+    #[test]
+    fn new_keys_get_their_tables_and_nothing_takes_a_key_away() {
+        let new = with("pair.misalignment.deviation_um", "-3.5");
+        assert!(new.contains("[pair.misalignment]\ndeviation_um = -3.5\n"), "{new}");
+        assert!(!new.contains("[pair]\n"), "{new}");
+        assert_eq!(with("pinion.teeth", " "), TEXT.replace("teeth = 30 # z1\n", ""));
+        assert_eq!(with("load.torque_nm", ""), TEXT);
+    }
+
+    #[test]
+    fn what_is_no_table_is_told_with_its_key() {
+        let changes = BTreeMap::from([("pinion.teeth.x".to_owned(), "1".to_owned())]);
+        let fault = changed(TEXT, &changes, |_| false).unwrap_err();
+        assert_eq!(fault.keys, ["pinion.teeth.x"]);
+        assert_eq!(changed("no toml", &changes, |_| false).unwrap(), "no toml");
+    }
+
+    #[test]
+    fn keys_are_read_with_dots() {
+        let all = flat(TEXT);
+        let want = [("name", "a"), ("pinion.teeth", "30"), ("wheel.mesher.order", "1")];
+        assert_eq!(all, want.map(|(k, v)| (k.to_owned(), v.to_owned())).into());
+    }
+}

@@ -1,0 +1,117 @@
+//! The numbers of the page are those of a run, its complaints those of the command.
+
+use analysis::{NoCache, SharedModels, StaticAnalysis, results::static_headline};
+use scene::Scene;
+use serde_json::{Value, json};
+
+use crate::served::{ISO, Served, with_contact};
+
+/// Through text and back: what JSON has kept of the numbers; tooth changes aside, which the page does not tell.
+fn headline_of_a_run(text: &str) -> Value {
+    let scene = Scene::parse(text, "a.toml".as_ref()).unwrap();
+    let solved = StaticAnalysis::new(&scene).solve().unwrap();
+    let settled = SharedModels::new(&NoCache).solve(&scene).unwrap().0;
+    let headline = static_headline(&settled, &solved.history).unwrap();
+    let mut all: Value = serde_json::from_str(&serde_json::to_string(&headline).unwrap()).unwrap();
+    all.as_object_mut().unwrap().retain(|key, _| !key.starts_with("tooth_change"));
+    all
+}
+
+/// Bit by bit: the scene as it was, and after moves of load and micro-geometry on the same reduced gears.
+#[test]
+fn a_move_has_the_numbers_of_a_run_of_the_scene_that_it_hands_out() {
+    let text = with_contact();
+    let served = Served::new(&text);
+    let moves = [
+        json!({}),
+        json!({ "operation.torque_nm": "210" }),
+        json!({ "operation.torque_nm": "210", "pinion.modification.tip_relief_um": "12", "wheel.modification.lead_crowning_um": "4",
+                "pair.misalignment.in_plane_of_action_um": "-6" }),
+    ];
+    let mut seen = Vec::new();
+    for set in moves {
+        let answer = served.answer(&text, set);
+        let handed_out = answer["text"].as_str().unwrap();
+        assert!(handed_out.contains("# on the wheel"), "comments are kept: {handed_out}");
+        let run = headline_of_a_run(handed_out);
+        assert_eq!(answer["result"]["headline"], run, "of\n{handed_out}");
+        seen.push(run["peak_to_peak_ste_um"].as_f64().unwrap());
+    }
+    seen.dedup();
+    assert_eq!(seen.len(), 3, "each move changes the transmission error: {seen:?} um");
+}
+
+/// What a run warns of, the page does too.
+#[test]
+fn warnings_are_those_of_a_run() {
+    let text = with_contact();
+    let served = Served::new(&text);
+    let said: Vec<String> =
+        serde_json::from_value(served.answer(&text, json!({}))["result"]["warnings"].clone()).unwrap();
+    let run = StaticAnalysis::new(&Scene::parse(&text, "a.toml".as_ref()).unwrap()).solve().unwrap();
+    assert!(run.history.warnings.iter().any(|w| w.contains("elements along the face")), "{:?}", run.history.warnings);
+    assert_eq!(said, run.history.warnings);
+}
+
+#[test]
+fn all_that_is_drawn_comes_with_a_move() {
+    let text = with_contact();
+    let answer = Served::new(&text).answer(&text, json!({}));
+    let result = &answer["result"];
+    let titles: Vec<&str> = result["charts"].as_array().unwrap().iter().filter_map(|c| c["title"].as_str()).collect();
+    assert_eq!(titles[..2], ["Static transmission error", "Load sharing"]);
+    assert_eq!(result["charts"][0]["data"][0].as_array().unwrap().len(), 6, "a place a position");
+    assert_eq!(result["maps"].as_array().unwrap().len(), 2, "the pattern on either flank");
+    let frames = result["view"]["frames"].as_array().unwrap();
+    assert!(frames.len() == 6 && frames.iter().all(|f| !f["bands"].as_array().unwrap().is_empty()), "loaded bands");
+    assert_eq!(answer["written"]["operation.torque_nm"], "150.0");
+    assert_eq!(answer["effective"]["operation.speed_rpm"], "1000.0", "defaults filled in");
+}
+
+#[test]
+fn what_is_wrong_stands_beside_its_key_with_the_hint_of_the_command() {
+    let served = Served::new(ISO);
+    for (key, value) in [
+        ("operation.torque_nm", "-1"),
+        ("pair.face_width_mm", "wide"),
+        ("analysis.model", "redused"),
+        ("pinion.teeth", ""),
+        ("contact.method", "nodall"),
+    ] {
+        let answer = served.answer(ISO, json!({ key: value }));
+        let (text, fault) = (answer["text"].as_str().unwrap(), &answer["fault"]);
+        let error = Scene::parse(text, "a.toml".as_ref()).expect_err("a complaint");
+        assert_eq!(fault["message"], error.to_string());
+        assert_eq!(fault["hint"].as_str(), error.hint().as_deref(), "{key}");
+        assert_eq!(fault["excerpt"].as_str(), error.excerpt(), "{key}");
+        assert_eq!(fault["keys"], json!([key]), "{fault}");
+        assert!(answer["result"].is_null());
+    }
+    assert!(served.answer("no toml", json!({}))["fault"]["message"].as_str().unwrap().starts_with("a.toml:1: "));
+}
+
+#[test]
+fn what_the_page_cannot_show_is_refused_beside_its_key() {
+    let served = Served::new(ISO);
+    for (set, key) in [
+        (json!({ "analysis.model": "reduced", "analysis.kind": "dynamic" }), "analysis.kind"),
+        (json!({ "analysis.model": "full" }), "analysis.model"),
+    ] {
+        let fault = &served.answer(ISO, set)["fault"];
+        assert_eq!(fault["keys"], json!([key]), "{fault}");
+        assert!(fault["hint"].as_str().unwrap().contains("model = \"reduced\""), "{fault}");
+    }
+    let lumped = served.answer(include_str!("../../../../scenes/seeds/004.toml"), json!({}));
+    assert_eq!(lumped["fault"]["keys"], json!(["analysis.model"]), "{lumped}");
+    let huge = served.answer(ISO, json!({ "analysis.positions_per_cycle": "100000", "analysis.cycles": "100000000" }));
+    assert!(huge["fault"]["message"].as_str().unwrap().contains("GB"), "{huge}");
+}
+
+/// Each page counts its own moves.
+#[test]
+fn a_move_that_was_overtaken_is_dropped() {
+    let served = Served::new(ISO);
+    let (page, other) = (served.open(), served.open());
+    let status = |page, number| served.moved(page, number, ISO, json!({})).status;
+    assert_eq!([status(page, 5), status(page, 3), status(page, 6), status(other, 1)], [200, 409, 200, 200]);
+}
