@@ -53,6 +53,11 @@ pub fn friction_work(pair: &GearPair, options: &ContactOptions, poses: &[Pose; 2
     -(options.sense.sign() as f64) * on_pinion.dot(&sliding(ratio(pair), poses, row))
 }
 
+/// How far the flanks slide on each other at the row per radian of the pinion's rotation, mm.
+pub fn sliding_distance(pair: &GearPair, poses: &[Pose; 2], row: &ContactRow) -> f64 {
+    sliding(ratio(pair), poses, row).norm()
+}
+
 /// Sliding of the pinion's flank on the wheel's, mm per radian of counter-clockwise pinion rotation.
 fn sliding(ratio: f64, poses: &[Pose; 2], row: &ContactRow) -> Vec3 {
     let turning = |pose: &Pose| (pose.rotation * Vec3::z()).cross(&(row.position - pose.translation.vector));

@@ -42,15 +42,13 @@ pub use flank::{
     Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, GapSource, Surface, contact_points,
     flank_grids,
 };
-pub use friction::{Friction, friction_work};
+pub use friction::{Friction, friction_work, sliding_distance};
 pub use line::{
     LineStation, NeighbourPairs, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,
     nodal_contact_line, nodal_pressures, slice_line,
 };
 pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_constant, wedge_softening};
-pub use nodal::{
-    ContactRow, LinePoints, Scene, Support, SurfacePair, closest_points, contact_row, least_gap, line_points,
-};
+pub use nodal::{ContactRow, LinePoints, Scene, Support, closest_points, contact_row, least_gap, line_points};
 pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
 pub use pose::{check_offsets, frames, gear_centre, gear_pose, reference_angle};

@@ -132,6 +132,11 @@ impl SliceState {
         let load = force / length;
         Self { local: law.under(load), curved_energy: length * law.curved_energy(load) }
     }
+
+    /// What part of the flanks its slice presses with.
+    pub fn site(&self, slice: &Slice) -> Site {
+        site(slice, self.local.half_width)
+    }
 }
 
 /// A loaded slice as the results have it.

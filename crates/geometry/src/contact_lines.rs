@@ -35,6 +35,21 @@ impl GearPair {
         (z1 > z0).then(|| ContactLine { tooth, z: [z0, z1], length: (z1 - z0) / self.base_helix_angle().cos() })
     }
 
+    /// Mean over a contact line of how far the flanks slide on each other per radian of the pinion's rotation, mm.
+    ///
+    /// ```text
+    /// v_g / omega_1 = (1 + z_1 / z_2) |xi - xi_C|
+    /// ```
+    /// xi runs linearly along the line, through the pitch point or past it.
+    pub fn mean_sliding(&self, side: Side, pinion_angle: f64, line: &ContactLine) -> f64 {
+        let pitch_point = self.pinion.base_radius() * self.working_pressure_angle().tan();
+        let [a, b] = line.z.map(|z| self.path_coordinate(side, pinion_angle, line.tooth, z) - pitch_point);
+        let ratio = f64::from(self.pinion.teeth()) / f64::from(self.wheel.teeth());
+        let sum = a.abs() + b.abs();
+        let mean = if a * b >= 0.0 { 0.5 * sum } else { 0.5 * (a * a + b * b) / sum };
+        (1.0 + ratio) * mean
+    }
+
     /// All contact lines at pinion angle `pinion_angle` (rad), ascending by tooth.
     pub fn contact_lines(&self, side: Side, pinion_angle: f64) -> Vec<ContactLine> {
         let pitch = self.transverse_base_pitch();

@@ -84,6 +84,17 @@ pub struct FlankPoint {
     pub distance: f64,
 }
 
+/// Unit directions of the nominal surface at a place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Directions {
+    /// Out of the tooth.
+    pub normal: Vec3,
+    /// e_r, of the profile.
+    pub profile: Vec3,
+    /// Of the straight line: sin(b_b) e_t + cos(b_b) e_z.
+    pub generator: Vec3,
+}
+
 impl Flank {
     /// Direction angle phi of the base point that generates (u, z).
     pub fn generating_angle(&self, u: f64, z: f64) -> f64 {
@@ -104,31 +115,48 @@ impl Flank {
 
     /// Unit normal and unit direction of the profile, which the transverse plane holds, with one sine for both.
     pub fn frame(&self, u: f64, z: f64) -> [Vec3; 2] {
+        let frame = self.directions(u, z);
+        [frame.normal, frame.profile]
+    }
+
+    /// The three directions of the nominal surface, with one sine for all.
+    pub(crate) fn directions(&self, u: f64, z: f64) -> Directions {
         let (sin, cos) = self.generating_angle(u, z).sin_cos();
-        let (sin_b, cos_b) = self.base_helix_angle.sin_cos();
-        [self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b), Vec3::new(cos, sin, 0.0)]
+        self.directions_at([sin, cos])
+    }
+
+    /// The same from sine and cosine of phi.
+    fn directions_at(&self, [sin, cos]: [f64; 2]) -> Directions {
+        let [sin_b, cos_b] = self.base_helix();
+        Directions {
+            normal: self.side.sign() * Vec3::new(-sin * cos_b, cos * cos_b, -sin_b),
+            profile: Vec3::new(cos, sin, 0.0),
+            generator: Vec3::new(-sin_b * sin, sin_b * cos, cos_b),
+        }
+    }
+
+    /// Surface point (mm) whose directions are known.
+    pub(crate) fn point_at(&self, u: f64, z: f64, directions: &Directions) -> Vec3 {
+        let [cos, sin] = [directions.profile.x, directions.profile.y];
+        let along = self.side.sign() * u;
+        Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z)
     }
 
     /// Surface point (mm) and its derivative by roll angle (mm), with one sine for both.
     pub fn point_and_profile(&self, u: f64, z: f64) -> [Vec3; 2] {
-        let (sin, cos) = self.generating_angle(u, z).sin_cos();
-        let along = self.side.sign() * u;
-        [
-            Vec3::new(self.base_radius * (cos - along * sin), self.base_radius * (sin + along * cos), z),
-            self.base_radius * u * Vec3::new(cos, sin, 0.0),
-        ]
+        let frame = self.directions(u, z);
+        [self.point_at(u, z, &frame), self.base_radius * u * frame.profile]
     }
 
     /// Derivatives of the surface point by roll angle (mm) and by z (1).
     pub fn tangents(&self, u: f64, z: f64) -> [Vec3; 2] {
-        let (sin, cos) = self.generating_angle(u, z).sin_cos();
-        let p = self.point(u, z);
-        [self.base_radius * u * Vec3::new(cos, sin, 0.0), Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
+        let [p, profile] = self.point_and_profile(u, z);
+        [profile, Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
     }
 
     /// Principal curvatures, 1/mm: across the generator (profile direction, convex positive) and along it (0).
     pub fn curvatures(&self, u: f64) -> [f64; 2] {
-        [self.base_helix_angle.cos() / (self.base_radius * u), 0.0]
+        [self.base_helix()[1] / (self.base_radius * u), 0.0]
     }
 
     /// Foot point of `p` (mm, gear's own frame) on the unbounded helicoid of this tooth.
@@ -141,12 +169,17 @@ impl Flank {
     /// ```
     /// `None` below the base cylinder, where the involute has no normal. Check `roll` and `z` against the bounds.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
-        self.locate_with_normal(p).map(|(foot, _)| foot)
+        self.locate_with_directions(p).map(|(foot, _)| foot)
     }
 
-    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there: phi is the direction angle of
-    /// the base point whose generator runs through `p`, so no further angle is needed for it.
+    /// The foot point of `p` as [`Flank::locate`] finds it, and the unit normal there.
     pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
+        self.locate_with_directions(p).map(|(foot, directions)| (foot, directions.normal))
+    }
+
+    /// The foot point and the directions there: phi is the direction angle of the base point whose generator runs
+    /// through `p`, so no further angle is needed for them.
+    pub(crate) fn locate_with_directions(&self, p: &Vec3) -> Option<(FlankPoint, Directions)> {
         let s = self.side.sign();
         let square = p.x * p.x + p.y * p.y;
         let reach = square - self.base_radius * self.base_radius;
@@ -158,17 +191,17 @@ impl Flank {
         // R^2 exp(i phi) = (x + i y) (r_b - i s W)
         let [cos, sin] = [p.x * self.base_radius + s * w * p.y, p.y * self.base_radius - s * w * p.x];
         let phi = sin.atan2(cos);
-        let normal = s * Vec3::new(-sin * cos_b / square, cos * cos_b / square, -sin_b);
+        let directions = self.directions_at([sin / square, cos / square]);
         // The flank's own angle at u = W / r_b; the small difference is what the distance turns the helicoid by.
         let expected = self.centre_angle + self.twist * p.z + s * (self.base_half_angle - w / self.base_radius);
         let turn = wrap(phi - expected);
         let distance = self.base_radius * cos_b * s * turn;
         let roll = (w - distance * cos_b) / self.base_radius;
-        Some((FlankPoint { roll, z: p.z + s * distance * sin_b, distance }, normal))
+        Some((FlankPoint { roll, z: p.z + s * distance * sin_b, distance }, directions))
     }
 
     /// sin b_b and cos b_b, from k r_b = tan b_b.
-    fn base_helix(&self) -> [f64; 2] {
+    pub(crate) fn base_helix(&self) -> [f64; 2] {
         let tan = self.twist * self.base_radius;
         let cos = 1.0 / (1.0 + tan * tan).sqrt();
         [tan * cos, cos]

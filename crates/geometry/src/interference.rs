@@ -28,6 +28,8 @@ impl GearPair {
         let contact = [rb * (cos + touch * sin), rb * (sin - touch * cos)];
         let start = contact[1].atan2(contact[0] - a);
         let centre_line = a_wt - touch + own.profile().base_half_angle();
+        // A tooth is nowhere wider than where it is rooted.
+        let widest = own.profile().fillet(0.0).1.max(own.profile().half_angle(own.profile().roll_form()));
         // From a little before the tip touches until the corner is well past the line of centres.
         let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
         let depth = |k: u32| {
@@ -37,7 +39,7 @@ impl GearPair {
             let radius = x.hypot(y);
             let angle = y.atan2(x) + turn * rb_mate / rb;
             let off = (angle - centre_line + PI).rem_euclid(2.0 * PI) - PI;
-            radius * (half_angle(own, radius) - off.abs())
+            if off.abs() >= widest { 0.0 } else { radius * (half_angle(own, radius) - off.abs()) }
         };
         (0..=SAMPLES).map(depth).fold(0.0, f64::max)
     }

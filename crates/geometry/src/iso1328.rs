@@ -9,6 +9,7 @@ pub const TOLERANCE_CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 ///
 /// ```text
 /// f_pT  = (0.001 d + 0.4 m_n + 5) s          single pitch
+/// F_pT  = (0.002 d + 0.55 sqrt(d) + 0.7 m_n + 12) s    total cumulative pitch
 /// f_HaT = (0.4 m_n + 0.001 d + 4) s          profile slope
 /// f_faT = (0.55 m_n + 5) s                   profile form
 /// f_HbT = (0.05 sqrt(d) + 0.35 sqrt(b) + 4) s    helix slope
@@ -20,6 +21,7 @@ pub const TOLERANCE_CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 #[allow(missing_docs)] // the names say what they are
 pub struct FlankTolerances {
     pub single_pitch_um: f64,
+    pub total_pitch_um: f64,
     pub profile_slope_um: f64,
     pub profile_form_um: f64,
     pub helix_slope_um: f64,
@@ -33,6 +35,7 @@ impl FlankTolerances {
         let step = 2f64.sqrt().powi(class as i32 - 5);
         Self {
             single_pitch_um: (0.001 * d + 0.4 * m + 5.0) * step,
+            total_pitch_um: (0.002 * d + 0.55 * d.sqrt() + 0.7 * m + 12.0) * step,
             profile_slope_um: (0.4 * m + 0.001 * d + 4.0) * step,
             profile_form_um: (0.55 * m + 5.0) * step,
             helix_slope_um: (0.05 * d.sqrt() + 0.35 * b.sqrt() + 4.0) * step,

@@ -109,6 +109,7 @@ impl CycleSolver {
                     normal_force: 0.0,
                     max_pressure: 0.0,
                     contact_line_length: length,
+                    geometric_line_length: nominal,
                     points_in_contact: 0,
                     slices: Vec::new(),
                 }
@@ -129,6 +130,7 @@ impl CycleSolver {
             root_stress: Default::default(),
             max_pressure: 0.0,
             friction_work: 0.0,
+            sliding_work: 0.0,
             strain_energy: 0.0,
             tooth_changes: self.changes,
             certificate: Default::default(),

@@ -1,12 +1,14 @@
 //! The unloaded pair: where modified, misaligned flanks just touch. Theory (32), (33).
 
 use ale::Station;
-use contact::{ContactOptions, Pose, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle};
+use contact::{
+    ContactOptions, FlankPatch, Pose, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle,
+};
 use geometry::{Gear, GearPair, ModifiedFlank};
 
 use crate::{
     StaticError,
-    flank_gap::{FlankGap, STATIONS},
+    flank_gap::{DipPlace, FlankGap, STATIONS},
     pose_steps::round_off_of_places,
 };
 
@@ -14,6 +16,8 @@ use crate::{
 /// rotations on either side; the gap is nearly linear in it, so three or four do.
 const STEPS: usize = 80;
 const NEWTON_STEPS: usize = 10;
+/// Round-off of places that a gap may be off by after these steps.
+const STUCK: f64 = 16.0;
 /// Share by which gaps of two pairs may change differently as the gear turns.
 const OTHER_LEVERS: f64 = 0.05;
 /// Heights between which a parabola tells where the gap is least, over half the face width.
@@ -49,8 +53,8 @@ pub(crate) struct Nearest {
 enum Look {
     /// All over the face of these teeth.
     All(Vec<i64>),
-    /// About these heights of these teeth.
-    At(Vec<(i64, Vec<f64>)>),
+    /// At these places of these teeth.
+    At(Vec<(i64, Vec<DipPlace>)>),
 }
 
 impl Look {
@@ -95,7 +99,9 @@ impl<'a> Unloaded<'a> {
             }
             between[usize::from(nearest.gap < 0.0)] = Some(unloaded.rotation);
             unloaded.touch = Some(nearest);
-            let touches = nearest.gap.abs() <= round_off && taken > 0;
+            // Gaps that no step makes smaller are round-off themselves.
+            let allowed = if taken > NEWTON_STEPS { STUCK * round_off } else { round_off };
+            let touches = nearest.gap.abs() <= allowed && taken > 0;
             match between {
                 // Steps that go to and fro over a kink: the end of what two flanks face of each other, another pair.
                 [Some(out), Some(within)] if taken >= NEWTON_STEPS && !touches => {
@@ -146,6 +152,15 @@ impl<'a> Unloaded<'a> {
         ]
     }
 
+    /// The same as contact searches them.
+    fn patches(&self, tooth: i64) -> [FlankPatch; 2] {
+        self.flanks(tooth).map(|flank| {
+            let nominal = flank.nominal();
+            let (half, rolls) = (nominal.half_width, [nominal.roll_form, nominal.roll_tip]);
+            FlankPatch::rigid(tooth, Box::new(flank), [[rolls[0], -half], [rolls[1], half]])
+        })
+    }
+
     /// Teeth that can reach the path of contact, half a pitch beyond either end.
     fn teeth(&self) -> std::ops::RangeInclusive<i64> {
         let Self { pair, options, .. } = *self;
@@ -167,8 +182,8 @@ impl<'a> Unloaded<'a> {
     /// Pairs are looked into in the order of what was seen of them, and no further than one may have the least gap.
     fn nearest(&self, poses: &[Pose; 2], look: &Look) -> Option<(Nearest, Look)> {
         let (teeth, first) = (look.teeth(), matches!(look, Look::All(_)));
-        let flanks: Vec<[ModifiedFlank; 2]> = teeth.iter().map(|&tooth| self.flanks(tooth)).collect();
-        let gaps: Vec<FlankGap<'_>> = match look {
+        let flanks: Vec<[FlankPatch; 2]> = teeth.iter().map(|&tooth| self.patches(tooth)).collect();
+        let mut gaps: Vec<FlankGap<'_>> = match look {
             Look::All(_) => {
                 let unseen: Vec<FlankGap<'_>> = flanks.iter().map(|flanks| FlankGap::unseen(flanks, poses)).collect();
                 let foretold: Vec<_> = unseen.iter().map(FlankGap::foretold).collect();
@@ -180,13 +195,11 @@ impl<'a> Unloaded<'a> {
                 flanks.iter().zip(places).map(|(flanks, (_, at))| FlankGap::seen(flanks, poses, at)).collect()
             }
         };
-        let mut order: Vec<usize> = (0..teeth.len()).collect();
-        order.sort_by(|&i, &j| gaps[i].lowest().total_cmp(&gaps[j].lowest()));
-        let mut best: Option<Nearest> = None;
-        for i in order {
-            let enough = best.map_or(f64::INFINITY, |b| b.gap);
-            let Some((gap, at)) = gaps[i].nearest_below(enough, first) else { continue };
-            best = Some(Nearest { gap, at, tooth: teeth[i] });
+        let mut best = nearest_of(&mut gaps, &teeth, first);
+        if best.is_none() && first {
+            // Flanks that the first order says nothing true of: every station counts.
+            gaps = flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect();
+            best = nearest_of(&mut gaps, &teeth, first);
         }
         let best = best?;
         if let Look::At(places) = look {
@@ -229,7 +242,7 @@ impl<'a> Unloaded<'a> {
     /// The same touch at the very height of least gap, which a golden section knows to the root of the gap's round-off;
     /// `None` where the flanks touch at the end of what they face of each other, which moves with the gears.
     pub fn polished(&self, touch: &Nearest) -> Option<Nearest> {
-        let (flanks, poses) = (self.flanks(touch.tooth), self.poses());
+        let (flanks, poses) = (self.patches(touch.tooth), self.poses());
         let gap = FlankGap::unseen(&flanks, &poses);
         let (z, half) = (touch.at[1], gap.half_width());
         if z.abs() == half {
@@ -247,7 +260,7 @@ impl<'a> Unloaded<'a> {
 
     /// Gap at the height at which another pair like this one touches, mm.
     pub fn gap_at(&self, touch: &Nearest) -> Option<f64> {
-        let (flanks, poses) = (self.flanks(touch.tooth), self.poses());
+        let (flanks, poses) = (self.patches(touch.tooth), self.poses());
         FlankGap::unseen(&flanks, &poses).at(touch.at[1]).map(|(_, gap)| gap)
     }
 
@@ -260,8 +273,8 @@ impl<'a> Unloaded<'a> {
     /// nanometre, over cos b_b.
     pub fn line_length(&self, running: i64) -> f64 {
         let poses = self.poses();
-        let flanks = self.flanks(running - self.station.middle_pair(self.options.sense));
-        let gap = FlankGap::new(&flanks, &poses);
+        let flanks = self.patches(running - self.station.middle_pair(self.options.sense));
+        let mut gap = FlankGap::new(&flanks, &poses);
         let Some((least, [_, z])) = gap.nearest_below(f64::INFINITY, false) else { return 0.0 };
         if least > TOUCHING {
             return 0.0;
@@ -279,6 +292,19 @@ impl<'a> Unloaded<'a> {
         }
         covered(&intervals, [-half, half]) / self.pair.base_helix_angle().cos()
     }
+}
+
+/// Least of some gaps, each of a tooth; they are looked into in the order of what was seen of them.
+fn nearest_of(gaps: &mut [FlankGap<'_>], teeth: &[i64], first: bool) -> Option<Nearest> {
+    let mut order: Vec<usize> = (0..teeth.len()).collect();
+    order.sort_by(|&i, &j| gaps[i].lowest().total_cmp(&gaps[j].lowest()));
+    let mut best: Option<Nearest> = None;
+    for i in order {
+        let enough = best.map_or(f64::INFINITY, |b| b.gap);
+        let Some((gap, at)) = gaps[i].nearest_below(enough, first) else { continue };
+        best = Some(Nearest { gap, at, tooth: teeth[i] });
+    }
+    best
 }
 
 /// Kinematic transmission error of an unloaded pair, mm: see [`crate::StaticPosition::kinematic_transmission_error`].

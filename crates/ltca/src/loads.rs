@@ -1,6 +1,9 @@
 //! From a solved contact to the quantities of a station. Theory (34).
 
-use contact::{ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, slice_result, wrenches};
+use contact::{
+    ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, slice_result, sliding_distance,
+    wrenches,
+};
 
 use crate::{
     Certificate, Equilibrium, PairResult, StaticPosition, WindowedPair, line::contact_line,
@@ -47,12 +50,8 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         }
     };
     let tangent_stiffness = e.solution.stiffness / (base_radius * base_radius);
-    let friction_work = e
-        .rows
-        .iter()
-        .zip(&e.solution.forces)
-        .map(|(row, f)| f * friction_work(pair, &options.contact, &e.poses, row))
-        .sum();
+    let over_rows =
+        |of: &dyn Fn(&ContactRow) -> f64| e.rows.iter().zip(&e.solution.forces).map(|(r, f)| f * of(r)).sum();
     let theta1 = e.station.pinion_angle(pair, options.side(), options.contact.sense);
     StaticPosition {
         pinion_angle: (e.station.cycle as f64 + e.station.phase - 0.5) * pair.pinion.pitch_angle(),
@@ -70,7 +69,8 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         max_pressure: pairs.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
         wrench,
         root_stress: Default::default(),
-        friction_work,
+        friction_work: over_rows(&|row| friction_work(pair, &options.contact, &e.poses, row)),
+        sliding_work: over_rows(&|row| sliding_distance(pair, &e.poses, row)),
         strain_energy: elastic + local + penalty,
         tooth_changes,
         certificate: Certificate {
@@ -111,6 +111,9 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
     let loaded: Vec<(&ContactRow, f64)> =
         e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
     let line = contact_line(windowed, e, k);
+    let sense = options.contact.sense;
+    let turned = e.station.pinion_angle(pair, options.side(), sense);
+    let nominal = pair.contact_line(options.side(), turned, running - e.station.middle_pair(sense));
     let along = 1.0 / pair.base_helix_angle().cos();
     let half = 0.5 * pair.face_width();
     let modulus =
@@ -133,13 +136,14 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
         })
     };
     PairResult {
-        pair: options.contact.sense.sign() * running,
+        pair: sense.sign() * running,
         pinion_tooth,
         wheel_tooth,
         // 0.0 first: the sum of nothing is -0.0 otherwise.
         normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
         max_pressure,
         contact_line_length: along * covered(&line, [-half, half]),
+        geometric_line_length: nominal.map_or(0.0, |line| line.length),
         points_in_contact: loaded.len(),
         slices,
     }

@@ -1,7 +1,7 @@
 //! What a quasi-static analysis hands on, position by position.
 
 use ale::{Station, ToothWindow};
-use contact::{SliceResult, Wrench};
+use contact::{Site, SliceResult, Wrench};
 use serde::Serialize;
 
 use crate::FilletStress;
@@ -21,6 +21,8 @@ pub struct PairResult {
     pub max_pressure: f64,
     /// Length of this pair's contact line, mm.
     pub contact_line_length: f64,
+    /// Analytic length of its contact line unloaded, mm; 0 beside the path of contact.
+    pub geometric_line_length: f64,
     /// Slices or quadrature points that carry load.
     pub points_in_contact: usize,
     /// The loaded slices, ascending in z; none where points touch.
@@ -82,12 +84,23 @@ pub struct StaticPosition {
     pub root_stress: [Vec<FilletStress>; 2],
     /// Work of friction per radian of pinion rotation, N mm, >= 0; times the pinion's speed it is the power loss.
     pub friction_work: f64,
+    /// Sum over the contact of normal force times sliding per radian of pinion rotation, N mm: what a coefficient of
+    /// friction of 1 would take of these forces. Known without friction as well.
+    pub sliding_work: f64,
     /// Elastic energy of both gears and the contact, N mm.
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.
     pub tooth_changes: u64,
     /// How well it is solved.
     pub certificate: Certificate,
+}
+
+impl StaticPosition {
+    /// Largest contact pressure of slices at end faces and tip edges, MPa; 0 without any, and of points.
+    pub fn max_edge_pressure(&self) -> f64 {
+        let slices = self.pairs.iter().flat_map(|pair| &pair.slices);
+        slices.filter(|s| s.site != Site::Flank).map(|s| s.pressure).fold(0.0, f64::max)
+    }
 }
 
 /// A whole quasi-static run.

@@ -6,7 +6,7 @@
 //! where load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
 
 use ale::Station;
-use contact::{FlankPatch, Pose, RigidFlanks, SliceHint, Surface, check_offsets, gear_pose, reference_angle};
+use contact::{FlankPatch, Offset, Pose, RigidFlanks, SliceHint, Surface, check_offsets, gear_pose, reference_angle};
 use geometry::GearPair;
 
 use crate::{StaticOptions, equilibrium::GUESSED_LINE_STIFFNESS};
@@ -226,11 +226,19 @@ fn line(
     let slack = BEYOND * pair.transverse_base_pitch();
     let mut hint = SliceHint::default();
     let width = pair.face_width();
+    let is_nominal = options.contact.offsets.iter().all(|offset| *offset == Offset::default());
+    let (length, base_radii) = (pair.tangent_length(), [pair.pinion.base_radius(), pair.wheel.base_radius()]);
+    let [middle, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(side, theta1, tooth, z));
     let gap = |i: usize| {
         let z = width * ((i as f64 + 0.5) / places as f64 - 0.5);
-        let xi = pair.path_coordinate(side, theta1, tooth, z);
+        let xi = middle + (beside - middle) * z;
         if xi < start - slack || xi > end + slack {
             return f64::INFINITY;
+        }
+        if is_nominal && xi >= start && xi <= end {
+            // On parallel axes in their places nominal flanks touch all along the path of contact.
+            let rolls = [xi / base_radii[0], (length - xi) / base_radii[1]];
+            return [0, 1].map(|k| Surface::depth(&flanks[k], [rolls[k], z])).iter().sum();
         }
         let Some(place) = facing.nearest(z, &mut hint) else { return f64::INFINITY };
         place.gap + [0, 1].map(|k| Surface::depth(&flanks[k], place.at[k])).iter().sum::<f64>()

@@ -4,6 +4,7 @@ mod both_flanks;
 mod calculix;
 mod contact_ratio;
 mod corner_contact;
+mod face_load;
 mod given_poses;
 mod gmsh_meshes;
 mod laws_of_statics;

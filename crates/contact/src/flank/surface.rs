@@ -53,6 +53,14 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn is_single_arc(&self) -> bool {
         false
     }
+    /// The involute helicoid that [`Surface::depth`] is ground off from; `None` for other surfaces.
+    fn nominal_flank(&self) -> Option<&geometry::Flank> {
+        None
+    }
+    /// Least [`Surface::depth`] over the flank, mm, to some hundredths of its size.
+    fn least_depth(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Half of a usual band of contact, mm.
@@ -98,6 +106,10 @@ impl Surface for geometry::Flank {
 
     fn is_single_arc(&self) -> bool {
         true
+    }
+
+    fn nominal_flank(&self) -> Option<&geometry::Flank> {
+        Some(self)
     }
 }
 
@@ -154,6 +166,14 @@ impl Surface for geometry::ModifiedFlank {
 
     fn is_single_arc(&self) -> bool {
         self.is_offset_helicoid()
+    }
+
+    fn nominal_flank(&self) -> Option<&geometry::Flank> {
+        Some(self.nominal())
+    }
+
+    fn least_depth(&self) -> f64 {
+        geometry::ModifiedFlank::least_depth(self)
     }
 }
 

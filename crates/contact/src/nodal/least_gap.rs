@@ -2,7 +2,7 @@
 
 use crate::{
     FlankPatch, Pose, Surface,
-    bracketing::{bracket_zero, bracket_zero_within, last_inside},
+    bracketing::{bracket_zero, last_inside},
 };
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.
@@ -12,13 +12,13 @@ const BISECTIONS: usize = 60;
 
 /// Two smooth surfaces at the poses of their bodies.
 #[derive(Debug, Clone, Copy)]
-pub struct SurfacePair<'a> {
+struct SurfacePair<'a> {
     /// Surface of body 1.
-    pub first: &'a dyn Surface,
+    first: &'a dyn Surface,
     /// Surface of body 2.
-    pub second: &'a dyn Surface,
+    second: &'a dyn Surface,
     /// Poses of both bodies.
-    pub poses: &'a [Pose; 2],
+    poses: &'a [Pose; 2],
 }
 
 impl SurfacePair<'_> {
@@ -45,7 +45,7 @@ impl SurfacePair<'_> {
     /// The zero of the slope is bracketed by a scan and the bracket closed, so the place is found to round-off and not
     /// to its square root as by comparing gaps. Where a relief starts with a kink the slope jumps; the place of the
     /// jump is found as well.
-    pub fn least_gap(&self, range: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool, z: f64) -> Option<(f64, f64)> {
+    fn least_gap(&self, range: [f64; 2], covers: &dyn Fn([f64; 2]) -> bool, z: f64) -> Option<(f64, f64)> {
         let [from, to] = range;
         let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
         let step = (to - from) / (SCAN - 1) as f64;
@@ -71,69 +71,6 @@ impl SurfacePair<'_> {
             0.5 * (a + b)
         };
         Some((u, gap_and_slope(u)?.0))
-    }
-}
-
-impl SurfacePair<'_> {
-    /// As [`SurfacePair::least_gap`], for a caller who knows near which places the gap may be least: from each of them
-    /// downhill in strides to the next dip, whose place is found to `within` (0: round-off). `None` where one of them
-    /// faces nothing.
-    pub fn least_gap_near(
-        &self,
-        range: [f64; 2],
-        covers: &dyn Fn([f64; 2]) -> bool,
-        z: f64,
-        (starts, stride): (&[f64], f64),
-        within: f64,
-    ) -> Option<(f64, f64)> {
-        let mut best: Option<(f64, f64)> = None;
-        for &start in starts {
-            let found = self.downhill(range, covers, z, (start, stride), within)?;
-            best = Some(found).filter(|f| best.is_none_or(|b| f.1 < b.1)).or(best);
-        }
-        best
-    }
-
-    /// The next dip downhill from a place, and the gap there.
-    fn downhill(
-        &self,
-        range: [f64; 2],
-        covers: &dyn Fn([f64; 2]) -> bool,
-        z: f64,
-        (start, stride): (f64, f64),
-        within: f64,
-    ) -> Option<(f64, f64)> {
-        let gap_and_slope = |u: f64| self.gap_and_slope([u, z], covers);
-        // A place that just faces nothing has a neighbour that faces something.
-        let near = [start, start - stride, start + stride].map(|u| u.clamp(range[0], range[1]));
-        let (mut here, (gap, mut slope)) = near.into_iter().find_map(|u| Some((u, gap_and_slope(u)?)))?;
-        if slope == 0.0 {
-            return Some((here, gap));
-        }
-        let way = -slope.signum();
-        let last = if way > 0.0 { range[1] } else { range[0] };
-        loop {
-            if here == last {
-                return Some((here, gap_and_slope(here)?.0));
-            }
-            let wanted = (here + way * stride).clamp(range[0], range[1]);
-            // Where the facing part of the station ends before it: that end.
-            let (next, ends) = match gap_and_slope(wanted) {
-                Some(_) => (wanted, false),
-                None => (last_inside(|u| gap_and_slope(u).is_some(), [here, wanted], BISECTIONS, 0.0), true),
-            };
-            let (gap, there) = gap_and_slope(next)?;
-            if there * way >= 0.0 {
-                let slope_at = |u: f64| gap_and_slope(u).map_or(0.0, |g| g.1);
-                let [a, b] = bracket_zero_within(slope_at, [here, next], [slope, there], within);
-                let u = 0.5 * (a + b);
-                return Some((u, gap_and_slope(u)?.0));
-            }
-            if ends {
-                return Some((next, gap));
-            }
-            (here, slope) = (next, there);
-        }
     }
 }
 

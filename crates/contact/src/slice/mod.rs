@@ -1,5 +1,6 @@
 //! Contact of slices: one line load an axial slice, where both profiles are nearest.
 
+mod first_order;
 mod flank_pair;
 mod hint;
 mod mesh_contact;

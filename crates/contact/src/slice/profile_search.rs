@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::{
     FlankPatch, Pose, SliceHint, Vec3,
     bracketing::{bracket_zero, last_inside},
+    slice::first_order::{FirstOrderGap, Outlook},
 };
 
 /// Two flank patches, with body 1's points in body 2's frame.
@@ -15,6 +16,8 @@ pub(crate) struct ProfilePair<'a> {
     shift: Vector3<f64>,
     /// Whether both profiles are convex arcs: the gap then has one minimum, and Newton's method finds it.
     single: bool,
+    /// Where dips may be, of modified flanks that nearly touch.
+    guide: Option<FirstOrderGap>,
 }
 
 /// Point of least gap, by what bounds it: the zero of the gap's slope, an edge or a kink.
@@ -29,6 +32,9 @@ pub(crate) enum LeastGapPoint {
     /// A kink of the other flank, where a linear relief begins: it presses as an edge does.
     OtherKink(f64),
 }
+
+/// A place, with what is seen there where that is known.
+type Found = (LeastGapPoint, Option<GapSample>);
 
 /// Gap at a point of body 1's profile.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +54,10 @@ const BEYOND: f64 = 1e-3;
 const DEEPEST: f64 = 2.0;
 /// Sample points along a profile on which the gap may have several minima.
 const SCAN: usize = 16;
+/// Steps down to a dip before a bracket is closed; four are enough where there is no kink.
+const DESCENT_STEPS: usize = 8;
+/// Strides that a dip may lie from where it was told to be.
+const FARTHEST: f64 = 3.0;
 /// Newton steps before the scan takes over; four are enough.
 const NEWTON_STEPS: usize = 24;
 /// Roll angles nearer than this count as equal, rad: shorter steps are round-off.
@@ -74,11 +84,15 @@ impl LeastGapPoint {
 impl<'a> ProfilePair<'a> {
     pub fn new(patches: [&'a FlankPatch; 2], poses: [&Pose; 2]) -> Self {
         let relative = poses[1].inverse() * poses[0];
+        let surfaces = patches.map(FlankPatch::surface);
+        let single = surfaces.iter().all(|s| s.is_single_arc());
+        let rolls = patches.map(|patch| patch.range().map(|[u, _]| u));
         Self {
             patches,
             turn: relative.rotation.to_rotation_matrix().into_inner(),
             shift: relative.translation.vector,
-            single: patches.iter().all(|p| p.surface().is_single_arc()),
+            single,
+            guide: if single { None } else { FirstOrderGap::new(surfaces, rolls, poses) },
         }
     }
 
@@ -97,6 +111,19 @@ impl<'a> ProfilePair<'a> {
     fn rolls(&self, body: usize) -> [f64; 2] {
         let [[low, _], [high, _]] = self.patches[body].range();
         [low, high]
+    }
+
+    /// The least gap at height `z` to first order (mm), from which to which; `None` where nothing is faced. Anything where
+    /// the first order says nothing.
+    pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
+        let anything = [f64::NEG_INFINITY, f64::INFINITY];
+        let Some(guide) = &self.guide else { return Some(anything) };
+        match guide.look(self.patches.map(FlankPatch::surface), z, f64::INFINITY) {
+            None => Some(anything),
+            Some(Outlook::NotFaced) => None,
+            Some(Outlook::Wider(least)) => Some([least, f64::INFINITY]),
+            Some(Outlook::Dips(dips)) => Some(dips.gap),
+        }
     }
 
     /// Point of least gap at height `z` (mm) of body 1, and the gap there. `None` where the flanks do not face each
@@ -122,13 +149,107 @@ impl<'a> ProfilePair<'a> {
 
     /// Point of least gap at height `z` of body 1, with the gap where that is known; `near` is a roll angle to start
     /// from.
-    fn search(&self, z: f64, near: Option<f64>, reach: f64) -> Option<(LeastGapPoint, Option<GapSample>)> {
+    fn search(&self, z: f64, near: Option<f64>, reach: f64) -> Option<Found> {
         if self.single
             && let Ok(found) = self.newton_search(z, near, reach)
         {
             return found;
         }
+        if let Some(guide) = &self.guide
+            && let Ok(found) = self.guided_search(guide, z, near, reach)
+        {
+            return found;
+        }
         self.scan_search(z).map(|point| (point, None))
+    }
+
+    /// The deepest of the dips that the gap to first order tells of. `Err` where the flanks are not as it says.
+    fn guided_search(&self, guide: &FirstOrderGap, z: f64, near: Option<f64>, reach: f64) -> Result<Option<Found>, ()> {
+        let dips = match guide.look(self.patches.map(FlankPatch::surface), z, reach).ok_or(())? {
+            Outlook::NotFaced | Outlook::Wider(_) => return Ok(None),
+            Outlook::Dips(dips) => dips,
+        };
+        let several = dips.rolls().len() > 1;
+        let mut best: Option<(Found, f64)> = None;
+        for &start in dips.rolls() {
+            let Some((point, sample)) = self.descend(guide, z, (start, near), reach)? else { continue };
+            let sample = if several && sample.is_none() { self.sample([point.roll(), z]) } else { sample };
+            let gap = sample.map_or(f64::INFINITY, |s| s.gap);
+            if best.is_none_or(|(_, least)| gap < least) {
+                best = Some(((point, sample), gap));
+            }
+        }
+        Ok(best.map(|(found, _)| found))
+    }
+
+    /// The dip that a place belongs to: Newton's method on the slope of the gap, then the secant method, and a bracket
+    /// where they do not settle, at a kink. `near`: where the dip may be, if it is about there.
+    fn descend(
+        &self,
+        guide: &FirstOrderGap,
+        z: f64,
+        (start, near): (f64, Option<f64>),
+        reach: f64,
+    ) -> Result<Option<Found>, ()> {
+        let [[low, high], [other_low, other_high]] = [self.rolls(0), self.rolls(1)];
+        let stride = guide.stride_at(start);
+        let mut u = near.filter(|u| (u - start).abs() <= stride).unwrap_or(start).clamp(low, high);
+        let (mut below, mut above) = (None::<[f64; 2]>, None::<[f64; 2]>);
+        let mut before: Option<[f64; 2]> = None;
+        for _ in 0..DESCENT_STEPS {
+            let sample = self.sample([u, z]).ok_or(())?;
+            let slope = sample.slope;
+            *(if slope < 0.0 { &mut below } else { &mut above }) = Some([u, slope]);
+            if (slope < 0.0 && u >= high) || (slope > 0.0 && u <= low) {
+                return self.within_other(z, (LeastGapPoint::OwnEnd(u), Some(sample)), &sample, reach);
+            }
+            // Downhill is further beyond the end of the other profile.
+            let foot = sample.foot[0];
+            if (slope > 0.0 && foot > other_high) || (slope < 0.0 && foot < other_low) {
+                return self.within_other(z, (LeastGapPoint::Inside(u), None), &sample, reach);
+            }
+            let secant = before.map(|[v, s]| (slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
+            let step = -slope / secant.unwrap_or_else(|| guide.slope_derivative(u, z));
+            if !step.is_finite() {
+                return Err(());
+            }
+            let near_enough = match before {
+                Some([v, _]) => step.abs() <= NEAR && (step * (u - v)).abs() <= RESOLUTION,
+                None => step.abs() <= SAME_PLACE,
+            };
+            if near_enough {
+                let is_there = step.abs() <= SAME_PLACE;
+                let point = LeastGapPoint::Inside(if is_there { u } else { u + step });
+                return self.within_other(z, (point, is_there.then_some(sample)), &sample, reach);
+            }
+            before = Some([u, slope]);
+            let next = (u + step.clamp(-stride, stride)).clamp(low, high);
+            if let (Some([a, _]), Some([b, _])) = (below, above)
+                && !(next > a.min(b) && next < a.max(b))
+            {
+                break;
+            }
+            // Another dip than the one that was told of.
+            if (next - start).abs() > FARTHEST * stride {
+                return Err(());
+            }
+            u = next;
+        }
+        let (Some([a, slope_a]), Some([b, slope_b])) = (below, above) else { return Err(()) };
+        let mut failed = false;
+        let slope = |u: f64| self.sample([u, z]).map_or_else(|| (failed = true, 0.0).1, |s| s.slope);
+        let ends = bracket_zero(slope, [a, b], [slope_a, slope_b]);
+        let point = self.between(z, ends).filter(|_| !failed).ok_or(())?;
+        let sample = self.sample([point.roll(), z]).ok_or(())?;
+        self.within_other(z, (point, Some(sample)), &sample, reach)
+    }
+
+    /// What a bracket of the slope's zero holds: a kink of the other flank, where its normal turns, or a smooth place.
+    fn between(&self, z: f64, [a, b]: [f64; 2]) -> Option<LeastGapPoint> {
+        let normal = |u: f64| Some(self.patches[1].surface().normal(self.sample([u, z])?.foot));
+        let turn = normal(b)? - normal(a)?;
+        let middle = 0.5 * (a + b);
+        Some(if turn.norm() > KINK { LeastGapPoint::OtherKink(middle) } else { LeastGapPoint::Inside(middle) })
     }
 
     /// Newton's method on the slope of the gap, then the secant method. The derivative of the slope is the relative
@@ -136,12 +257,7 @@ impl<'a> ProfilePair<'a> {
     ///
     /// Between convex arcs slope and foot point are monotonous. So the foot point at the zero of the slope tells which
     /// end of a profile, if any, comes before it. `Err` where that does not hold.
-    fn newton_search(
-        &self,
-        z: f64,
-        near: Option<f64>,
-        reach: f64,
-    ) -> Result<Option<(LeastGapPoint, Option<GapSample>)>, ()> {
+    fn newton_search(&self, z: f64, near: Option<f64>, reach: f64) -> Result<Option<Found>, ()> {
         let [low, high] = self.rolls(0);
         let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
         let (mut below, mut above) = (None::<f64>, None::<f64>);
@@ -192,11 +308,17 @@ impl<'a> ProfilePair<'a> {
             u = next;
         }
         let (u, sample, is_there, at_end) = found.ok_or(())?;
-        let foot = sample.foot[0];
-        let [other_low, other_high] = self.rolls(1);
+        let point = if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) };
+        self.within_other(z, (point, is_there.then_some(sample)), &sample, reach)
+    }
+
+    /// A place where the slope vanishes, or the end of the other profile before it, where its foot (`sample`) lies
+    /// beyond that; `None` where the gap is wider than `reach` (mm) or no flank is faced.
+    fn within_other(&self, z: f64, found: Found, sample: &GapSample, reach: f64) -> Result<Option<Found>, ()> {
+        let (u, foot) = (found.0.roll(), sample.foot[0]);
+        let [[low, high], [other_low, other_high]] = [self.rolls(0), self.rolls(1)];
         if foot >= other_low && foot <= other_high {
-            let point = if at_end { LeastGapPoint::OwnEnd(u) } else { LeastGapPoint::Inside(u) };
-            return Ok(Some((point, is_there.then_some(sample))));
+            return Ok(Some(found));
         }
         // At the ends of the other profile the gap is no smaller than here.
         if sample.gap > reach {
@@ -270,10 +392,6 @@ impl<'a> ProfilePair<'a> {
         if slopes[1] <= 0.0 {
             return Some(stop(b, cut_b));
         }
-        let [a, b] = bracket_zero(slope, [a, b], slopes);
-        let normal = |u: f64| Some(self.patches[1].surface().normal(sample(u)?.foot));
-        let turn = normal(b)? - normal(a)?;
-        let middle = 0.5 * (a + b);
-        Some(if turn.norm() > KINK { LeastGapPoint::OtherKink(middle) } else { LeastGapPoint::Inside(middle) })
+        self.between(z, bracket_zero(slope, [a, b], slopes))
     }
 }

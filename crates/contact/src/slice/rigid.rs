@@ -37,6 +37,18 @@ impl<'a> RigidFlanks<'a> {
         Self { poses, profiles: ProfilePair::new(patches, [&poses[0], &poses[1]]) }
     }
 
+    /// Roll angle of body 1 where they are nearest at height `z` (mm), the gap there (mm) and its foot on body 2, all
+    /// seen from body 1 also where an edge of body 2 presses; `None` where they do not face each other.
+    pub fn least_gap(&self, z: f64, hint: &mut SliceHint) -> Option<(f64, f64, [f64; 2])> {
+        let (point, sample) = self.profiles.nearest_point(z, hint)?;
+        Some((point.roll(), sample.gap, sample.foot))
+    }
+
+    /// The least gap at height `z` to first order (mm), from which to which; `None` where nothing is faced.
+    pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
+        self.profiles.foretold(z)
+    }
+
     /// Where they are nearest at height `z` (mm, body 1's own frame); `None` where they do not face each other.
     ///
     /// Gap and normal fit together: moving a body by a small d changes the gap by the normal's part of it, as the place

@@ -30,7 +30,11 @@ pub struct DepthField {
     along_profile: [Option<Ramp>; 2],
     along_lead: [Option<Ramp>; 2],
     grid: Option<Bicubic>,
+    least: f64,
 }
+
+/// Places along the profile and along the face at which the least depth is looked for.
+const LEAST: [usize; 2] = [33, 17];
 
 /// Size of the flank that a modification is put on.
 #[derive(Debug, Clone, Copy)]
@@ -130,7 +134,7 @@ impl DepthField {
             let start = sign * (size.half_width - r.length);
             *ramp = Some(Ramp { amount: r.amount, start, length: sign * r.length, shape: r.shape });
         }
-        Ok(Self {
+        let mut field = Self {
             range: [from, tip],
             half_width: size.half_width,
             profile_crowning: m.profile_crowning,
@@ -141,7 +145,22 @@ impl DepthField {
             along_profile: [root_relief, tip_relief],
             along_lead,
             grid: m.topography.as_ref().map(|t| grid(t, size)).transpose()?,
-        })
+            least: 0.0,
+        };
+        let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
+        let [along, across] = LEAST;
+        let places = (0..along * across).map(|i| {
+            let (p, q) = (place(i % along, along), place(i / along, across));
+            field.at(form + p * (tip - form), size.half_width * (2.0 * q - 1.0)).value
+        });
+        field.least = places.fold(f64::INFINITY, f64::min);
+        Ok(field)
+    }
+
+    /// Least depth over the flank from root form circle to tip, mm, to what lies between 33 places along the profile and
+    /// 17 along the face.
+    pub fn least(&self) -> f64 {
+        self.least
     }
 
     /// Depth at roll angle `u` and height `z` (mm), with first derivatives.

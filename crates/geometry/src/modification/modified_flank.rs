@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Depth, DepthField};
-use crate::{Flank, FlankPoint, Vec3};
+use crate::{Flank, FlankPoint, Vec3, flank::Directions};
 
 /// One flank with its micro-geometry, in its gear's own frame; surface coordinates are those of the nominal helicoid.
 ///
@@ -42,6 +42,11 @@ impl ModifiedFlank {
         depth
     }
 
+    /// Least depth over the flank, pitch error included, mm: see [`DepthField::least`].
+    pub fn least_depth(&self) -> f64 {
+        self.pitch + self.field.as_ref().map_or(0.0, |f| f.least())
+    }
+
     /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along
     /// it.
     pub fn is_offset_helicoid(&self) -> bool {
@@ -54,11 +59,11 @@ impl ModifiedFlank {
 
     /// Surface point, mm.
     pub fn point(&self, u: f64, z: f64) -> Vec3 {
-        let nominal = self.flank.point(u, z);
         if self.is_nominal() {
-            return nominal;
+            return self.flank.point(u, z);
         }
-        nominal - self.depth(u, z).value * self.flank.normal(u, z)
+        let frame = self.flank.directions(u, z);
+        self.flank.point_at(u, z, &frame) - self.depth(u, z).value * frame.normal
     }
 
     /// Unit normal of the modified surface, out of the tooth.
@@ -69,15 +74,22 @@ impl ModifiedFlank {
     /// ```
     /// e_r is the profile direction and l that of the generator; both are tangent to the nominal flank.
     pub fn normal(&self, u: f64, z: f64) -> Vec3 {
-        let n = self.flank.normal(u, z);
-        let Some(field) = &self.field else { return n };
-        let depth = field.at(u, z);
+        let frame = self.flank.directions(u, z);
+        if self.field.is_none() {
+            return frame.normal;
+        }
+        self.tilted(u, &frame, &self.depth(u, z))
+    }
+
+    /// The normal where the depth is known.
+    fn tilted(&self, u: f64, frame: &Directions, depth: &Depth) -> Vec3 {
         let s = self.flank.side.sign();
-        let cos_b = self.flank.base_helix_angle.cos();
-        let (e_r, generator) = self.directions(u, z);
-        let along = depth.by_roll / self.offset_radius(u, depth.value + self.pitch);
+        let [_, cos_b] = self.flank.base_helix();
+        // Kept off zero, where the involute ends in a point.
+        let radius = (self.flank.base_radius * u - depth.value * cos_b).max(1e-9 * self.flank.base_radius);
+        let along = depth.by_roll / radius;
         let across = cos_b * (depth.by_z + s * self.flank.twist * depth.by_roll);
-        (n + along * e_r + across * generator).normalize()
+        (frame.normal + along * frame.profile + across * frame.generator).normalize()
     }
 
     /// Surface point (mm) and its derivative by roll angle (mm).
@@ -85,11 +97,11 @@ impl ModifiedFlank {
         if self.is_nominal() {
             return self.flank.point_and_profile(u, z);
         }
-        let [point, profile] = self.flank.point_and_profile(u, z);
-        let n = self.flank.normal(u, z);
+        let frame = self.flank.directions(u, z);
         let depth = self.depth(u, z);
-        let shrunk = 1.0 - depth.value * self.flank.base_helix_angle.cos() / (self.flank.base_radius * u);
-        [point - depth.value * n, shrunk * profile - depth.by_roll * n]
+        let radius = self.flank.base_radius * u - depth.value * self.flank.base_helix()[1];
+        let point = self.flank.point_at(u, z, &frame) - depth.value * frame.normal;
+        [point, radius * frame.profile - depth.by_roll * frame.normal]
     }
 
     /// Derivatives of the surface point by roll angle (mm) and by z (1).
@@ -102,12 +114,14 @@ impl ModifiedFlank {
         if self.is_nominal() {
             return self.flank.tangents(u, z);
         }
-        let n = self.flank.normal(u, z);
+        let Directions { normal, profile, generator } = self.flank.directions(u, z);
         let depth = self.depth(u, z);
-        let (s, cos_b) = (self.flank.side.sign(), self.flank.base_helix_angle.cos());
-        let (e_r, generator) = self.directions(u, z);
+        let (s, [_, cos_b]) = (self.flank.side.sign(), self.flank.base_helix());
         let radius = self.flank.base_radius * u - depth.value * cos_b;
-        [radius * e_r - depth.by_roll * n, generator / cos_b - s * self.flank.twist * radius * e_r - depth.by_z * n]
+        [
+            radius * profile - depth.by_roll * normal,
+            generator / cos_b - s * self.flank.twist * radius * profile - depth.by_z * normal,
+        ]
     }
 
     /// Foot of `p` (mm, gear's own frame) on the **nominal** helicoid, with `distance` + depth there in place of the
@@ -126,24 +140,12 @@ impl ModifiedFlank {
 
     /// Foot as [`ModifiedFlank::locate`] finds it, and the unit normal of the modified surface there.
     pub fn locate_with_normal(&self, p: &Vec3) -> Option<(FlankPoint, Vec3)> {
-        let (foot, normal) = self.flank.locate_with_normal(p)?;
+        let (foot, frame) = self.flank.locate_with_directions(p)?;
         if self.field.is_none() {
-            return Some((FlankPoint { distance: foot.distance + self.pitch, ..foot }, normal));
+            return Some((FlankPoint { distance: foot.distance + self.pitch, ..foot }, frame.normal));
         }
-        let distance = foot.distance + self.depth(foot.roll, foot.z).value;
-        Some((FlankPoint { distance, ..foot }, self.normal(foot.roll, foot.z)))
-    }
-
-    /// Profile direction e_r and direction of the generator, sin(b_b) e_t + cos(b_b) e_z.
-    fn directions(&self, u: f64, z: f64) -> (Vec3, Vec3) {
-        let (sin, cos) = self.flank.generating_angle(u, z).sin_cos();
-        let (sin_b, cos_b) = self.flank.base_helix_angle.sin_cos();
-        (Vec3::new(cos, sin, 0.0), Vec3::new(-sin_b * sin, sin_b * cos, cos_b))
-    }
-
-    /// Radius of curvature of the offset profile, transverse, mm; kept off zero, where the involute ends in a point.
-    fn offset_radius(&self, u: f64, depth: f64) -> f64 {
-        let rho = self.flank.base_radius * u - depth * self.flank.base_helix_angle.cos();
-        rho.max(1e-9 * self.flank.base_radius)
+        let depth = self.depth(foot.roll, foot.z);
+        let distance = foot.distance + depth.value;
+        Some((FlankPoint { distance, ..foot }, self.tilted(foot.roll, &frame, &depth)))
     }
 }

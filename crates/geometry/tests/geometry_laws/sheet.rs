@@ -131,6 +131,7 @@ fn flank_tolerances_grow_by_class() {
     close("f_HaT", of(5).profile_slope_um, 0.4 * 3.0 + 0.095_776 + 4.0, 1e-4);
     close("f_HbT", of(5).helix_slope_um, 6.0546, 1e-3);
     close("f_pT", of(5).single_pitch_um, 6.2958, 1e-3);
+    close("F_pT", of(5).total_pitch_um, 0.191_552 + 5.382_588 + 2.1 + 12.0, 1e-4);
     close("two classes", of(9).helix_form_um / of(7).helix_form_um, 2.0, 1e-12);
     assert_eq!(of(6).of_key("pinion.modification.drive.lead_slope_um"), Some(of(6).helix_slope_um));
     assert_eq!(of(6).of_key("pinion.modification.tip_relief_um"), None);

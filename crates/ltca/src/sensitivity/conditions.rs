@@ -1,6 +1,6 @@
 //! What a small turn of the driven gear, and a neighbour of the pair, change of the conditions of contact, forces held.
 
-use contact::{ContactSet, Friction, Pose, SameSlices, TableWork};
+use contact::{ContactSet, Friction, Pose, SameSlices, Site, TableWork};
 
 use super::variation::{Neighbour, SMALLEST, Variation, rates};
 use crate::{Equilibrium, WindowedPair, equilibrium::poses};
@@ -20,9 +20,10 @@ pub(super) struct Conditions {
     pub presses: Vec<bool>,
     /// Rows that are about to touch or to leave.
     pub undecided: Vec<usize>,
-    /// The row with the largest pressure.
-    pub hardest: usize,
-    pub pressure: f64,
+    /// Rows with the largest pressure of all, and of those at an end face or a tip edge; none where none presses.
+    pub hardest: [Option<usize>; 2],
+    /// Their pressures, MPa.
+    pub pressure: [f64; 2],
 }
 
 /// Rates of the conditions at held forces, below and above.
@@ -32,14 +33,14 @@ pub(super) struct Rates {
     pub distances: Vec<[f64; 2]>,
     /// Of the moment of the forces less that of the load, N mm.
     pub moment: [f64; 2],
-    /// Of the largest pressure, MPa.
-    pub pressure: [f64; 2],
+    /// Of the largest pressures, MPa.
+    pub pressure: [[f64; 2]; 2],
     /// Of the load on the base circle, N.
     pub load: f64,
 }
 
-/// Distances, moment and pressure at one place.
-type Sample = (Vec<f64>, f64, f64);
+/// Distances, moment and pressures at one place.
+type Sample = (Vec<f64>, f64, [f64; 2]);
 
 impl Conditions {
     pub fn new(windowed: &WindowedPair, e: &Equilibrium) -> Self {
@@ -49,9 +50,14 @@ impl Conditions {
         let near = |i: usize| (e.rows[i].gap + e.solution.openings[i]).abs() <= UNDECIDED * approach;
         let which: Vec<usize> = (0..forces.len()).filter(|&i| forces[i] > 0.0 || near(i)).collect();
         let presses: Vec<bool> = which.iter().map(|&i| forces[i] > strong).collect();
-        let pressures = which.iter().map(|&i| e.states[i].local.pressure);
-        let (hardest, pressure) =
-            pressures.enumerate().fold((0, 0.0), |best, (i, p)| if p > best.1 { (i, p) } else { best });
+        let hardest = |counts: &dyn Fn(usize) -> bool| {
+            let pressures = which.iter().enumerate().filter(|(_, i)| counts(**i));
+            pressures
+                .map(|(k, &i)| (Some(k), e.states[i].local.pressure))
+                .fold((None, 0.0), |best, now| if now.1 > best.1 { now } else { best })
+        };
+        let [of_all, at_edge] = [hardest(&|_| true), hardest(&|i| e.states[i].site(&e.slices[i]) != Site::Flank)];
+        let (hardest, pressure) = ([of_all.0, at_edge.0], [of_all.1, at_edge.1]);
         Self {
             slices: SameSlices::of(&e.rows, &e.slices, &which),
             forces: which.iter().map(|&i| forces[i]).collect(),
@@ -71,7 +77,7 @@ impl Conditions {
     ) -> Option<Sample> {
         let found = set.same_slices(friction, poses, &self.slices)?;
         let moment = found.moment(windowed.options.driven(), &self.forces);
-        let pressure = self.forces.get(self.hardest).map_or(0.0, |&f| found.pressure(self.hardest, f));
+        let pressure = self.hardest.map(|row| row.map_or(0.0, |row| found.pressure(row, self.forces[row])));
         Some((found.distances(set, &self.forces, work), moment, pressure))
     }
 
@@ -82,7 +88,7 @@ impl Conditions {
         Rates {
             distances: (0..here.0.len()).map(distance).collect(),
             moment: moment.map(|m| m - moment_more),
-            pressure: rates([less.2, here.2, more.2], steps, SMALLEST_SHARE * here.2),
+            pressure: [0, 1].map(|k| rates([less.2[k], here.2[k], more.2[k]], steps, SMALLEST_SHARE * here.2[k])),
             load,
         }
     }

@@ -117,12 +117,14 @@ impl<'a> Directions<'a> {
         let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
         let error = options.side().sign() * base_radius * rotation;
         let stiffness = options.torque / base_radius / e.elastic_error();
-        let hardest = self.at.hardest;
-        let by_force = match self.at.forces.get(hardest) {
-            // The pressure of Hertz grows with the root of the force.
-            Some(&force) if force > 0.0 => 0.5 * self.at.pressure / force * forces[hardest],
-            _ => 0.0,
-        };
+        let [max_pressure, max_edge_pressure] = [0, 1].map(|k| {
+            let by_force = match self.at.hardest[k] {
+                // The pressure of Hertz grows with the root of the force.
+                Some(row) if self.at.forces[row] > 0.0 => 0.5 * self.at.pressure[k] / self.at.forces[row] * forces[row],
+                _ => 0.0,
+            };
+            by_force + self.turned.pressure[k][side] * rotation + rates.pressure[k][side]
+        });
         let of_pair = |k: usize| {
             let own = |(row, _): &(&contact::ContactRow, &f64)| set.pair_of(row.patches.0) == k;
             self.at.slices.rows.iter().zip(&forces).filter(own).map(|(_, f)| f).sum::<f64>()
@@ -135,7 +137,8 @@ impl<'a> Directions<'a> {
             transmission_error: error,
             kinematic_transmission_error: kinematic,
             secant_stiffness: (rates.load - stiffness * (error - kinematic)) / e.elastic_error(),
-            max_pressure: by_force + self.turned.pressure[side] * rotation + rates.pressure[side],
+            max_pressure,
+            max_edge_pressure,
             pair_forces: pair_forces.into_iter().map(|(_, rate)| rate).collect(),
         })
     }

@@ -30,6 +30,8 @@ pub struct PositionRates {
     pub secant_stiffness: f64,
     /// Of the largest contact pressure, MPa.
     pub max_pressure: f64,
+    /// Of the largest at an end face or a tip edge, MPa; 0 where none presses.
+    pub max_edge_pressure: f64,
     /// Of the normal force of each pair of the window, N, in the order of [`crate::StaticPosition::pairs`].
     pub pair_forces: Vec<f64>,
 }
@@ -53,6 +55,7 @@ impl Sensitivity {
             kinematic_transmission_error: middle(|r| r.kinematic_transmission_error),
             secant_stiffness: middle(|r| r.secant_stiffness),
             max_pressure: middle(|r| r.max_pressure),
+            max_edge_pressure: middle(|r| r.max_edge_pressure),
             pair_forces: a.pair_forces.iter().zip(&b.pair_forces).map(|(a, b)| 0.5 * (a + b)).collect(),
         }
     }

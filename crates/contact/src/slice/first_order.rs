@@ -1,0 +1,212 @@
+//! The gap along a profile to first order: where dips of it may be. Theory (35).
+
+use std::f64::consts::{PI, TAU};
+
+use geometry::Flank;
+
+use crate::{Pose, Surface, Vec3};
+
+/// Strides over the searched profile: dips that are nearer to each other are one.
+const STRIDES: f64 = 23.0;
+/// What the gap to first order may be off by: so much, mm, and this share of what the nominal flanks part by.
+const OFF_BY: (f64, f64) = (2e-3, 0.3);
+/// Part of a stride by which flanks may overlap or be apart, and to which their ends are known.
+const NEARLY: f64 = 0.25;
+/// Dips that are looked into at the most.
+const MOST_DIPS: usize = 6;
+/// Places along the profile at the most; reliefs that part the flanks by more than a whole profile do are none.
+const MOST_PLACES: usize = 48;
+
+/// Two involute flanks that nearly touch: nominal ones part by their curvature from where they touch, and depths are
+/// added.
+///
+/// ```text
+/// g = cos b_b kappa s^2 / 2 + h_1(u_1, z) + h_2(u_2, z)
+/// s = r_b1 (u_1^2 - u_10(z)^2) / 2 = r_b2 (u_20(z)^2 - u_2^2) / 2,   kappa = 1/(r_b1 u_10) + 1/(r_b2 u_20)
+/// ```
+/// Nominal flanks on parallel axes touch where the generating angle of the first is -sigma alpha_w against the line of
+/// centres, and both roll angles make up the length between the base circles, r_b1 u_10 + r_b2 u_20 = a sin(alpha_w).
+/// What is left of it by the second flank as it stands is the gap between them.
+///
+/// It says in which dip the least gap lies; where in it, and how large it is, the flanks themselves say.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FirstOrderGap {
+    base_radius: [f64; 2],
+    /// Roll angles [low, high] of both flanks.
+    rolls: [[f64; 2]; 2],
+    /// Roll angles of nominal contact at mid-face; they go beyond the flanks as if these went on.
+    touch: [f64; 2],
+    /// Of the first one with height, rad/mm.
+    twist: f64,
+    cos_base_helix: f64,
+    /// Between places, mm of the first flank's arc in its middle.
+    stride: f64,
+    /// Gap of the nominal flanks at mid-face, mm.
+    apart: f64,
+    /// What tilted axes may add to it or take from it at the ends of the face, mm.
+    tilted: f64,
+    /// Least sum of both depths, mm.
+    shallowest: f64,
+}
+
+/// Where the gap may be least at a height.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Outlook {
+    /// The flanks face each other nowhere.
+    NotFaced,
+    /// No gap is less than this, mm.
+    Wider(f64),
+    /// Dips begin near these roll angles of the first flank.
+    Dips(Dips),
+}
+
+/// Roll angles, ascending.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Dips {
+    /// The gap in the deepest, from which to which, mm.
+    pub gap: [f64; 2],
+    rolls: [f64; MOST_DIPS],
+    count: usize,
+}
+
+impl Dips {
+    pub fn rolls(&self) -> &[f64] {
+        &self.rolls[..self.count]
+    }
+}
+
+/// A place along the profile: s, gap to first order, what the nominal flanks part by.
+type Place = [f64; 3];
+
+impl FirstOrderGap {
+    /// `None` for surfaces that are no involutes, and for flanks that overlap or are apart by more than the first order
+    /// serves for.
+    pub fn new(surfaces: [&dyn Surface; 2], rolls: [[f64; 2]; 2], poses: [&Pose; 2]) -> Option<Self> {
+        let [first, second] = [surfaces[0].nominal_flank()?, surfaces[1].nominal_flank()?];
+        let across = poses[1].translation.vector - poses[0].translation.vector;
+        let distance = across.x.hypot(across.y);
+        let pressure_angle = ((first.base_radius + second.base_radius) / distance).acos();
+        let line = across.y.atan2(across.x);
+        let s = first.side.sign();
+        // Both touch the line of action at the same turn from the line of centres, seen from their own centres.
+        let at = |flank: &Flank, pose: &Pose, [low, high]: [f64; 2], line: f64| {
+            let axis = pose.rotation * Vec3::x();
+            let root = axis.y.atan2(axis.x) + flank.generating_angle(0.0, 0.0);
+            let middle = 0.5 * (low + high);
+            middle + (s * (root - line) + pressure_angle - middle + PI).rem_euclid(TAU) - PI
+        };
+        let [u1, own] = [at(first, poses[0], rolls[0], line), at(second, poses[1], rolls[1], line + PI)];
+        let length = distance * pressure_angle.sin() - first.base_radius * u1;
+        let [low, high] = rolls[0];
+        let stride = first.base_radius * 0.5 * (high * high - low * low) / STRIDES;
+        let cos_base_helix = first.base_helix_angle.cos();
+        let apart = cos_base_helix * (length - second.base_radius * own);
+        let axes = poses.map(|pose| pose.rotation * Vec3::z());
+        let tilted = 2.0 * axes[0].cross(&axes[1]).norm() * first.half_width;
+        let serves = stride > 0.0 && first.side == second.side && apart.abs() + tilted <= NEARLY * stride;
+        serves.then(|| Self {
+            base_radius: [first.base_radius, second.base_radius],
+            rolls,
+            touch: [u1, length / second.base_radius],
+            twist: s * first.twist,
+            cos_base_helix,
+            stride,
+            apart,
+            tilted,
+            shallowest: surfaces.map(Surface::least_depth).iter().sum(),
+        })
+    }
+
+    /// Angle of a stride about a roll angle of the first flank, rad.
+    pub fn stride_at(&self, u: f64) -> f64 {
+        self.stride / (self.base_radius[0] * u.max(self.least_roll()))
+    }
+
+    fn least_roll(&self) -> f64 {
+        0.1 * self.rolls[0][1]
+    }
+
+    /// d slope / du of the gap at a roll angle of the first flank, for nominal flanks, mm.
+    pub fn slope_derivative(&self, u: f64, z: f64) -> f64 {
+        let arc = self.base_radius[0] * u;
+        arc * arc * self.curvature(self.touch_at(z)) * self.cos_base_helix
+    }
+
+    fn touch_at(&self, z: f64) -> [f64; 2] {
+        let moved = self.twist * z;
+        [self.touch[0] + moved, self.touch[1] - self.base_radius[0] * moved / self.base_radius[1]]
+    }
+
+    /// Relative transverse curvature where nominal flanks touch, 1/mm.
+    fn curvature(&self, touch: [f64; 2]) -> f64 {
+        let arc = |i: usize| self.base_radius[i] * touch[i].max(0.1 * self.rolls[i][1]);
+        1.0 / arc(0) + 1.0 / arc(1)
+    }
+
+    /// What is seen at a height (mm); of gaps wider than `reach` (mm) only that they are.
+    pub fn look(&self, surfaces: [&dyn Surface; 2], z: f64, reach: f64) -> Option<Outlook> {
+        let touch = self.touch_at(z);
+        let [r1, r2] = self.base_radius;
+        // Arcs from the place of touch, going on where the involute has ended.
+        let square = touch.map(|u| u * u.abs());
+        let ends = self.rolls.map(|ends| ends.map(|u| u * u));
+        let own = ends[0].map(|u| 0.5 * r1 * (u - square[0]));
+        let other = ends[1].map(|u| 0.5 * r2 * (square[1] - u));
+        let (low, high) = (own[0].max(other[1]), own[1].min(other[0]));
+        let slack = NEARLY * self.stride;
+        if low > high {
+            // To first order the ends are known to a part of a stride.
+            return (low > high + slack + 0.1 * low.abs().max(high.abs())).then_some(Outlook::NotFaced);
+        }
+        let curvature = self.curvature(touch) * self.cos_base_helix;
+        let parted = |s: f64| 0.5 * curvature * s * s;
+        let (amount, share) = OFF_BY;
+        let nearest = 0f64.clamp(low, high);
+        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + self.shallowest - 2.0 * amount;
+        if least > reach {
+            return Some(Outlook::Wider(least));
+        }
+        let rolls = |s: f64| [(square[0] + 2.0 * s / r1).max(0.0).sqrt(), (square[1] - 2.0 * s / r2).max(0.0).sqrt()];
+        let place = |s: f64| -> Place {
+            let [u1, u2] = rolls(s);
+            let parted = parted(s);
+            [s, parted + surfaces[0].depth([u1, z]) + surfaces[1].depth([u2, z]), parted]
+        };
+        let told = |p: Place| {
+            let doubt = 0.5 * amount + share * p[2] + self.tilted;
+            [self.apart + p[1] - doubt, self.apart + p[1] + doubt]
+        };
+        let here = place(nearest);
+        // No dip is deeper than the least of the depths lets it be.
+        let room = (1.0 + share) * here[2] + (here[1] - here[2]) - self.shallowest + 2.0 * amount;
+        let window = (2.0 * room.max(0.0) / ((1.0 - share) * curvature)).sqrt();
+        let (low, high) = (low.max(-window), high.min(window));
+        let mut dips = Dips::default();
+        let strides = ((high - low) / self.stride).ceil().max(1.0);
+        if strides <= 1.0 {
+            (dips.rolls[0], dips.count, dips.gap) = (rolls(nearest)[0], 1, told(here));
+            return Some(Outlook::Dips(dips));
+        }
+        let count = (strides as usize + 1).min(MOST_PLACES);
+        let mut places = [[0.0; 3]; MOST_PLACES];
+        for (i, p) in places[..count].iter_mut().enumerate() {
+            *p = place(low + (high - low) * i as f64 / (count - 1) as f64);
+        }
+        let places = &places[..count];
+        let is_dip = |i: usize| {
+            let beside = [i.checked_sub(1).map(|k| places[k]), places.get(i + 1).copied()];
+            beside.iter().flatten().all(|p| places[i][1] <= p[1])
+        };
+        let best = places.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1]))?;
+        dips.gap = told(best);
+        let may_be = |p: &Place| p[1] - best[1] <= amount + share * (p[2] + best[2]);
+        for (_, p) in places.iter().enumerate().filter(|(i, p)| is_dip(*i) && may_be(p)) {
+            if dips.count == MOST_DIPS {
+                return None;
+            }
+            dips.rolls[dips.count] = rolls(p[0])[0];
+            dips.count += 1;
+        }
+        Some(Outlook::Dips(dips))
+    }
+}
