@@ -12,3 +12,10 @@ pub(crate) struct Written {
     /// Status 1 where its certificate does not hold.
     pub verdict: Result<(), CommandError>,
 }
+
+impl Written {
+    /// Of a closing table and what the certificate says.
+    pub fn of((table, verdict): report::Told) -> Self {
+        Self { table, verdict: verdict.map_err(CommandError::from) }
+    }
+}

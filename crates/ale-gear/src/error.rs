@@ -61,7 +61,10 @@ impl From<AnalysisError> for CommandError {
             // What a sink of this program says is a message already.
             AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
                 Ok(own) => return (*own).into(),
-                Err(other) => AnalysisError::Sink(other),
+                Err(other) => match other.downcast::<AnalysisError>() {
+                    Ok(own) => return (*own).into(),
+                    Err(other) => AnalysisError::Sink(other),
+                },
             },
             other => other,
         };

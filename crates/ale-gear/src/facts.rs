@@ -1,5 +1,6 @@
 //! What the writers need to know of a run beside its scene and its history.
 
+use analysis::Derivatives;
 use ltca::StaticHistory;
 use report::view::View;
 use scene::Scene;
@@ -16,6 +17,8 @@ pub struct Solved {
     pub history: StaticHistory,
     /// What it took.
     pub facts: Facts,
+    /// Derivatives by keys, where the scene asks for them.
+    pub derivatives: Option<Derivatives>,
     /// The gears in space; `None` for a model without meshes, and where nobody asked.
     pub view: Option<View>,
 }

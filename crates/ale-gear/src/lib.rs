@@ -5,11 +5,12 @@
 //! |---|---|
 //! | [`command`] | the subcommands |
 //! | [`run`], `motion`, `lumped` | a scene at rest, in time, and of a cheaper model, into a result folder |
-//! | `study_cases` | runs the scenes of a study, each into a folder of its own |
+//! | `study_cases`, `kept_cases` | runs the scenes of a study; those that are done before the study is |
 //! | `chart` | what a chart takes from this process |
 //! | [`output`] | what of `analysis` and `report` the command names |
+//! | `stop` | what happens on Ctrl-C |
 //! | [`talk`] | how much is said on stderr |
-//! | [`phases`] | time and peak memory of each phase, progress bars |
+//! | [`phases`], `pace` | time and peak memory of each phase, progress bars, remaining time |
 //! | [`certificate`] | a result whose files stand, and whether it holds |
 //! | [`error`] | one message, one hint, one exit status |
 
@@ -21,11 +22,14 @@ pub mod facts;
 pub mod memory;
 mod motion;
 pub mod output;
+mod pace;
 pub mod phases;
 pub mod run;
 pub use ::scene;
+mod stop;
 pub mod talk;
 
+mod kept_cases;
 mod lumped;
 mod study_cases;
 

@@ -1,68 +1,14 @@
-//! Runs of cheaper models, runs at many values of a key, and their files.
+//! Runs at many values of a key, and their files.
 
-use analysis::lumped::{
-    BasinAnalysis, ContinuationAnalysis, KeySweep, LumpedAnalysis, LumpedQuantity, NoLumpedSink, SweepOptions,
-};
+use analysis::lumped::{KeySweep, LumpedQuantity, SweepOptions};
 use report::{
-    columns::{LumpedLayout, lumped_history::DTE, lumped_quantity},
-    write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
+    columns::{LumpedLayout, lumped_quantity},
+    write_key_sweep_result,
 };
 
 use report::folder::Cache;
 
-use crate::{
-    certificate::Written,
-    error::CommandError,
-    output::ResultDirectory,
-    phases::Phases,
-    scene::{MotionScene, Scene},
-};
-
-/// Runs the model of a scene and writes all files of the result.
-///
-/// # Errors
-/// Exit status 2 when the input is wrong, 1 when no motion comes out.
-pub(crate) fn solve(
-    scene: &Scene,
-    motion: &MotionScene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-) -> Result<Written, CommandError> {
-    if let Some(speeds) = &motion.sweep {
-        let (scenes, options) = SweepOptions::over_speed(scene, speeds, quantity(scene, DTE.name)?);
-        let table = sweep_key(&scenes, &options, None, phases, results, cache)?;
-        return Ok(Written { table, verdict: Ok(()) });
-    }
-    if motion.continuation.is_some() || motion.basins.is_some() {
-        return of_many_motions(scene, motion, phases, results, cache);
-    }
-    let result = LumpedAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut NoLumpedSink)?;
-    let table = write_lumped_result(scene, &result, &phases.cost(), results)?;
-    Ok(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) })
-}
-
-/// Follows the periodic motions of a scene along a key, or looks for basins of attraction, and writes all files of the
-/// result.
-///
-/// # Errors
-/// Exit status 2 when the input is wrong, 1 when no motion comes out.
-pub(crate) fn of_many_motions(
-    scene: &Scene,
-    motion: &MotionScene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-) -> Result<Written, CommandError> {
-    if motion.basins.is_some() {
-        let found = BasinAnalysis::new(scene).with_cache(cache).solve_with(phases)?;
-        let table = write_basin_result(scene, &found, &phases.cost(), results)?;
-        return Ok(Written { table, verdict: found.facts.verdict(scene).map_err(CommandError::from) });
-    }
-    let found = ContinuationAnalysis::new(scene).with_cache(cache).solve_with(phases)?;
-    let table = write_continuation_result(scene, &found, &phases.cost(), results)?;
-    Ok(Written { table, verdict: found.facts.verdict(scene).map_err(CommandError::from) })
-}
+use crate::{error::CommandError, output::ResultDirectory, phases::Phases, scene::Scene};
 
 /// The column of that name of a scene's rows.
 ///

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+pub use report::{available_bytes, available_mb};
+
 /// Forgets the peak so far. Returns whether the system could (Linux only).
 pub fn reset_peak() -> bool {
     fs::write("/proc/self/clear_refs", "5").is_ok()
@@ -12,19 +14,6 @@ pub fn reset_peak() -> bool {
 pub fn peak_mb() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
-    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kib * 1024.0 / 1e6)
-}
-
-/// The same, bytes; 10^12 where the system does not tell.
-pub fn available_bytes() -> f64 {
-    1e6 * available_mb().unwrap_or(1e6)
-}
-
-/// Memory that a new program could have without swapping, MB; `None` where the system does not tell.
-pub fn available_mb() -> Option<f64> {
-    let info = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = info.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
     let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kib * 1024.0 / 1e6)
 }

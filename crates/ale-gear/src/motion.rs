@@ -4,14 +4,13 @@
 use std::path::Path;
 
 use analysis::{
-    accuracy::motion::{AccurateMotion, MotionTold},
-    lumped::NoLumpedSink,
-    motion::{MotionAnalysis, MotionLayout, MotionOutcome, SweepAnalysis},
+    AnalysisError,
+    motion::{MotionAnalysis, MotionLayout, MotionOutcome},
 };
 use report::{
     checkpoint::{CheckpointFolder, Checkpoints, ENERGY_FILE, HISTORY, InputDigests, Stored, read_rows},
     motion_files::MotionFileSink,
-    write_answer, write_motion_result, write_sweep_result,
+    write_motion_result,
 };
 
 use report::folder::Cache;
@@ -75,13 +74,13 @@ pub(crate) fn solve(
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
     if motion.continuation.is_some() || motion.basins.is_some() {
-        return crate::lumped::of_many_motions(scene, motion, phases, results, cache).map(Outcome::Finished);
+        return finished(report::solve_many_motions(scene, motion, phases, results, cache));
     }
     if motion.sweep.is_some() {
-        return sweep(scene, phases, results, cache).map(Outcome::Finished);
+        return finished(report::solve_sweep(scene, phases, results, cache));
     }
     if !scene.accuracy.is_none() {
-        return accurate(scene, phases, results, cache).map(Outcome::Finished);
+        return finished(report::solve_accurate(scene, phases, results, cache));
     }
     let Some(folder) = &progression.folder else {
         return one_motion(scene, phases, (results, cache), None, None);
@@ -104,6 +103,10 @@ pub(crate) fn solve(
     }
     drop(alone);
     solved
+}
+
+fn finished(told: Result<report::Told, AnalysisError>) -> Result<Outcome, CommandError> {
+    Ok(Outcome::Finished(Written::of(told?)))
 }
 
 /// The state to go on from; `None` where an earlier run was cut short before its first checkpoint.
@@ -153,31 +156,4 @@ fn one_motion(
             Ok(Outcome::Finished(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) }))
         }
     }
-}
-
-/// With bounds; the model is the scene's, or the cheapest that is as exact as it asks.
-fn accurate(
-    scene: &Scene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-) -> Result<Written, CommandError> {
-    let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
-    let told = &mut MotionTold { motion: &mut sink, lumped: &mut NoLumpedSink };
-    let solved = AccurateMotion::new(scene).with_cache(cache).solve_into(phases, told)?;
-    let table = write_answer(&solved.scene, &solved.answer, &phases.cost(), sink.view.as_ref(), results)?;
-    Ok(Written { table, verdict: solved.answer.facts().verdict(&solved.scene).map_err(CommandError::from) })
-}
-
-/// Steady states over speed.
-fn sweep(
-    scene: &Scene,
-    phases: &mut Phases,
-    results: &ResultDirectory,
-    cache: &Cache,
-) -> Result<Written, CommandError> {
-    let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
-    let result = SweepAnalysis::new(scene).with_cache(cache).solve_into(phases, &mut sink)?;
-    let table = write_sweep_result(scene, &result, &phases.cost(), sink.view.as_ref(), results)?;
-    Ok(Written { table, verdict: result.verdict(scene).map_err(CommandError::from) })
 }

@@ -1,16 +1,20 @@
 //! Wall time and peak memory of each phase, and bars for those who wait; into a log, a line now and then.
 
+mod words;
+
 use std::fmt::Write;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use analysis::{Observer, PhaseWork, Progress};
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use report::{Cost, Phase};
 
 use crate::memory;
+use crate::pace::Pace;
 use crate::talk::{self, Loudness};
+use words::{filled, foreseen, left};
 
 /// Records phases one after the other.
 ///
@@ -46,11 +50,19 @@ pub struct BarProgress {
     /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is
     /// wanted.
     due: Option<Arc<AtomicU64>>,
+    /// Of the steps so far; `None` where their number is only a limit.
+    pace: Option<SharedPace>,
 }
+
+/// The pace of a phase, for its bar and for its lines of text.
+type SharedPace = Arc<Mutex<Pace>>;
 
 impl Progress for BarProgress {
     fn tick(&self) {
         self.bar.inc(1);
+        if let Some(pace) = &self.pace {
+            locked(pace).step(self.bar.elapsed().as_secs_f64());
+        }
         if let Some(due) = &self.due {
             self.log(due);
         }
@@ -71,12 +83,30 @@ impl BarProgress {
         if now < at || due.compare_exchange(at, (2 * now).max(1), Ordering::Relaxed, Ordering::Relaxed).is_err() {
             return;
         }
-        let (done, all) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let (done, length) = (self.bar.position(), self.bar.length());
         let seconds = elapsed.as_secs_f64();
-        let rest = seconds * all.saturating_sub(done) as f64 / done.max(1) as f64;
         let (name, beside) = (self.bar.prefix(), self.bar.message());
-        talk::say(Loudness::Bars, || format!("{name}: {done} of {all} after {seconds:.0} s, {} {beside}", left(rest)));
+        let of = match (length, &self.pace) {
+            (None, _) => String::new(),
+            (Some(most), None) => format!(" of at most {most}"),
+            (Some(all), Some(_)) => format!(" of {all}"),
+        };
+        let open = length.unwrap_or(0).saturating_sub(done);
+        let rest = self.pace.as_ref().map(|pace| rest(pace, open, seconds)).unwrap_or_default();
+        talk::say(Loudness::Bars, || {
+            format!("{name}: {done}{of} after {seconds:.0} s{rest} {beside}").trim_end().to_owned()
+        });
     }
+}
+
+fn locked(pace: &SharedPace) -> std::sync::MutexGuard<'_, Pace> {
+    pace.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What is left, as words behind others; nothing while nobody can know.
+fn rest(pace: &SharedPace, steps: u64, now_s: f64) -> String {
+    let rest = locked(pace).rest(steps, now_s).filter(|_| steps > 0);
+    rest.map(|seconds| format!(", {}", left(seconds))).unwrap_or_default()
 }
 
 impl Phases {
@@ -92,28 +122,29 @@ impl Phases {
 
     /// Runs a phase whose amount of work is not known beforehand.
     pub fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
-        self.measure(name, spinner(), |_| work())
-    }
-
-    /// Runs a phase that should take about `seconds`: a bar with what is left of them.
-    pub fn run_foreseen<T>(&mut self, name: &str, seconds: f64, work: impl FnOnce() -> T) -> T {
-        self.measure(name, seconds_bar(seconds), |_| work())
+        self.measure(name, PhaseWork::Unknown, |_| work())
     }
 
     /// Runs a phase of `steps` units of work; `work` calls [`Progress::tick`] after each.
     pub fn run_steps<T>(&mut self, name: &str, steps: u64, work: impl FnOnce(&dyn Progress) -> T) -> T {
-        self.measure(name, steps_bar(steps), work)
+        self.measure(name, PhaseWork::Steps(steps), work)
     }
 
-    fn measure<T>(&mut self, name: &str, bar: ProgressBar, work: impl FnOnce(&dyn Progress) -> T) -> T {
-        let progress = self.open(name, bar);
+    fn measure<T>(&mut self, name: &str, work_ahead: PhaseWork, work: impl FnOnce(&dyn Progress) -> T) -> T {
+        let progress = self.open(name, work_ahead);
         let result = work(&progress);
         self.close();
         result
     }
 
     /// Begins a phase with a bar.
-    fn open(&mut self, name: &str, bar: ProgressBar) -> BarProgress {
+    fn open(&mut self, name: &str, work: PhaseWork) -> BarProgress {
+        let pace = matches!(work, PhaseWork::Steps(_)).then(SharedPace::default);
+        let bar = match (work, &pace) {
+            (PhaseWork::Unknown, _) => spinner(),
+            (PhaseWork::Seconds(seconds), _) => seconds_bar(seconds),
+            (PhaseWork::Steps(steps) | PhaseWork::AtMost(steps), pace) => steps_bar(steps, pace.clone()),
+        };
         // indicatif draws nothing when stderr is no terminal.
         bar.set_draw_target(if self.bars && talk::loudness() == Loudness::Bars {
             ProgressDrawTarget::stderr()
@@ -127,7 +158,7 @@ impl Phases {
         let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
         let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
         self.open.push(OpenPhase { name: name.to_owned(), bar: bar.clone(), start: Instant::now(), own_peak });
-        BarProgress { bar, due }
+        BarProgress { bar, due, pace }
     }
 
     /// Ends the phase that began last.
@@ -175,14 +206,15 @@ impl Phases {
     }
 }
 
+impl report::Recorder for Phases {
+    fn cost(&self) -> Cost {
+        Self::cost(self)
+    }
+}
+
 impl Observer for Phases {
     fn begin(&mut self, phase: &str, work: PhaseWork) -> Arc<dyn Progress> {
-        let bar = match work {
-            PhaseWork::Unknown => spinner(),
-            PhaseWork::Seconds(seconds) => seconds_bar(seconds),
-            PhaseWork::Steps(steps) => steps_bar(steps),
-        };
-        Arc::new(self.open(phase, bar))
+        Arc::new(self.open(phase, work))
     }
 
     fn end(&mut self) {
@@ -201,52 +233,35 @@ fn spinner() -> ProgressBar {
     bar
 }
 
-/// For work that should take about `seconds`: a bar with what is left of them.
+/// For work that should take about `seconds` on a machine that nobody has measured: a bar, and no countdown.
 fn seconds_bar(seconds: f64) -> ProgressBar {
     let bar = ProgressBar::new_spinner();
-    let shown = style("{spinner} {prefix:<10} [{done}] {elapsed} {left}")
+    let shown = style("{spinner} {prefix:<10} [{done}] {elapsed}{foreseen}")
         .with_key("done", move |s: &ProgressState, w: &mut dyn Write| {
             let _ = w.write_str(&filled(s.elapsed().as_secs_f64() / seconds));
         })
-        .with_key("left", move |s: &ProgressState, w: &mut dyn Write| {
-            let _ = w.write_str(&left(seconds - s.elapsed().as_secs_f64()));
+        .with_key("foreseen", move |_: &ProgressState, w: &mut dyn Write| {
+            let _ = w.write_str(&foreseen(seconds));
         });
     bar.set_style(shown);
     bar
 }
 
-/// For a number of steps.
-fn steps_bar(steps: u64) -> ProgressBar {
+/// For a number of steps, or for as many at the most.
+fn steps_bar(steps: u64, pace: Option<SharedPace>) -> ProgressBar {
     let bar = ProgressBar::new(steps);
-    let shown = style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len} {elapsed}{left} {msg}").with_key(
-        "left",
-        |s: &ProgressState, w: &mut dyn Write| {
-            // Before the first step is done nothing is known.
-            if s.pos() > 0 {
-                let _ = write!(w, ", {:#} left", HumanDuration(s.eta()));
-            }
-        },
-    );
+    let most = if pace.is_some() { "" } else { " at most" };
+    let shown = style("{spinner} {prefix:<10} [{bar:32}] {pos}/{len}{most} {elapsed}{left} {msg}")
+        .with_key("most", move |_: &ProgressState, w: &mut dyn Write| {
+            let _ = w.write_str(most);
+        })
+        .with_key("left", move |s: &ProgressState, w: &mut dyn Write| {
+            let open = s.len().unwrap_or(0).saturating_sub(s.pos());
+            let said = pace.as_ref().map(|pace| rest(pace, open, s.elapsed().as_secs_f64())).unwrap_or_default();
+            let _ = w.write_str(&said);
+        });
     bar.set_style(shown.progress_chars("=> "));
     bar
-}
-
-/// Width of a bar, characters.
-const BAR: usize = 32;
-
-/// A bar filled in part; what takes longer than foreseen stays just short of full.
-fn filled(part: f64) -> String {
-    let full = ((BAR as f64 * part.max(0.0)) as usize).min(BAR - 1);
-    format!("{}>{}", "=".repeat(full), " ".repeat(BAR - 1 - full))
-}
-
-/// Remaining seconds in words.
-fn left(seconds: f64) -> String {
-    match seconds {
-        s if s >= 120.0 => format!("about {:.0} min left", s / 60.0),
-        s if s >= 1.0 => format!("about {s:.0} s left"),
-        _ => "any moment, or longer than foreseen".to_owned(),
-    }
 }
 
 fn style(template: &str) -> ProgressStyle {
@@ -257,11 +272,15 @@ fn style(template: &str) -> ProgressStyle {
 mod tests {
     use super::*;
 
+    /// A limit is no amount of work: nobody counts down to it.
     #[test]
-    fn a_bar_grows_and_never_bursts() {
-        let full = |part: f64| filled(part).matches('=').count();
-        assert_eq!((full(-1.0), full(0.0), full(0.5), full(1.0), full(1e9)), (0, 0, 16, 31, 31));
-        assert!([0.0, 0.3, 5.0].iter().all(|&p| filled(p).len() == BAR));
-        assert_eq!((left(200.0).as_str(), left(12.3).as_str()), ("about 3 min left", "about 12 s left"));
+    fn what_may_end_early_has_no_remaining_time() {
+        let mut phases = Phases::quiet();
+        let [known, limit] = [PhaseWork::Steps(100), PhaseWork::AtMost(100)].map(|work| phases.open("solve", work));
+        (0..50).for_each(|_| [&known, &limit].iter().for_each(|progress| progress.tick()));
+        assert!(limit.pace.is_none());
+        let said = rest(known.pace.as_ref().unwrap(), 50, known.bar.elapsed().as_secs_f64());
+        assert!(said.ends_with(" left"), "{said}");
+        assert_eq!(rest(known.pace.as_ref().unwrap(), 0, 1.0), "", "nothing is left");
     }
 }

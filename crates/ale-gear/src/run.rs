@@ -2,7 +2,7 @@
 
 use analysis::StaticResult;
 use analysis::accuracy::{AccurateAnalysis, AccurateResult};
-use report::StaticFileSink;
+use report::{StaticFileSink, view::View};
 
 pub(crate) use analysis::static_certificate as certificate;
 
@@ -16,6 +16,15 @@ use crate::{
     scene::Scene,
 };
 
+/// What a report shows of the gears in space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InSpace {
+    /// Displacement and root stress on the teeth of the window.
+    Fields,
+    /// The contact bands alone, which cost nothing.
+    Bands,
+}
+
 /// Solves a scene; ParaView files, when asked for, go into `results` on the way. Reduced gears come from `cache` and go
 /// there.
 ///
@@ -26,16 +35,24 @@ pub fn solve(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
+    in_space: InSpace,
 ) -> Result<Solved, CommandError> {
     let mut sink = StaticFileSink::new(scene, results, phases.start());
+    if in_space == InSpace::Bands {
+        sink = sink.without_view();
+    }
     let analysis = AccurateAnalysis::new(scene).with_cache(cache);
     let AccurateResult { scene, result } = analysis.solve_into(phases, &mut sink)?;
-    let StaticResult { mut history, mut facts, model, .. } = result;
-    let Some(model) = model else { return Ok(Solved { scene, history, facts, view: None }) };
+    let StaticResult { pair, mut history, mut facts, model } = result;
+    let derivatives = sink.take_derivatives();
+    let Some(model) = model else { return Ok(Solved { scene, history, facts, derivatives, view: None }) };
     facts.first_result_s = sink.first_result_s;
     let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
     let mut warnings: Vec<String> = root.into_iter().flat_map(output::root_stress_warnings).collect();
-    let view = phases.run("view", || sink.into_view(&model, &mut warnings));
+    let view = match in_space {
+        InSpace::Fields => phases.run("view", || sink.into_view(&model, &mut warnings)),
+        InSpace::Bands => Some(View::of_history(&scene, &pair, &history)),
+    };
     history.warnings.extend(warnings);
-    Ok(Solved { scene, history, facts, view })
+    Ok(Solved { scene, history, facts, derivatives, view })
 }

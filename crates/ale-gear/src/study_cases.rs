@@ -1,42 +1,58 @@
-//! Runs the scenes of a study, each into a folder of its own, side by side.
+//! Runs the scenes of a study side by side: those at rest on models that they share, as cases of a plan are.
 
 use std::path::Path;
 
 use analysis::{
+    SharedModels,
+    facts::Facts,
     parameter_study::{CaseFailure, CaseRecord},
-    side_by_side,
+    side_by_side, static_certificate,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{checkpoint::HISTORY, read_columns};
-use scene::study::{Study, StudyCase};
+use report::{checkpoint::HISTORY, close_result, read_columns};
+use scene::{
+    Kind,
+    study::{RefusedCase, Study, StudyCase},
+};
 
 use study::Columns;
 
 use crate::{
     certificate::Written,
     error::CommandError,
-    facts::Cost,
     gears,
-    output::{CASES, ResultDirectory},
+    kept_cases::KeptCases,
+    output::{ResultDirectory, static_headline, write_history},
+    phases::Phases,
     scene::Scene,
     talk,
 };
 
 /// Runs a scene and writes every file of its result; inside, whether it holds.
 pub(crate) type Solve<'a> =
-    &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<Cost, CommandError>, CommandError> + Sync);
+    &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<(), CommandError>, CommandError> + Sync);
 
-/// Runs all cases into the folder `cases` of the study's results. `done` is told of each. A case without a solution
-/// takes nothing from the others; one whose result does not hold leaves its files, marked as such, as a run by itself
-/// does.
+/// How the cases of a study are run.
+#[derive(Clone, Copy)]
+pub(crate) struct CaseRunner<'a> {
+    /// What cases at rest have in common.
+    pub models: &'a SharedModels<'a>,
+    /// What runs a case by itself, as `ale-gear run` does.
+    pub alone: Solve<'a>,
+    /// Whether every case is run so, with a report of its own.
+    pub reports: bool,
+}
+
+/// Runs all cases that are not done yet. `done` is told of each. A case without a solution takes nothing from the
+/// others; one that was run by itself and does not hold leaves its files, marked as such.
 pub(crate) fn run_cases(
     study: &Study,
-    results: &ResultDirectory,
-    solve: Solve<'_>,
+    kept: &KeptCases,
+    runner: CaseRunner<'_>,
     done: &(dyn Fn(&StudyCase) + Sync),
 ) -> Vec<CaseResult> {
     side_by_side(study.cases.len(), |i| {
-        let ran = one(study, i, results, solve).unwrap_or_else(|e| Err(miss(e, false)));
+        let ran = one(study, i, kept, runner).unwrap_or_else(|e| Err(miss(e, false)));
         done(&study.cases[i]);
         ran
     })
@@ -48,23 +64,69 @@ fn miss(error: CommandError, has_folder: bool) -> CaseMiss {
     CaseMiss { failure: CaseFailure { message, excerpt, hint, is_without_result: status == 1 }, has_folder }
 }
 
-fn one(study: &Study, i: usize, results: &ResultDirectory, solve: Solve<'_>) -> Result<CaseResult, CommandError> {
-    let case = &study.cases[i];
-    let folder = results.path(CASES).join(study.folder(i));
+/// Whether a case is solved on models that others share: at rest, without files of its own beside its rows.
+fn shares(scene: &Scene) -> bool {
+    let output = &scene.output;
+    let files = output.vtu || output.contact_lines || output.parquet || !output.derivatives.is_empty();
+    scene.analysis.kind == Kind::Static && scene.accuracy.is_none() && !files
+}
+
+fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Result<CaseResult, CommandError> {
+    let StudyCase { scene, refused, .. } = &study.cases[i];
+    if let Some(RefusedCase { message, excerpt, hint }) = refused {
+        let error = CommandError::input(message, hint.clone()).about(excerpt.as_deref());
+        return Ok(Err(miss(error, false)));
+    }
+    let folder = kept.folder(&study.folder(i));
+    if folder.is_dir()
+        && let Some(found) = of_folder(scene, &folder)?
+    {
+        return Ok(Ok(found));
+    }
     let own = ResultDirectory::create(&folder)?;
-    let solved = solve(&case.scene, &own)?;
-    own.finish(talk::note)?;
-    let cost = match solved {
-        Ok(cost) => cost,
-        Err(error) => return Ok(Err(miss(error, true))),
+    let verdict = if shares(scene) && !runner.reports {
+        write_rows(scene, runner.models, &own)?;
+        Ok(())
+    } else {
+        (runner.alone)(scene, &own)?
     };
+    own.finish(talk::note)?;
+    if let Err(error) = verdict {
+        return Ok(Err(miss(error, true)));
+    }
+    let failed = || CommandError::failed(format_args!("{}: is no result", folder.display()), None);
+    Ok(Ok(of_folder(scene, &folder)?.ok_or_else(failed)?))
+}
+
+/// Solves a scene at rest and writes its rows and its summary: no report, no view.
+fn write_rows(scene: &Scene, models: &SharedModels<'_>, results: &ResultDirectory) -> Result<(), CommandError> {
+    let mut phases = Phases::quiet();
+    let (scene, history) = phases.run("solve", || models.solve_told(scene))?;
+    let pair = scene.gear_pair()?;
+    let headline = static_headline(&scene, &history)?;
+    results.write(HISTORY, write_history(&scene, &history, None).as_bytes())?;
+    let facts = Facts {
+        geometry: gears::geometry_facts(&pair),
+        geometry_sheet: Some(pair.sheet()),
+        certificate: static_certificate(&history.positions),
+        ..Facts::default()
+    };
+    Ok(close_result(&scene, (&facts, &phases.cost()), &headline, &history.warnings, results)?)
+}
+
+/// The case that a folder holds; `None` where its result does not hold.
+fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandError> {
+    let summary = summary(folder)?;
+    if summary["certificate"] == "failed" {
+        return Ok(None);
+    }
     let rows = read_columns(&folder.join(HISTORY))?;
-    let summary = summary(&folder)?;
     let warnings = summary["warnings"].as_array().map_or(&[][..], |list| list);
-    Ok(Ok(CaseRun {
-        record: CaseRecord { rows, geometry: gears::geometry_facts(&case.scene.gear_pair()?) },
-        cost,
+    Ok(Some(CaseRun {
+        record: CaseRecord { rows, geometry: gears::geometry_facts(&scene.gear_pair()?) },
+        cost: serde_json::from_value(summary["cost"].clone()).unwrap_or_default(),
         steps: summary["headline"]["certificate"]["steps"].as_u64(),
+        has_report: folder.join("report.html").is_file(),
         warnings: warnings.iter().filter_map(|w| Some(w.as_str()?.to_owned())).collect(),
     }))
 }

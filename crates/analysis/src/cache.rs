@@ -53,6 +53,28 @@ impl fmt::Display for MapKey {
     }
 }
 
+impl<T: GearCache + ?Sized> GearCache for &T {
+    fn is_on(&self) -> bool {
+        (**self).is_on()
+    }
+
+    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+        (**self).load(key)
+    }
+
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+        (**self).save(key, record)
+    }
+
+    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+        (**self).load_maps(key)
+    }
+
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+        (**self).save_maps(key, maps)
+    }
+}
+
 /// Keeps nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoCache;

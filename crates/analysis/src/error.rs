@@ -259,6 +259,9 @@ pub enum AnalysisError {
         /// Why, on the coarsest mesh.
         why: String,
     },
+    /// Who waits has given up ([`crate::Progress::is_cancelled`]).
+    #[error("stopped before the end")]
+    Cancelled,
     /// The caller's sink has ended the analysis.
     #[error("{0}")]
     Sink(Box<dyn std::error::Error + Send + Sync>),
@@ -305,6 +308,14 @@ impl AnalysisError {
         Self::OtherAnalysis { file: scene.file.display().to_string(), wanted }
     }
 
+    /// That the model of a scene reduces no gears.
+    pub(crate) fn nothing_to_reduce(scene: &Scene) -> Self {
+        let place = scene.place_of(&["analysis.model"]);
+        let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+        let excerpt = place.as_ref().and_then(scene::Place::excerpt).map(str::to_owned);
+        Self::NothingToReduce { at, excerpt }
+    }
+
     /// What a cheaper model says of a scene.
     pub(crate) fn lumped(scene: &Scene, source: LumpedError) -> Self {
         Self::Lumped { file: scene.file.display().to_string(), source: Box::new(source) }
@@ -326,6 +337,7 @@ impl AnalysisError {
             Self::MadeMesh { .. }
             | Self::Certificate { .. }
             | Self::Sink(_)
+            | Self::Cancelled
             | Self::UnstableSteps(_)
             | Self::OutOfBounds
             | Self::NothingHolds { .. }
@@ -394,6 +406,7 @@ impl AnalysisError {
             | Self::BeyondCalculix { .. }
             | Self::NoScratch
             | Self::NoReference { .. }
+            | Self::Cancelled
             | Self::Sink(_) => None,
         }
     }

@@ -1,12 +1,18 @@
 //! What the writers need to know of a run beside its scene and its history.
 
-use geometry::GeometrySheet;
+use geometry::{GearPair, GeometrySheet};
 use serde::Serialize;
 
 pub use crate::resolution::Resolution;
 use scene::Scene;
 
-use crate::{AnalysisError, accuracy::Accuracy, certificate::Certificate};
+use crate::{
+    AnalysisError,
+    accuracy::Accuracy,
+    certificate::Certificate,
+    gears, iso_root,
+    nominal_pressure::{NominalPressure, nominal_pressure},
+};
 
 /// What a run was made of and what it cost.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -16,6 +22,9 @@ pub struct Facts {
     /// What a geometry sheet says of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub geometry_sheet: Option<GeometrySheet>,
+    /// Nominal pressure of its flanks under the scene's torque.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nominal_pressure: Option<NominalPressure>,
     /// Meshes of pinion and wheel; empty for a model without meshes.
     pub meshes: Vec<MeshFacts>,
     /// Degrees of freedom of pinion and wheel before reduction.
@@ -34,7 +43,7 @@ pub struct Facts {
     /// Wall time from the start of the program to the first solved position, s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_result_s: Option<f64>,
-    /// Nominal root stress after ISO 6336-3, beside that of finite elements where that is asked for.
+    /// Nominal root stress after ISO 6336-3; `None` where the standard has no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iso_root_stress: Option<IsoRootStress>,
     /// How exact the headline numbers are; `None` where nothing was asked.
@@ -49,6 +58,17 @@ pub struct Facts {
 }
 
 impl Facts {
+    /// What follows from the pair and its nominal load alone.
+    pub fn of_pair(scene: &Scene, pair: &GearPair) -> Self {
+        Self {
+            geometry: gears::geometry_facts(pair),
+            geometry_sheet: Some(pair.sheet()),
+            nominal_pressure: Some(nominal_pressure(scene, pair)),
+            iso_root_stress: iso_root::root_stress(scene, pair).ok(),
+            ..Self::default()
+        }
+    }
+
     /// Whether the result holds and is as exact as was asked.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use lumped::{
 
 use scene::{Driver, Scene};
 
-use crate::{AnalysisError, facts::Facts, gears, iso_root};
+use crate::{AnalysisError, facts::Facts, iso_root};
 
 /// Solves the scene in closed form.
 ///
@@ -57,9 +57,8 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
          solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess"
     )];
     warnings.extend(doubts(pair, bending / mean_te));
-    let mut facts =
-        Facts { geometry: gears::geometry_facts(pair), geometry_sheet: Some(pair.sheet()), model, ..Facts::default() };
-    warnings.extend(iso_root::add(&mut facts, scene, pair));
+    let facts = Facts { model, ..Facts::of_pair(scene, pair) };
+    warnings.extend(iso_root::warning(scene, pair));
     Ok((StaticHistory { positions, warnings, ..StaticHistory::default() }, facts))
 }
 
@@ -136,9 +135,11 @@ fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) 
 
     let mut wrench = [Wrench::default(); 2];
     let mut pairs = Vec::with_capacity(lines.len());
+    let mut sliding_work = 0.0;
     for line in &lines {
         let force = normal_force * line.length / length;
         push(&mut wrench, scene, pair, turned, line, force);
+        sliding_work += force * pair.mean_sliding(side, turned, line);
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
         pairs.push(PairResult {
@@ -148,6 +149,7 @@ fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) 
             normal_force: force,
             max_pressure: pressure(scene, pair, turned, line, normal_force / length),
             contact_line_length: line.length,
+            geometric_line_length: line.length,
             points_in_contact: 1,
             slices: Vec::new(),
         });
@@ -168,6 +170,7 @@ fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) 
         wrench,
         root_stress: Default::default(),
         friction_work: 0.0,
+        sliding_work,
         strain_energy: 0.5 * base_force * transmission_error,
         tooth_changes: 0, // there is no window that could slide
         certificate: certificate(scene, &wrench),

@@ -7,24 +7,21 @@ use lumped::{
 };
 use scene::{Driver, Scene};
 
-use crate::facts::{Facts, IsoGearRoot, IsoRootStress};
+use crate::facts::{IsoGearRoot, IsoRootStress};
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
 
-/// Puts the nominal root stress among the facts of a run; what is returned says why there is none.
-pub fn add(facts: &mut Facts, scene: &Scene, pair: &GearPair) -> Option<String> {
-    match root_stress(scene, pair) {
-        Ok(found) => {
-            facts.iso_root_stress = Some(found);
-            None
-        }
-        Err(e) => Some(format!("no nominal root stress after ISO 6336-3: {e}")),
-    }
+/// Says why there is no nominal root stress, to those who asked for root stress.
+pub fn warning(scene: &Scene, pair: &GearPair) -> Option<String> {
+    root_stress(scene, pair).err().map(|e| format!("no nominal root stress after ISO 6336-3: {e}"))
 }
 
 /// As the standard has it, with the torque of the scene.
-fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedError> {
+///
+/// # Errors
+/// [`LumpedError`] where the standard has no value.
+pub fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedError> {
     let ratios =
         IsoRootPair { eps_alpha: pair.transverse_contact_ratio(), eps_beta: pair.overlap_ratio(), fine: false };
     let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();

@@ -1,14 +1,13 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use geometry::{Gear, GearPair, Side, Vec3};
+use geometry::{Gear, GearPair};
 use mesh::{
-    DEFAULT_TOLERANCE_MODULES, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions,
-    SurfaceGroup, generate,
+    Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup, generate,
 };
 
 use scene::{GearScene, MesherScene, Reduction, Scene};
 
-use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts};
+use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts, flank_checks::NamedFlanks};
 
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
@@ -94,8 +93,9 @@ pub fn checked_mesh(
         ));
     }
     same_bore(scene, &file, whose, &found, exact)?;
-    on_the_flanks(&file, whose, &found, exact)?;
-    whole_flanks(&file, whose, &found, exact)?;
+    let flanks = NamedFlanks { file: &file, whose, found: &found, exact, names: &gear.groups };
+    flanks.lie_on_the_gear()?;
+    flanks.are_whole()?;
     let (gear, facts) = to_compute(scene, found, source).map_err(complain)?;
     Ok(SceneMesh { gear, facts, warnings })
 }
@@ -168,7 +168,7 @@ fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<()
     ))
 }
 
-fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
+pub(crate) fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
     AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
 }
 
@@ -208,66 +208,6 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &G
     let hint = "leave `bore_diameter_mm` out: the mesh's own is taken";
     let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
     Err(AnalysisError::Mismatch(Box::new(MeshMismatch { said: message, hint: hint.into(), excerpt })))
-}
-
-/// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
-/// and the gaps of the one would be put on the compliance of the other.
-fn on_the_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
-    let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
-    for tooth in found.teeth() {
-        for side in [Side::Left, Side::Right] {
-            let flank = exact.flank_of(side, i64::from(tooth));
-            let nodes = found.flank(tooth, side).unwrap_or_default().iter().flat_map(|face| face.nodes());
-            for &node in nodes {
-                let index = node as usize;
-                let point = Vec3::from(found.mesh().nodes[index]);
-                let off = flank.locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs());
-                if off > allowed {
-                    let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
-                    return Err(mismatch(
-                        format!(
-                            "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, \
-                             allowed is {allowed:.3} mm",
-                            found.mesh().node_tags[index],
-                            side.name()
-                        ),
-                        "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), \
-                         axis on z, tooth 0 on +x?",
-                    ));
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Share of a flank that its faces must cover: groups may begin at the active root circle or leave out chamfers.
-const COVERED: f64 = 0.75;
-
-/// Named flanks must be there as a whole: contact sees none where the mesh has no face to carry it.
-///
-/// ```text
-/// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
-/// ```
-/// Area of a flank from the root form circle to the tip, mm^2.
-fn whole_flanks(file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
-    let profile = exact.profile();
-    let arc = 0.5 * exact.base_radius() * (profile.roll_tip().powi(2) - profile.roll_form().powi(2));
-    let whole = exact.face_width() * arc / exact.base_helix_angle().cos();
-    for (tooth, side) in found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]) {
-        let area: f64 = found.flank(tooth, side).unwrap_or_default().iter().map(|face| found.mesh().area(face)).sum();
-        if area < COVERED * whole {
-            let said = format!(
-                "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of {whole:.2} mm^2",
-                side.name(),
-                100.0 * area / whole
-            );
-            let hint =
-                "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
-            return Err(mismatch(said, hint));
-        }
-    }
-    Ok(())
 }
 
 /// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough,

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::AnalysisError;
+
 /// How much work a phase has, as far as that is known beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PhaseWork {
@@ -11,6 +13,8 @@ pub enum PhaseWork {
     Seconds(f64),
     /// So many steps, each told by [`Progress::tick`].
     Steps(u64),
+    /// So many steps at the most: a search that ends when it has found what it looks for.
+    AtMost(u64),
 }
 
 /// The progress of a running phase; threads share it.
@@ -20,6 +24,19 @@ pub trait Progress: Send + Sync {
 
     /// A word beside the bar.
     fn say(&self, message: String);
+
+    /// Whether who waits has given up: the work ends where it is asked next, with [`AnalysisError::Cancelled`].
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Ends work that nobody waits for any more.
+///
+/// # Errors
+/// [`AnalysisError::Cancelled`].
+pub fn unless_cancelled(progress: &dyn Progress) -> Result<(), AnalysisError> {
+    if progress.is_cancelled() { Err(AnalysisError::Cancelled) } else { Ok(()) }
 }
 
 /// Hears of the phases of an analysis, one after the other.

@@ -5,7 +5,7 @@ use geometry::Side;
 use ltca::StaticModel;
 use mesh::GearMesh;
 use reduction::{ElasticGear, GearReducer, ReductionOptions, Window};
-use scene::{Place, Scene};
+use scene::Scene;
 use serde::Serialize;
 
 use crate::{
@@ -54,10 +54,7 @@ pub fn reduce_scene(
     cache: &dyn GearCache,
 ) -> Result<ReducedScene, AnalysisError> {
     if !scene.analysis.model.is_reduced() {
-        let place = scene.place_of(&["analysis.model"]);
-        let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
-        let excerpt = place.as_ref().and_then(Place::excerpt).map(str::to_owned);
-        return Err(AnalysisError::NothingToReduce { at, excerpt });
+        return Err(AnalysisError::nothing_to_reduce(scene));
     }
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
     let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;

@@ -68,19 +68,46 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
             slice_errors(pair, options, options.contact.slices)
         }
     });
+    let (face_elements, would_do) = face_elements(scene);
+    let mut said = Vec::new();
+    if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen) {
+        said.extend(few_slices(options.contact.slices, needed.count, &errors));
+    }
+    said.extend(few_elements(face_elements, would_do));
+    let resolution = Resolution {
+        slices: sliced.then_some(options.contact.slices),
+        slices_chosen,
+        slices_that_would_do: needed.map(|n| n.count),
+        slice_error_percent: errors.map(|e| [e.mean, e.swing, e.peak].map(|x| 100.0 * x)),
+        face_elements,
+        face_elements_that_would_do: would_do,
+    };
+    (resolution, said)
+}
+
+/// What a user should hear of how fine the contact is: of [`resolution`] its words alone, without the cost of what it
+/// says of chosen slices.
+pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<String> {
+    if options.contact.method == Method::Slice && scene.place_of(&[SLICES]).is_some() {
+        return resolution(scene, pair, options).1;
+    }
+    let (face_elements, would_do) = face_elements(scene);
+    few_elements(face_elements, would_do)
+}
+
+/// Elements along the face of pinion and wheel, and how many the program would choose.
+fn face_elements(scene: &Scene) -> ([Option<u32>; 2], [Option<u32>; 2]) {
     let elastic = scene.analysis.model != Model::Impact;
     let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
     let would_do = scene.gears().map(|gear| {
         let order = gear.mesher.map_or(2, |m| m.order);
         elastic.then(|| scene.face_elements(order))
     });
+    (face_elements, would_do)
+}
+
+fn few_elements(face_elements: [Option<u32>; 2], would_do: [Option<u32>; 2]) -> Vec<String> {
     let mut said = Vec::new();
-    if let (Some(needed), Some(errors), false) = (needed, errors, slices_chosen)
-        && options.contact.slices < needed.count
-        && errors.exceed(COARSE)
-    {
-        said.push(too_few_slices(options.contact.slices, needed.count, &errors));
-    }
     for (i, whose) in ["pinion", "wheel"].into_iter().enumerate() {
         if let (Some(few), Some(enough)) = (face_elements[i], would_do[i])
             && FEW * few < enough
@@ -91,15 +118,11 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
             ));
         }
     }
-    let resolution = Resolution {
-        slices: sliced.then_some(options.contact.slices),
-        slices_chosen,
-        slices_that_would_do: needed.map(|n| n.count),
-        slice_error_percent: errors.map(|e| [e.mean, e.swing, e.peak].map(|x| 100.0 * x)),
-        face_elements,
-        face_elements_that_would_do: would_do,
-    };
-    (resolution, said)
+    said
+}
+
+fn few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> Option<String> {
+    (stated < enough && errors.exceed(COARSE)).then(|| too_few_slices(stated, enough, errors))
 }
 
 fn too_few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> String {

@@ -2,14 +2,15 @@
 //! contact.
 
 use std::{
-    cell::RefCell,
+    cell::{Cell, RefCell},
     ops::ControlFlow,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
 use ale::solve_widening;
 use geometry::GearPair;
 use ltca::{Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, StaticOptions, Variation};
+use mesh::Mesh;
 use scene::{ContactScene, Method, Model, ModificationScene, Scene};
 
 use crate::{
@@ -17,11 +18,14 @@ use crate::{
     accuracy::{AccurateAnalysis, AccurateResult},
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
+    gears,
     inputs::{meshes_of, settled_scene},
     meshes::SceneMesh,
     options::options,
+    resolution::resolution_warnings,
     static_certificate,
     statics::wider_window,
+    warnings::{body_warnings, deflection_warnings},
 };
 
 /// Models that are kept at the most; which of them goes first is the one that was made first.
@@ -32,8 +36,11 @@ const MOST_MODELS: usize = 8;
 ///
 /// Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
 pub struct SharedModels<'a> {
-    cache: &'a dyn GearCache,
+    cache: Arc<dyn GearCache + Send + 'a>,
+    /// Those that the caller holds, in place of those of the scenes.
+    meshes: Option<[Mesh; 2]>,
     known: Mutex<Vec<Known>>,
+    read: Mutex<Vec<(Scene, Arc<[SceneMesh; 2]>)>>,
 }
 
 /// What belongs to one kind of scene, made when the first of them comes.
@@ -43,9 +50,11 @@ struct Known {
     base: Arc<Mutex<Option<Arc<Base>>>>,
 }
 
-struct Base {
-    meshes: [SceneMesh; 2],
-    model: StaticModel,
+pub(crate) struct Base {
+    pub meshes: Arc<[SceneMesh; 2]>,
+    pub model: StaticModel,
+    /// What a user should hear of its bodies, once somebody asks.
+    of_bodies: OnceLock<Vec<String>>,
 }
 
 /// A scene with a little less and a little more of a parameter that meshes and matrices do not know.
@@ -70,7 +79,7 @@ pub struct SolvedWithRates {
 
 impl VariedScene {
     /// The pairs beside the one of `scene`, which is solved with `options`.
-    fn variation(&self, scene: &Scene, solved: &StaticOptions) -> Result<Variation, Failure> {
+    pub(crate) fn variation(&self, scene: &Scene, solved: &StaticOptions) -> Result<Variation, Failure> {
         let side = |own: &Scene| -> Result<(GearPair, StaticOptions), Failure> {
             let own = Scene { contact: ContactScene { slices: scene.contact.slices, ..own.contact }, ..own.clone() };
             let pair = own.gear_pair().map_err(AnalysisError::from)?;
@@ -91,7 +100,53 @@ impl std::fmt::Debug for SharedModels<'_> {
 impl<'a> SharedModels<'a> {
     /// None yet; reduced gears come from a cache and go there.
     pub fn new(cache: &'a dyn GearCache) -> Self {
-        Self { cache, known: Mutex::default() }
+        Self::holding(Arc::new(cache))
+    }
+
+    /// The same with a cache that others may hold as well.
+    pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
+        Self { cache, meshes: None, known: Mutex::default(), read: Mutex::default() }
+    }
+
+    /// With meshes of pinion and wheel in place of those of all scenes. They are checked as files are.
+    #[must_use]
+    pub fn with_meshes(self, meshes: [Mesh; 2]) -> Self {
+        Self { meshes: Some(meshes), ..self }
+    }
+
+    /// Meshes of pinion and wheel that the caller has given.
+    pub(crate) fn meshes(&self) -> Option<[&Mesh; 2]> {
+        self.meshes.as_ref().map(|[pinion, wheel]| [pinion, wheel])
+    }
+
+    /// Meshes of a scene, read or made once.
+    pub(crate) fn scene_meshes(&self, scene: &Scene, pair: &GearPair) -> Result<Arc<[SceneMesh; 2]>, AnalysisError> {
+        let kind = kind(scene);
+        let known = || self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = known().iter().find(|(own, _)| *own == kind) {
+            return Ok(Arc::clone(found));
+        }
+        let made = Arc::new(meshes_of(scene, pair, self.meshes())?);
+        let mut known = known();
+        if known.len() == MOST_MODELS {
+            known.remove(0);
+        }
+        known.push((kind, Arc::clone(&made)));
+        Ok(made)
+    }
+
+    /// Meshes and reduced gears of a scene, for others of its kind.
+    ///
+    /// # Errors
+    /// [`AnalysisError`], also where the model of the scene reduces no gears.
+    pub fn reduce(&self, scene: &Scene) -> Result<(), AnalysisError> {
+        if scene.analysis.model != Model::Reduced {
+            return Err(AnalysisError::nothing_to_reduce(scene));
+        }
+        let scene = settled_scene(scene, self.meshes.is_some());
+        let pair = scene.gear_pair()?;
+        let options = options(&scene, &pair);
+        self.base(&scene, &pair, options).map_err(|failure| failure.into_error(&scene)).map(|_| ())
     }
 
     /// Positions of a scene at rest that hold, and the scene as it was solved.
@@ -99,15 +154,63 @@ impl<'a> SharedModels<'a> {
     /// # Errors
     /// [`AnalysisError`]; that of the certificate among them.
     pub fn solve(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        let shares = scene.analysis.model == Model::Reduced && scene.accuracy.is_none();
-        let (scene, history) = if shares { self.shared(scene)? } else { self.alone(scene)? };
+        if shares(scene) {
+            let SolvedWithRates { scene, history, .. } = self.solve_with_rates(scene, &[])?;
+            return Ok((scene, history));
+        }
+        let (scene, history) = self.alone(scene)?;
         static_certificate(&history.positions).verdict(&scene)?;
         Ok((scene, history))
     }
 
+    /// The same, and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
+    ///
+    /// # Errors
+    /// As of [`SharedModels::solve`].
+    pub fn solve_told(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
+        match self.solve_while(scene, &|| true)? {
+            Some(told) => Ok(told),
+            None => self.solve(scene),
+        }
+    }
+
+    /// As [`SharedModels::solve`], with all that a user should hear in the history's warnings, for who may lose
+    /// interest: after each position `wanted` says whether the rest is; `None` where it was not. Scenes that share
+    /// nothing are solved to their end.
+    ///
+    /// # Errors
+    /// As [`SharedModels::solve`].
+    pub fn solve_while(
+        &self,
+        scene: &Scene,
+        wanted: &dyn Fn() -> bool,
+    ) -> Result<Option<(Scene, StaticHistory)>, AnalysisError> {
+        if !shares(scene) {
+            return Ok(wanted().then(|| self.solve(scene)).transpose()?.filter(|_| wanted()));
+        }
+        let unwanted = Cell::new(false);
+        let still = || {
+            unwanted.set(unwanted.get() || !wanted());
+            !unwanted.get()
+        };
+        let (SolvedWithRates { scene, mut history, .. }, base) = self.positions(scene, &[], &still)?;
+        if unwanted.get() {
+            return Ok(None);
+        }
+        static_certificate(&history.positions).verdict(&scene)?;
+        let pair = scene.gear_pair()?;
+        history.warnings.extend(gears::warnings(&pair));
+        history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
+        history.warnings.extend(resolution_warnings(&scene, &pair, &options(&scene, &pair)));
+        history.warnings.extend(base.of_bodies.get_or_init(|| body_warnings(&base.model)).iter().cloned());
+        let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
+        history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+        Ok(Some((scene, history)))
+    }
+
     /// A scene that nothing is shared of.
     fn alone(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        let analysis = AccurateAnalysis::new(scene).with_cache(self.cache);
+        let analysis = AccurateAnalysis::new(scene).with_cache(&*self.cache).with_shared(self);
         let AccurateResult { scene, result } = analysis.solve_into(&mut NoObserver, &mut NoSink)?;
         Ok((scene, result.history))
     }
@@ -117,22 +220,19 @@ impl<'a> SharedModels<'a> {
     /// # Errors
     /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
-        let (scene, history, rates) = self.positions(scene, varied)?;
-        static_certificate(&history.positions).verdict(&scene)?;
-        Ok(SolvedWithRates { scene, history, rates })
+        let (solved, _) = self.positions(scene, varied, &|| true)?;
+        static_certificate(&solved.history.positions).verdict(&solved.scene)?;
+        Ok(solved)
     }
 
-    fn shared(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        let (scene, history, _) = self.positions(scene, &[])?;
-        Ok((scene, history))
-    }
-
+    /// Positions until all are solved, or until they are `wanted` no longer.
     fn positions(
         &self,
         scene: &Scene,
         varied: &[VariedScene],
-    ) -> Result<(Scene, StaticHistory, Vec<Vec<Sensitivity>>), AnalysisError> {
-        let scene = settled_scene(scene, false);
+        wanted: &dyn Fn() -> bool,
+    ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
+        let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
@@ -142,14 +242,14 @@ impl<'a> SharedModels<'a> {
             |window| {
                 let base = self.base(&scene, &pair, with(window))?;
                 let mut model = base.model.modified(pair.clone(), with(window))?;
-                last.replace(Some(base));
+                last.replace(Some(Arc::clone(&base)));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
                 let variations = varied.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
                 let mut sensitivities = Sensitivities::new(variations).of_loaded_pair();
                 let mut rates = Vec::new();
                 let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
                     if varied.is_empty() {
-                        return ControlFlow::Continue(());
+                        return if wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
                     }
                     rates.push(sensitivities.of(model));
                     if rates.last().is_some_and(Result::is_err) {
@@ -157,30 +257,37 @@ impl<'a> SharedModels<'a> {
                     }
                     ControlFlow::Continue(())
                 })?;
-                Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?))
+                Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?, base))
             },
             |window, failure| {
                 let (Failure::Static(e), Some(base)) = (failure, &*last.borrow()) else { return None };
                 wider_window(&scene, &pair, &base.meshes, &with(window), e)
             },
         );
-        let (history, rates) = solved.map_err(|failure: Failure| failure.into_error(&scene))?;
-        Ok((scene, history, rates))
+        let (history, rates, base) = solved.map_err(|failure: Failure| failure.into_error(&scene))?;
+        Ok((SolvedWithRates { scene, history, rates }, base))
+    }
+
+    /// A model that is there of the same gears, on other slices: more of them are chosen for more crowning.
+    fn of_same_gears(&self, kind: &Scene, window: Option<usize>) -> Option<Arc<Base>> {
+        let (known, gears) = (self.known.lock().unwrap_or_else(PoisonError::into_inner), of_gears(kind));
+        let mut alike = known.iter().filter(|k| k.window == window && of_gears(&k.kind) == gears);
+        alike.find_map(|k| k.base.try_lock().ok()?.clone())
     }
 
     /// The model that a scene shares with others of its kind.
-    fn base(&self, scene: &Scene, pair: &GearPair, options: StaticOptions) -> Result<Arc<Base>, Failure> {
-        let (kind, window) = (kind(scene), options.window);
+    pub(crate) fn base(&self, scene: &Scene, pair: &GearPair, options: StaticOptions) -> Result<Arc<Base>, Failure> {
+        let (own, window) = (kind(scene), options.window);
         let place = {
             let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-            match known.iter().find(|k| k.window == window && k.kind == kind) {
+            match known.iter().find(|k| k.window == window && k.kind == own) {
                 Some(found) => Arc::clone(&found.base),
                 None => {
                     if known.len() == MOST_MODELS {
                         known.remove(0);
                     }
                     let base = Arc::default();
-                    known.push(Known { kind, window, base: Arc::clone(&base) });
+                    known.push(Known { kind: own.clone(), window, base: Arc::clone(&base) });
                     base
                 }
             }
@@ -190,16 +297,32 @@ impl<'a> SharedModels<'a> {
         if let Some(base) = &*made {
             return Ok(Arc::clone(base));
         }
-        let meshes = meshes_of(scene, pair, None)?;
-        let ElasticGears { gears, keys, .. } = elastic_gears(scene, pair, &options, &meshes, self.cache)?;
-        let model = StaticModel::new(pair.clone(), gears, options)?;
-        if self.cache.is_on() {
-            keys.save(self.cache, model.gears());
-        }
-        let base = Arc::new(Base { meshes, model });
+        let (meshes, model) = match self.of_same_gears(&own, window) {
+            Some(other) => (other.meshes.clone(), other.model.modified(pair.clone(), options)?),
+            None => {
+                let meshes = self.scene_meshes(scene, pair)?;
+                let ElasticGears { gears, keys, .. } = elastic_gears(scene, pair, &options, &meshes, &*self.cache)?;
+                let model = StaticModel::new(pair.clone(), gears, options)?;
+                if self.cache.is_on() {
+                    keys.save(&*self.cache, model.gears());
+                }
+                (meshes, model)
+            }
+        };
+        let base = Arc::new(Base { meshes, model, of_bodies: OnceLock::new() });
         *made = Some(Arc::clone(&base));
         Ok(base)
     }
+}
+
+/// A kind without what reduced gears know nothing of: slices.
+fn of_gears(kind: &Scene) -> Scene {
+    Scene { contact: ContactScene { slices: None, ..kind.contact }, ..kind.clone() }
+}
+
+/// Whether a scene shares its model with others.
+fn shares(scene: &Scene) -> bool {
+    scene.analysis.model == Model::Reduced && scene.accuracy.is_none()
 }
 
 /// What scenes of one kind have in common: all that meshes, matrices and tables of the contact depend on.

@@ -1,6 +1,6 @@
 //! The loaded pair of a scene at rest, through its mesh cycles.
 
-use std::ops::ControlFlow;
+use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{Station, solve_widening};
 use geometry::GearPair;
@@ -11,7 +11,7 @@ use scene::{Analysis, Model, Scene};
 
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork,
-    elastic_gears::{ElasticGears, elastic_gears},
+    elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     error::solver_error,
     facts::Facts,
     failure::Failure,
@@ -22,6 +22,8 @@ use crate::{
     options::options,
     resolution::resolution,
     run_phase,
+    shared_models::{Base, SharedModels},
+    unless_cancelled,
     warnings::{body_warnings, deflection_warnings},
 };
 
@@ -82,6 +84,7 @@ pub struct StaticAnalysis<'a> {
     scene: &'a Scene,
     meshes: Option<[&'a Mesh; 2]>,
     cache: &'a dyn GearCache,
+    shared: Option<&'a SharedModels<'a>>,
     slices_stand: bool,
 }
 
@@ -94,7 +97,7 @@ impl std::fmt::Debug for StaticAnalysis<'_> {
 impl<'a> StaticAnalysis<'a> {
     /// Of a scene, its meshes read or made as it says.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, meshes: None, cache: &NoCache, slices_stand: false }
+        Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false }
     }
 
     /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
@@ -110,6 +113,13 @@ impl<'a> StaticAnalysis<'a> {
         Self { cache, ..self }
     }
 
+    /// On what earlier scenes of its kind have left: their meshes, reduced gears and contact tables, and what they leave
+    /// for later ones. No bit of the result changes. Of a model whose gears are not reduced nothing is shared.
+    #[must_use]
+    pub fn with_shared(self, models: &'a SharedModels<'a>) -> Self {
+        Self { shared: Some(models), ..self }
+    }
+
     /// With the number of slices that the scene has, though no file states it, and without bounds: a point of a chart, a
     /// rung of the ladder.
     #[must_use]
@@ -122,9 +132,14 @@ impl<'a> StaticAnalysis<'a> {
         self.settled().contact.slices
     }
 
+    /// Whether the caller holds meshes in place of those of the scene.
+    fn has_meshes(&self) -> bool {
+        self.meshes.is_some() || self.shared.is_some_and(|models| models.meshes().is_some())
+    }
+
     /// The scene as it is solved.
     fn settled(&self) -> Scene {
-        if self.slices_stand { self.scene.clone() } else { settled_scene(self.scene, self.meshes.is_some()) }
+        if self.slices_stand { self.scene.clone() } else { settled_scene(self.scene, self.has_meshes()) }
     }
 
     /// Solves it, telling nobody.
@@ -155,13 +170,18 @@ impl<'a> StaticAnalysis<'a> {
             history.warnings.extend(gears::warnings(&pair));
             return Ok(StaticResult { pair, history, facts, model: None });
         }
-        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, self.meshes))?;
+        let shared = self.shared.filter(|_| scene.analysis.model == Model::Reduced);
+        let own = self.meshes.or(self.shared.and_then(|models| models.meshes()));
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| match shared {
+            Some(models) => models.scene_meshes(scene, &pair),
+            None => meshes_of(scene, &pair, own).map(Arc::new),
+        })?;
         let mut warnings = gears::warnings(&pair);
         warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
         let options = options(scene, &pair);
         let (resolution, said) = resolution(scene, &pair, &options);
         warnings.extend(said);
-        let inputs = Inputs { scene, cache, pair: &pair, meshes: &meshes };
+        let inputs = Inputs { scene, cache, shared, pair: &pair, meshes: &meshes };
         let with = |window| StaticOptions { window, ..options.clone() };
         let solved = solve_widening(
             options.window,
@@ -174,10 +194,10 @@ impl<'a> StaticAnalysis<'a> {
             },
         );
         let (model, mut history) = solved.map_err(|failure| failure.into_error(scene))?;
-        let mut facts = facts_of(&model, &meshes);
+        let mut facts = facts_of(scene, &model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
-            warnings.extend(iso_root::add(&mut facts, scene, &pair));
+            warnings.extend(iso_root::warning(scene, &pair));
         }
         warnings.extend(body_warnings(&model));
         warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
@@ -187,17 +207,15 @@ impl<'a> StaticAnalysis<'a> {
 }
 
 /// What the summary says of a solved model.
-fn facts_of(model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
+fn facts_of(scene: &Scene, model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     let mut facts = Facts {
-        geometry: gears::geometry_facts(model.pair()),
-        geometry_sheet: Some(model.pair().sheet()),
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),
         window_teeth: Some(model.window().count() as u32),
         contact_points: Some(model.contact_set().candidate_count()),
-        ..Facts::default()
+        ..Facts::of_pair(scene, model.pair())
     };
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
     facts.model.insert("cyclic_gears".into(), cyclic.into());
@@ -241,8 +259,15 @@ pub fn wider_window(
 struct Inputs<'a> {
     scene: &'a Scene,
     cache: &'a dyn GearCache,
+    shared: Option<&'a SharedModels<'a>>,
     pair: &'a GearPair,
     meshes: &'a [SceneMesh; 2],
+}
+
+/// Reduced gears of this scene, or a model of them that others have used.
+enum GearsOf {
+    Own(Box<[ElasticGear; 2]>, RecordKeys),
+    Shared(Arc<Base>),
 }
 
 /// Reduction and run with one width of the window.
@@ -252,13 +277,21 @@ fn attempt(
     sink: &mut dyn StaticSink,
     options: &StaticOptions,
 ) -> Result<(StaticModel, StaticHistory), Failure> {
-    let Inputs { scene, cache, pair, meshes } = inputs;
+    let Inputs { scene, cache, shared, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let work = PhaseWork::Seconds(foreseen_s(scene, meshes));
-    let ElasticGears { gears, keys, mut warnings } =
-        run_phase(observer, name, work, |_| elastic_gears(scene, pair, options, meshes, cache))?;
-    let set_up = || StaticModel::new(pair.clone(), gears, options.clone());
-    let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
+    let (base, mut warnings) = run_phase(observer, name, work, |_| match shared {
+        Some(models) => models.base(scene, pair, options.clone()).map(|base| (GearsOf::Shared(base), Vec::new())),
+        None => {
+            let ElasticGears { gears, keys, warnings } = elastic_gears(scene, pair, options, meshes, cache)?;
+            Ok((GearsOf::Own(Box::new(gears), keys), warnings))
+        }
+    })?;
+    let (mut model, keys) = run_phase(observer, "contact", PhaseWork::Unknown, |_| match base {
+        GearsOf::Shared(base) => Ok((base.model.modified(pair.clone(), options.clone())?, None)),
+        GearsOf::Own(gears, keys) => Ok((StaticModel::new(pair.clone(), *gears, options.clone())?, Some(keys))),
+    })
+    .map_err(|e: StaticError| Failure::Static(e))?;
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let cycles = scene.analysis.cycles as usize;
     sink.begin(scene);
@@ -267,7 +300,8 @@ fn attempt(
         let history = model.run_while(per_cycle, cycles, |index, position, model| {
             progress.tick();
             progress.say(format!("STE {:.3} um", 1e3 * position.transmission_error));
-            match sink.position(index, position, model) {
+            let taken = sink.position(index, position, model).map_err(AnalysisError::Sink);
+            match taken.and_then(|()| unless_cancelled(progress)) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(error) => {
                     refused = Some(error);
@@ -276,7 +310,7 @@ fn attempt(
             }
         });
         match refused {
-            Some(error) => Err(AnalysisError::Sink(error).into()),
+            Some(error) => Err(error.into()),
             None => history.map_err(Failure::Static),
         }
     })?;
@@ -287,7 +321,7 @@ fn attempt(
         let closing = run_phase(observer, "change", PhaseWork::Unknown, |_| model.tooth_changes_at(end))?;
         history.tooth_changes.extend(closing);
     }
-    if cache.is_on() {
+    if let (Some(keys), true) = (keys, cache.is_on()) {
         // After the run, when every window and half tooth that it took is known.
         warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
     }

@@ -6,12 +6,14 @@
 
 mod axis;
 mod cases;
+mod circle;
 mod distribution;
 mod error;
 mod sampling;
 
 pub use axis::Axis;
 pub use cases::Cases;
+pub use circle::{around_a_circle, spread};
 pub use distribution::Distribution;
 pub use error::CasesError;
 pub use sampling::{Design, Sampling};

@@ -1,9 +1,9 @@
 //! What a run cost.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What one phase cost.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Phase {
     /// What was done: `read`, `reduce`, `solve`, ...
     pub name: String,
@@ -14,7 +14,7 @@ pub struct Phase {
 }
 
 /// What the whole run cost.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Cost {
     /// Threads of the computation.
     pub threads: usize,

@@ -21,6 +21,7 @@
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
+//! | [`solve_in_time`] | a motion, from its scene to the files of its result |
 //! | [`Cost`], [`write_summary`] | what a run cost; everything about it but its rows |
 //! | [`ResultFiles`] | where files go |
 
@@ -37,8 +38,10 @@ pub mod envelope_files;
 mod error;
 mod files;
 pub mod folder;
+mod in_time;
 pub mod lumped_files;
 mod marked_place;
+mod memory_available;
 mod memory_demand;
 pub mod motion_files;
 mod motion_result;
@@ -47,6 +50,7 @@ pub mod page;
 pub mod paraview;
 pub mod plan_files;
 mod rows;
+mod static_result;
 mod static_sink;
 pub mod study_files;
 mod summary;
@@ -57,13 +61,16 @@ pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::ReportError;
 pub use files::ResultFiles;
+pub use in_time::{Recorder, Told, solve_accurate, solve_in_time, solve_lumped, solve_many_motions, solve_sweep};
 pub use marked_place::MarkedPlace;
+pub use memory_available::{available_bytes, available_mb};
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
 pub use motion_result::{
     write_answer, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
     write_motion_result, write_sweep_result,
 };
 pub use rows::{columns_to_csv, parse_columns, read_columns};
+pub use static_result::{write_static_result, write_static_rows};
 pub use static_sink::StaticFileSink;
 pub use summary::{close_result, write_summary};
 

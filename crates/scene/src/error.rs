@@ -183,19 +183,42 @@ fn at(place: Option<&Place>, file: &Path) -> String {
 impl SceneError {
     /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
     pub fn excerpt(&self) -> Option<&str> {
+        self.place()?.excerpt()
+    }
+
+    /// Where the value stands that is complained of; `None` where it is about the whole file or about no file.
+    pub fn place(&self) -> Option<&Place> {
         match self {
             Self::Read { .. }
             | Self::Missing { .. }
             | Self::Setting { .. }
             | Self::NoKey { .. }
             | Self::DataFile(_) => None,
-            Self::Geometry { place, .. } => place.as_ref()?.excerpt(),
+            Self::Geometry { place, .. } => place.as_ref(),
             Self::Syntax { place, .. }
             | Self::UnknownKey { place, .. }
             | Self::WrongType { place, .. }
             | Self::OutOfRange { place, .. }
             | Self::NotYet { place, .. }
-            | Self::Conflict { place, .. } => place.excerpt(),
+            | Self::Conflict { place, .. } => Some(place),
+        }
+    }
+
+    /// The key that is complained of, with its tables where it was set beside a file; `None` where there is none.
+    pub fn key(&self) -> Option<&str> {
+        if let Some(Place::Setting { label }) = self.place() {
+            return Some(label);
+        }
+        match self {
+            Self::UnknownKey { key, .. }
+            | Self::WrongType { key, .. }
+            | Self::OutOfRange { key, .. }
+            | Self::NotYet { key, .. }
+            | Self::NoKey { key } => Some(key),
+            Self::Setting { label, .. } => Some(label),
+            Self::Missing { keys, .. } => keys.first().map(|key| key.trim_matches('`')),
+            Self::Geometry { table, .. } => Some(table),
+            Self::Read { .. } | Self::Syntax { .. } | Self::Conflict { .. } | Self::DataFile(_) => None,
         }
     }
 

@@ -8,7 +8,7 @@ use std::{
 
 use toml::Spanned;
 
-use super::{GearScene, Scene, SceneError, origin::Origin, source::Source};
+use super::{GearScene, Scene, SceneError, Setting, origin::Origin, source::Source};
 
 /// What messages call the default scene.
 const NAME: &str = "default scene";
@@ -30,7 +30,15 @@ impl Scene {
     /// # Errors
     /// None, as a test holds; the type is that of every scene.
     pub fn default_scene() -> Result<Self, SceneError> {
-        Self::parse_from(TEXT, Path::new(NAME), &[], Origin::Program)
+        Self::default_scene_with(&[])
+    }
+
+    /// The same with some of its keys set otherwise.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the settings do not allow.
+    pub fn default_scene_with(settings: &[Setting]) -> Result<Self, SceneError> {
+        Self::parse_from(TEXT, Path::new(NAME), settings, Origin::Program)
     }
 
     /// Whether it is the default scene of the program.

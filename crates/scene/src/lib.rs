@@ -12,6 +12,7 @@ mod analysis;
 mod builder;
 mod check;
 mod contact;
+mod design_key;
 mod error;
 mod excerpt;
 mod gear;
@@ -201,6 +202,31 @@ impl Scene {
             }
         }
         all
+    }
+
+    /// The number that a key has in the scene, defaults filled in; of a modification of both flanks that of the driving
+    /// ones. An amount of micro-geometry or misalignment that is not stated is 0; `None` for what is no number.
+    pub fn number_at(&self, key: &str) -> Option<f64> {
+        let table: toml::Table = toml::from_str(&self.to_toml()).ok()?;
+        let mut parts = setting::path(key)?;
+        let of_flank = parts.get(1).is_some_and(|part| part == "modification");
+        if of_flank && !parts.get(2).is_some_and(|part| part == "drive" || part == "coast") {
+            parts.insert(2, "drive".into());
+        }
+        let no_amount = (of_flank && key.ends_with("_um")) || key.starts_with("pair.misalignment.");
+        let mut value = Some(toml::Value::Table(table));
+        for part in &parts {
+            value = match value? {
+                toml::Value::Table(mut table) => table.remove(part),
+                toml::Value::Array(list) => list.into_iter().nth(part.parse().ok()?),
+                _ => return None,
+            };
+            if value.is_none() && no_amount {
+                return Some(0.0);
+            }
+        }
+        let value = value?;
+        value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
     }
 
     /// The path that a path written in the scene stands for.

@@ -96,6 +96,7 @@ macro_rules! raw {
     (shape $args:tt) => { $crate::spanned::Word };
     (path $args:tt) => { $crate::spanned::Word };
     (words $args:tt) => { $crate::spanned::Words };
+    (texts $args:tt) => { $crate::spanned::Words };
     (whole $args:tt) => { $crate::spanned::Whole };
     (bare_whole $args:tt) => { $crate::spanned::Whole };
     (switch $args:tt) => { $crate::spanned::Switch };

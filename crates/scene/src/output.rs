@@ -24,6 +24,9 @@ pub struct OutputScene {
     pub fields: Vec<FieldName>,
     /// One ParaView file every so many positions.
     pub vtu_every: u32,
+    /// Keys by which the history of a pair at rest is differentiated.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub derivatives: Vec<String>,
 }
 
 choices! {

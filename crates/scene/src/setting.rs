@@ -45,27 +45,6 @@ impl Setting {
         Self::labelled(format!("--set {key}"), key, &written)
     }
 
-    /// The number that a scene's text and settings give a key; `None` where they give it none.
-    pub fn number_at(text: &str, settings: &[Self], key: &str) -> Option<f64> {
-        let number = |value: &toml::Value| value.as_float().or_else(|| value.as_integer().map(|n| n as f64));
-        if let Some(last) = settings.iter().rev().find(|s| s.key == key) {
-            let table: toml::Table = toml::from_str(&format!("value = {}", last.value)).ok()?;
-            return number(table.get("value")?);
-        }
-        let table: toml::Table = toml::from_str(text).ok()?;
-        let mut value = toml::Value::Table(table);
-        for part in path(key)? {
-            value = match value {
-                toml::Value::Table(mut table) => table.remove(&part)?,
-                toml::Value::Array(mut list) => {
-                    part.parse().ok().filter(|i| *i < list.len()).map(|i: usize| list.remove(i))?
-                }
-                _ => return None,
-            };
-        }
-        number(&value)
-    }
-
     /// A key with its value, named by the key in messages.
     ///
     /// # Errors
@@ -130,7 +109,7 @@ fn complaint(label: &str, what: &str) -> SceneError {
 }
 
 /// Parts of a dotted key; `None` where it is none.
-fn path(key: &str) -> Option<Vec<String>> {
+pub(super) fn path(key: &str) -> Option<Vec<String>> {
     let line = format!("{key} = 0");
     // A second key in it, or a comment, would say something else.
     if key.contains(['=', '\n', '\r', '#', '[']) {

@@ -1,11 +1,15 @@
-//! `ale-gear case` and `ale-gear merge`: the cases of a plan on many machines.
+//! `ale-gear case` and `ale-gear merge`: the cases of a plan on many machines, and one of them by itself.
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
-use report::plan_files::{DoneCases, Part, PartError, merged, plan_digest, write_cases};
+use report::plan_files::{DoneCases, PageWords, Part, PartError, merged, plan_digest, write_cases};
 use scene::plan::Plan;
 
-use super::{cache_args::CacheArgs, vary::solve_range};
+use super::{
+    cache_args::CacheArgs,
+    case_reports::{scene_of, write_one},
+    vary::solve_range,
+};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
 /// Words of `ale-gear case`.
@@ -14,15 +18,19 @@ pub(super) struct CaseArgs {
     /// Plan file
     plan: PathBuf,
     /// Cases, from the first to before the last: `0..100`; those beyond the plan are none
-    #[arg(long, value_name = "FROM..TO", value_parser = range, required_unless_present = "list", requires = "out")]
+    #[arg(long, value_name = "FROM..TO", value_parser = range, required_unless_present_any = ["list", "report"],
+          requires = "out")]
     range: Option<Range<usize>>,
-    /// File for the rows of these cases; left alone where it has them already
+    /// File for the rows of these cases, left alone where it has them already; with `--report` a folder
     #[arg(long, short, value_name = "PART", required_unless_present = "list")]
     out: Option<PathBuf>,
     /// Solve nothing, but say on stdout which ranges of so many cases the plan has
     #[arg(long, value_name = "CASES", conflicts_with_all = ["range", "out"],
           value_parser = clap::value_parser!(u32).range(1..))]
     list: Option<u32>,
+    /// A whole result of one case, as `ale-gear run` writes it, into the folder `--out`
+    #[arg(long, value_name = "CASE", conflicts_with_all = ["range", "list"], requires = "out")]
+    report: Option<usize>,
     #[command(flatten)]
     cache: CacheArgs,
 }
@@ -50,6 +58,10 @@ impl CaseArgs {
     /// Solves the cases of the range; the same words leave the same file, however often.
     pub(super) fn execute(self, told: impl Fn(String) -> String) -> Result<String, CommandError> {
         let (plan, mut phases) = (Plan::read(&self.plan)?, Phases::with_bars());
+        if let (Some(case), Some(out)) = (self.report, &self.out) {
+            let table = write_one(&scene_of(&plan, case)?, &mut phases, out, &self.cache.open())?;
+            return Ok(told(format!("{table}\nresults: {}\n", out.display())));
+        }
         let count = plan.cases.count();
         let (Some(range), Some(out)) = (&self.range, &self.out) else {
             let chunk = self.list.unwrap_or(1) as usize;
@@ -86,7 +98,10 @@ impl MergeArgs {
             CommandError::input(&e, hint)
         })?;
         let results = ResultDirectory::create(&self.out)?;
-        let text = write_cases(&plan, &DoneCases::in_memory(lines), &phases.cost(), &results)?;
+        let parts: Vec<String> = self.parts.iter().map(|part| part.display().to_string()).collect();
+        let again = format!("ale-gear merge {} {} --out DIR", self.plan.display(), parts.join(" "));
+        let words = PageWords { again: &again, reports: &[] };
+        let text = write_cases((&plan, &DoneCases::in_memory(lines)), words, &phases.cost(), &results)?;
         results.finish(talk::note)?;
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }

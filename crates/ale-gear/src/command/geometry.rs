@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use report::tables::geometry_table;
+use analysis::facts::Facts;
+use report::tables::{geometry_json, geometry_table, torque};
 use scene::rexs_of;
 
 use super::overrides::Overrides;
@@ -31,11 +32,11 @@ impl GeometryArgs {
         if let Some(file) = &self.rexs {
             std::fs::write(file, rexs_of(&pair)).map_err(|e| CommandError::write(file, &e))?;
         }
-        let sheet = pair.sheet();
+        let facts = Facts::of_pair(&scene, &pair);
         if self.json {
-            // Numbers and strings: there is nothing that JSON could refuse.
-            return Ok(serde_json::to_string_pretty(&sheet).unwrap_or_default() + "\n");
+            return Ok(geometry_json(&facts) + "\n");
         }
-        Ok(geometry_table(&scene.name, &sheet, scene.pinion_speed() * 30.0 / std::f64::consts::PI))
+        let rpm = scene.pinion_speed() * 30.0 / std::f64::consts::PI;
+        Ok(geometry_table(&scene.name, &facts, &torque(&scene), rpm).unwrap_or_default())
     }
 }

@@ -236,11 +236,30 @@ fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     answer("Normal module, mm", &mut s, |s| &mut s.module_mm, fits)?;
     answer("Helix angle of the pinion, degrees, right hand positive", &mut s, |s| &mut s.helix_deg, fits)?;
     answer("Face width, mm", &mut s, |s| &mut s.face_width_mm, fits)?;
+    answer("Profile shift coefficient of the pinion", &mut s, |s| &mut s.profile_shift[0], fits)?;
+    answer("Profile shift coefficient of the wheel", &mut s, |s| &mut s.profile_shift[1], fits)?;
+    centre_distance(&mut s, shown, fits)?;
     answer("Torque on the driven gear, N m", &mut s, |s| &mut s.torque_nm, fits)?;
     answer("Speed of the driver, 1/min", &mut s, |s| &mut s.speed_rpm, fits)?;
     let before = kinds.iter().position(|k| k.1 == s.kind).unwrap_or(0);
     s.kind = kinds[Select::new().with_prompt("What").items(kinds.map(|k| k.0)).default(before).interact()?].1;
     Ok(s)
+}
+
+/// Asks for the centre distance; what follows from the profile shifts stands in brackets, and is not written down.
+fn centre_distance(
+    s: &mut Starter,
+    shown: &str,
+    fits: impl Fn(&Starter) -> Result<(), String>,
+) -> dialoguer::Result<()> {
+    let free = Starter { centre_distance_mm: None, ..s.clone() };
+    let pair = Scene::parse(&free.text(shown), Path::new(shown)).ok().and_then(|scene| scene.gear_pair().ok());
+    // Without a pair there is none to follow; the answers as a whole are complained of at the end.
+    let Some(follows) = pair.map(|pair| (1e4 * pair.centre_distance()).round() / 1e4) else { return Ok(()) };
+    let mut asked = Starter { centre_distance_mm: Some(s.centre_distance_mm.unwrap_or(follows)), ..s.clone() };
+    answer("Centre distance, mm", &mut asked, |s| s.centre_distance_mm.get_or_insert(follows), fits)?;
+    s.centre_distance_mm = asked.centre_distance_mm.filter(|own| *own != follows);
+    Ok(())
 }
 
 /// What is complained of, without a line of a file that is not there yet.

@@ -27,6 +27,12 @@ pub(super) enum MeshCommand {
         /// Number of teeth of the whole gear, for the periodic faces of a sector
         #[arg(long, value_name = "Z")]
         teeth: Option<u32>,
+        /// Scene whose gear it is to be: what a run would refuse is refused, with the names of the scene's `groups`
+        #[arg(long, requires = "gear", conflicts_with_all = ["teeth", "bore", "flank_left", "flank_right", "cut_0", "cut_1"])]
+        scene: Option<PathBuf>,
+        /// Which gear of the scene
+        #[arg(long, requires = "scene")]
+        gear: Option<WhichGear>,
         #[command(flatten)]
         groups: GroupArgs,
         /// Findings as JSON
@@ -115,7 +121,8 @@ impl MeshCommand {
                 let found = MeshInfo::new(&read(&file)?);
                 Ok(if json { format!("{:#}\n", serde_json::json!(found)) } else { mesh_info_table(&file, &found) })
             }
-            Self::Check { file, teeth, groups, json } => check(&file, teeth, &groups.names()?, json),
+            Self::Check { file, scene: Some(scene), gear: Some(gear), json, .. } => check_as(&file, &scene, gear, json),
+            Self::Check { file, teeth, groups, json, .. } => check(&file, teeth, &groups.names()?, json),
             Self::Generate { scene, gear, output, format, ascii } => {
                 let text = generate(&scene, gear, &output, &format, ascii)?;
                 Ok(if quiet { String::new() } else { text })
@@ -135,6 +142,20 @@ pub(super) fn complaint(e: MeshError) -> CommandError {
         _ => e.hint(),
     };
     CommandError::input(&e, hint)
+}
+
+/// As [`check`], and as a run of the scene does.
+fn check_as(file: &Path, scene: &Path, which: WhichGear, json: bool) -> Result<String, CommandError> {
+    let scene = Scene::read(scene)?;
+    let pair = scene.gear_pair()?;
+    let (whose, gear, exact) = match which {
+        WhichGear::Pinion => ("pinion", &scene.pinion, &pair.pinion),
+        WhichGear::Wheel => ("wheel", &scene.wheel, &pair.wheel),
+    };
+    let told = check(file, Some(gear.teeth), &gear.groups, json)?;
+    let name = file.display().to_string();
+    meshes::checked_mesh(&scene, whose, (gear, exact), read(file)?, [name.clone(), name])?;
+    Ok(told)
 }
 
 fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Result<String, CommandError> {

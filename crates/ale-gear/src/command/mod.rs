@@ -2,6 +2,7 @@
 
 mod cache_args;
 mod case;
+mod case_reports;
 mod chart;
 mod compare;
 mod curve;
@@ -15,6 +16,7 @@ mod reduce;
 mod report;
 mod run;
 mod schema;
+mod serve;
 mod shell;
 mod study;
 mod sweep;
@@ -28,6 +30,7 @@ use clap_complete::Shell;
 
 use crate::{
     error::CommandError,
+    stop::on_stop,
     talk::{Loudness, read_progress_after, set_loudness},
 };
 
@@ -67,7 +70,7 @@ enum Command {
     Init(init::InitArgs),
     /// Run every model and mesh density on a scene: accuracy against cost
     Chart(chart::ChartArgs),
-    /// Run a motion at many values of a key: bifurcation diagrams, resonance curves
+    /// Run a scene at many values of a key: bifurcation diagrams and resonance curves of motions, curves of a pair at rest
     Sweep(sweep::SweepArgs),
     /// Follow the periodic motions of a pair along a key, around folds: resonance curves with their unstable parts
     Curve(curve::CurveArgs),
@@ -91,6 +94,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Make report.html of a result folder again, with the pages of this version
     Report(report::ReportArgs),
+    /// A page on this machine where a pair is tried by hand: sliders, curves, pattern, gears in space
+    Serve(serve::ServeArgs),
     /// JSON Schema of the scene file on stdout, for completion and checks in editors
     Schema,
     /// Script on stdout that completes words in a shell
@@ -165,6 +170,7 @@ impl Cli {
             Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Report(args)) => args.execute(quiet),
+            Some(Command::Serve(args)) => args.execute(),
             Some(Command::Schema) => Ok(schema::execute()),
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
             Some(Command::Man) => shell::man(),
@@ -194,16 +200,4 @@ fn use_threads(threads: Option<usize>) {
         // Fails only when a pool is there already, which nobody has made before this line.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
     }
-}
-
-/// Exit status of a process that the user stopped (Ctrl-C), as shells give it.
-const STOPPED: i32 = 130;
-
-/// Takes away what is half written when the user stops the program.
-fn on_stop() {
-    // A host that has a handler of its own keeps it; then the names of such paths still say what they are.
-    let _ = ctrlc::set_handler(|| {
-        ::report::folder::remove_partial_paths();
-        std::process::exit(STOPPED);
-    });
 }

@@ -1,12 +1,13 @@
 //! `ale-gear optimise`: the micro-geometry that is quietest.
 
-use std::path::PathBuf;
+use std::{ops::ControlFlow, path::PathBuf};
 
 use analysis::{
-    SharedModels,
+    PhaseWork, SharedModels,
     optimum::{Optimised, Optimum, optimise, told},
+    run_phase,
 };
-use report::optimum_files::{Goals, OptimumResult, write_optimum};
+use report::optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum};
 use scene::{
     optimum::{Optimisation, OptimisationWords},
     read_text,
@@ -36,6 +37,9 @@ pub(super) struct OptimiseArgs {
     /// Limit of the contact pressure, MPa
     #[arg(long, value_name = "MPA")]
     max_pressure: Option<f64>,
+    /// Limit of the contact pressure at end faces and tip edges, MPa
+    #[arg(long, value_name = "MPA")]
+    max_edge_pressure: Option<f64>,
     /// Evaluations at the most [default: 20]
     #[arg(long, value_name = "N")]
     evaluations: Option<u32>,
@@ -54,7 +58,11 @@ impl OptimiseArgs {
         let Self { file, parameter, torques, measure, max_pressure, evaluations, front, .. } = self;
         let settings = self.overrides.settings()?;
         let words = !parameter.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
-        let words = words || evaluations.is_some() || front.is_some() || !settings.is_empty();
+        let words = words
+            || self.max_edge_pressure.is_some()
+            || evaluations.is_some()
+            || front.is_some()
+            || !settings.is_empty();
         // What cannot be read is complained about as a scene is.
         if read_text(file).is_ok_and(|text| Optimisation::is_one(&text)) {
             if words {
@@ -68,6 +76,7 @@ impl OptimiseArgs {
             torques_nm: torques,
             measure: measure.as_deref(),
             max_pressure_mpa: *max_pressure,
+            max_edge_pressure_mpa: self.max_edge_pressure,
             evaluations: evaluations.unwrap_or(20),
             front: front.unwrap_or(0),
         };
@@ -85,6 +94,7 @@ impl OptimiseArgs {
         }
         words.extend(measure.iter().map(|word| format!("--measure {word}")));
         words.extend(max_pressure.iter().map(|limit| format!("--max-pressure {limit}")));
+        words.extend(self.max_edge_pressure.iter().map(|limit| format!("--max-edge-pressure {limit}")));
         words.extend(evaluations.iter().map(|n| format!("--evaluations {n}")));
         words.extend(front.iter().map(|n| format!("--front {n}")));
         // Those of a file stand in it.
@@ -100,15 +110,22 @@ impl OptimiseArgs {
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let models = SharedModels::new(&cache);
-        let optimum: Optimum = phases.run("search", || {
-            optimise(&models, &plan, |count, goal| match goal {
-                Some(goal) => talk::note(format!("evaluation {count}: {goal:.4} um")),
-                None => talk::note(format!("evaluation {count}: no result")),
+        // It ends when it has converged, nobody knows when; the last one is that of values that a machine can be set to.
+        let most = u64::from(plan.evaluations) + 1;
+        let work = if plan.front > 0 { PhaseWork::Unknown } else { PhaseWork::AtMost(most) };
+        let optimum: Optimum = run_phase(&mut phases, "search", work, |progress| {
+            optimise(&models, &plan, |count, goal| {
+                progress.tick();
+                match goal {
+                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.4} um")),
+                    None => talk::note(format!("evaluation {count}: no result")),
+                }
+                ControlFlow::Continue(())
             })
         })?;
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
-        let (goals, warnings) = (Goals::of(&optimum), warnings(&optimum));
+        let (goals, warnings) = (Goals::of(&optimum), optimum_warnings(&optimum));
         let again = self.again(&optimum);
         let of = OptimumResult {
             optimum: &optimum,
@@ -124,19 +141,3 @@ impl OptimiseArgs {
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }
 }
-
-/// What a user should hear of an optimum.
-fn warnings(optimum: &Optimum) -> Vec<String> {
-    let over = optimum.evaluation.over_limits();
-    let limit = optimum.plan.max_pressure_mpa.filter(|_| over > HELD);
-    let passed = |limit: f64| {
-        format!(
-            "the limit of the pressure, {limit} MPa, is passed by {:.1} %: no design was found that holds it",
-            100.0 * over
-        )
-    };
-    limit.map(passed).into_iter().collect()
-}
-
-/// Share by which a limit may be passed.
-const HELD: f64 = 2e-3;

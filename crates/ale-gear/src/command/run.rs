@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use analysis::lumped::is_lumped;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
-use report::check_memory;
+use report::{check_memory, write_static_result, write_static_rows};
 
 use report::folder::Cache;
 
@@ -15,10 +15,10 @@ use crate::{
     facts::Solved,
     memory,
     motion::{self, Progression},
-    output::{ResultDirectory, closing_table, static_headline, write_contact, write_history, write_report},
+    output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    run,
+    run::{self, InSpace},
     scene::{Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
@@ -41,9 +41,16 @@ pub(super) struct RunArgs {
     /// The summary as JSON on stdout, instead of the closing table
     #[arg(long)]
     json: bool,
+    /// Differentiate the history of a pair at rest by these keys, with commas between, as
+    /// `pinion.modification.tip_relief_um`
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', help_heading = "Overrides")]
+    derivatives: Vec<String>,
     /// Write ParaView files, whatever the scene says
     #[arg(long, help_heading = "Overrides")]
     vtu: bool,
+    /// Show contact bands alone on the gears in space, and save the time of their fields (pairs at rest)
+    #[arg(long)]
+    no_view: bool,
     /// Go on from the last checkpoint of a run into the same folder (motions)
     #[arg(long, help_heading = "Checkpoints")]
     resume: bool,
@@ -55,8 +62,9 @@ pub(super) struct RunArgs {
 impl RunArgs {
     /// A scene file into a folder.
     pub(super) fn of_file([scene, out]: [PathBuf; 2], (overrides, cache): (Overrides, CacheArgs), json: bool) -> Self {
-        let (default_scene, vtu, resume, stop_after_cycles) = (false, false, false, None);
-        Self { scene, default_scene, out, cache, overrides, json, vtu, resume, stop_after_cycles }
+        let (default_scene, derivatives, vtu, no_view, resume, stop_after_cycles) =
+            (false, Vec::new(), false, false, false, None);
+        Self { scene, default_scene, out, cache, overrides, json, derivatives, vtu, no_view, resume, stop_after_cycles }
     }
 
     /// The default scene of the program into `out/default`.
@@ -77,7 +85,9 @@ impl RunArgs {
             });
             with_slices(Scene::default_scene()?)
         } else {
-            self.overrides.read(&self.scene)?
+            let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
+            let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
+            self.overrides.clone().behind(asked).read(&self.scene)?
         };
         scene.output.vtu |= self.vtu;
         if scene.output.vtu && scene.analysis.model == Model::Iso {
@@ -87,6 +97,12 @@ impl RunArgs {
                     self.scene.display()
                 ),
                 Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
+            ));
+        }
+        if self.no_view && (scene.motion.is_some() || scene.analysis.model == Model::Iso) {
+            return Err(CommandError::input(
+                format_args!("{}: `--no-view` is for pairs with meshes at rest", self.scene.display()),
+                Some("leave it out: beside a motion the fields of one mesh cycle cost little".into()),
             ));
         }
         self.plan_motion(&scene)?;
@@ -167,7 +183,11 @@ impl RunArgs {
         if let (Some(words), false) = (&scene.motion, is_lumped(&scene)) {
             return self.move_pair(&scene, words, phases, results, quiet);
         }
-        let written = write_result(&scene, &mut phases, &results, &self.cache.open())?;
+        let cache = self.cache.open();
+        let written = match &scene.motion {
+            None if self.no_view => write_static(&scene, &mut phases, &results, &cache, InSpace::Bands)?,
+            _ => write_result(&scene, &mut phases, &results, &cache)?,
+        };
         results.finish(talk::note)?;
         self.answer(written, quiet)
     }
@@ -185,7 +205,7 @@ pub(super) fn write_result(
     cache: &Cache,
 ) -> Result<Written, CommandError> {
     match &scene.motion {
-        Some(words) if is_lumped(scene) => crate::lumped::solve(scene, words, phases, results, cache),
+        Some(words) if is_lumped(scene) => Ok(Written::of(report::solve_lumped(scene, words, phases, results, cache)?)),
         Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
             motion::Outcome::Finished(written) => Ok(written),
             // Nobody asked it to.
@@ -193,7 +213,7 @@ pub(super) fn write_result(
                 Err(CommandError::failed(format_args!("{}: stopped after {cycles} cycles", scene.file.display()), None))
             }
         },
-        None => write_static(scene, phases, results, cache),
+        None => write_static(scene, phases, results, cache, InSpace::Fields),
     }
 }
 
@@ -203,19 +223,13 @@ fn write_static(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
+    in_space: InSpace,
 ) -> Result<Written, CommandError> {
-    let Solved { scene, history, mut facts, view } = run::solve(scene, phases, results, cache)?;
+    let Solved { scene, history, mut facts, derivatives, view } = run::solve(scene, phases, results, cache, in_space)?;
     let scene = &scene;
     facts.certificate = run::certificate(&history.positions);
-    let headline = static_headline(scene, &history)?;
-    let picture = phases.run("write", || {
-        results.write("history.csv", write_history(scene, &history).as_bytes())?;
-        Ok::<_, CommandError>(write_contact(scene, &history, results)?)
-    })?;
-    let cost = phases.cost();
-    let report = write_report(scene, &history, &facts, &cost, &headline, picture.as_deref(), view.as_ref())?;
-    report.write(results)?;
-    report::close_result(scene, (&facts, &cost), &headline, &history.warnings, results)?;
-    let table = closing_table(scene, &facts, &cost, &headline, &history.warnings);
+    let pattern = phases.run("write", || write_static_rows(scene, &history, derivatives.as_ref(), results))?;
+    let (cost, shown) = (phases.cost(), (pattern.as_deref(), view.as_ref()));
+    let table = write_static_result(scene, &history, (&facts, &cost), shown, results)?;
     Ok(Written { table, verdict: facts.verdict(scene).map_err(CommandError::from) })
 }

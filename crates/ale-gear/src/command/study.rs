@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use analysis::{
+    SharedModels,
     accuracy_chart::{SpeedUp, speed_up},
     parameter_study::{Findings, findings},
     resolution::with_slices,
 };
 use report::study_files::{
-    STUDY_FILE, StudyResult, columns_of, study_csv, study_table, study_warnings, write_study_report,
+    STUDY_FILE, StudyResult, columns_of, study_csv, study_digest, study_table, study_warnings, write_study_report,
     write_study_summary,
 };
 use scene::study::Study;
@@ -17,8 +18,15 @@ use super::{cache_args::CacheArgs, run::write_result};
 use report::check_memory;
 
 use crate::{
-    chart::ProcessMemory, error::CommandError, memory, output::ResultDirectory, phases::Phases, scene::SceneError,
-    study_cases::run_cases, talk,
+    chart::ProcessMemory,
+    error::CommandError,
+    kept_cases::KeptCases,
+    memory,
+    output::{CASES, ResultDirectory},
+    phases::Phases,
+    scene::SceneError,
+    study_cases::{CaseRunner, run_cases},
+    talk,
 };
 
 /// Words of `ale-gear study`.
@@ -29,6 +37,9 @@ pub(super) struct StudyArgs {
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
+    /// A whole result of every case, with a report and a view of its own, as `ale-gear run` writes it
+    #[arg(long)]
+    reports: bool,
     #[command(flatten)]
     cache: CacheArgs,
 }
@@ -57,18 +68,19 @@ impl StudyArgs {
         let study = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
+        let kept = KeptCases::beside(&self.out, &study_digest(&study, self.reports)?)?;
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
-            let solve = |scene: &_, own: &_| {
-                let mut own_phases = Phases::quiet();
-                let verdict = write_result(scene, &mut own_phases, own, &cache)?.verdict;
-                Ok(verdict.map(|()| own_phases.cost()))
-            };
-            run_cases(&study, &results, &solve, &|case| {
+            let models = SharedModels::new(&cache);
+            let alone = |scene: &_, own: &_| Ok(write_result(scene, &mut Phases::quiet(), own, &cache)?.verdict);
+            let runner = CaseRunner { models: &models, alone: &alone, reports: self.reports };
+            run_cases(&study, &kept, runner, &|case| {
                 progress.say(case.label.clone());
                 progress.tick();
             })
         });
         let records: Vec<_> = runs.iter().map(|r| r.as_ref().map(|r| &r.record).map_err(|m| &m.failure)).collect();
+        let folders: Vec<String> = (0..study.cases.len()).map(|i| study.folder(i)).collect();
+        kept.move_into(&results.path(CASES), folders.iter().map(String::as_str))?;
         let findings = findings(&study, &records)?;
         let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
@@ -84,6 +96,7 @@ impl StudyArgs {
             speed_up: speed_up.as_ref(),
             cost: &cost,
             warnings: &warnings,
+            reports: self.reports,
         };
         let table = study_table(of);
         write_study_report(of, &table)?.write(&results)?;

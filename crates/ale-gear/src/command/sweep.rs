@@ -1,11 +1,14 @@
-//! `ale-gear sweep`: a scene run at many values of one of its keys.
+//! `ale-gear sweep`: a scene run at many values of one of its keys; at rest these are the cases of a plan.
+
+mod at_rest;
 
 use std::path::PathBuf;
 
 use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
 
-use super::{cache_args::CacheArgs, overrides::Overrides};
 use report::check_sweep_memory;
+
+use super::{cache_args::CacheArgs, overrides::Overrides};
 
 use crate::{
     error::CommandError,
@@ -20,7 +23,7 @@ use crate::{
 /// Words of `ale-gear sweep`.
 #[derive(Debug, clap::Args)]
 pub(super) struct SweepArgs {
-    /// Scene file of a motion
+    /// Scene file
     scene: PathBuf,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
@@ -40,18 +43,19 @@ pub(super) struct SweepArgs {
     /// Space them evenly in the logarithm
     #[arg(long)]
     log: bool,
-    /// Which way: up and down go on from the last motion, apart begins each at rest
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "up,down")]
+    /// Which way a motion goes: up and down go on from the last one, apart begins each at rest [default: up,down]
+    #[arg(long, value_enum, value_delimiter = ',')]
     ways: Vec<Way>,
-    /// How often the section has a point
-    #[arg(long, value_enum, default_value = "mesh-cycle")]
-    once: Once,
-    /// Column of `history.csv` whose section is taken
-    #[arg(long, value_name = "COLUMN", default_value = "dte_um")]
-    of: String,
-    /// Points of a section
-    #[arg(long, value_name = "N", default_value = "64")]
-    cycles: u32,
+    /// How often the section of a motion has a point [default: mesh-cycle]
+    #[arg(long, value_enum)]
+    once: Option<Once>,
+    /// Column of `history.csv`: of motions its section is taken, at rest mean, peak to peak, least and largest value
+    /// [default: dte_um, at rest ste_um]
+    #[arg(long, value_name = "COLUMN")]
+    of: Option<String>,
+    /// Points of a section [default: 64]
+    #[arg(long, value_name = "N")]
+    cycles: Option<u32>,
     /// Mesh cycles before it, at the most [default: the scene's `warm_up_cycles`, or 400]
     #[arg(long, value_name = "N")]
     settle: Option<u32>,
@@ -111,6 +115,10 @@ fn word_of(choice: &impl clap::ValueEnum) -> String {
     choice.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default()
 }
 
+/// Column whose section is taken where nobody says, and that whose cycles are read at rest.
+const OF: [&str; 2] = ["dte_um", "ste_um"];
+/// Points of a section likewise.
+const CYCLES: u32 = 64;
 /// Settling cycles where nobody says.
 const SETTLE: u32 = 400;
 /// Stretches of the exponent likewise.
@@ -119,10 +127,26 @@ const STRETCHES: u32 = 200;
 const MOST: u32 = 100_000;
 
 impl SweepArgs {
+    fn cycles(&self) -> u32 {
+        self.cycles.unwrap_or(CYCLES)
+    }
+
+    fn ways(&self) -> Vec<Way> {
+        if self.ways.is_empty() { vec![Way::Up, Way::Down] } else { self.ways.clone() }
+    }
+
+    fn once(&self) -> Once {
+        self.once.unwrap_or(Once::MeshCycle)
+    }
+
+    fn of(&self, at_rest: bool) -> &str {
+        self.of.as_deref().unwrap_or(OF[usize::from(at_rest)])
+    }
+
     /// All values, ascending.
     fn values(&self) -> Result<Vec<f64>, CommandError> {
         let refuse = |what: String, hint: &str| Err(CommandError::input(what, Some(hint.into())));
-        for (word, n, low) in [("--points", self.points, 2), ("--cycles", self.cycles, 1)] {
+        for (word, n, low) in [("--points", self.points, 2), ("--cycles", self.cycles(), 1)] {
             if !(low..=MOST).contains(&n) {
                 return refuse(format!("`{word}` is {n}, allowed is {low} .. {MOST}"), "a diagram has a few hundred");
             }
@@ -148,8 +172,6 @@ impl SweepArgs {
     /// Every complaint about words and scenes is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
         let (values, settings) = (self.values()?, self.overrides.settings()?);
-        // As it stands first: what is wrong with the scene is not wrong with the key.
-        self.fits(&with_slices(Scene::read_with(&self.scene, &settings)?))?;
         let mut scenes = Vec::with_capacity(values.len());
         for value in values {
             let own = Setting::number(&self.key, value)?.called(&format!("--key {} = {value}", self.key));
@@ -167,20 +189,20 @@ impl SweepArgs {
         }
         let impact = scenes.first().is_some_and(|(_, scene)| scene.impact.is_some());
         let mut ways: Vec<SweepWay> = Vec::new();
-        for way in self.ways.iter().map(|w| w.word()) {
+        for way in self.ways().iter().map(|w| w.word()) {
             if !ways.contains(&way) {
                 ways.push(way);
             }
         }
         let first = scenes.first().map(|(_, scene)| scene);
-        let quantity = first.map(|scene| lumped::quantity(scene, &self.of)).transpose()?;
+        let quantity = first.map(|scene| lumped::quantity(scene, self.of(false))).transpose()?;
         let Some(quantity) = quantity else { return Err(analysis::AnalysisError::NoValues.into()) };
         let options = SweepOptions {
             key: self.key.clone(),
             ways,
-            every: self.once.every(),
+            every: self.once().every(),
             quantity,
-            points: self.cycles,
+            points: self.cycles(),
             stretches: self.lyapunov.unwrap_or(if impact { 0 } else { STRETCHES }),
         };
         for (_, scene) in &scenes {
@@ -197,7 +219,7 @@ impl SweepArgs {
 
     /// The words behind the scene and the folder that make this sweep again.
     fn again(&self) -> String {
-        let ways: Vec<String> = self.ways.iter().map(word_of).collect();
+        let ways: Vec<String> = self.ways().iter().map(word_of).collect();
         let mut words = format!(
             "--key {} --from {} --to {} --points {}{} --ways {} --once {} --of {} --cycles {}",
             self.key,
@@ -206,9 +228,9 @@ impl SweepArgs {
             self.points,
             if self.log { " --log" } else { "" },
             ways.join(","),
-            word_of(&self.once),
-            self.of,
-            self.cycles
+            word_of(&self.once()),
+            self.of(false),
+            self.cycles()
         );
         for (word, value) in [("--settle", self.settle), ("--lyapunov", self.lyapunov)] {
             if let Some(value) = value {
@@ -223,13 +245,20 @@ impl SweepArgs {
         if scene.analysis.kind == Kind::Dynamic && (is_lumped(scene) || scene.analysis.model.is_reduced()) {
             return Ok(());
         }
-        let hint = "`kind = \"dynamic\"` in [analysis] makes a motion of it; at rest: one `ale-gear run --set KEY=VALUE` a value";
-        let what = "a sweep wants a motion, of one model";
+        let hint = "use one model in time, or `kind = \"static\"`";
+        let what = "a sweep wants a motion of one model, or a pair at rest";
         Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
     }
 
     /// Runs all values; the text is the closing table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
+        let settings = self.overrides.settings()?;
+        // As it stands first: what is wrong with the scene is not wrong with the key.
+        let scene = with_slices(Scene::read_with(&self.scene, &settings)?);
+        if scene.analysis.kind == Kind::Static {
+            return self.run_at_rest(&scene);
+        }
+        self.fits(&scene)?;
         let mut phases = Phases::with_bars();
         let (scenes, options) = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;

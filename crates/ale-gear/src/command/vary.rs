@@ -1,31 +1,42 @@
 //! `ale-gear vary`: a scene with keys varied, a row a case.
 
-use std::{ops::Range, path::PathBuf};
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+};
 
 use analysis::SharedModels;
 use report::{
     folder::{Cache, Partial},
-    plan_files::{DoneCases, plan_digest, solve_cases, write_cases},
+    plan_files::{DoneCases, KnownCases, PageWords, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
 
-use super::{cache_args::CacheArgs, overrides::Overrides, run::write_result};
-use crate::{error::CommandError, output::ResultDirectory, phases::Phases, resolution::with_slices, study_cases, talk};
+use super::{cache_args::CacheArgs, case_reports::CaseReports, overrides::Overrides, run::write_result};
+use crate::{
+    error::CommandError, output::ResultDirectory, phases::Phases, resolution::with_slices, scene::Scene, study_cases,
+    talk,
+};
 
 /// Words of `ale-gear vary`.
 #[derive(Debug, clap::Args)]
 pub(super) struct VaryArgs {
-    /// Plan file; or a scene file, with `--vary` and `--output`
+    /// Plan file; or a scene file, with `--vary` and `--output`, or `--harris`
     plan: PathBuf,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// A key and its values: `KEY=1,2,5`, `KEY=0:40:9` (nine), `KEY~0:40` (drawn), `KEY~normal:0:5`; may be given again
+    /// A key and its values: `KEY=1,2,5`, `KEY=0:40:9` (nine), `KEY~0:40` (drawn), `KEY~normal:0:5`, `KEY~iso1328:6` (a
+    /// tolerance class); several keys with the same value: `KEY+KEY=1,2,5`; may be given again
     #[arg(long, value_name = "WORDS")]
     vary: Vec<String>,
     /// A number of the headline of `summary.json` that is wanted; may be given again
     #[arg(long, value_name = "KEY")]
     output: Vec<String>,
+    /// Harris map: peak-to-peak STE over the torque, from a tenth of the scene's to 1.4 times it; a curve for each value
+    /// of what `--vary` names beside
+    #[arg(long)]
+    harris: bool,
     /// How samples of what is drawn are spread: latin-hypercube, sobol or random [default: latin-hypercube]
     #[arg(long, value_name = "NAME")]
     design: Option<String>,
@@ -36,23 +47,34 @@ pub(super) struct VaryArgs {
     #[arg(long, value_name = "N")]
     seed: Option<u32>,
     #[command(flatten)]
+    reports: CaseReports,
+    #[command(flatten)]
     overrides: Overrides,
     #[command(flatten)]
     cache: CacheArgs,
 }
 
+/// Torques of a Harris map over the scene's: the first, the last, how many.
+const HARRIS: (f64, f64, u32) = (0.1, 1.4, 14);
+
 impl VaryArgs {
     /// Every complaint about the words and the plan is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Plan, CommandError> {
-        let Self { vary, output, design, samples, seed, .. } = self;
+        let Self { design, samples, seed, .. } = self;
         let settings = self.overrides.settings()?;
         let refuse = |what: &str, hint: &str| Err(CommandError::input(what, Some(hint.into())));
-        if !vary.is_empty() && !output.is_empty() {
+        let (mut vary, mut outputs) = (self.vary.clone(), self.output.clone());
+        if self.harris {
+            let scene = Scene::read_with(&self.plan, &settings)?;
+            vary.push(harris_axis(scene.operation.torque_nm));
+            outputs.insert(0, "peak_to_peak_ste_um".into());
+        }
+        if !vary.is_empty() && !outputs.is_empty() {
             let design = design.as_deref();
-            let words = PlanWords { vary, outputs: output, design, samples: *samples, seed: *seed };
+            let words = PlanWords { vary: &vary, outputs: &outputs, design, samples: *samples, seed: *seed };
             return Ok(Plan::of_words(&self.plan, &settings, &words)?);
         }
-        if !vary.is_empty() || !output.is_empty() {
+        if !vary.is_empty() || !outputs.is_empty() {
             return refuse(
                 "a scene is varied by `--vary`, and `--output` says what is wanted of each case",
                 "as `--vary 'operation.torque_nm=50:200:7' --output peak_to_peak_ste_um`; or give a plan file",
@@ -65,27 +87,66 @@ impl VaryArgs {
         Ok(Plan::read(&self.plan)?)
     }
 
+    /// The command that makes it again.
+    fn again(&self, plan: &Plan) -> String {
+        let mut words = format!("ale-gear vary {} --out DIR", self.plan.display());
+        let mut add = |word: String| words.push_str(&format!(" {word}"));
+        if self.harris {
+            add("--harris".into());
+        }
+        self.vary.iter().for_each(|word| add(format!("--vary '{word}'")));
+        self.output.iter().for_each(|key| add(format!("--output {key}")));
+        self.design.iter().for_each(|name| add(format!("--design {name}")));
+        self.samples.iter().for_each(|n| add(format!("--samples {n}")));
+        self.seed.iter().for_each(|n| add(format!("--seed {n}")));
+        // Those of a file stand in it.
+        if self.harris || !self.vary.is_empty() {
+            plan.settings.iter().for_each(|setting| add(setting.word()));
+        }
+        words + &self.reports.words()
+    }
+
     /// Runs the cases that are not done yet; the text is the closing table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
-        let (plan, mut phases) = (self.plan()?, Phases::with_bars());
-        let results = ResultDirectory::create(&self.out)?;
-        // Beside the results, so that a run that is cut short goes on from there.
-        let mut name = self.out.file_name().unwrap_or_default().to_owned();
-        name.push(".cases");
-        let done_file = self.out.with_file_name(name);
-        let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
-        let done = DoneCases::open(&done_file, &plan_digest(&plan)?).map_err(complain)?;
-        let (count, before) = (plan.cases.count(), done.count());
-        if before > 0 {
-            talk::note(format!("{before} of {count} cases were done before"));
-        }
-        let cache = self.cache.open();
-        solve_range(&plan, 0..count, &mut phases, &cache, &done).map_err(complain)?;
-        let text = write_cases(&plan, &done, &phases.cost(), &results)?;
-        results.finish(talk::note)?;
-        done.remove().map_err(complain)?;
-        Ok(format!("{text}\nresults: {}\n", self.out.display()))
+        let plan = self.plan()?;
+        run_plan(&plan, (&self.out, &self.again(&plan)), &self.reports, &self.cache.open())
     }
+}
+
+/// The torques of a Harris map as an axis.
+fn harris_axis(torque_nm: f64) -> String {
+    let (from, to, count) = HARRIS;
+    format!("operation.torque_nm={}:{}:{count}", from * torque_nm, to * torque_nm)
+}
+
+/// Runs the cases of a plan into a folder, those that are not done yet; `again` makes it again, the text is the closing
+/// table.
+pub(super) fn run_plan(
+    plan: &Plan,
+    (out, again): (&Path, &str),
+    reports: &CaseReports,
+    cache: &Cache,
+) -> Result<String, CommandError> {
+    reports.check(plan)?;
+    let mut phases = Phases::with_bars();
+    let results = ResultDirectory::create(out)?;
+    // Beside the results, so that a run that is cut short goes on from there.
+    let mut name = out.file_name().unwrap_or_default().to_owned();
+    name.push(".cases");
+    let done_file = out.with_file_name(name);
+    let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
+    let done = DoneCases::open(&done_file, &plan_digest(plan)?).map_err(complain)?;
+    let (count, before) = (plan.cases.count(), done.count());
+    if before > 0 {
+        talk::note(format!("{before} of {count} cases were done before"));
+    }
+    solve_range(plan, 0..count, &mut phases, cache, &done).map_err(complain)?;
+    let written = reports.write((plan, &KnownCases::of(plan, &done)), &mut phases, &results, cache)?;
+    let words = PageWords { again, reports: &written };
+    let text = write_cases((plan, &done), words, &phases.cost(), &results)?;
+    results.finish(talk::note)?;
+    done.remove().map_err(complain)?;
+    Ok(format!("{text}\nresults: {}\n", out.display()))
 }
 
 /// Solves the cases of a range that are not done yet.
@@ -104,6 +165,6 @@ pub(super) fn solve_range(
     };
     let open = range.clone().filter(|&case| !done.has(case)).count();
     phases.run_steps("cases", open as u64, |progress| {
-        solve_cases((plan, range), &SharedModels::new(cache), &in_time, done, &|| progress.tick())
+        solve_cases((plan, range), &SharedModels::new(cache), &in_time, done, progress)
     })
 }

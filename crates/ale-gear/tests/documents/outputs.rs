@@ -57,6 +57,8 @@ fn every_kind() -> Scratch {
     for scene in ["iso", "rest", "exact", "exact_motion", "span", "ramp", "resonance"] {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
+    let key = "pinion.modification.lead_crowning_um";
+    run(&["run", "rest.toml", "--out", "out-derivatives", "--derivatives", key, "--set", "output.root_stress=false"]);
     let on_a_map = ["--set", "analysis.model=mapped", "--set", "output.root_stress=false"];
     run(&[&["run", "span.toml", "--out", "out-mapped"], &on_a_map[..]].concat());
     let seed = |number: &str| repository().join(format!("scenes/seeds/{number}.toml")).display().to_string();
@@ -91,6 +93,8 @@ fn every_kind() -> Scratch {
     let basins: Vec<&str> = words.iter().map(String::as_str).chain(["--set", "motion.run=basins"]).collect();
     run(&[&["run", &seed("004"), "--out", "out-basins"], &basins[..]].concat());
     run(&["study", "study.toml", "--out", "out-study"]);
+    let key = ["--key", "operation.torque_nm", "--from", "100", "--to", "200", "--points", "2"];
+    run(&[&["sweep", "iso.toml", "--out", "out-sweep-at-rest"], &key[..]].concat());
     let words = ["--vary", "operation.torque_nm~normal:200:5", "--output", "mean_ste_um", "--samples", "2"];
     run(&[&["vary", "iso.toml", "--out", "out-vary"], &words[..]].concat());
     let bounds = "pinion.modification.lead_crowning_um=0:10";
@@ -132,8 +136,8 @@ fn what_is_written_is_documented_and_what_is_documented_is_written() {
         .filter(|k| {
             let general = generalised(&k.name);
             let stands_for = |w: &String| {
-                k.name.strip_suffix("<column>").is_some_and(|start| w.starts_with(start))
-                    || k.name.starts_with('_') && w.ends_with(&k.name)
+                let start = k.name.strip_suffix("<column>").or_else(|| k.name.strip_suffix("<key>"));
+                start.is_some_and(|start| w.starts_with(start)) || k.name.starts_with('_') && w.ends_with(&k.name)
             };
             !written.contains(&general) && !written.iter().any(stands_for)
         })

@@ -21,7 +21,10 @@ impl Documented {
         let wrench = ["force_", "moment_", "bearing_force_", "bearing_moment_", "friction_force_", "friction_moment_"];
         // Any column of `history.csv` may stand behind `mean_` where there is `mean_<column>`.
         let mut starts = self.0.iter().filter_map(|word| word.split_once("<column>").map(|(start, _)| start));
+        // The same of derivatives, `d_<quantity>_per_<key>` of the scene.
+        let mut by_key = self.0.iter().filter_map(|word| word.split_once("<key>").map(|(start, _)| start));
         self.0.contains(name)
+            || by_key.any(|start| start.starts_with("d_") && general.starts_with(start))
             || self.0.contains(&general)
             || general.strip_prefix("<gear>_").is_some_and(|rest| wrench.iter().any(|w| rest.starts_with(w)))
             || self.0.iter().any(|word| word.starts_with('_') && general.ends_with(word.as_str()))

@@ -84,7 +84,7 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
         .split("kind = \"dynamic\"")
         .next()
         .unwrap()
-        .replace("torque_nm = 150.0", "torque_nm = 1e-20");
+        .replace("torque_nm = 150.0", "torque_nm = 1e-16");
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);

@@ -2,6 +2,7 @@
 
 mod certificates;
 mod contact_pattern;
+mod derivatives;
 mod ledger;
 mod modes;
 mod motion;

@@ -249,3 +249,53 @@ fn a_bore_close_to_the_teeth_is_told() {
     assert!(told.contains("the pinion's bore of 86.00 mm") && told.contains("a rim of 0.17 tooth heights"), "{told}");
     assert!(per_cent(&told) > 20.0, "{told}");
 }
+
+/// A mesh that is the gear's but for one of the commonest mistakes is refused with the name of that mistake, by a run
+/// and by `mesh check` with the scene alike; the mesh as it was made is not.
+#[test]
+fn the_commonest_mistakes_are_named() {
+    let scratch = Scratch::new().file("a.toml", scene(1, 3));
+    let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "good.msh"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let good = mesh::Mesh::read(scratch.path().join("good.msh")).unwrap();
+    let with_mesh =
+        ISO_SCENE.replacen("teeth = 30\n", "teeth = 30\nmesh = \"p.msh\"\n", 1).replace("model = \"iso\"\n", "");
+    let check = |mesh: &mesh::Mesh, said: &str| {
+        let scratch = Scratch::new().file("b.toml", &with_mesh);
+        mesh.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+        let run = scratch.ale_gear(["mesh", "check", "p.msh", "--scene", "b.toml", "--gear", "pinion"]);
+        if said.is_empty() {
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            return;
+        }
+        assert!(run.code == Some(2) && run.stderr.contains(said), "`{said}` is not in {}", run.stderr);
+        let same = scratch.ale_gear(["run", "b.toml", "--out", "o"]);
+        assert!(same.code == Some(2) && same.stderr.contains(said), "`{said}` is not in {}", same.stderr);
+    };
+    let renamed = |of: &dyn Fn(&str) -> String| {
+        let mut mesh = good.clone();
+        mesh.surfaces.iter_mut().for_each(|s| s.name = of(&s.name));
+        mesh
+    };
+    let moved = |of: &dyn Fn([f64; 3]) -> [f64; 3]| {
+        let mut mesh = good.clone();
+        mesh.nodes.iter_mut().for_each(|p| *p = of(*p));
+        mesh
+    };
+    check(&good, "");
+    let from_one = |name: &str| match name.rsplit_once('_').and_then(|(of, n)| Some((of, n.parse::<i64>().ok()?))) {
+        Some((of, n)) if of.starts_with("flank") => format!("{of}_{}", n + 1),
+        _ => name.to_owned(),
+    };
+    check(&renamed(&from_one), "teeth are numbered from 1");
+    let swapped = |name: &str| match name.contains("left") {
+        true => name.replace("left", "right"),
+        false => name.replace("right", "left"),
+    };
+    check(&renamed(&swapped), "left and right are swapped");
+    check(&moved(&|[x, y, z]| [x, y, z + 10.0]), "move the mesh by -10.0000 mm along z");
+    check(&moved(&|[x, y, z]| [-y, x, z]), "turned by 90 deg: its tooth 0 lies on +y");
+    check(&moved(&|[x, y, z]| [y, -x, z]), "turned by -90 deg");
+    let without = |name: &str| if name == "flank_left_1" { "spare".to_owned() } else { name.to_owned() };
+    check(&renamed(&without), "no physical group `flank_left_1`");
+}

@@ -1,5 +1,6 @@
 //! `ale-gear optimise`: the micro-geometry that is quietest.
 
+use ale_gear::scene::optimum::Optimisation;
 use serde_json::Value;
 
 use crate::util::{Scratch, column, five_teeth, repository};
@@ -67,6 +68,30 @@ fn pressure_is_limited() {
     assert!(summary(&scratch, "none")["warnings"][0].as_str().unwrap().contains("is passed by"));
 }
 
+/// A limit of the pressure at the edges is held where teeth are misaligned: a crowning takes them off the end faces.
+#[test]
+fn pressure_at_edges_is_limited() {
+    let scratch = Scratch::new();
+    let scene = repository().join("scenes/default.toml").display().to_string();
+    let run = |more: &[&str]| {
+        let words = ["optimise", &scene, "--evaluations", "8", "--set", "pair.misalignment.in_plane_of_action_um=12"];
+        let run = scratch.command(&[&words, more].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stdout
+    };
+    let edge = |folder: &str, when: &str| {
+        let key = format!("max_edge_pressure_{when}_mpa");
+        summary(&scratch, folder)["headline"]["torques"][0][&key].as_f64().unwrap()
+    };
+    run(&["--out", "free"]);
+    let (before, free) = (edge("free", "before"), edge("free", "after"));
+    assert!(before > 0.0, "no edge presses at the start");
+    let limit = 0.8 * before.min(if free > 0.0 { free } else { before });
+    let said = run(&["--out", "limited", "--max-edge-pressure", &format!("{limit}")]);
+    let held = edge("limited", "after");
+    assert!(held <= 1.005 * limit && !said.contains("is passed"), "{held} MPa at edges, allowed are {limit}: {said}");
+}
+
 /// What cannot be optimised is refused before any work, with what to do.
 #[test]
 fn wrong_words_are_refused() {
@@ -79,13 +104,42 @@ fn wrong_words_are_refused() {
         assert!(!scratch.path().join("o").exists());
     };
     refused(&["a.toml", "--parameter", "operation.torque_nm=1:2"], "name torques in `torques_nm`");
-    refused(&["a.toml", "--parameter", "pair.face_width_mm=10:20"], "micro-geometry, misalignment and friction");
+    refused(&["a.toml", "--parameter", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
     refused(&["a.toml", "--parameter", "pinion.modification.bias_um=2:1"], "second bound is not above");
     refused(&["a.toml", "--parameter", "pinion.modification.bias_um"], "has no `=`");
     refused(&["a.toml", "--torques", "0"], "is no torque above 0");
+    refused(&["a.toml", "--max-pressure", "0"], "is no limit");
+    refused(&["a.toml", "--max-edge-pressure", "0"], "is no limit");
+    refused(&["a.toml", "--front", "1000"], "is more than 100");
+    let own = ["--set", "pinion.modification.drive.lead_crowning_um=3"];
+    let both = ["--parameter", "pinion.modification.lead_crowning_um=0:10"];
+    refused(
+        &[&["a.toml"], &own[..], &both[..], &["--set", "pinion.modification.coast.lead_crowning_um=3"]].concat(),
+        "which changes nothing",
+    );
     refused(&["a.toml", "--measure", "rmss"], "did you mean `rms`?");
     refused(&["a.toml", "--set", "analysis.model=iso"], "means nothing to the model \"iso\"");
     refused(&["a.toml", "--set", "contact.method=nodal"], "slices");
     refused(&["o.toml"], "`quantile` goes with");
     refused(&["o.toml", "--front", "3"], "an optimisation file says everything itself");
+}
+
+/// Samples of a design are gears from the machine: pitch deviations of a class, other ones in each sample, the same in
+/// all designs; the design as it is drawn has none. The search runs over them.
+#[test]
+fn samples_have_pitch_deviations() {
+    let file = "scene = \"a.toml\"\nsamples = 3\nevaluations = 1\nset = [\"analysis.positions_per_cycle=4\"]\n[[parameter]]\nkey = \"pinion.modification.lead_crowning_um\"\n\
+                from = 0\nto = 10\n[[tolerance]]\nkey = \"pinion.pitch_errors_um\"\niso_1328_class = 7\n\
+                [[tolerance]]\nkey = \"pinion.modification.lead_crowning_um\"\niso_1328_class = 7\n";
+    let scratch = Scratch::new().file("a.toml", five_teeth()).file("o.toml", file);
+    let plan = Optimisation::read(&scratch.path().join("o.toml")).unwrap();
+    let errors = |values: &[f64], sample| plan.scene(values, 100.0, sample).unwrap().pinion.pitch_errors_um;
+    assert!(errors(&[0.0], None).is_empty());
+    let all: Vec<_> = (0..3).map(|sample| errors(&[0.0], Some(sample))).collect();
+    assert!(all.iter().all(|list| list.len() == 30), "{all:?}");
+    assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2], "{all:?}");
+    assert_eq!(errors(&[7.0], Some(1)), all[1]);
+    let run = scratch.ale_gear(["optimise", "o.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(number(&summary(&scratch, "o"), "goal_optimum_um") > 0.0);
 }

@@ -1,6 +1,6 @@
 //! `ale-gear study` end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
-use crate::util::{ISO_SCENE, Scratch, column, motion_scene};
+use crate::util::{ISO_SCENE, Scratch, column, motion_scene, tiny_at_rest};
 
 /// Three pairs without meshes that differ in the helix angle.
 fn iso_cases() -> Scratch {
@@ -56,9 +56,11 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
         assert_eq!(swing[i], high - low, "{folder}");
         let force = column(&rows, "wheel_force_z_n");
         assert_eq!(axial[i], force.iter().sum::<f64>() / force.len() as f64, "{folder}");
-        for file in ["summary.json", "report.html"] {
-            assert!(!scratch.read(&format!("o/cases/{folder}/{file}")).is_empty());
-        }
+        // Nobody asked for views and reports of single cases.
+        let files = std::fs::read_dir(scratch.path().join("o/cases").join(folder)).unwrap();
+        let mut files: Vec<_> = files.map(|file| file.unwrap().file_name()).collect();
+        files.sort();
+        assert_eq!(files, ["history.csv", "summary.json"], "{folder}");
     }
     // ISO's stiffness goes with the length of the lines, and the error as one over it: all but a straight line.
     let follows = column(&numbers, "correlation_ste_um_contact_line_length_mm");
@@ -70,6 +72,19 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     // Three columns over cycles, two against others, one over time, two over the angle.
     assert_eq!(page.matches("<svg").count(), 8);
     assert!(!page.contains("src=") && !page.contains("href="));
+    // With reports they are whole results, of the same rows, and linked.
+    let whole = scratch.ale_gear(["study", "s.toml", "--out", "w", "--reports"]);
+    assert_eq!(whole.code, Some(0), "{}", whole.stderr);
+    assert_eq!(scratch.read("w/study.csv"), csv);
+    for folder in ["01-10-deg", "02-15-deg", "03-20-deg"] {
+        let rows = |out: &str| scratch.read(&format!("{out}/cases/{folder}/history.csv"));
+        assert_eq!(rows("w"), rows("o"), "{folder}");
+        assert!(scratch.read(&format!("w/cases/{folder}/report.html")).contains("<svg"), "{folder}");
+        assert!(
+            scratch.read("w/report.html").contains(&format!("<a href=\"cases/{folder}/report.html\">")),
+            "{folder}"
+        );
+    }
     for text in ["three angles", "20 deg", "peak_to_peak_ste_um", "results: o"] {
         assert!(run.stdout.contains(text), "{text} is not in\n{}", run.stdout);
     }
@@ -257,22 +272,98 @@ fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
     assert_eq!((run.code, sweep.names().len()), (Some(2), 4));
 }
 
-/// A case whose result does not hold gives no numbers, but leaves its files, marked as failed: as a run by itself does.
+/// A case whose result does not hold gives no numbers; with reports it leaves its files, marked as failed, as a run by
+/// itself does.
 #[test]
 fn a_case_that_does_not_hold_leaves_its_files() {
     let scene = motion_scene(0, "").split("kind = \"dynamic\"").next().unwrap().to_owned();
     let study = "name = \"two loads\"\n[[case]]\nscene = \"a.toml\"\nlabel = \"some\"\nvalue = 1\n\
-                 [[case]]\nscene = \"a.toml\"\nlabel = \"none\"\nvalue = 2\nset = [\"operation.torque_nm=1e-20\"]\n\
+                 [[case]]\nscene = \"a.toml\"\nlabel = \"none\"\nvalue = 2\nset = [\"operation.torque_nm=1e-16\"]\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     let scratch = Scratch::new().file("a.toml", scene).file("s.toml", study);
-    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
-    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    let case = &summary["cases"][1];
-    assert!(case["reason"].as_str().is_some_and(|r| r.contains("does not hold: round_off_share")), "{case}");
-    assert!(case["quantities"].is_null(), "{case}");
+    let reason = |words: &[&str]| {
+        let run = scratch.command(&[&["study", "s.toml", "--out", "o"], words].concat());
+        assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+        let mut summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+        let case = summary["cases"][1].take();
+        assert!(case["reason"].as_str().is_some_and(|r| r.contains("does not hold: round_off_share")), "{case}");
+        assert!(case["quantities"].is_null(), "{case}");
+        case
+    };
+    assert!(reason(&[])["folder"].is_null(), "no reports, no files of it");
+    let case = reason(&["--reports"]);
     let folder = case["folder"].as_str().unwrap_or_else(|| panic!("no folder: {case}"));
     let own: serde_json::Value = serde_json::from_str(&scratch.read(&format!("o/{folder}/summary.json"))).unwrap();
     assert_eq!(own["certificate"], "failed");
     assert!(scratch.read("o/report.html").contains(&format!("({folder})")));
+}
+
+/// A value that the scene does not allow in one case is that case's reason; a scene that is wrong in all is told first.
+#[test]
+fn a_value_that_is_none_takes_nothing_from_the_others() {
+    let study = ISO_STUDY.replacen("value = 15\n", "value = 15\nset = [\"operation.torque_nm=-5\"]\n", 1);
+    let scratch = iso_cases().file("s.toml", &study);
+    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let csv = scratch.read("o/study.csv");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert!(rows[2].starts_with("\"15 deg\",15,NaN") && rows[2].contains("`torque_nm` is -5"), "{csv}");
+    assert!(rows[1].ends_with(',') && rows[3].ends_with(','), "the others have no reason: {csv}");
+    assert!(scratch.path().join("o/cases/03-20-deg").is_dir() && !scratch.path().join("o/cases/02-15-deg").exists());
+}
+
+/// Cases at rest have the rows of runs by themselves to the bit, on models that they share; cases of one value are dots,
+/// not a line that goes up and down. Killed in the middle, a study goes on and does nothing twice.
+#[test]
+fn a_killed_study_goes_on() {
+    let case = |i: u32| {
+        let (torque, crowning) = (50 + 5 * (i / 2), 3 * (i % 2));
+        format!(
+            "[[case]]\nscene = \"a.toml\"\nlabel = \"c{i}\"\nvalue = {torque}\nset = [\"operation.torque_nm={torque}\", \
+             \"pinion.modification.drive.lead_crowning_um={crowning}\"]\n"
+        )
+    };
+    let cases: String = (0..100).map(case).collect();
+    let study =
+        format!("parameter = \"torque [N m]\"\n{cases}[[quantity]]\ncolumn = \"ste_um\"\ntake = \"peak_to_peak\"\n");
+    let scratch = Scratch::new().file("a.toml", tiny_at_rest(32)).file("s.toml", study);
+    let kept = scratch.path().join("cut.cases");
+    let done = || -> Vec<std::path::PathBuf> {
+        let Ok(entries) = std::fs::read_dir(&kept) else { return Vec::new() };
+        entries.map(|e| e.unwrap().path()).filter(|p| p.join("summary.json").is_file()).collect()
+    };
+    let mut child = scratch
+        .program()
+        .args(["study", "s.toml", "--out", "cut"])
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = std::time::Instant::now();
+    while done().len() < 5 && child.try_wait().unwrap().is_none() && begun.elapsed().as_secs() < 60 {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let written = |path: &std::path::Path| std::fs::metadata(path.join("history.csv")).unwrap().modified().unwrap();
+    let before: Vec<_> =
+        done().into_iter().map(|path| (path.file_name().unwrap().to_owned(), written(&path))).collect();
+    assert!(before.len() >= 5, "{} cases were done", before.len());
+    let run = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for (name, time) in before {
+        let now = written(&scratch.path().join("cut/cases").join(&name));
+        assert_eq!(now, time, "{name:?} was done twice");
+    }
+    assert!(!kept.exists(), "nothing is left beside the results");
+    let set = ["operation.torque_nm=65", "pinion.modification.drive.lead_crowning_um=3"];
+    let single = scratch.ale_gear(["run", "a.toml", "--out", "r", "--set", set[0], "--set", set[1]]);
+    assert_eq!(single.code, Some(0), "{}", single.stderr);
+    assert_eq!(scratch.read("cut/cases/08-c7/history.csv"), scratch.read("r/history.csv"));
+    let page = scratch.read("cut/report.html");
+    assert!(page.contains(r#""kind":"dots""#) && !page.contains(r#""kind":"lines""#), "two cases at every torque");
+    // A folder of somebody else is left alone.
+    std::fs::create_dir(&kept).unwrap();
+    let refused = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
+    assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
 }

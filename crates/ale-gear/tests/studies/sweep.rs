@@ -1,6 +1,6 @@
 //! Sweeps over a key as a user runs them: seeds' scenes shortened.
 
-use crate::util::{Scratch, column, repository};
+use crate::util::{Scratch, chart_rows, column, repository, tiny_at_rest};
 use serde_json::Value;
 
 fn seed(number: &str) -> String {
@@ -209,7 +209,6 @@ fn a_scene_may_ask_for_its_sweep() {
 /// Every complaint is made before any work, and nothing is written.
 #[test]
 fn words_of_a_sweep_are_checked_first() {
-    let still = crate::util::ISO_SCENE.to_owned();
     for (scene, words, text) in [
         (
             seed("004"),
@@ -223,16 +222,41 @@ fn words_of_a_sweep_are_checked_first() {
             "--key operation.torque_nm = -1: `torque_nm` is -1",
         ),
         (seed("004"), ["--key", "operation.torque_nm", "--from", "3", "--to", "2"], "`--from 3` is not below `--to 2`"),
-        (
-            still,
-            ["--key", "operation.torque_nm", "--from", "1", "--to", "2"],
-            "a.toml: a sweep wants a motion, of one model",
-        ),
     ] {
         let scratch = Scratch::new().file("a.toml", scene);
         let run = scratch.command(&[&["sweep", "a.toml", "--out", "o", "--points", "3"], &words[..]].concat());
         assert_eq!(run.code, Some(2), "{text}: {}", run.stderr);
         assert!(run.stderr.starts_with(&format!("ale-gear: {text}")), "{text}: {}", run.stderr);
         assert_eq!(scratch.names(), ["a.toml"]);
+    }
+}
+
+/// At rest a sweep is a plan: a row a value with the numbers of that plan, a load that no tooth stands among them; words
+/// of motions are refused.
+#[test]
+fn a_sweep_at_rest_is_a_plan() {
+    let scratch = Scratch::new().file("a.toml", tiny_at_rest(8));
+    let key = ["--key", "operation.torque_nm", "--from", "100", "--to", "1e7", "--points", "2", "--log"];
+    let run = scratch.command(&[&["sweep", "a.toml", "--out", "o"], &key[..]].concat());
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let rows = chart_rows(&scratch.read("o/cases.csv"));
+    let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
+    assert_eq!(statuses, ["ok", "failed"]);
+    assert!(rows[1]["reason"].contains("would bend the teeth"), "{:?}", rows[1]);
+    let plan = "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nfrom = 100\nto = 1e7\ncount = 2\nscale = \"log\"\n";
+    let plan = ["mean", "peak_to_peak", "least", "largest"]
+        .iter()
+        .fold(plan.to_owned(), |plan, take| format!("{plan}[[output]]\ncolumn = \"ste_um\"\ntake = \"{take}\"\n"));
+    let scratch = scratch.file("plan.toml", plan);
+    assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "p"]).code, Some(0));
+    assert_eq!(scratch.read("o/cases.csv"), scratch.read("p/cases.csv"));
+    for (words, said) in [
+        (["--ways", "up"], "`--ways` is a word of motions"),
+        (["--lyapunov", "3"], "`--lyapunov` is a word of motions"),
+        (["--of", "ste_mm"], "`--of ste_mm` is no column of history.csv\nhint: did you mean \"ste_um\"?"),
+    ] {
+        let run = scratch.command(&[&["sweep", "a.toml", "--out", "q"], &key[..], &words[..]].concat());
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);
+        assert!(!scratch.path().join("q").exists());
     }
 }

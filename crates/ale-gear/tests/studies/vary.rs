@@ -6,7 +6,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::util::{Scratch, chart_rows, column, five_teeth, motion_scene};
+use ale_gear::scene::plan::Plan;
+
+use crate::util::{ISO_SCENE, Scratch, chart_rows, column, five_teeth, motion_scene, tiny_at_rest};
 
 const PLAN: &str = r#"
 scene = "a.toml"
@@ -176,4 +178,172 @@ fn words_of_a_plan_are_checked_first() {
         assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);
     }
     assert_eq!(scratch.names(), ["a.toml", "plan.toml"]);
+}
+
+/// Pitch deviations of a class: a row tells F_p of the gear that was drawn, its other numbers are those of a run with
+/// that gear's list; pieces make the bytes of one machine, another seed makes other gears, and no axis the other's.
+#[test]
+fn pitch_deviations_are_drawn_tooth_by_tooth() {
+    let plan = "scene = \"a.toml\"\nsamples = 4\n[[vary]]\nkey = \"pinion.pitch_errors_um\"\niso_1328_class = 7\n\
+                [[vary]]\nkey = \"wheel.pitch_errors_um\"\niso_1328_class = 7\n[[output]]\nheadline = \"mean_ste_um\"\n";
+    let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan);
+    let run = scratch.ale_gear(["vary", "plan.toml", "--out", "o"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let (all, parsed) = (rows(&scratch, "o/cases.csv"), Plan::read(&scratch.path().join("plan.toml")).unwrap());
+    for (case, row) in all.iter().enumerate() {
+        assert_eq!(row["status"], "ok", "{row:?}");
+        let scene = parsed.scene(case).unwrap();
+        for (name, gear) in [("pinion", &scene.pinion), ("wheel", &scene.wheel)] {
+            let list = &gear.pitch_errors_um;
+            assert_eq!(list.len(), gear.teeth as usize);
+            let [low, high] = list.iter().fold([f64::MAX, f64::MIN], |[a, b], &e| [a.min(e), b.max(e)]);
+            let told: f64 = row[&format!("{name}.pitch_errors_um")].parse().unwrap();
+            assert!((told - (high - low)).abs() < 1e-12, "case {case}: {told} um told of {list:?}");
+        }
+        assert_ne!(scene.pinion.pitch_errors_um, scene.wheel.pitch_errors_um, "case {case}");
+        if case == 0 {
+            let list = |name: &str, list: &[f64]| format!("{name}.pitch_errors_um={list:?}");
+            let words = [list("pinion", &scene.pinion.pitch_errors_um), list("wheel", &scene.wheel.pitch_errors_um)];
+            let run = scratch.ale_gear(["run", "a.toml", "--out", "r", "--set", &words[0], "--set", &words[1]]);
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            let summary: serde_json::Value = serde_json::from_str(&scratch.read("r/summary.json")).unwrap();
+            let mean = row["mean_ste_um"].parse::<f64>().ok();
+            assert_eq!(mean, summary["headline"]["mean_ste_um"].as_f64(), "a run with the list");
+        }
+    }
+    for range in ["0..1", "1..4"] {
+        let run = scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", &format!("{}.csv", &range[..1])]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    assert_eq!(scratch.ale_gear(["merge", "plan.toml", "1.csv", "0.csv", "--out", "m"]).code, Some(0));
+    assert_eq!(scratch.read("m/cases.csv"), scratch.read("o/cases.csv"));
+    let words = ["vary", "a.toml", "--vary", "pinion.pitch_errors_um~iso1328:7", "--output", "mean_ste_um"];
+    for (seed, out) in [("1", "s1"), ("2", "s2")] {
+        let run = scratch.command(&[&words[..], &["--samples", "2", "--seed", seed, "--out", out]].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    assert_ne!(scratch.read("s1/cases.csv"), scratch.read("s2/cases.csv"));
+}
+
+/// What pitch deviations are not drawn by is refused with what to write.
+#[test]
+fn pitch_deviations_want_a_class() {
+    let scratch = Scratch::new().file("a.toml", five_teeth());
+    let output = "[[output]]\nheadline = \"mean_ste_um\"\n";
+    for (vary, said) in [
+        ("key = \"pinion.pitch_errors_um\"\nfrom = 0\nto = 5\n", "drawn together, within a tolerance class"),
+        (
+            "key = \"pinion.pitch_errors_um\"\nalso = [\"wheel.pitch_errors_um\"]\niso_1328_class = 6\n",
+            "each gear a table of its own",
+        ),
+        ("key = \"operation.torque_nm\"\niso_1328_class = 6\n", "ISO 1328 has no tolerance for `operation.torque_nm`"),
+        ("key = \"pinion.pitch_errors_um\"\niso_1328_class = 12\n", "iso_1328_class"),
+    ] {
+        std::fs::write(scratch.path().join("p.toml"), format!("scene = \"a.toml\"\n[[vary]]\n{vary}{output}")).unwrap();
+        let run = scratch.ale_gear(["vary", "p.toml", "--out", "o"]);
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{vary}: {}", run.stderr);
+    }
+    for (word, said) in [
+        ("pinion.pitch_errors_um=1,2", "within a class, as `~iso1328:6`"),
+        ("pinion.pitch_errors_um~iso1328:0", "a tolerance class is a number, 1 to 11"),
+        ("operation.torque_nm~iso1328:6", "ISO 1328 has no tolerance for it"),
+    ] {
+        let run = scratch.ale_gear(["vary", "a.toml", "--vary", word, "--output", "mean_ste_um", "--out", "o"]);
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{word}: {}", run.stderr);
+    }
+}
+
+/// Single cases have reports of their own on request: whole results, linked in the table, with the row's numbers bit by
+/// bit.
+#[test]
+fn the_report_of_a_case_has_the_numbers_of_its_row() {
+    // The third torque of each sample is none.
+    let plan = PLAN.replace("1e7", "-1");
+    let scratch = Scratch::new().file("a.toml", tiny_at_rest(8)).file("plan.toml", plan);
+    let run = scratch.ale_gear(["vary", "plan.toml", "--out", "o", "--reports", "1", "--report-case", "0,2"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let all = rows(&scratch, "o/cases.csv");
+    let number = |case: usize, name: &str| all[case][name].parse::<f64>().ok();
+    let best = (0..all.len()).filter(|&i| number(i, "peak_to_peak_ste_um").is_some());
+    let best = best
+        .min_by(|&a, &b| {
+            all[a]["peak_to_peak_ste_um"]
+                .parse::<f64>()
+                .unwrap()
+                .total_cmp(&all[b]["peak_to_peak_ste_um"].parse().unwrap())
+        })
+        .unwrap();
+    let page = scratch.read("o/report.html");
+    assert!(!page.contains("cases/2/") && !scratch.path().join("o/cases/2").exists());
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    assert_eq!(summary["headline"]["outputs"][0]["least_case"], best);
+    let mut reports = vec![0, best];
+    reports.dedup();
+    assert_eq!(summary["reports"], serde_json::json!(reports));
+    let headline = |folder: &str| -> serde_json::Value {
+        let text = scratch.read(&format!("{folder}/summary.json"));
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()["headline"].take()
+    };
+    for case in reports {
+        assert!(page.contains(&format!("<a href=\"cases/{case}/report.html\">{case}</a>")), "case {case}");
+        assert!(scratch.read(&format!("o/cases/{case}/report.html")).contains("<svg"), "case {case}");
+        let own = headline(&format!("o/cases/{case}"));
+        assert_eq!(own["peak_to_peak_ste_um"].as_f64(), number(case, "peak_to_peak_ste_um"), "case {case}");
+        assert_eq!(own["ste_harmonics_um"][1].as_f64(), number(case, "harmonic_2_ste_um"), "case {case}");
+    }
+    // One case by itself, from the plan alone; the folder of a plan with reports may be replaced.
+    let single = scratch.ale_gear(["case", "plan.toml", "--report", "1", "--out", "one"]);
+    assert_eq!(single.code, Some(0), "{}", single.stderr);
+    assert_eq!(headline("one")["peak_to_peak_ste_um"].as_f64(), number(1, "peak_to_peak_ste_um"));
+    assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "o"]).code, Some(0));
+    let beyond = scratch.ale_gear(["vary", "plan.toml", "--out", "p", "--report-case", "12"]);
+    assert!(beyond.code == Some(2) && beyond.stderr.contains("there is no case 12"), "{}", beyond.stderr);
+    assert!(beyond.stderr.contains("from 0 to 11") && !scratch.path().join("p").exists(), "{}", beyond.stderr);
+}
+
+/// A Harris map is one command: peak-to-peak STE over the torque, a curve for each relief, and over both a map with its
+/// least value marked. Each relief is flattest at a load of its own, the deeper one at the higher load.
+#[test]
+fn a_harris_map_is_one_command() {
+    let relief =
+        |gear: &str| format!("[{gear}.modification.drive]\ntip_relief_um = 0\ntip_relief_start_diameter_mm = 92\n");
+    let scene = tiny_at_rest(8).replace("helix_angle_deg = 20.0", "helix_angle_deg = 0.0");
+    let scratch = Scratch::new().file("a.toml", scene + &relief("pinion") + &relief("wheel"));
+    let reliefs = "pinion.modification.drive.tip_relief_um+wheel.modification.drive.tip_relief_um=4,8";
+    let words =
+        ["vary", "a.toml", "--out", "o", "--harris", "--vary", reliefs, "--set", "analysis.positions_per_cycle=6"];
+    let run = scratch.command(&words);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let all = rows(&scratch, "o/cases.csv");
+    let of = |relief: &str| -> Vec<(f64, f64)> {
+        let own = all.iter().filter(|row| row["pinion.modification.drive.tip_relief_um"] == relief);
+        own.map(|row| (row["operation.torque_nm"].parse().unwrap(), row["peak_to_peak_ste_um"].parse().unwrap()))
+            .collect()
+    };
+    let flattest = |relief: &str| of(relief).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0;
+    assert_eq!((of("4").len(), of("4")[0].0, of("8")[13].0), (14, 15.0, 210.0));
+    assert!(flattest("4") < flattest("8"), "{:?} {:?}", of("4"), of("8"));
+    let page = scratch.read("o/report.html");
+    assert!(page.contains("tip_relief_um 4") && page.contains("tip_relief_um 8"), "a curve for each relief");
+    assert!(page.contains("\"mark\":{\"at\":[") && page.contains("least: "), "a map with its optimum");
+    assert!(
+        page.contains("--harris --vary &#x27;") && page.contains("analysis.positions_per_cycle=6"),
+        "how to make it again"
+    );
+}
+
+/// Samples over two keys are dots in the colours of the number; over a torque that is gone through they are quantiles.
+#[test]
+fn drawn_samples_are_coloured_dots() {
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE);
+    let keys = ["--vary", "pair.face_width_mm~15:20", "--vary", "wheel.thickness_allowance_mm~0:0.1"];
+    let base = [&["vary", "a.toml", "--out", "o", "--output", "mean_ste_um", "--samples", "7"], &keys[..]].concat();
+    assert_eq!(scratch.command(&base).code, Some(0));
+    let page = scratch.read("o/report.html");
+    let dots = page.split("\"dots\":[[").nth(1).expect("coloured dots").split("]]").next().unwrap();
+    assert_eq!(dots.matches("],[").count(), 6, "seven samples: {dots}");
+    assert!(!page.contains("90 % of samples"));
+    let torques = [&base[..], &["--vary", "operation.torque_nm=50,100"]].concat();
+    assert_eq!(scratch.command(&torques).code, Some(0));
+    assert!(scratch.read("o/report.html").contains("90 % of samples"));
 }

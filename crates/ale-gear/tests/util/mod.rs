@@ -125,6 +125,13 @@ pub fn motion_scene(cycles: u32, motion: &str) -> String {
         + motion
 }
 
+/// The same at rest.
+pub fn tiny_at_rest(positions: u32) -> String {
+    let scene = motion_scene(0, "");
+    let at_rest = scene.split("kind = \"dynamic\"").next().unwrap_or_default();
+    format!("{at_rest}positions_per_cycle = {positions}\n")
+}
+
 /// A column of a file of rows.
 pub fn column(csv: &str, name: &str) -> Vec<f64> {
     let mut lines = csv.lines();

@@ -14,7 +14,8 @@ use super::{
     kept_gears::KeptGears,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, StaticAnalysis, StaticResult, StaticSink,
+    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, SharedModels, StaticAnalysis, StaticResult,
+    StaticSink,
 };
 
 /// A rung that was tried.
@@ -50,6 +51,7 @@ pub struct AccurateResult {
 pub struct AccurateAnalysis<'a> {
     scene: &'a Scene,
     cache: &'a dyn GearCache,
+    shared: Option<&'a SharedModels<'a>>,
 }
 
 impl std::fmt::Debug for AccurateAnalysis<'_> {
@@ -70,13 +72,20 @@ const TRIES: usize = 16;
 impl<'a> AccurateAnalysis<'a> {
     /// Of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, cache: &NoCache }
+        Self { scene, cache: &NoCache, shared: None }
     }
 
     /// With reduced gears from a cache.
     #[must_use]
     pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
         Self { cache, ..self }
+    }
+
+    /// On what earlier scenes of its kind have left, as [`StaticAnalysis::with_shared`]; rungs of a ladder, whose meshes
+    /// differ, share nothing.
+    #[must_use]
+    pub fn with_shared(self, models: &'a SharedModels<'a>) -> Self {
+        Self { shared: Some(models), ..self }
     }
 
     /// Solves it, telling nobody.
@@ -99,7 +108,9 @@ impl<'a> AccurateAnalysis<'a> {
         sink: &mut dyn StaticSink,
     ) -> Result<AccurateResult, AnalysisError> {
         if self.scene.accuracy.is_none() {
-            let mut result = StaticAnalysis::new(self.scene).with_cache(self.cache).solve_into(observer, sink)?;
+            let alone = StaticAnalysis::new(self.scene).with_cache(self.cache);
+            let analysis = self.shared.map_or(alone, |models| alone.with_shared(models));
+            let mut result = analysis.solve_into(observer, sink)?;
             result.facts.accuracy = free_estimate(self.scene, &result)?;
             return Ok(AccurateResult { scene: self.scene.clone(), result });
         }

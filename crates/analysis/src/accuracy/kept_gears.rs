@@ -1,8 +1,8 @@
-//! Gears that are reduced already stay, from rung to rung of the ladder.
+//! Gears that are reduced already stay in memory: from rung to rung of the ladder, and for who asks again.
 
 use std::{
     collections::BTreeMap,
-    sync::{Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError},
 };
 
 use contact_map::ContactMap;
@@ -12,13 +12,18 @@ use crate::{GearCache, MapKey};
 
 /// Reduced gears in memory before the caller's own store.
 pub struct KeptGears<'a> {
-    store: &'a dyn GearCache,
+    store: Arc<dyn GearCache + Send + 'a>,
     kept: Mutex<BTreeMap<String, ReductionRecord>>,
 }
 
 impl<'a> KeptGears<'a> {
     /// None yet, but those of `store`.
     pub fn new(store: &'a dyn GearCache) -> Self {
+        Self::holding(Arc::new(store))
+    }
+
+    /// The same of a store that others may hold as well.
+    pub fn holding(store: Arc<dyn GearCache + Send + 'a>) -> Self {
         Self { store, kept: Mutex::default() }
     }
 }

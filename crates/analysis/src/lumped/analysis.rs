@@ -26,7 +26,7 @@ use crate::{
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
     resolution::{resolution, with_slices},
-    run_phase,
+    run_phase, unless_cancelled,
 };
 
 /// Whether a scene's model is one with few coordinates.
@@ -246,6 +246,7 @@ impl RunObserver for RowsOnward<'_> {
     fn row(&mut self, row: &LumpedRow, begins_cycle: bool) -> SinkResult {
         if begins_cycle {
             self.progress.tick();
+            unless_cancelled(self.progress)?;
         }
         self.sink.row(row)
     }
@@ -321,12 +322,7 @@ fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
 /// Geometry, and coordinates as degrees of freedom.
 pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
     let dof_after = [coordinates.div_ceil(2), coordinates / 2];
-    Facts {
-        geometry: gears::geometry_facts(&inputs.pair),
-        geometry_sheet: Some(inputs.pair.sheet()),
-        dof_after,
-        ..Facts::default()
-    }
+    Facts { dof_after, ..Facts::of_pair(&inputs.scene, &inputs.pair) }
 }
 
 /// How rigid gears are cut into slices, with what a user should hear of it; other models are not.

@@ -10,7 +10,9 @@ use scene::{MotionScene, Run, Scene};
 use super::{
     MotionCheckpoint, MotionCourse, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion,
 };
-use crate::{AnalysisError, Observer, PhaseWork, Progress, failure::Failure, results::GearPattern, run_phase};
+use crate::{
+    AnalysisError, Observer, PhaseWork, Progress, failure::Failure, results::GearPattern, run_phase, unless_cancelled,
+};
 
 /// What is asked of the course.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +92,7 @@ pub(super) fn run(
     let clock = std::time::Instant::now();
     let mut stopped = false;
     if let (Some((tolerance, most)), false) = (goal.settle, course.state.recording) {
-        stopped = run_phase(observer, "settle", PhaseWork::Steps(most), |progress| {
+        stopped = run_phase(observer, "settle", PhaseWork::AtMost(most), |progress| {
             course.settle(sink, (tolerance, most), progress)
         })?;
     }
@@ -189,6 +191,7 @@ impl<'a> Course<'a> {
             let envelope = self.mechanism.run_cycle(None).map_err(|e| failure(self.scene, e))?;
             let found = self.judge(&envelope, tolerance);
             progress.tick();
+            unless_cancelled(progress)?;
             progress.say(format!("repeats itself to {:.1e}, asked {tolerance:.0e}", found.residual));
             self.state.recording = found.residual <= tolerance;
             if self.after_cycle(sink)? {
@@ -210,6 +213,7 @@ impl<'a> Course<'a> {
             sink.end_cycle(self.state.recorded).map_err(AnalysisError::Sink)?;
             self.judge(&envelope, tolerance);
             progress.tick();
+            unless_cancelled(progress)?;
             if self.state.recorded < goal.cycles && self.after_cycle(sink)? {
                 return Ok(true);
             }

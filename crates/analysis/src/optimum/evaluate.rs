@@ -14,13 +14,22 @@ pub(super) fn slices(plan: &Optimisation) -> Option<u32> {
     of(&plan.start()).into_iter().chain(of(&middle)).max()
 }
 
+/// Limits of the contact pressure, MPa; `None`: it is not looked at.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct PressureLimits {
+    /// Of all slices.
+    pub anywhere: Option<f64>,
+    /// Of those at end faces and tip edges.
+    pub at_edges: Option<f64>,
+}
+
 /// Curves of the transmission error (um) at all torques and in all samples, and largest pressures where they are
-/// limited, with their derivatives. `limit`: of the pressure, MPa.
+/// limited, with their derivatives.
 pub(super) fn evaluate(
     models: &SharedModels<'_>,
     plan: &Optimisation,
     values: &[f64],
-    limit: Option<f64>,
+    limits: PressureLimits,
 ) -> Result<Evaluation, AnalysisError> {
     let torques = plan.torques.len();
     let solved = side_by_side(torques * plan.samples(), |i| {
@@ -38,10 +47,18 @@ pub(super) fn evaluate(
             values: history.positions.iter().map(|p| 1e3 * p.transmission_error).collect(),
             rates: rates.iter().map(|of| of.iter().map(|r| 1e3 * r.transmission_error).collect()).collect(),
         });
-        if let Some(limit) = limit {
-            evaluation.limited.extend(history.positions.iter().zip(&rates).map(|(position, rates)| Limited {
+        let positions = || history.positions.iter().zip(&rates);
+        if let Some(limit) = limits.anywhere {
+            evaluation.limited.extend(positions().map(|(position, rates)| Limited {
                 value: position.max_pressure,
                 rates: rates.iter().map(|r| r.max_pressure).collect(),
+                limit,
+            }));
+        }
+        if let Some(limit) = limits.at_edges {
+            evaluation.limited.extend(positions().map(|(position, rates)| Limited {
+                value: position.max_edge_pressure(),
+                rates: rates.iter().map(|r| r.max_edge_pressure).collect(),
                 limit,
             }));
         }

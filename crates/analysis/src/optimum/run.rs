@@ -1,10 +1,12 @@
 //! The search for the optimum.
 
+use std::ops::ControlFlow;
+
 use design::{Evaluation, Found, Goal, Search, rounded};
 use scene::optimum::Optimisation;
 use serde::Serialize;
 
-use super::evaluate::{evaluate, slices};
+use super::evaluate::{PressureLimits, evaluate, slices};
 use crate::{AnalysisError, SharedModels};
 
 /// The optimum of a plan.
@@ -40,23 +42,28 @@ const FRONT: f64 = 0.1;
 /// Evaluations for each point of the front.
 const FRONT_EVALUATIONS: usize = 8;
 
-/// Searches the optimum; `seen` is told of every evaluation: how many there were, and the goal, um.
+/// Searches the optimum; `seen` is told of every evaluation: how many there were, and the goal, um; where it breaks, no
+/// more is evaluated.
 ///
 /// # Errors
 /// [`AnalysisError`] of the start, or of the rounded optimum.
 pub fn optimise(
     models: &SharedModels<'_>,
     plan: &Optimisation,
-    mut seen: impl FnMut(usize, Option<f64>),
+    mut seen: impl FnMut(usize, Option<f64>) -> ControlFlow<()>,
 ) -> Result<Optimum, AnalysisError> {
     let plan = Optimisation { slices: plan.slices.or_else(|| slices(plan)), ..plan.clone() };
     let bounds: Vec<[f64; 2]> = plan.parameters.iter().map(|p| p.bounds).collect();
     let search = Search { goal: plan.goal.clone(), bounds: bounds.clone(), evaluations: plan.evaluations as usize };
-    let mut count = 0;
-    let mut at = |values: &[f64], limit: Option<f64>| {
-        let found = evaluate(models, &plan, values, limit);
+    let (mut count, mut goes_on) = (0, true);
+    let mut at = |values: &[f64], anywhere: Option<f64>| {
+        if !goes_on {
+            return Err(AnalysisError::Cancelled);
+        }
+        let limits = PressureLimits { anywhere, at_edges: plan.max_edge_pressure_mpa };
+        let found = evaluate(models, &plan, values, limits);
         count += 1;
-        seen(count, found.as_ref().ok().map(|e| plan.goal.value(&e.curves)));
+        goes_on = seen(count, found.as_ref().ok().map(|e| plan.goal.value(&e.curves))).is_continue();
         found
     };
     let found = search.run(&plan.start(), |values| at(values, plan.max_pressure_mpa))?;

@@ -1,7 +1,7 @@
 //! What a user is told of an optimum.
 
 use design::{Goal, Measure};
-use ltca::StaticHistory;
+use ltca::{StaticHistory, StaticPosition};
 use scene::optimum::Optimisation;
 use serde::Serialize;
 
@@ -28,6 +28,8 @@ pub struct TorqueLine {
     pub peak_to_peak_after_um: f64,
     pub max_pressure_before_mpa: f64,
     pub max_pressure_after_mpa: f64,
+    pub max_edge_pressure_before_mpa: f64,
+    pub max_edge_pressure_after_mpa: f64,
     /// Transmission error over the mesh cycle before and after, um.
     #[serde(skip)]
     pub curves: [Vec<f64>; 2],
@@ -99,6 +101,8 @@ pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, A
             peak_to_peak_after_um: after.peak_to_peak(),
             max_pressure_before_mpa: before.max_pressure_mpa,
             max_pressure_after_mpa: after.max_pressure_mpa,
+            max_edge_pressure_before_mpa: before.max_edge_pressure_mpa,
+            max_edge_pressure_after_mpa: after.max_edge_pressure_mpa,
             curves: [before.ste_um.clone(), after.ste_um.clone()],
         })
     };
@@ -110,12 +114,14 @@ pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, A
 struct Cycle {
     ste_um: Vec<f64>,
     max_pressure_mpa: f64,
+    max_edge_pressure_mpa: f64,
 }
 
 fn cycle(history: &StaticHistory) -> Cycle {
     Cycle {
         ste_um: history.positions.iter().map(|p| 1e3 * p.transmission_error).collect(),
         max_pressure_mpa: history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max),
+        max_edge_pressure_mpa: history.positions.iter().map(StaticPosition::max_edge_pressure).fold(0.0, f64::max),
     }
 }
 

@@ -2,7 +2,7 @@
 //! patterns, the place of
 //! the largest pressure, the largest root stresses, the few numbers that a run at rest is made for. No files here.
 
-mod face_load;
+mod load_factors;
 pub mod pairs;
 mod pattern;
 mod pressure_place;
@@ -10,7 +10,7 @@ mod root_stress;
 mod static_headline;
 mod tooth_change;
 
-pub use face_load::face_load_factor;
+pub use load_factors::{face_load_factor, transverse_load_factor};
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
 pub use root_stress::{

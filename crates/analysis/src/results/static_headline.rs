@@ -5,7 +5,10 @@ use scene::{Driver, Scene};
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
-use super::{PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, root_stress_headline};
+use super::{
+    PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, root_stress_headline,
+    transverse_load_factor,
+};
 use crate::worse;
 
 /// Mesh harmonics of the transmission error that are listed.
@@ -32,9 +35,13 @@ pub struct StaticHeadline {
     pub mean_wheel_tilting_moment_nmm: f64,
     pub mean_friction_power_loss_w: f64,
     pub efficiency: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_loss_factor: Option<f64>,
     pub max_pair_force_n: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face_load_factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transverse_load_factor: Option<f64>,
     pub max_pressure_mpa: f64,
     pub max_pressure_at: Option<PressurePlace>,
     pub root_stress: Option<RootStressHeadline>,
@@ -77,9 +84,11 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         mean_pinion_tilting_moment_nmm: mean(&|p| p.wrench[0].moment[1]),
         mean_wheel_tilting_moment_nmm: mean(&|p| p.wrench[1].moment[1]),
         mean_friction_power_loss_w: mean(&|p| 1e-3 * p.friction_work * scene.pinion_speed()),
-        efficiency: efficiency(scene, positions),
+        efficiency: 1.0 - share_lost(scene, positions, |p| p.friction_work).unwrap_or(0.0),
+        tooth_loss_factor: share_lost(scene, positions, |p| p.sliding_work),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
         face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
+        transverse_load_factor: transverse_load_factor(history),
         max_pressure_mpa: worst(&|p| p.max_pressure),
         max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),
@@ -94,14 +103,14 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
     })
 }
 
-/// Share of the driver's work over the mesh cycles that friction leaves; 1 without torque.
-fn efficiency(scene: &Scene, positions: &[StaticPosition]) -> f64 {
+/// Work per radian of the pinion (N mm) over that of the driver, over the mesh cycles; `None` without torque.
+/// Theory (34b).
+fn share_lost(scene: &Scene, positions: &[StaticPosition], lost: impl Fn(&StaticPosition) -> f64) -> Option<f64> {
     let driver = match scene.operation.driver {
         Driver::Pinion => 0,
         Driver::Wheel => 1,
     };
     let ratio = [1.0, f64::from(scene.pinion.teeth) / f64::from(scene.wheel.teeth)][driver];
-    let lost: f64 = positions.iter().map(|p| p.friction_work).sum();
     let put_in: f64 = positions.iter().map(|p| ratio * p.wrench[driver].moment[2].abs()).sum();
-    if put_in > 0.0 { 1.0 - lost / put_in } else { 1.0 }
+    (put_in > 0.0).then(|| positions.iter().map(lost).sum::<f64>() / put_in)
 }

@@ -3,6 +3,8 @@
 mod accuracy;
 mod basins;
 mod continuation;
+mod held_pair;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;
+mod nominal_load;

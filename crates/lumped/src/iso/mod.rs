@@ -1,14 +1,17 @@
-//! What ISO 6336 says of a pair without any mesh: stiffness of teeth and mesh (part 1, method B), nominal tooth root
-//! stress (part 3); and what it leaves out of narrow helical gears, the bending of their bodies. Theory (23).
+//! What ISO 6336 says of a pair without any mesh: stiffness of teeth and mesh (part 1, method B), nominal contact
+//! stress (part 2) and tooth root stress (part 3); and what it leaves out of narrow helical gears, the bending of their
+//! bodies. Theory (23).
 //!
 //! Stiffness is stated per mm of face width, in N/(mm um), as the standard does.
 
 mod body;
+mod flank;
 mod root;
 
 use serde::Serialize;
 
 pub use body::{axial_compliance, body_compliance};
+pub use flank::IsoFlank;
 pub use root::{IsoRoot, IsoRootPair, rim_ratio};
 
 use crate::LumpedError;

@@ -10,6 +10,7 @@ use crate::{
     ReportError, ResultFiles,
     charts::{Captions, Curve, Failure, Labelled, legend, line_picture, log_panel, write_picture},
     csv::always_quoted,
+    page::write_chart_page,
 };
 
 const SIZE: (u32, u32) = (1040, 490);
@@ -167,9 +168,10 @@ pub fn write_resonance_precision(
     let table = resonance_precision_table(found, command);
     results.write("resonance_precision.csv", resonance_precision_csv(found).as_bytes())?;
     results.write("resonance_curves.csv", resonance_curves_csv(found).as_bytes())?;
-    write_picture("resonance_precision", resonance_precision_svg(name, found), results)?;
+    let errors = write_picture("resonance_precision", resonance_precision_svg(name, found), results)?;
     let curves = resonance_curves_svg(name, found).ok_or_else(|| "no model has a curve".to_owned());
-    write_picture("resonance_curves", curves, results)?;
+    let curves = write_picture("resonance_curves", curves, results)?;
     results.write("resonance_precision.md", format!("# {name}\n\n{table}").as_bytes())?;
+    write_chart_page(name, &[curves, errors], &table, results)?;
     Ok(table)
 }

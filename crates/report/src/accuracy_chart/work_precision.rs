@@ -8,6 +8,7 @@ use super::chart_csv;
 use crate::{
     ReportError, ResultFiles,
     charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
+    page::write_chart_page,
 };
 use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
@@ -103,7 +104,7 @@ fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Fail
     Ok(())
 }
 
-/// `chart.csv`, `work_precision.svg`, `.png` and `chart.md` with the tables.
+/// `chart.csv`, `work_precision.svg`, `.png`, `chart.md` with the tables, and `report.html` with all of it.
 ///
 /// # Errors
 /// When the system refuses, or the picture cannot be drawn.
@@ -114,6 +115,7 @@ pub fn write_work_precision(
     results: &dyn ResultFiles,
 ) -> Result<(), ReportError> {
     results.write("chart.csv", chart_csv(points).as_bytes())?;
-    write_picture("work_precision", work_precision_svg(name, points), results)?;
-    results.write("chart.md", format!("# {name}\n\n{tables}").as_bytes())
+    let picture = write_picture("work_precision", work_precision_svg(name, points), results)?;
+    results.write("chart.md", format!("# {name}\n\n{tables}").as_bytes())?;
+    write_chart_page(name, &[picture], tables, results)
 }

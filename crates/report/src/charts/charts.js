@@ -11,6 +11,15 @@
     return VIRIDIS[k].map((c, i) => Math.round(c + (at - k) * (VIRIDIS[k + 1][i] - c)));
   };
 
+  // Light or dark: colours come from the page's style, and curves too dark for a dark page are drawn lighter.
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
+  const ink = name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  const shade = colour => {
+    const parts = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
+    const bright = 0.3 * parts[0] + 0.59 * parts[1] + 0.11 * parts[2];
+    return scheme.matches && bright < 90 ? `rgb(${parts.map(c => Math.round(c + 0.55 * (255 - c))).join()})` : colour;
+  };
+
   const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
 
   // A number as short as it can be read.
@@ -31,9 +40,11 @@
     return splits.map(v => v === null ? "" : large && Math.abs(v) < 1e-2 * step ? "0" : write(v, places));
   };
 
+  const lined = { stroke: () => ink("ink"), grid: { stroke: () => ink("rule"), width: 1 }, ticks: { stroke: () => ink("rule"), width: 1 } };
   const axes = (x, y) => [
-    { label: x, values: marks, size: 40, labelSize: 22, font: "12px system-ui", labelFont: "13px system-ui" },
+    { ...lined, label: x, values: marks, size: 40, labelSize: 22, font: "12px system-ui", labelFont: "13px system-ui" },
     {
+      ...lined,
       // A long name is written smaller, so that it does not reach past the ends of its axis.
       label: y, values: marks, labelSize: 22, font: "12px system-ui", labelFont: `${Math.min(13, Math.floor(400 / y.length))}px system-ui`,
       size: (u, values) => 22 + 7.2 * Math.max(3, ...(values ?? []).map(v => v.length)),
@@ -48,15 +59,16 @@
     return [zero && low === 0 ? 0 : low - margin, zero && high === 0 ? 0 : high + margin];
   };
 
-  const sizeOf = place => ({ width: Math.max(place.clientWidth, 240), height: HEIGHT });
+  // A page may want its charts lower.
+  const sizeOf = place => ({ width: Math.max(place.clientWidth, 240), height: parseInt(getComputedStyle(place).getPropertyValue("--chart-height")) || HEIGHT });
 
   const lines = (plot, place) => {
     const sticks = plot.kind === "sticks";
     const series = plot.names.map((name, k) => ({
       // A curve without a name is more of the one before and needs no line in the legend.
-      label: name, class: name ? undefined : "unnamed", stroke: plot.colours[k], width: plot.band && k > 0 ? 0.8 : 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
+      label: name, class: name ? undefined : "unnamed", stroke: () => shade(plot.colours[k]), width: plot.band && k > 0 ? 0.8 : 1.8, spanGaps: true, dash: k < plot.colours.length && k > 6 ? [6, 3] : undefined,
       points: { show: !sticks && !(plot.band && k > 0) && plot.data[0].length < 40, size: 4 },
-      paths: sticks ? uPlot.paths.bars({ size: [0.0, 4, 2] }) : undefined, fill: sticks ? plot.colours[k] : undefined,
+      paths: sticks ? uPlot.paths.bars({ size: [0.0, 4, 2] }) : undefined, fill: sticks ? () => shade(plot.colours[k]) : undefined,
       value: (u, v) => short(v),
     }));
     return new uPlot({
@@ -113,7 +125,7 @@
       key.className = "small";
       for (const { name, colour } of pairs.filter(pair => pair.name)) {
         const mark = Object.assign(document.createElement("span"), { textContent: "\u25cf " });
-        mark.style.color = colour;
+        mark.style.color = shade(colour);
         key.append(mark, name + "  ");
       }
       words.before(key);
@@ -121,7 +133,7 @@
     const mark = (ctx, at, size) => { ctx.beginPath(); ctx.arc(at[0], at[1], size, 0, 2 * Math.PI); ctx.fill(); };
     const draw = (u, ctx) => pairs.forEach(({ colour, xs, ys }) => {
       const size = (xs.length <= FEW ? 2.5 : 1) * devicePixelRatio;
-      ctx.strokeStyle = ctx.fillStyle = colour;
+      ctx.strokeStyle = ctx.fillStyle = shade(colour);
       ctx.lineWidth = 1.2 * devicePixelRatio;
       const line = new Path2D();
       let down = false;
@@ -138,19 +150,74 @@
       (x, y) => `${plot.x}: ${short(x)}, ${plot.y}: ${short(y)}`, false);
   };
 
-  const map = (field, place, words) => {
-    const [across, up] = field.sides, [columns, rows] = [across.edges.length - 1, up.edges.length - 1];
-    const raw = bytes(field.cells), cells = new Uint16Array(raw.buffer, 0, columns * rows);
-    const share = cell => (cell - 1) / 65534;
+  // Lines of equal value, dots and the marked place of a map.
+  const overlay = (field, u, ctx) => {
+    const x = v => u.valToPos(v, "x", true), y = v => u.valToPos(v, "y", true), dense = devicePixelRatio;
+    const write = (text, left, top) => {
+      ctx.font = `${13 * dense}px system-ui`;
+      ctx.lineWidth = 3 * dense;
+      ctx.strokeStyle = "#222";
+      ctx.strokeText(text, left, top);
+      ctx.fillStyle = "#fff";
+      ctx.fillText(text, left, top);
+    };
+    for (const [a, b, share] of field.dots ?? []) {
+      ctx.fillStyle = `rgb(${viridis(share).join()})`;
+      ctx.strokeStyle = "#555";
+      ctx.lineWidth = 0.4 * dense;
+      ctx.beginPath();
+      ctx.arc(x(a), y(b), 3.5 * dense, 0, 2 * Math.PI);
+      ctx.fill();
+      ctx.stroke();
+    }
+    for (const { value, pieces } of field.lines ?? []) {
+      const path = new Path2D();
+      for (let i = 0; i < pieces.length; i += 4) {
+        path.moveTo(x(pieces[i]), y(pieces[i + 1]));
+        path.lineTo(x(pieces[i + 2]), y(pieces[i + 3]));
+      }
+      ctx.strokeStyle = "#fff";
+      ctx.lineWidth = dense;
+      ctx.stroke(path);
+      const middle = 4 * Math.floor(pieces.length / 8);
+      if (pieces.length) write(value, x(pieces[middle]) + 3 * dense, y(pieces[middle + 1]) - 3 * dense);
+    }
+    if (field.mark) {
+      const [left, top] = [x(field.mark.at[0]), y(field.mark.at[1])];
+      ctx.beginPath();
+      ctx.arc(left, top, 6 * dense, 0, 2 * Math.PI);
+      ctx.fillStyle = "#d55e00";
+      ctx.strokeStyle = "#fff";
+      ctx.lineWidth = 2 * dense;
+      ctx.fill();
+      ctx.stroke();
+      ctx.font = `${13 * dense}px system-ui`;
+      const wide = ctx.measureText(field.mark.text).width, end = u.bbox.left + u.bbox.width;
+      write(field.mark.text, left + 10 * dense + wide > end ? left - 10 * dense - wide : left + 10 * dense, top + 5 * dense);
+    }
+  };
+
+  // Cells as a picture, one pixel each.
+  const cellsOf = field => {
+    const [columns, rows] = field.sides.map(side => side.edges.length - 1), raw = bytes(field.cells);
+    const cells = new Uint16Array(raw.buffer, 0, columns * rows), share = cell => (cell - 1) / 65534;
     const image = Object.assign(document.createElement("canvas"), { width: columns, height: rows }), pen = image.getContext("2d"), pixels = pen.createImageData(columns, rows);
     cells.forEach((cell, i) => { if (cell) pixels.data.set([...viridis(share(cell)), 255], 4 * i); });
     pen.putImageData(pixels, 0, 0);
+    const value = cell => field.decades
+      ? field.largest * 10 ** (field.decades * (share(cell) - 1)) : field.least + (field.largest - field.least) * share(cell);
+    return { field, columns, rows, cells, image, value };
+  };
+
+  const map = (first, place, words) => {
+    const [across, up] = first.sides;
+    let now = cellsOf(first);
     const even = edges => { const h = (edges.at(-1) - edges[0]) / (edges.length - 1); return edges.every((e, i) => Math.abs(e - edges[0] - i * h) < 1e-3 * h); };
     const level = even(up.edges);
     const draw = (u, ctx) => {
       const x = v => u.valToPos(v, "x", true), y = v => u.valToPos(v, "y", true);
-      const [left, right] = [x(across.edges[0]), x(across.edges.at(-1))];
-      ctx.fillStyle = "#e8e8e4";
+      const [left, right] = [x(across.edges[0]), x(across.edges.at(-1))], { image, columns, rows } = now;
+      ctx.fillStyle = ink("untouched");
       ctx.fillRect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
       ctx.imageSmoothingEnabled = false;
       if (level) {
@@ -167,51 +234,91 @@
         ctx.drawImage(image, 0, r, columns, 1, left, top, right - left, bottom - top + 0.5);
       }
     };
+    const whole = (u, ctx) => { draw(u, ctx); overlay(now.field, u, ctx); };
     const cell = (edges, v) => { let i = 0; while (i < edges.length - 2 && v >= edges[i + 1]) i++; return i; };
-    const value = cell => field.decades
-      ? field.largest * 10 ** (field.decades * (share(cell) - 1)) : field.largest * share(cell);
-    const least = field.decades ? field.largest * 10 ** -field.decades : 0;
+    const spans = [across, up].map(side => side.edges.at(-1) - side.edges[0]);
+    const nearest = (x, y) => (now.field.dots ?? []).reduce(([best, from], dot) => {
+      const off = Math.hypot((dot[0] - x) / spans[0], (dot[1] - y) / spans[1]);
+      return off < from ? [dot, off] : [best, from];
+    }, [null, 0.03])[0];
     words.dataset.hint = words.textContent = "Point at the map to read it.";
     const bar = document.createElement("div");
     bar.className = "bar";
-    bar.innerHTML = `<span>${short(least, 3)}</span><i></i><span>${short(field.largest, 4)}</span><b></b>`;
-    bar.querySelector("b").textContent = field.quantity + (field.decades ? ", logarithmic" : "");
+    bar.innerHTML = "<span></span><i></i><span></span><b></b>";
+    const scale = () => {
+      const { field } = now, [least, largest] = bar.querySelectorAll("span");
+      least.textContent = short(field.decades ? field.largest * 10 ** -field.decades : field.least, 3);
+      largest.textContent = short(field.largest, 4);
+      bar.querySelector("b").textContent = field.quantity + (field.decades ? ", logarithmic" : "");
+    };
+    scale();
     const stops = VIRIDIS.map(c => `rgb(${c.join()})`).join();
     bar.querySelector("i").style.background = `linear-gradient(to right, ${stops})`;
-    const made = frame(across.label, up.label, [across.edges[0], across.edges.at(-1), up.edges[0], up.edges.at(-1)], place, words, draw,
+    const made = frame(across.label, up.label, [across.edges[0], across.edges.at(-1), up.edges[0], up.edges.at(-1)], place, words, whole,
       (x, y) => {
+        const { field, columns, cells, value } = now;
+        const dot = nearest(x, y);
+        if (dot) return `${across.label}: ${short(dot[0], 4)}, ${up.label}: ${short(dot[1], 4)}, ${field.quantity}: ${short(field.least + (field.largest - field.least) * dot[2], 4)}`;
         const [c, r] = [cell(across.edges, x), cell(up.edges, y)], here = cells[r * columns + c];
         const beside = field.beside ? `, ${field.beside[0]}: ${short(field.beside[1][r])}` : "";
         return `${across.label}: ${short(x, 4)}, ${up.label}: ${short(y, 4)}${beside}, ${field.quantity}: ${here ? short(value(here), 4) : "–"}`;
       }, true);
     words.before(bar);
+    made.cells = field => { now = cellsOf(field); scale(); made.redraw(); };
     return made;
   };
 
+  // Other numbers in a chart of the same curves, which keeps what it is zoomed to.
+  const renew = (chart, data) => {
+    const ends = columns => [columns[0][0], columns[0].at(-1)], [low, high] = ends(chart.data), { min, max } = chart.scales.x;
+    const zoomed = min > low || max < high, [from, to] = zoomed ? [min, max] : ends(data);
+    chart.batch(() => { chart.setData(data, false); chart.setScale("x", { min: from, max: to }); });
+  };
+  const ends = map => JSON.stringify(map.sides.map(side => [side.label, side.edges]));
+
   const all = [];
-  const put = (figure, script) => {
-    const data = JSON.parse(script.textContent);
-    const box = document.createElement("div"), title = document.createElement("h3"), place = document.createElement("div");
-    const words = document.createElement("p");
+  // A chart in a figure; what comes back puts other data in its place.
+  const put = (figure, first, isMap) => {
+    const box = document.createElement("div"), title = document.createElement("h3");
     box.className = "live";
-    words.className = "words";
-    title.textContent = data.title;
-    box.append(title, place);
     figure.append(box);
-    const own = data.kind === "path" || data.kind === "dots", plain = script.className === "plot" && !own;
-    if (!plain) box.append(words);
-    const made = plain ? lines(data, place) : script.className === "map" ? map(data, place, words) : curves(data, place, words);
-    all.push([made, place]);
+    const entry = [null, null];
+    let shown = null;
+    const make = data => {
+      const place = document.createElement("div"), words = document.createElement("p");
+      words.className = "words";
+      box.replaceChildren(title, place);
+      const own = data.kind === "path" || data.kind === "dots", plain = !isMap && !own;
+      if (!plain) box.append(words);
+      entry[0]?.destroy();
+      entry[0] = plain ? lines(data, place) : isMap ? map(data, place, words) : curves(data, place, words);
+      entry[1] = place;
+    };
+    const update = data => {
+      title.textContent = data.title;
+      const alike = shown && (isMap ? ends(shown) === ends(data) : ["lines", "sticks"].includes(data.kind)
+        && ["kind", "names", "x", "y"].every(key => String(shown[key]) === String(data[key])));
+      shown = data;
+      if (!alike) make(data); else if (isMap) entry[0].cells(data); else renew(entry[0], data.data);
+    };
+    update(first);
+    all.push(entry);
+    // Those that stood in the figure before may have got less room.
+    for (const [chart, place] of all) {
+      if (figure.contains(place) && chart.width !== sizeOf(place).width) chart.setSize(sizeOf(place));
+    }
+    return update;
   };
   for (const figure of document.querySelectorAll("figure.chart")) {
     figure.classList.add("lively");
-    figure.querySelectorAll("script.plot, script.map").forEach(script => put(figure, script));
+    figure.querySelectorAll("script.plot, script.map").forEach(script => put(figure, JSON.parse(script.textContent), script.className === "map"));
   }
   let waiting = 0;
   addEventListener("resize", () => {
     cancelAnimationFrame(waiting);
     waiting = requestAnimationFrame(() => all.forEach(([chart, place]) => chart.setSize(sizeOf(place))));
   });
+  scheme.addEventListener("change", () => all.forEach(([chart]) => chart.redraw()));
   // For the other scripts of the page.
-  window.report = { viridis, bytes, short, VIRIDIS, charts: all };
+  window.report = { viridis, bytes, short, ink, scheme, put, VIRIDIS, charts: all };
 })();

@@ -13,6 +13,37 @@ const STRETCHES: usize = 800;
 /// Height of a legend's line over the height of the chart.
 const LEGEND_ROOM: f64 = 0.09;
 
+/// Curves over one pair of axes, for a page of any kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineChart {
+    /// What it shows.
+    pub title: &'static str,
+    /// Names of the axes with units.
+    pub axes: [&'static str; 2],
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+    /// Whether the value axis begins at zero.
+    pub from_zero: bool,
+}
+
+impl LineChart {
+    /// With the curves that have something to draw; `None` without any.
+    pub fn new(title: &'static str, axes: [&'static str; 2], curves: &[Curve], from_zero: bool) -> Option<Self> {
+        let curves = with_points(curves);
+        (!curves.is_empty()).then_some(Self { title, axes, curves, from_zero })
+    }
+
+    /// As a part of a report.
+    pub fn figure(&self) -> Option<String> {
+        line_chart(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero)
+    }
+
+    /// As the script of a page takes it.
+    pub fn plot(&self) -> Plot<'_> {
+        Plot::new(self.title, self.axes[0], self.axes[1], &self.curves, self.from_zero)
+    }
+}
+
 /// Curves over one pair of axes, as a part of a page. The value axis begins at zero when `from_zero` is set; without
 /// points, or with nothing finite, the chart is left out and `None` comes back. Long records may come as they are.
 pub fn line_chart(title: &str, x: &str, y: &str, curves: &[Curve], from_zero: bool) -> Option<String> {
@@ -79,6 +110,12 @@ pub fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String
 pub fn figure(svg: &str, plots: &[String]) -> String {
     let wide = if plots.len() > 1 { " wide" } else { "" };
     format!("<figure class=\"chart{wide}\"><div class=\"still\">{svg}</div>{}</figure>", plots.concat())
+}
+
+/// The still pictures of a page, in their order: SVG that needs no script.
+pub fn stills(page: &str) -> Vec<&str> {
+    let begun = page.split("<div class=\"still\">").skip(1);
+    begun.filter_map(|rest| rest.split_once("</svg>").map(|(svg, _)| &rest[..svg.len() + "</svg>".len()])).collect()
 }
 
 /// Dots of a curve in the still picture at most.
@@ -217,6 +254,18 @@ fn draw(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a page shows without scripts can be taken out of it again, picture by picture.
+    #[test]
+    fn a_page_gives_back_its_still_pictures() {
+        let curve = |label: &str| Curve { label: label.into(), points: vec![(0.0, 1.0), (1.0, 2.0)] };
+        let charts = ["a", "b"].map(|name| line_chart(name, "x", "y", &[curve(name)], false).unwrap());
+        let page = format!("<p>{}</p>{}", charts[0], charts[1]);
+        let found = stills(&page);
+        assert_eq!(found.len(), 2);
+        assert!(found.iter().all(|svg| svg.starts_with("<svg") && svg.ends_with("</svg>")), "{found:?}");
+        assert!(stills("<p>no chart</p>").is_empty());
+    }
 
     /// The picture has the area between both edges, the script's numbers have the edges beside the curve.
     #[test]

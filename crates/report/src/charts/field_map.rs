@@ -5,7 +5,10 @@ use plotters::prelude::*;
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use serde::{Serialize, Serializer};
 
-use super::plot_data::Numbers;
+use super::{
+    overlay::{Overlay, Room, words},
+    plot_data::Numbers,
+};
 
 /// Pixels of the picture inside its axes, of which a cell covers one or many.
 const PIXELS: [u32; 2] = [720, 320];
@@ -16,9 +19,9 @@ const DIGITS: usize = 7;
 
 /// One side of a map.
 #[derive(Debug, Serialize)]
-pub struct Side {
+pub struct Side<'a> {
     /// Quantity and unit.
-    pub label: &'static str,
+    pub label: &'a str,
     /// Edges of the cells, ascending, one more than there are cells.
     #[serde(serialize_with = "short")]
     pub edges: Vec<f64>,
@@ -30,18 +33,23 @@ pub struct FieldMap<'a> {
     /// What it shows.
     pub title: String,
     /// Horizontal and vertical side.
-    pub sides: [Side; 2],
+    pub sides: [Side<'a>; 2],
     /// Quantity with unit that the colours stand for.
     pub quantity: &'a str,
+    /// Value of the first colour; of no meaning with decades.
+    pub least: f64,
     /// Value of the last colour.
     pub largest: f64,
-    /// Decades below it that have colours; `None`: linear from 0.
+    /// Decades below it that have colours; `None`: linear from the first.
     pub decades: Option<f64>,
     /// A second quantity of the rows, with its unit and name: what a reader of the map wants to know too.
     pub beside: Option<(&'a str, Numbers)>,
     /// Row by row from the lowest, each along the horizontal side; 0 where there is nothing.
     #[serde(rename = "cells", serialize_with = "steps")]
     pub shares: Vec<f64>,
+    /// What is drawn over it.
+    #[serde(flatten)]
+    pub over: Overlay,
 }
 
 /// Where a value stands between no colour (0) and the last one (1).
@@ -70,16 +78,23 @@ impl FieldMap<'_> {
     pub fn picture(&self) -> Option<String> {
         let mut svg = String::new();
         let [x, y] = &self.sides;
-        let ends = |side: &Side| Some((*side.edges.first()?, *side.edges.last()?));
+        let ends = |side: &Side<'_>| Some((*side.edges.first()?, *side.edges.last()?));
         let ((left, right), (low, high)) = (ends(x)?, ends(y)?);
-        let place = draw_axes(&mut svg, &self.title, [x.label, y.label], [left, right, low, high]).ok()?;
+        let place = draw_axes(&mut svg, &self.caption(), [x.label, y.label], [left, right, low, high]).ok()?;
         let image = BASE64_STANDARD.encode(self.pixels([left, right, low, high])?.encode_png().ok()?);
         let [at_x, at_y, width, height] = place;
         let image = format!(
             "<image x=\"{at_x}\" y=\"{at_y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
-             href=\"data:image/png;base64,{image}\"/></svg>"
+             href=\"data:image/png;base64,{image}\"/>"
         );
-        Some(svg.trim_end().trim_end_matches("</svg>").to_owned() + &image)
+        let over = self.over.svg(Room { place, ends: [left, right, low, high] });
+        Some(svg.trim_end().trim_end_matches("</svg>").to_owned() + &image + &over + "</svg>")
+    }
+
+    /// The title; where the scale does not begin at 0, with its ends: the still picture has no bar of colours.
+    fn caption(&self) -> String {
+        let ends = || format!("{}: dark {}, light {}", self.title, words(self.least), words(self.largest));
+        if self.least == 0.0 { self.title.clone() } else { ends() }
     }
 
     fn pixels(&self, [left, right, low, high]: [f64; 4]) -> Option<Pixmap> {
@@ -88,7 +103,7 @@ impl FieldMap<'_> {
         let middles = |count: u32, from: f64, to: f64| {
             (0..count).map(move |i| from + (to - from) * (f64::from(i) + 0.5) / f64::from(count))
         };
-        let cell = |side: &Side, at: f64| side.edges.partition_point(|&e| e <= at).checked_sub(1);
+        let cell = |side: &Side<'_>, at: f64| side.edges.partition_point(|&e| e <= at).checked_sub(1);
         let columns: Vec<Option<usize>> = middles(width, left, right).map(|x| cell(&self.sides[0], x)).collect();
         let per_row = self.sides[0].edges.len().saturating_sub(1);
         for (line, y) in pixmap.pixels_mut().chunks_mut(width as usize).zip(middles(height, high, low)) {

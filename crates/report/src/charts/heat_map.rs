@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::{
     curves::figure,
     field_map::{FieldMap, Side, share},
+    overlay::Overlay,
     plot_data::embedded,
 };
 use analysis::results::GearPattern;
@@ -35,8 +36,13 @@ pub fn contact_pattern_svg(patterns: &[GearPattern; 2]) -> Option<String> {
 
 /// The picture with the cells of both flanks, as a part of a page.
 pub fn contact_pattern_figure(svg: &str, patterns: &[GearPattern; 2]) -> String {
+    figure(svg, &contact_pattern_maps(patterns).map(|map| embedded("map", &map)))
+}
+
+/// The cells of both flanks on one scale of colours, as the script of a page takes them.
+pub fn contact_pattern_maps(patterns: &[GearPattern; 2]) -> [FieldMap<'static>; 2] {
     let largest = patterns.iter().map(GearPattern::largest_pressure).fold(0.0, f64::max);
-    figure(svg, &patterns.each_ref().map(|pattern| embedded("map", &field_map(pattern, largest))))
+    patterns.each_ref().map(|pattern| field_map(pattern, largest))
 }
 
 fn field_map(pattern: &GearPattern, largest: f64) -> FieldMap<'static> {
@@ -52,10 +58,12 @@ fn field_map(pattern: &GearPattern, largest: f64) -> FieldMap<'static> {
             Side { label: "diameter [mm]", edges: (0..=rolls.len()).map(|i| edge(pattern, i)).collect() },
         ],
         quantity: "largest pressure [MPa]",
+        least: 0.0,
         largest,
         decades: None,
         beside: None,
         shares: places.map(|at| share(pressure[at], largest, None)).collect(),
+        over: Overlay::default(),
     }
 }
 

@@ -29,7 +29,7 @@ pub fn svg_to_png(svg: &str) -> Result<Vec<u8>, String> {
     pixels.encode_png().map_err(|e| e.to_string())
 }
 
-/// A drawn picture as `STEM.svg` and `STEM.png`.
+/// A drawn picture as `STEM.svg` and `STEM.png`; for pages it comes back as SVG.
 ///
 /// # Errors
 /// When the system refuses, or the picture was not drawn.
@@ -37,9 +37,10 @@ pub(crate) fn write_picture(
     stem: &'static str,
     drawn: Result<String, String>,
     results: &dyn ResultFiles,
-) -> Result<(), ReportError> {
+) -> Result<String, ReportError> {
     let fault = |cause: String| ReportError::Page { file: stem, cause };
     let svg = drawn.map_err(fault)?;
     results.write(&format!("{stem}.svg"), svg.as_bytes())?;
-    results.write(&format!("{stem}.png"), &svg_to_png(&svg).map_err(fault)?)
+    results.write(&format!("{stem}.png"), &svg_to_png(&svg).map_err(fault)?)?;
+    Ok(svg)
 }

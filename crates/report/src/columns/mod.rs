@@ -4,6 +4,7 @@
 //!
 //! A new column is one entry of a table, and its line in the document.
 
+mod derivatives;
 pub mod energy;
 pub mod lumped_history;
 pub mod motion_history;

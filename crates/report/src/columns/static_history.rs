@@ -1,15 +1,16 @@
 //! `history.csv` of a run at rest: one row a position.
 
-use analysis::results::{
-    MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, VON_MISES, base_radius_mm, error_percent, pairs, place_values,
+use analysis::{
+    Derivatives,
+    results::{MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, VON_MISES, base_radius_mm, error_percent, pairs, place_values},
 };
 use std::f64::consts::PI;
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::Scene;
 
-use super::{At, Column, Group, Over, Rows, Table, columns};
-use crate::charts::Curve;
+use super::{At, Column, Group, Over, Rows, Table, columns, derivatives};
+use crate::{charts::Curve, csv::push_row};
 
 /// Rows of a run at rest.
 #[derive(Debug)]
@@ -175,17 +176,29 @@ pub const STATIC_HISTORY: Table<StaticRows> = Table {
     ],
 };
 
-/// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits.
+/// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits; behind them
+/// derivatives, where there are such.
 ///
 /// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
-pub fn write_history(scene: &Scene, history: &StaticHistory) -> String {
+pub fn write_history(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> String {
     let layout = StaticLayout::of(scene, history);
-    STATIC_HISTORY.sheet(&layout, &pairs::columns(history, layout.pitch)).csv(&layout, &history.positions)
+    let numbers = pairs::columns(history, layout.pitch);
+    let sheet = STATIC_HISTORY.sheet(&layout, &numbers);
+    let Some(rates) = derivatives else { return sheet.csv(&layout, &history.positions) };
+    let names: Vec<String> = sheet.names().into_iter().chain(derivatives::names(&rates.keys, &numbers)).collect();
+    let mut csv = names.join(",") + "\n";
+    for (i, position) in history.positions.iter().enumerate() {
+        let own = derivatives::row(rates, i, position, &numbers, layout.pitch);
+        push_row(&mut csv, sheet.row(&layout, position).chain(own));
+    }
+    csv
 }
 
 /// Names of the columns for the pairs with these numbers.
 pub fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
-    STATIC_HISTORY.sheet(&StaticLayout::new(scene, 0.0), pairs).names()
+    let mut names = STATIC_HISTORY.sheet(&StaticLayout::new(scene, 0.0), pairs).names();
+    names.extend(derivatives::names(&scene.output.derivatives, pairs));
+    names
 }
 
 /// Curves of columns over the pinion angle.

@@ -7,7 +7,9 @@ use study::{Columns, StudyError, extent};
 
 use super::{SPECTRA, spectra};
 use crate::{
-    charts::{Curve, FieldMap, Numbers, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart},
+    charts::{
+        Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
+    },
     columns::motion_history::{MESH_PHASE, TIME},
     view::View,
 };
@@ -265,10 +267,12 @@ fn waterfall_chart(lines: &[WaterfallLine], per_cycle: usize) -> Option<String> 
             Side { label: "time [s]", edges: rows.iter().map(|block| block[0].time).chain([end]).collect() },
         ],
         quantity: "DTE amplitude [um]",
+        least: 0.0,
         largest,
         decades: Some(DECADES),
         beside: Some(("pinion speed [1/min]", Numbers(rows.iter().map(|block| mean(block)).collect(), 6))),
         shares: rows.iter().flat_map(|block| columns.iter().map(|&from| cell(block, from))).collect(),
+        over: Overlay::default(),
     };
     Some(figure(&map.picture()?, &[embedded("map", &map)]))
 }

@@ -8,6 +8,7 @@ use plotters::prelude::*;
 use crate::{
     ReportError, ResultFiles,
     charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
+    page::write_chart_page,
 };
 
 const SIZE: (u32, u32) = (1040, 470);
@@ -112,7 +113,8 @@ pub fn write_motion_precision(
 ) -> Result<String, ReportError> {
     let table = motion_precision_table(found, command);
     results.write("motion_precision.csv", motion_precision_csv(found).as_bytes())?;
-    write_picture("motion_precision", motion_precision_svg(name, found), results)?;
+    let picture = write_picture("motion_precision", motion_precision_svg(name, found), results)?;
     results.write("motion_precision.md", format!("# {name}\n\n{table}").as_bytes())?;
+    write_chart_page(name, &[picture], &table, results)?;
     Ok(table)
 }

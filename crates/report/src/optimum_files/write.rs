@@ -89,3 +89,20 @@ pub fn write_optimum(of: OptimumResult<'_>, results: &dyn ResultFiles) -> Result
     results.write("summary.json", text.as_bytes())?;
     Ok(tables::closing_table(&of))
 }
+
+/// What a user should hear of an optimum.
+pub fn optimum_warnings(optimum: &Optimum) -> Vec<String> {
+    let over = optimum.evaluation.over_limits();
+    let limits = [(optimum.plan.max_pressure_mpa, ""), (optimum.plan.max_edge_pressure_mpa, " at edges")];
+    let limits: Vec<String> =
+        limits.iter().filter_map(|(limit, place)| Some(format!("{} MPa{place}", (*limit)?))).collect();
+    let passed = format!(
+        "the limit of the pressure, {}, is passed by {:.1} %: no design was found that holds it",
+        limits.join(" and "),
+        100.0 * over
+    );
+    if over > HELD { vec![passed] } else { Vec::new() }
+}
+
+/// Share by which a limit may be passed.
+const HELD: f64 = 2e-3;

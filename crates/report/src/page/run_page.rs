@@ -11,7 +11,7 @@ use super::Rendered;
 use crate::{
     Cost, ReportError,
     charts::embedded,
-    tables::{geometry_table, model_name},
+    tables::{geometry_table, model_name, torque},
     view::View,
 };
 
@@ -61,7 +61,7 @@ impl<H: Serialize> RunPage<'_, H> {
             headline => Serde(headline),
             facts => Serde(facts),
             cost => Serde(cost),
-            geometry_table => facts.geometry_sheet.as_ref().map(|sheet| geometry_table(&scene.name, sheet, rpm)),
+            geometry_table => geometry_table(&scene.name, facts, &torque(scene), rpm),
             charts => charts,
             pattern => pattern,
             view => view,

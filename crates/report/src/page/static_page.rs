@@ -7,7 +7,7 @@ use scene::Scene;
 use super::{Rendered, RunPage};
 use crate::{
     Cost, ReportError,
-    charts::{Curve, banded_chart, line_chart},
+    charts::{LineChart, banded_chart},
     columns::{
         At, StaticCurves,
         static_history::{
@@ -46,7 +46,10 @@ pub fn write_report(
     page.render("report.html")
 }
 
-fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> {
+const ANGLE: &str = "pinion angle [deg]";
+
+/// What is drawn of positions at rest over the pinion angle: static transmission error and load sharing first.
+pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
     let curves = StaticCurves::new(scene, history);
     let forces = [("x", FORCE_X), ("y", FORCE_Y), ("z", FORCE_Z)]
         .map(|(axis, column)| curves.at(axis, column, At { gear: 1, pair: 0 }));
@@ -54,27 +57,37 @@ fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> 
     let stiffness = [curves.of("secant", SECANT_STIFFNESS), curves.of("tangent", TANGENT_STIFFNESS)];
     // A pair's bending on either gear: the tension below the loaded flank of its teeth.
     let bending = |gear| curves.by_pair(TOOTH_TENSION, gear);
-    let angle = "pinion angle [deg]";
+    let chart = |title, y, curves: &[_], from_zero| LineChart::new(title, [ANGLE, y], curves, from_zero);
     [
-        transmission_error(curves.of("STE", STE), angle, facts),
-        line_chart("Load sharing", angle, "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
-        line_chart("Total contact-line length", angle, "length [mm]", &length, false),
-        line_chart("Mesh stiffness", angle, "stiffness [N/um]", &stiffness, false),
-        line_chart("Mesh force on the wheel", angle, "force [N]", &forces, true),
-        line_chart("Largest principal root stress, pinion", angle, "stress [MPa]", &bending(0), true),
-        line_chart("Largest principal root stress, wheel", angle, "stress [MPa]", &bending(1), true),
+        chart("Static transmission error", "STE [um]", &[curves.of("STE", STE)], false),
+        chart("Load sharing", "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
+        chart("Total contact-line length", "length [mm]", &length, false),
+        chart("Mesh stiffness", "stiffness [N/um]", &stiffness, false),
+        chart("Mesh force on the wheel", "force [N]", &forces, true),
+        chart("Largest principal root stress, pinion", "stress [MPa]", &bending(0), true),
+        chart("Largest principal root stress, wheel", "stress [MPa]", &bending(1), true),
     ]
     .into_iter()
     .flatten()
     .collect()
 }
 
-/// STE over the angle; where its bounds are known, in the band of those of its mean.
-fn transmission_error(curve: Curve, angle: &str, facts: &Facts) -> Option<String> {
-    let (title, ste) = ("Static transmission error", "STE [um]");
+fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> {
+    let all = static_charts(scene, history);
+    all.iter()
+        .enumerate()
+        .filter_map(|(k, chart)| if k == 0 { in_its_bounds(chart, facts) } else { chart.figure() })
+        .collect()
+}
+
+/// The transmission error; where its bounds are known, in the band of those of its mean.
+fn in_its_bounds(chart: &LineChart, facts: &Facts) -> Option<String> {
     let bounds = facts.accuracy.as_ref().map(|accuracy| &accuracy.bounds[..]).unwrap_or_default();
     match bounds.iter().find(|b| b.quantity == Quantity::MeanSte) {
-        Some(mean) => banded_chart(title, angle, ste, curve, "within the bounds of the mean", [mean.below, mean.above]),
-        None => line_chart(title, angle, ste, &[curve], false),
+        Some(mean) => {
+            let (name, [x, y]) = ("within the bounds of the mean", chart.axes);
+            banded_chart(chart.title, x, y, chart.curves[0].clone(), name, [mean.below, mean.above])
+        }
+        None => chart.figure(),
     }
 }

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use minijinja::{Environment, Value};
 
+use super::scripts;
 use crate::ReportError;
 
 /// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where
@@ -12,12 +13,23 @@ use crate::ReportError;
 /// # Errors
 /// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.
 pub fn render(name: &str, context: Value) -> Result<String, ReportError> {
+    filled(|parts| parts.get_template(name)?.render(context)).map(with_scripts)
+}
+
+/// A template of a caller, filled in, with the same parts at hand; its scripts are the caller's business.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_own(template: &str, context: Value) -> Result<String, ReportError> {
+    filled(|parts| parts.render_named_str("own.html", template, context))
+}
+
+fn filled(fill: impl FnOnce(&Environment<'static>) -> Result<String, minijinja::Error>) -> Result<String, ReportError> {
     static PARTS: LazyLock<Result<Environment<'static>, String>> =
         LazyLock::new(|| environment().map_err(|e| e.to_string()));
     let failed = |cause: String| ReportError::Page { file: "report.html", cause };
-    let environment = PARTS.as_ref().map_err(|e| failed(e.clone()))?;
-    let page = environment.get_template(name).and_then(|page| page.render(context));
-    page.map(with_scripts).map_err(|e| failed(e.to_string()))
+    let parts = PARTS.as_ref().map_err(|e| failed(e.clone()))?;
+    fill(parts).map_err(|e| failed(e.to_string()))
 }
 
 /// All templates, and what they call.
@@ -37,10 +49,12 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("optimum.html", include_str!("optimum.html")),
         ("plan.html", include_str!("plan.html")),
         ("study.html", include_str!("study.html")),
+        ("chart.html", include_str!("chart.html")),
         ("compare.html", include_str!("compare.html")),
         ("envelope.html", include_str!("envelope.html")),
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
+        ("style.css", scripts::STYLE),
         ("warnings.html", include_str!("warnings.html")),
         ("page.html", include_str!("page.html")),
         ("view.html", include_str!("view.html")),
@@ -58,15 +72,12 @@ fn with_scripts(mut page: String) -> String {
     let mut scripts = String::new();
     let in_space = has("view");
     if in_space || has("plot") || has("map") {
-        scripts += concat!("<!-- uPlot: ", include_str!("../../assets/uPlot.LICENSE"), "-->\n");
-        scripts += concat!("<style>", include_str!("../../assets/uPlot.min.css"), "</style>\n");
-        scripts += concat!("<script>", include_str!("../../assets/uPlot.iife.min.js"), "</script>\n");
-        scripts += concat!("<script>", include_str!("../charts/charts.js"), "</script>\n");
+        let [style, uplot, charts] = [scripts::UPLOT_STYLE, scripts::UPLOT, scripts::CHARTS];
+        scripts += &format!("<style>{style}</style>\n");
+        scripts += &format!("<script>{uplot}</script>\n<script>{charts}</script>\n");
     }
     if in_space {
-        scripts += concat!("<!-- three.js: ", include_str!("../../assets/three.LICENSE"), "-->\n");
-        scripts += concat!("<script>", include_str!("../../assets/three.min.js"), "</script>\n");
-        scripts += concat!("<script>", include_str!("view.js"), "</script>\n");
+        scripts += &format!("<script>{}</script>\n<script>{}</script>\n", scripts::THREE, scripts::VIEW);
     }
     if let Some(end) = page.rfind("</body>") {
         page.insert_str(end, &scripts);

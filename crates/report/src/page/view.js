@@ -2,7 +2,7 @@
 "use strict";
 (() => {
   const $ = id => document.getElementById(id);
-  const { bytes, viridis, short, VIRIDIS } = window.report;
+  const { bytes, viridis, short, ink, scheme, VIRIDIS } = window.report;
   const BODY = [[0.62, 0.68, 0.75], [0.75, 0.70, 0.62]];
   const SHADES = Array.from({ length: 256 }, (_, i) => new THREE.Color().setRGB(...viridis(i / 255).map(c => c / 255), THREE.SRGBColorSpace).toArray());
   // Edges sharper than this (cosine) stay edges.
@@ -55,7 +55,11 @@
       this.group = new THREE.Group();
       this.body = new THREE.Color().setRGB(...BODY[index], THREE.SRGBColorSpace);
       const plain = new THREE.MeshLambertMaterial({ color: this.body, side: THREE.DoubleSide });
-      this.teeth = new THREE.InstancedMesh(surface(data.sector).geometry, plain, data.teeth);
+      const { geometry, points } = surface(data.sector);
+      // How far it reaches from its axis, and its half width.
+      this.reach = points.reduce((r, v, i) => i % 3 === 0 ? Math.max(r, Math.hypot(v, points[i + 1])) : r, 0);
+      this.half = points.reduce((h, v, i) => i % 3 === 2 ? Math.max(h, v) : h, 0);
+      this.teeth = new THREE.InstancedMesh(geometry, plain, data.teeth);
       this.teeth.frustumCulled = false;
       this.group.add(this.teeth);
       this.bands = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true }));
@@ -139,26 +143,39 @@
 
   const QUANTITIES = { pressure: "pressure [MPa]", displacement: "displacement [um]", stress: "first principal stress [MPa]" };
 
-  const start = (data, stage) => {
+  const start = (first, stage) => {
     const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     stage.replaceChildren(renderer.domElement);
     const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(28, 1, 1, 1e5), controls = new THREE.OrbitControls(camera, stage);
-    scene.background = new THREE.Color(0xffffff);
     scene.add(new THREE.HemisphereLight(0xffffff, 0xb0b0b0, 2.7), camera);
     const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
     lamp.position.set(0.6, 0.8, 1);
     camera.add(lamp);
-    const gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
-    gears.forEach(gear => scene.add(gear.group));
-    const bands = data.frames.flatMap(f => f.bands);
-    const reach = data.gears.map(g => 1.1 * g.flank[0] + 0.05 * data.gears[1].centre), centre = data.gears[1].centre;
-    const largest = Object.fromEntries(Object.keys(QUANTITIES).map(q => [q, Math.max(...gears.map(g => g.largest(q)))]));
-    largest.pressure = bands.reduce((m, b) => b.pressure.reduce((n, p) => Math.max(n, p), m), largest.pressure);
-    // The slider's end: the largest displacement as long as a tenth of a gear's radius.
-    const most = largest.displacement > 0 ? 100 * Math.max(...reach) / largest.displacement : 0;
-    const state = { frame: 0, quantity: "pressure", shown: 0 };
+    const state = { frame: 0, quantity: "pressure", shown: 0, look: null };
+    let data = null, gears = [], centre = 0, largest = {}, most = 0;
 
+    // Takes gears and positions; whether the gears are others than before.
+    const take = next => {
+      const others = JSON.stringify(data?.gears) !== JSON.stringify(next.gears);
+      data = next;
+      if (others) {
+        gears.forEach(gear => scene.remove(gear.group));
+        gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
+        gears.forEach(gear => scene.add(gear.group));
+        centre = data.gears[1].centre;
+      }
+      largest = Object.fromEntries(Object.keys(QUANTITIES).map(q => [q, Math.max(...gears.map(g => g.largest(q)))]));
+      largest.pressure = data.frames.reduce((top, f) => f.bands.reduce((m, b) => b.pressure.reduce((n, p) => Math.max(n, p), m), top), largest.pressure);
+      // The slider's end: the largest displacement as long as a tenth of a gear's radius.
+      most = largest.displacement > 0 ? 100 * Math.max(...gears.map(g => g.reach)) / largest.displacement : 0;
+      state.frame = Math.min(state.frame, data.frames.length - 1);
+      $("frame").max = data.frames.length - 1;
+      for (const input of document.querySelectorAll("#quantity input")) input.disabled = !(largest[input.value] > 0);
+      $("quantity").hidden = !Object.values(largest).some(v => v > 0);
+      $("view-note").textContent = data.note;
+      return others;
+    };
     const draw = () => { renderer.render(scene, camera); state.shown += 1; };
     const update = () => {
       const frame = data.frames[state.frame], solid = state.quantity !== "pressure";
@@ -178,34 +195,62 @@
     const bar = () => {
       const top = largest[state.quantity], stops = VIRIDIS.map(c => `rgb(${c.join()})`).join();
       $("scale-bar").hidden = !(top > 0);
-      $("scale-bar").innerHTML = `<span>0</span><i style="background:linear-gradient(to right,${stops})"></i><span>${short(top, 4)}</span><b>${QUANTITIES[state.quantity]}</b>`;
+      $("scale-bar").innerHTML = `<span>0</span><i></i><span>${short(top, 4)}</span><b>${QUANTITIES[state.quantity]}</b>`;
+      $("scale-bar").querySelector("i").style.background = `linear-gradient(to right, ${stops})`;
+    };
+    // Middle, direction, and what is to be seen across and up.
+    const both = () => {
+      const [left, right] = [-gears[0].reach, centre + 0.006 * Number($("apart").value) * centre + gears[1].reach];
+      return [[0.5 * (left + right), 0, 0], 1.06 * (right - left), 2.12 * Math.max(...gears.map(g => g.reach))];
+    };
+    // The pinion's flank that is loaded, from where it faces.
+    const loaded = () => {
+      const side = data.frames.find(f => f.bands.length)?.bands[0].side ?? 1, { reach, half, data: { teeth } } = gears[0];
+      const pitch = TAU * reach / teeth;
+      return [[reach - 0.35 * pitch, 0, 0], [0.75, 0.55 * side, 0.5], 4.5 * pitch + half, Math.max(3.5 * pitch, 2.2 * half)];
     };
     const look = {
-      whole: () => [[0.5 * centre, 0, 0], [0.25, -0.35, 1], 1.15 * (centre + reach[0] + reach[1])],
-      front: () => [[0.5 * centre, 0, 0], [0, 0, 1], 1.1 * (centre + reach[0] + reach[1])],
-      mesh: () => [[data.gears[0].flank[0] * 1.05, 0, 0], [-0.1, -0.5, 1], 1.1 * Math.min(...reach)],
+      whole: () => { const [target, across, up] = both(); return [target, [0.25, -0.35, 1], 1.12 * across, 1.12 * up]; },
+      front: () => { const [target, across, up] = both(); return [target, [0, 0, 1], across, up]; },
+      mesh: loaded,
+    };
+    // The wheel stands in the way of a look at the flank: it is drawn aside until another look is taken.
+    let aside = null;
+    const stand = name => {
+      if (name === "mesh" && aside === null) {
+        aside = $("apart").value;
+        $("apart").value = 100;
+      } else if (name !== "mesh" && aside !== null) {
+        $("apart").value = aside;
+        aside = null;
+      }
     };
     const view = name => {
-      const [target, direction, width] = look[name](), aspect = stage.clientWidth / stage.clientHeight;
-      const across = 2 * Math.tan(camera.fov * Math.PI / 360) * Math.max(0.1, Math.min(aspect, 1.6));
-      camera.position.set(...direction).setLength(width / across).add(new THREE.Vector3(...target));
+      state.look = name;
+      stand(name);
+      const [target, direction, across, up] = look[name](), high = 2 * Math.tan(camera.fov * Math.PI / 360);
+      const away = Math.max(across / (high * Math.max(0.1, stage.clientWidth / stage.clientHeight)), up / high);
+      camera.position.set(...direction).setLength(away).add(new THREE.Vector3(...target));
       controls.target.set(...target);
       controls.update();
-      draw();
+      update();
     };
     const resize = () => {
       renderer.setSize(stage.clientWidth, stage.clientHeight);
       camera.aspect = stage.clientWidth / stage.clientHeight;
       camera.updateProjectionMatrix();
-      draw();
+      // A look that nobody has changed fits the new frame as well.
+      if (state.look) view(state.look); else draw();
     };
 
     controls.addEventListener("change", draw);
+    controls.addEventListener("start", () => { state.look = null; });
     stage.addEventListener("keydown", event => {
       const turns = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
       const nearer = { "+": 0.9, "-": 1 / 0.9 }[event.key];
       if (!turns && !nearer) return;
       event.preventDefault();
+      state.look = null;
       const around = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
       around.theta += turns?.[0] ?? 0;
       around.phi = Math.min(Math.PI - 0.05, Math.max(0.05, around.phi + (turns?.[1] ?? 0)));
@@ -214,14 +259,11 @@
       controls.update();
       draw();
     });
-    $("frame").max = data.frames.length - 1;
     $("frame").addEventListener("input", () => { state.frame = Number($("frame").value); update(); });
     ["scale", "apart"].forEach(id => $(id).addEventListener("input", update));
     for (const input of document.querySelectorAll("#quantity input")) {
-      input.disabled = !(largest[input.value] > 0);
       input.addEventListener("change", () => { state.quantity = input.value; update(); });
     }
-    $("quantity").hidden = !Object.values(largest).some(v => v > 0);
     document.querySelectorAll("[data-look]").forEach(button => button.addEventListener("click", () => view(button.dataset.look)));
     let running = 0;
     $("play").addEventListener("click", () => {
@@ -230,22 +272,37 @@
       $("play").textContent = running ? "pause" : "play";
     });
     addEventListener("resize", resize);
-    $("view-note").textContent = data.note;
+    const paper = colour => { scene.background = new THREE.Color(colour); };
+    scheme.addEventListener("change", () => { paper(ink("paper")); draw(); });
+    // Printers take no canvas: a still picture of it on white paper.
+    addEventListener("beforeprint", () => {
+      paper("#fff");
+      draw();
+      $("printed").src = renderer.domElement.toDataURL("image/png");
+      paper(ink("paper"));
+      draw();
+    });
+    paper(ink("paper"));
+    take(first);
     resize();
     view("whole");
-    update();
-    window.report.view = { state, renderer, look: view };
+    // Other numbers, or other gears, in the same picture.
+    const show = next => { if (take(next)) view("whole"); else update(); };
+    window.report.view = { state, renderer, look: view, show };
   };
 
+  const open = (data, stage) => {
+    try {
+      start(data, stage);
+    } catch (error) {
+      // A browser without WebGL shows all the rest.
+      stage.textContent = `This browser shows no picture in space (${error.message}).`;
+      stage.classList.add("failed");
+      document.querySelector(".view .controls").hidden = true;
+      window.report.failed = error.message;
+    }
+  };
+  window.report.open = open;
   const holder = document.querySelector("script.view"), stage = $("stage");
-  if (!holder || !stage) return;
-  try {
-    start(JSON.parse(holder.textContent), stage);
-  } catch (error) {
-    // A browser without WebGL shows all the rest.
-    stage.textContent = `This browser shows no picture in space (${error.message}).`;
-    stage.classList.add("failed");
-    document.querySelector(".controls").hidden = true;
-    window.report.failed = error.message;
-  }
+  if (holder && stage) open(JSON.parse(holder.textContent), stage);
 })();

@@ -4,20 +4,28 @@
 //! |---|---|
 //! | `values` | the numbers that a plan wants of a case |
 //! | `rows` | a case as a row; the rows that are done |
-//! | `page` | the report: spread, scatter, correlation, cases to sort |
+//! | `known` | the rows of a plan as columns of numbers |
+//! | `page` | the report: spread, curves, maps, correlation, cases to sort |
+//! | `curves`, `maps` | an output over one axis, and over two |
+//! | `spread` | quantiles and what else is told of a number |
 //! | `part` | some cases in a file of their own, and all of them together again |
 //! | `solve` | all cases, side by side |
 //! | `write` | the files and the closing table |
 
+mod curves;
+mod known;
+mod maps;
 mod page;
 mod part;
 mod rows;
 mod solve;
+mod spread;
 mod values;
 mod write;
 
+pub use known::{Column, KnownCases};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseRow, CaseTable, DoneCases};
 pub use solve::{InTime, solve_cases};
 pub use values::{case_values, static_case_values};
-pub use write::{plan_digest, write_cases};
+pub use write::{PageWords, plan_digest, report_folder, write_cases};

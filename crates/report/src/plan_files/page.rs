@@ -1,83 +1,83 @@
 //! `report.html` of a plan: how outputs are spread, what each axis does to them, and the cases as a table.
 
 use minijinja::{context, value::Serde};
-use scene::plan::{Plan, PlanAxis, PlanOutput};
+use scene::plan::Plan;
 use serde_json::{Value, json};
 use study::correlation;
 
+use super::{Column, KnownCases, PageWords, curves::over_axes, maps::maps};
 use crate::{
     ReportError,
-    charts::{Curve, dot_chart, line_chart},
+    charts::{Curve, line_chart},
     page::Rendered,
 };
 
 /// Cases in the table of the page at most; `cases.csv` has all.
 const MOST_ROWS: usize = 2000;
 
-/// The page; `columns` are those of `cases.parquet`, `reasons` one a case, `table` the closing table.
+/// The page; `table` is the closing table.
 pub(super) fn page(
     plan: &Plan,
-    columns: &[Vec<f64>],
-    reasons: &[String],
+    known: &KnownCases,
+    words: PageWords<'_>,
     table: &str,
 ) -> Result<Rendered, ReportError> {
-    let axes: Vec<(&str, &[f64])> =
-        plan.axes.iter().map(PlanAxis::name).zip(columns[1..].iter().map(Vec::as_slice)).collect();
-    let names: Vec<String> = plan.outputs.iter().map(PlanOutput::name).collect();
-    let outputs: Vec<(&str, &[f64])> =
-        names.iter().map(String::as_str).zip(columns[1 + axes.len()..].iter().map(Vec::as_slice)).collect();
     let mut charts = Vec::new();
-    for (name, values) in &outputs {
-        charts.extend(spread(name, values));
-        for (axis, at) in &axes {
-            let points = at.iter().zip(*values).map(|(a, v)| (*a, *v)).collect();
-            let curve = Curve { label: String::new(), points };
-            charts.extend(dot_chart(&format!("{name} over {axis}"), axis, name, &[curve]));
-        }
+    for output in &known.outputs {
+        charts.extend(maps(plan, known, output));
+        charts.extend(over_axes(plan, known, output));
+        charts.extend(spread(output));
     }
-    let together: Vec<Value> = axes
-        .iter()
-        .map(
-            |(axis, at)| json!({ "axis": axis, "with": outputs.iter().map(|(_, v)| known(at, v)).collect::<Vec<_>>() }),
-        )
-        .collect();
-    let row = |case: usize| {
-        let numbers: Vec<Option<f64>> =
-            columns[1..].iter().map(|column| Some(column[case]).filter(|v| v.is_finite())).collect();
-        json!({ "case": case, "numbers": numbers, "reason": reasons.get(case) })
+    let together = |axis: &Column| {
+        let with: Vec<Option<f64>> = known.outputs.iter().map(|output| pearson(&axis.values, &output.values)).collect();
+        json!({ "axis": axis.name, "with": with })
     };
-    let count = columns.first().map_or(0, Vec::len);
+    let names = |columns: &[Column]| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
+    let rows = shown(known, words.reports).into_iter().map(|case| row(known, words.reports, case));
     Rendered::new(
         "plan.html",
         context! {
             name => &plan.name,
             version => env!("CARGO_PKG_VERSION"),
-            count => count,
+            count => known.count(),
             table => table,
             charts => charts,
-            outputs => names.clone(),
-            axes => axes.iter().map(|(axis, _)| (*axis).to_owned()).collect::<Vec<_>>(),
-            together => Serde(Value::from(together)),
-            rows => Serde((0..count.min(MOST_ROWS)).map(row).collect::<Value>()),
-            file => plan.file.display().to_string(),
+            outputs => names(&known.outputs),
+            axes => names(&known.axes),
+            together => Serde(known.axes.iter().map(together).collect::<Value>()),
+            rows => Serde(rows.collect::<Value>()),
+            reports => words.reports.len(),
+            again => words.again,
         },
     )
 }
 
+/// Cases of the table: the first ones, and all with a report of their own.
+fn shown(known: &KnownCases, reports: &[usize]) -> Vec<usize> {
+    let first = known.count().min(MOST_ROWS);
+    let mut later: Vec<usize> = reports.iter().copied().filter(|&case| case >= first).collect();
+    later.sort_unstable();
+    (0..first).chain(later).collect()
+}
+
+fn row(known: &KnownCases, reports: &[usize], case: usize) -> Value {
+    let numbers = known.axes.iter().chain(&known.outputs).map(|column| column.values[case]);
+    let numbers: Vec<Option<f64>> = numbers.map(|v| Some(v).filter(|v| v.is_finite())).collect();
+    json!({ "case": case, "numbers": numbers, "reason": known.reasons[case], "report": reports.contains(&case) })
+}
+
 /// Share of the cases that have no more than a value.
-fn spread(name: &str, values: &[f64]) -> Option<String> {
-    let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
+fn spread(output: &Column) -> Option<String> {
+    let (name, sorted) = (&output.name, output.ascending());
     let n = sorted.len() as f64;
-    let points = sorted.iter().enumerate().map(|(i, v)| (*v, 100.0 * (i as f64 + 0.5) / n)).collect();
-    let curve = Curve { label: String::new(), points };
+    let share = |(i, &case): (usize, &usize)| (output.values[case], 100.0 * (i as f64 + 0.5) / n);
+    let curve = Curve { label: String::new(), points: sorted.iter().enumerate().map(share).collect() };
     line_chart(&format!("How {name} is spread"), name, "share of cases with no more [%]", &[curve], true)
 }
 
 /// Pearson's coefficient over the cases that have a number; none where one of both does not vary.
-fn known(at: &[f64], values: &[f64]) -> Option<f64> {
-    let both: Vec<(f64, f64)> =
-        at.iter().zip(values).filter(|(a, v)| a.is_finite() && v.is_finite()).map(|(a, v)| (*a, *v)).collect();
-    let (a, v): (Vec<f64>, Vec<f64>) = both.into_iter().unzip();
+fn pearson(at: &[f64], values: &[f64]) -> Option<f64> {
+    let both = at.iter().zip(values).filter(|(a, v)| a.is_finite() && v.is_finite());
+    let (a, v): (Vec<f64>, Vec<f64>) = both.map(|(a, v)| (*a, *v)).unzip();
     correlation(&a, &v).ok().flatten()
 }

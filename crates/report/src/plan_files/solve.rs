@@ -6,7 +6,7 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::{SharedModels, side_by_side};
+use analysis::{Progress, SharedModels, side_by_side};
 use scene::{Kind, Scene, plan::Plan};
 use serde_json::Value;
 use study::Columns;
@@ -17,7 +17,7 @@ use super::{CaseRow, CaseTable, DoneCases, case_values, static_case_values};
 pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), String> + Sync);
 
 /// Solves the cases of a plan, in a range of their numbers, that are not done yet, each on a thread of its own; `done` gets each as it comes, and
-/// `tick` is called for it.
+/// `progress` hears of it. Cases that have not begun when it is cancelled are not done.
 ///
 /// A case without a result takes nothing from the others: its row says why.
 ///
@@ -28,21 +28,21 @@ pub fn solve_cases(
     models: &SharedModels<'_>,
     in_time: InTime<'_>,
     done: &DoneCases,
-    tick: &(dyn Fn() + Sync),
+    progress: &dyn Progress,
 ) -> io::Result<()> {
     let open: Vec<usize> = range.filter(|&case| !done.has(case)).collect();
     let (table, failed) = (CaseTable::of(plan), Mutex::new(None));
     let failure = || failed.lock().unwrap_or_else(PoisonError::into_inner);
     side_by_side(open.len(), |i| {
-        if failure().is_some() {
+        if failure().is_some() || progress.is_cancelled() {
             return;
         }
         let case = open[i];
-        let row = CaseRow { case, values: plan.cases.values(case), outcome: solve(plan, models, in_time, case) };
+        let row = CaseRow { case, values: plan.values(case), outcome: solve(plan, models, in_time, case) };
         if let Err(e) = done.add(case, table.line(&row)) {
             *failure() = Some(e);
         }
-        tick();
+        progress.tick();
     });
     failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }

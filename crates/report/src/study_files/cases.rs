@@ -4,7 +4,11 @@ use analysis::{lumped::is_lumped, parameter_study::Findings};
 use scene::{Scene, study::Study};
 
 use super::{CaseResult, with_result};
-use crate::{checkpoint::motion_column_names, columns::history_columns};
+use crate::{
+    ReportError,
+    checkpoint::{InputDigests, motion_column_names},
+    columns::history_columns,
+};
 
 /// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
 pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {
@@ -13,6 +17,25 @@ pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {
         Some(_) => Some(motion_column_names(scene)),
         None => Some(history_columns(scene, &[])),
     }
+}
+
+/// What says that two studies have the same cases: scenes, files that they name, program; and whether cases have
+/// reports.
+///
+/// # Errors
+/// When a file that a scene names cannot be read.
+pub fn study_digest(study: &Study, reports: bool) -> Result<String, ReportError> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(format!("{} {reports}", env!("CARGO_PKG_VERSION")).as_bytes());
+    for case in &study.cases {
+        let digests = InputDigests::of(&case.scene).map_err(|e| ReportError::NoResult {
+            file: case.scene.file.clone(),
+            what: e.to_string(),
+            hint: "is a file that the scene names still there?",
+        })?;
+        hasher.update(format!("{} {digests:?}\n", case.label).as_bytes());
+    }
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 /// Cases without a result first; then what the others warn of, each once, with their names.

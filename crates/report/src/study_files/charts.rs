@@ -6,7 +6,7 @@ use study::StudyError;
 
 use super::{CaseResult, with_result};
 use crate::{
-    charts::{Curve, line_chart},
+    charts::{Curve, dot_chart, line_chart},
     columns::motion_history::{MESH_PHASE, TIME},
 };
 
@@ -82,7 +82,7 @@ fn over_time(study: &Study, runs: &[CaseResult], findings: &Findings, over: &Ove
     Ok(Figure { text: left_out(study, findings), charts: chart.into_iter().collect() })
 }
 
-/// The quantities over the parameter, one chart each.
+/// The quantities over the parameter, one chart each: a line, or dots where several cases have the same value.
 fn over_value(study: &Study, runs: &[CaseResult], findings: &Findings) -> Figure {
     let charts = study.quantities.iter().enumerate().filter_map(|(k, quantity)| {
         let mut at: Vec<(f64, f64)> =
@@ -90,7 +90,14 @@ fn over_value(study: &Study, runs: &[CaseResult], findings: &Findings) -> Figure
         at.sort_by(|a, b| a.0.total_cmp(&b.0));
         let name = quantity.name();
         let title = format!("{name} against {}", study.parameter);
-        line_chart(&title, &study.parameter, &name, &[Curve { label: name.clone(), points: at }], false)
+        // Cases of one value are no curve: a line through them would go up and down.
+        let several = at.windows(2).any(|pair| pair[0].0 == pair[1].0);
+        let curve = [Curve { label: name.clone(), points: at }];
+        if several {
+            dot_chart(&title, &study.parameter, &name, &curve)
+        } else {
+            line_chart(&title, &study.parameter, &name, &curve, false)
+        }
     });
     Figure { text: left_out(study, findings), charts: charts.collect() }
 }

@@ -6,7 +6,7 @@ mod outcome;
 mod report;
 mod tables;
 
-pub use cases::{columns_of, study_warnings};
+pub use cases::{columns_of, study_digest, study_warnings};
 pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
 pub use report::{write_study_report, write_study_summary};
 pub use tables::{STUDY_FILE, study_csv, study_table};

@@ -22,6 +22,8 @@ pub struct CaseRun {
     pub steps: Option<u64>,
     /// What its summary warns of.
     pub warnings: Vec<String>,
+    /// Whether its folder has a report.
+    pub has_report: bool,
 }
 
 impl CaseRun {
@@ -60,6 +62,8 @@ pub struct StudyResult<'a> {
     pub cost: &'a Cost,
     /// What a user should hear.
     pub warnings: &'a [String],
+    /// Whether every case was to have a report.
+    pub reports: bool,
 }
 
 /// Cases that have a result, with its rows.

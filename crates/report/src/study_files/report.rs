@@ -15,7 +15,7 @@ use crate::{ReportError, page::Rendered};
 /// # Errors
 /// For rows without a column that is drawn, and if the template cannot be filled.
 pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, ReportError> {
-    let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
+    let StudyResult { study, runs, findings, speed_up, warnings, reports, .. } = of;
     let figures: Vec<Value> = figures(study, runs, findings)?
         .into_iter()
         .map(|figure| json!({ "text": figure.text, "charts": figure.charts }))
@@ -30,6 +30,7 @@ pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, 
                 "scene": case.scene.file.display().to_string(),
                 "folder": has_folder(&runs[i]).then(|| study.folder(i)),
                 "reason": findings.reason(i),
+                "report": runs[i].as_ref().map_or_else(|miss| miss.has_folder, |run| run.has_report),
             })
         })
         .collect();
@@ -44,6 +45,7 @@ pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, 
             figures => Serde(figures),
             cases => Serde(cases),
             speed => speed,
+            reports => reports,
             table => table,
             warnings => warnings.to_vec(),
         },
@@ -53,7 +55,7 @@ pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, 
 
 /// The summary as JSON; numbers without a value are `null`.
 pub fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> String {
-    let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
+    let StudyResult { study, runs, findings, speed_up, cost, warnings, .. } = of;
     let cases: Vec<Value> = (0..study.cases.len()).map(|i| case(of, i)).collect();
     let full = study.full.zip(speed_up).map(|(full, s)| {
         let step_s = step_s(runs, full.case);

@@ -60,7 +60,7 @@ const WIDEST: usize = 200;
 
 /// The closing table: a column a case, what the whole model took, phases, warnings.
 pub fn study_table(of: StudyResult<'_>) -> String {
-    let StudyResult { study, runs, findings, speed_up, cost, warnings } = of;
+    let StudyResult { study, runs, findings, speed_up, cost, warnings, .. } = of;
     let lines = lines(study, findings);
     let label_width = lines.iter().map(|l| l.name.len()).max().unwrap_or(0).max(study.parameter.len()).min(WIDEST);
     let width = study.cases.iter().map(|c| c.label.chars().count()).max().unwrap_or(0).clamp(11, WIDEST);

@@ -2,10 +2,78 @@
 
 use std::fmt::Write;
 
+use analysis::{
+    facts::{Facts, IsoGearRoot, IsoRootStress},
+    nominal_pressure::NominalPressure,
+};
 use geometry::{GearSheet, GeometrySheet};
+use serde::Serialize;
 
-/// The table that `ale-gear geometry` prints; `speed_rpm` of the pinion, where speeds are to be told.
-pub fn geometry_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
+/// The table that `ale-gear geometry` prints: the sheet, then what a nominal load does; `speed_rpm` of the pinion,
+/// where speeds are to be told. `None` without a sheet.
+pub fn geometry_table(name: &str, facts: &Facts, torque: &str, speed_rpm: f64) -> Option<String> {
+    let mut t = sheet_table(name, facts.geometry_sheet.as_ref()?, speed_rpm);
+    if let Some(nominal) = &facts.nominal_pressure {
+        pressures(&mut t, nominal, torque);
+    }
+    if let Some(iso) = &facts.iso_root_stress {
+        roots(&mut t, [&iso.pinion, &iso.wheel]);
+    }
+    Some(t)
+}
+
+/// The same as JSON, with the names of `summary.json`: the sheet, and beside it what the nominal load does.
+pub fn geometry_json(facts: &Facts) -> String {
+    #[derive(Serialize)]
+    struct Sheet<'a> {
+        #[serde(flatten)]
+        geometry_sheet: &'a Option<GeometrySheet>,
+        nominal_pressure: &'a Option<NominalPressure>,
+        iso_root_stress: &'a Option<IsoRootStress>,
+    }
+    let Facts { geometry_sheet, nominal_pressure, iso_root_stress, .. } = facts;
+    // Numbers and strings: there is nothing that JSON could refuse.
+    serde_json::to_string_pretty(&Sheet { geometry_sheet, nominal_pressure, iso_root_stress }).unwrap_or_default()
+}
+
+/// Hertz pressure at the points of the path of contact, and the factors of ISO 6336-2.
+fn pressures(t: &mut String, nominal: &NominalPressure, torque: &str) {
+    let _ = writeln!(t, "\n  under {torque}, without load factors");
+    let mut row = |what: &str, value: f64, digits: usize, unit: &str| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(t, "  {what:<44}{value:>14.digits$}                {unit}");
+    };
+    row("normal force", nominal.normal_force_n, 1, "N");
+    for p in &nominal.hertz {
+        let what = format!("Hertz pressure at {}, on {:.2} mm of contact line", p.name, p.line_length_mm);
+        row(&what, p.pressure_mpa, 1, "MPa");
+    }
+    row("contact stress of ISO 6336-2, sigma_H0", nominal.iso_contact_stress_mpa, 1, "MPa");
+    row("  zone factor Z_H", nominal.zone_factor, 4, "");
+    row("  elasticity factor Z_E", nominal.elasticity_factor, 2, "MPa^0.5");
+    row("  contact ratio factor Z_eps", nominal.contact_ratio_factor, 4, "");
+    row("  helix angle factor Z_beta", nominal.helix_angle_factor, 4, "");
+    if let Some([pinion, wheel]) = nominal.single_contact_factors {
+        row("  single contact factor Z_B", pinion, 4, "");
+        row("  single contact factor Z_D", wheel, 4, "");
+    }
+}
+
+/// Nominal root stress of ISO 6336-3 with its factors.
+fn roots(t: &mut String, gears: [&IsoGearRoot; 2]) {
+    let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "ISO 6336-3, nominal", "pinion", "wheel");
+    let mut row = |what: &str, of: fn(&IsoGearRoot) -> f64, digits: usize, unit: &str| {
+        let [pinion, wheel] = gears.map(of);
+        let _ = writeln!(t, "  {what:<44}{pinion:>14.digits$}{wheel:>14.digits$}  {unit}");
+    };
+    row("root stress sigma_F0", |g| g.nominal_root_stress_mpa, 1, "MPa");
+    row("  form factor Y_F", |g| g.form_factor, 4, "");
+    row("  stress correction factor Y_S", |g| g.stress_correction_factor, 4, "");
+    row("  helix angle factor Y_beta", |g| g.helix_factor, 4, "");
+    row("  rim thickness factor Y_B", |g| g.rim_thickness_factor, 4, "");
+}
+
+fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     let mut t = format!("{name}\n\n");
     let mut row = |what: &str, values: &[f64], digits: usize, unit: &str| {
         let numbers: String = values.iter().map(|v| format!("{v:>14.digits$}")).collect();
@@ -32,6 +100,9 @@ pub fn geometry_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> Stri
     row("backlash, circumferential at the pitch circles", &[sheet.circumferential_backlash_mm], 4, "mm");
     row("backlash, normal", &[sheet.normal_backlash_mm], 4, "mm");
     row("backlash, radial", &[sheet.radial_backlash_mm], 4, "mm");
+    if let Some(factor) = sheet.tooth_loss_factor {
+        row("tooth loss factor H_V, load shared evenly", &[factor], 4, "");
+    }
     let both = [&sheet.pinion, &sheet.wheel];
     let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "", "pinion", "wheel");
     let mut pair = |what: &str, of: &dyn Fn(&GearSheet) -> Option<f64>, digits: usize, unit: &str| {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use analysis::{facts::Facts, results::PressurePlace};
-use scene::{Model, Scene};
+use scene::{Driver, Model, Scene};
 
 use crate::Cost;
 
@@ -150,6 +150,15 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
     let places = (3.0 - size.log10().floor()) as usize;
     format!("{value:.places$}")
+}
+
+/// The load in words: `150 N m on the wheel`.
+pub fn torque(scene: &Scene) -> String {
+    let driven = match scene.operation.driver {
+        Driver::Pinion => "wheel",
+        Driver::Wheel => "pinion",
+    };
+    format!("{} N m on the {driven}", scene.operation.torque_nm)
 }
 
 /// The model's name as in the scene.

@@ -34,8 +34,14 @@ pub fn closing_table(
         t.number("mean power lost to friction", h.mean_friction_power_loss_w, 2, "W");
         t.text("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%");
     }
-    if let Some(factor) = h.face_load_factor {
-        t.number("face load factor K_Hbeta", factor, 3, "");
+    for (what, value) in [
+        ("tooth loss factor H_VL", h.tooth_loss_factor),
+        ("transverse load factor K_Halpha", h.transverse_load_factor),
+        ("face load factor K_Hbeta", h.face_load_factor),
+    ] {
+        if let Some(value) = value {
+            t.number(what, value, 3, "");
+        }
     }
     t.pressure(h.max_pressure_mpa, h.max_pressure_at.as_ref());
     if let Some(root) = &h.root_stress {
@@ -46,6 +52,9 @@ pub fn closing_table(
         }
     }
     t.iso_root_stress(facts);
+    if h.root_stress.is_none() && !facts.meshes.is_empty() {
+        t.text("root stress of the meshes", "-", "(not asked for: `--set output.root_stress=true`)");
+    }
     let first = h.tooth_change.as_ref().map_or(String::new(), |change| change.words());
     t.text("tooth changes", h.tooth_changes, &first);
     t.resolution(scene, facts);

@@ -17,6 +17,7 @@ mod sector;
 use std::f64::consts::PI;
 
 use geometry::{Gear, GearPair};
+use ltca::StaticHistory;
 use serde::Serialize;
 
 use crate::charts::Numbers;
@@ -25,6 +26,7 @@ use scene::Scene;
 use sector::Surface;
 
 pub use record::ViewRecorder;
+use record::bands;
 
 /// Positions of a mesh cycle at most.
 const FRAMES: usize = 32;
@@ -119,6 +121,27 @@ impl View {
             gears: [0, 1].map(|i| GearView::new(pair, i, None)),
             frames: frames.collect(),
             note: "The gears from their exact geometry, nominal flanks; this model has no fields on them.".into(),
+        }
+    }
+}
+
+impl View {
+    /// The gears alone with the contact bands of solved positions, at most as many as a mesh cycle shows.
+    pub fn of_history(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Self {
+        let per_cycle = (scene.analysis.positions_per_cycle as usize).min(history.positions.len());
+        let shown = history.positions[..per_cycle].iter().step_by(per_cycle.div_ceil(FRAMES).max(1));
+        let frames = shown.map(|p| Frame {
+            phase: p.mesh_phase,
+            angles: angles(scene, pair, p.pinion_angle),
+            shift: [0; 2],
+            bands: bands(p),
+        });
+        Self {
+            gears: [0, 1].map(|i| GearView::new(pair, i, None)),
+            frames: frames.collect(),
+            note: "The gears from their exact geometry, nominal flanks. Contact bands are drawn wide enough to be seen, and \
+                   shine through the teeth until the wheel is drawn aside."
+                .into(),
         }
     }
 }

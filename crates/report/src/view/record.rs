@@ -93,7 +93,7 @@ fn pressures(i: usize, model: &StaticModel, e: &Equilibrium, window: Option<&Win
 }
 
 /// The loaded slices of a position as bands, one a pair and side.
-fn bands(position: &StaticPosition) -> Vec<Band> {
+pub(super) fn bands(position: &StaticPosition) -> Vec<Band> {
     let sides = [Side::Left, Side::Right];
     let all = position.pairs.iter().flat_map(|pair| sides.map(|side| (pair, side)));
     let bands = all.filter_map(|(pair, side)| {

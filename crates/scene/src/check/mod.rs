@@ -2,6 +2,7 @@
 
 mod accuracy_in_time;
 mod continuation;
+mod derivatives;
 mod gear;
 mod motion;
 mod pitch_errors;
@@ -69,6 +70,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         pair,
     };
     together(source, &raw, &scene)?;
+    derivatives::check(source, &raw, &scene)?;
     Ok(scene)
 }
 

@@ -103,6 +103,12 @@ pub(super) fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
         None => FieldName::CHOICES.iter().map(|(_, field)| *field).collect(),
         words => s.choices_of("fields", words)?,
     };
+    let mut derivatives: Vec<String> = Vec::new();
+    for key in raw.derivatives.iter().flatten().map(toml::Spanned::get_ref) {
+        if !derivatives.contains(key) {
+            derivatives.push(key.clone());
+        }
+    }
     Ok(OutputScene {
         root_stress: value!(s, OUTPUT, raw.root_stress)?,
         contact_lines: value!(s, OUTPUT, raw.contact_lines)?,
@@ -110,5 +116,6 @@ pub(super) fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
         vtu: value!(s, OUTPUT, raw.vtu)?,
         fields,
         vtu_every: value!(s, OUTPUT, raw.vtu_every)?,
+        derivatives,
     })
 }

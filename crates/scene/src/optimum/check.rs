@@ -12,8 +12,8 @@ use super::{
     raw::{RawOptimisation, RawParameter},
 };
 use crate::{
-    Scene, SceneError, Setting, Source, nearest,
-    plan::{DESIGNS, SEED, iso_1328, setting, vary},
+    Scene, SceneError, Source, nearest,
+    plan::{DESIGNS, SEED, classed, setting, vary},
     read_text,
 };
 
@@ -21,6 +21,10 @@ type Checked<T> = Result<T, SceneError>;
 
 /// Evaluations where none are stated, and the most.
 pub(super) const EVALUATIONS: [u32; 2] = [20, 10_000];
+/// Limits of a pressure, MPa.
+pub(super) const PRESSURES: [f64; 2] = [1.0, 1e6];
+/// Points of the front at the most.
+pub(super) const FRONT: u32 = 100;
 /// Samples of the tolerances where none are stated.
 const SAMPLES: u32 = 20;
 
@@ -39,7 +43,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
     let own = Scene::parse_with(&scene_text, &scene_file, &settings)?;
     let mut parameters = Vec::new();
     for table in &raw.parameter {
-        parameters.push(parameter(s, table, |key| Setting::number_at(&scene_text, &settings, key))?);
+        parameters.push(parameter(s, table, |key| own.number_at(key))?);
     }
     if parameters.is_empty() {
         parameters = default_parameters(&own)?;
@@ -52,7 +56,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
     };
     let (mut tolerances, mut kinds) = (Vec::new(), Vec::new());
     for table in &raw.tolerance {
-        let (axis, kind) = vary(s, table, "[[tolerance]]", |key, class| Some([0.0, iso_1328(&own, key, class)?]))?;
+        let (axis, kind) = vary(s, table, "[[tolerance]]", |key, class| classed(&own, key, class, Some(0.0)))?;
         if matches!(kind, Axis::Each(_)) {
             let advice = "give `mean` and `deviation`, or `from` and `to` without `count`";
             return Err(s.conflict(&table.span(), "a tolerance is drawn", advice));
@@ -67,9 +71,12 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
         };
         s.conflict(&table.map_or(0..0, Spanned::span), e.to_string(), "see [[tolerance]] in docs/scene.md")
     })?;
-    let limit = raw.max_pressure_mpa.as_ref();
-    let max_pressure_mpa =
-        limit.map(|_| s.number("max_pressure_mpa", &raw.max_pressure_mpa, 0.0, 1.0, 1e6)).transpose()?;
+    let limit = |key, value: &crate::Number| match value {
+        Some(_) => s.number(key, value, 0.0, PRESSURES[0], PRESSURES[1]).map(Some),
+        None => Ok(None),
+    };
+    let max_pressure_mpa = limit("max_pressure_mpa", &raw.max_pressure_mpa)?;
+    let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &raw.max_edge_pressure_mpa)?;
     let name = raw.name.clone().unwrap_or_else(|| stem(s.file));
     finish(Optimisation {
         name,
@@ -81,8 +88,9 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
         torques,
         goal: goal(s, raw)?,
         max_pressure_mpa,
+        max_edge_pressure_mpa,
         evaluations: s.whole("evaluations", &raw.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?,
-        front: s.whole("front", &raw.front, 0, 0, 100)?,
+        front: s.whole("front", &raw.front, 0, 0, FRONT)?,
         slices: None,
         tolerances,
         sampling,
@@ -117,15 +125,23 @@ pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
     if scene.contact.method != crate::Method::Slice {
         return Err(wrong("optimises contact of points: only that of slices has derivatives".into()));
     }
-    if let Some(out) = keys.iter().find(|key| !is_design(key)) {
-        return Err(wrong(format!("changes `{out}`: micro-geometry, misalignment and friction may change")));
+    if let Some(out) = keys.iter().find(|key| !Scene::is_design_key(key)) {
+        return Err(wrong(format!("changes `{out}`: micro-geometry and misalignment may change")));
+    }
+    for (k, parameter) in all.parameters.iter().enumerate() {
+        let mut values = all.start();
+        values[k] = if values[k] == parameter.bounds[0] { parameter.bounds[1] } else { parameter.bounds[0] };
+        let moved = all.scene(&values, all.torques[0].torque_nm, None)?;
+        if (Scene { set: Vec::new(), ..moved }) == (Scene { set: Vec::new(), ..scene.clone() }) {
+            let what = format!("changes `{}`, which changes nothing: does the scene have", parameter.name());
+            return Err(wrong(format!("{what} a `drive` or `coast` of its own for it?")));
+        }
+    }
+    let numbers = all.tolerances.iter().filter(|axis| axis.pitch.is_none()).flat_map(|axis| &axis.keys);
+    if let Some(key) = numbers.into_iter().find(|key| scene.number_at(key).is_none()) {
+        return Err(wrong(format!("has a tolerance for `{key}`, which has no number in the scene")));
     }
     Ok(all)
-}
-
-/// Whether a key changes what neither meshes nor matrices know.
-fn is_design(key: &str) -> bool {
-    key.contains(".modification.") || key.starts_with("pair.misalignment.") || key == "contact.friction"
 }
 
 fn parameter(

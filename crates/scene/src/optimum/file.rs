@@ -28,6 +28,8 @@ pub struct Optimisation {
     pub goal: Goal,
     /// Limit of the contact pressure, MPa.
     pub max_pressure_mpa: Option<f64>,
+    /// Limit of it at end faces and tip edges, MPa.
+    pub max_edge_pressure_mpa: Option<f64>,
     /// Evaluations at the most.
     pub evaluations: u32,
     /// Points of the trade-off between the goal and the largest pressure; 0: none.
@@ -55,7 +57,7 @@ pub struct DesignParameter {
     pub grain: f64,
 }
 
-/// A torque of the pinion and what it counts.
+/// A torque on the driven gear and what it counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueWeight {
     /// Torque, N m.
@@ -102,8 +104,16 @@ impl Optimisation {
         }
         let deviations = sample.filter(|_| !self.tolerances.is_empty()).map(|s| self.samples.values(s));
         for (axis, deviation) in self.tolerances.iter().zip(deviations.unwrap_or_default()) {
+            if let Some(pitch) = &axis.pitch {
+                all.push(pitch.setting(deviation)?);
+                continue;
+            }
             for key in &axis.keys {
-                let own = Setting::number_at(&self.scene_text, &all, key).unwrap_or(0.0);
+                let of_design = self.parameters.iter().position(|p| p.keys.contains(key)).map(|k| values[k]);
+                let own = match of_design {
+                    Some(value) => value,
+                    None => self.drawn(key)?,
+                };
                 all.push(Setting::number(key, own + deviation)?);
             }
         }
@@ -112,6 +122,19 @@ impl Optimisation {
             all.push(Setting::number("contact.slices", f64::from(slices))?);
         }
         Ok(all)
+    }
+
+    /// The scene without any design.
+    ///
+    /// # Errors
+    /// As [`Optimisation::scene`].
+    pub fn drawn_scene(&self) -> Result<Scene, SceneError> {
+        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings)
+    }
+
+    /// What the scene without any design says of a key.
+    fn drawn(&self, key: &str) -> Result<f64, SceneError> {
+        self.drawn_scene()?.number_at(key).ok_or_else(|| SceneError::NoKey { key: key.to_owned() })
     }
 
     /// The scene of a design at a torque: of a sample, or as it is drawn.
@@ -127,7 +150,7 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::scene`].
     pub fn own_scene(&self, values: &[f64]) -> Result<Scene, SceneError> {
-        let torque = Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings)?.operation.torque_nm;
+        let torque = self.drawn_scene()?.operation.torque_nm;
         self.scene(values, torque, None)
     }
 

@@ -7,7 +7,7 @@ use design::{Goal, Measure, Over};
 
 use super::{
     DesignParameter, Optimisation, TorqueWeight,
-    check::{check, default_parameters, finish, grain, measure, stem},
+    check::{EVALUATIONS, FRONT, PRESSURES, check, default_parameters, finish, grain, measure, stem},
     raw::{RawOptimisation, tables},
 };
 use crate::{
@@ -27,6 +27,8 @@ pub struct OptimisationWords<'a> {
     pub measure: Option<&'a str>,
     /// Limit of the contact pressure, MPa.
     pub max_pressure_mpa: Option<f64>,
+    /// Limit of it at end faces and tip edges, MPa.
+    pub max_edge_pressure_mpa: Option<f64>,
     /// Evaluations at the most.
     pub evaluations: u32,
     /// Points of the trade-off.
@@ -53,9 +55,10 @@ impl Optimisation {
         check(&source, &raw)
     }
 
-    /// Whether a file's text is that of an optimisation: it names a scene.
+    /// Whether a file's text is that of an optimisation: it names a scene or what may change.
     pub fn is_one(text: &str) -> bool {
-        toml::from_str::<toml::Table>(text).is_ok_and(|table| table.contains_key("scene"))
+        toml::from_str::<toml::Table>(text)
+            .is_ok_and(|table| ["scene", "parameter", "tolerance"].iter().any(|key| table.contains_key(*key)))
     }
 
     /// The optimisation of a scene file that a command line says.
@@ -67,11 +70,23 @@ impl Optimisation {
         settings: &[Setting],
         words: &OptimisationWords<'_>,
     ) -> Result<Self, SceneError> {
+        let text = read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
+        Self::of_scene_text(text, scene_file, settings, words)
+    }
+
+    /// The same of a scene's text; `scene_file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// As [`Optimisation::of_words`].
+    pub fn of_scene_text(
+        scene_text: String,
+        scene_file: &Path,
+        settings: &[Setting],
+        words: &OptimisationWords<'_>,
+    ) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
-        let scene_text =
-            read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
         let own = Scene::parse_with(&scene_text, scene_file, settings)?;
-        let known = |key: &str| Setting::number_at(&scene_text, settings, key);
+        let known = |key: &str| own.number_at(key);
         let mut parameters = words
             .parameters
             .iter()
@@ -82,7 +97,19 @@ impl Optimisation {
         }
         let list = if words.torques_nm.is_empty() { vec![own.operation.torque_nm] } else { words.torques_nm.to_vec() };
         if let Some(none) = list.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
-            return Err(wrong(format!("--torque {none}"), "is no torque above 0".into()));
+            return Err(wrong(format!("--torques {none}"), "is no torque above 0".into()));
+        }
+        let limits = [("max-pressure", words.max_pressure_mpa), ("max-edge-pressure", words.max_edge_pressure_mpa)];
+        for (word, limit) in limits {
+            if let Some(limit) = limit.filter(|limit| !(PRESSURES[0]..=PRESSURES[1]).contains(limit)) {
+                return Err(wrong(format!("--{word} {limit}"), "is no limit, 1 to 1000000 MPa".into()));
+            }
+        }
+        for (word, number, most) in [("evaluations", words.evaluations, EVALUATIONS[1]), ("front", words.front, FRONT)]
+        {
+            if number > most {
+                return Err(wrong(format!("--{word} {number}"), format!("is more than {most}")));
+            }
         }
         let measure = match words.measure {
             None => Measure::PeakToPeak,
@@ -103,6 +130,7 @@ impl Optimisation {
             torques: list.into_iter().map(|torque_nm| TorqueWeight { torque_nm, weight: 1.0 }).collect(),
             goal: Goal { measure, over: Over::Mean },
             max_pressure_mpa: words.max_pressure_mpa,
+            max_edge_pressure_mpa: words.max_edge_pressure_mpa,
             evaluations: words.evaluations.max(1),
             front: words.front,
             slices: None,

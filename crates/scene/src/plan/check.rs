@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use cases::{Axis, Cases, CasesError, Design, Distribution, Sampling};
-use geometry::{FlankTolerances, TOLERANCE_CLASSES};
+use geometry::TOLERANCE_CLASSES;
 use toml::Spanned;
 
 use super::{
-    Plan, PlanAxis, PlanOutput, PlanTake,
+    PitchTolerance, Plan, PlanAxis, PlanOutput, PlanTake, classed,
     raw::{RawOutput, RawPlan, RawVary},
+    tolerance::is_pitch,
     word,
 };
 use crate::{Scene, SceneError, Setting, Source, Word, read_text, study::Take};
@@ -22,6 +23,9 @@ pub(crate) const DESIGNS: [(&str, Design); 3] =
 pub(super) const SAMPLES: [u32; 2] = [100, 10_000_000];
 /// Seed where none is stated.
 pub(crate) const SEED: u32 = 1;
+/// What a tolerance class is of.
+pub(super) const CLASSED: &str =
+    "it has of profile_slope_um, profile_crowning_um, lead_slope_um, lead_crowning_um and pitch_errors_um of a gear";
 /// Mesh harmonics at the most.
 const ORDERS: u32 = 1000;
 /// Word for a mesh harmonic among what may be taken of a column.
@@ -55,8 +59,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan) -> Checked<Plan> {
     for table in &raw.vary {
         let known = Scene::parse_with(&scene_text, &scene_file, &settings).ok();
         let tolerance = |key: &str, class: u32| {
-            let own = Setting::number_at(&scene_text, &settings, key).unwrap_or(0.0);
-            Some([own, iso_1328(known.as_ref()?, key, class)?])
+            let known = known.as_ref()?;
+            classed(known, key, class, known.number_at(key))
         };
         let (own, kind) = vary(s, table, "[[vary]]", tolerance)?;
         axes.push(own);
@@ -128,17 +132,22 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
 
 /// A varied key; `called`: the name of its table.
 ///
-/// `tolerance(key, class)`: of ISO 1328-1, um, with what a scene says of the key.
+/// `tolerance(key, class)`: how it deviates in a class of ISO 1328-1.
 pub(crate) fn vary(
     s: &Source<'_>,
     table: &Spanned<RawVary>,
     called: &str,
-    tolerance: impl Fn(&str, u32) -> Option<[f64; 2]>,
+    tolerance: impl Fn(&str, u32) -> Option<(Option<PitchTolerance>, Axis)>,
 ) -> Checked<(PlanAxis, Axis)> {
     let raw = table.get_ref();
     let conflict = |what: &str, advice: &str| s.conflict(&table.span(), what, advice);
     let key =
         raw.key.as_ref().ok_or_else(|| conflict(&format!("{called} has no `key`"), "name the key that is varied"))?;
+    let pitch_errors = [key].into_iter().chain(&raw.also).any(|word| is_pitch(word.get_ref()));
+    if pitch_errors && (raw.iso_1328_class.is_none() || !raw.also.is_empty()) {
+        let advice = "give `iso_1328_class`, and each gear a table of its own";
+        return Err(conflict("pitch errors of a gear are drawn together, within a tolerance class", advice));
+    }
     let keys = [key].into_iter().chain(&raw.also).map(|word| word.get_ref().clone()).collect();
     let logarithmic = s.choice("scale", &raw.scale, &[("linear", false), ("log", true)])?;
     let (drawn, ends, list) =
@@ -158,6 +167,7 @@ pub(crate) fn vary(
         value.as_ref().ok_or_else(|| conflict(&format!("{called} has no `{key}`"), "give both numbers"))?;
         number(key, value, 0.0)
     };
+    let mut pitch = None;
     let axis = if let Some(values) = &raw.values {
         if let Some(bad) = values.get_ref().iter().find(|x| !x.is_finite()) {
             return Err(s.conflict(&values.span(), format!("`values` holds {bad}"), "give numbers"));
@@ -166,12 +176,12 @@ pub(crate) fn vary(
     } else if classed {
         let class =
             s.whole("iso_1328_class", &raw.iso_1328_class, 6, *TOLERANCE_CLASSES.start(), *TOLERANCE_CLASSES.end())?;
-        let [mean, most] = tolerance(key.get_ref(), class).ok_or_else(|| {
+        let (own, axis) = tolerance(key.get_ref(), class).ok_or_else(|| {
             let what = format!("ISO 1328 has no tolerance for `{}`", key.get_ref());
-            conflict(&what, "it has of profile_slope_um, profile_crowning_um, lead_slope_um and lead_crowning_um")
+            conflict(&what, CLASSED)
         })?;
-        // A workshop that keeps its class has its deviations within a third of it, mostly.
-        word::normal(mean, most / 3.0, [mean - most, mean + most])
+        pitch = own;
+        axis
     } else if drawn {
         let limit = |key: &str, value: &crate::Number, none: f64| match value {
             Some(_) => number(key, value, 0.0),
@@ -190,18 +200,7 @@ pub(crate) fn vary(
             None => Axis::Drawn(Distribution::Uniform { from, to }),
         }
     };
-    Ok((PlanAxis { keys }, axis))
-}
-
-/// Tolerance of ISO 1328-1 of the gear that a key is of, um.
-pub(crate) fn iso_1328(scene: &Scene, key: &str, class: u32) -> Option<f64> {
-    let pair = scene.gear_pair().ok()?;
-    let gear = match key.split('.').next()? {
-        "pinion" => &pair.pinion,
-        "wheel" => &pair.wheel,
-        _ => return None,
-    };
-    FlankTolerances::new(gear, class).of_key(key)
+    Ok((PlanAxis { keys, pitch }, axis))
 }
 
 fn output(s: &Source<'_>, table: &Spanned<RawOutput>) -> Checked<PlanOutput> {

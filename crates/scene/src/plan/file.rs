@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use cases::{Cases, Sampling};
 
+use super::PitchTolerance;
 use crate::{Scene, SceneError, Setting, study::Take};
 
 /// A scene, what of it is varied, and what is wanted of each case.
@@ -34,6 +35,8 @@ pub struct Plan {
 pub struct PlanAxis {
     /// At least one; the first one names the axis.
     pub keys: Vec<String>,
+    /// Where it is the pitch deviations of a gear.
+    pub pitch: Option<PitchTolerance>,
 }
 
 /// A number of a case.
@@ -66,6 +69,19 @@ impl PlanAxis {
     }
 }
 
+impl PlanAxis {
+    /// What its keys are set to by a value of its axis.
+    ///
+    /// # Errors
+    /// [`SceneError::Setting`] for a key that is none.
+    fn settings(&self, value: f64) -> Result<Vec<Setting>, SceneError> {
+        match &self.pitch {
+            Some(pitch) => Ok(vec![pitch.setting(value)?]),
+            None => self.keys.iter().map(|key| Setting::number(key, value)).collect(),
+        }
+    }
+}
+
 impl PlanOutput {
     /// Name of its column in the table of cases.
     pub fn name(&self) -> String {
@@ -85,11 +101,15 @@ impl Plan {
     pub fn settings_of(&self, case: usize) -> Result<Vec<Setting>, SceneError> {
         let mut all = self.settings.clone();
         for (axis, value) in self.axes.iter().zip(self.cases.values(case)) {
-            for key in &axis.keys {
-                all.push(Setting::number(key, value)?);
-            }
+            all.extend(axis.settings(value)?);
         }
         Ok(all)
+    }
+
+    /// What is told of a case, a number an axis: its value; of pitch deviations the total one of the gear, F_p, um.
+    pub fn values(&self, case: usize) -> Vec<f64> {
+        let told = |(axis, value): (&PlanAxis, f64)| axis.pitch.as_ref().map_or(value, |pitch| pitch.total_um(value));
+        self.axes.iter().zip(self.cases.values(case)).map(told).collect()
     }
 
     /// The scene of a case.

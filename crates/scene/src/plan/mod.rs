@@ -5,15 +5,19 @@
 //! | `file` | a checked plan |
 //! | `read` | from a file, or from words of a command line, to that |
 //! | `raw`, `check` | its words, and what they mean: every complaint is made here |
+//! | `tolerance` | what a tolerance class of ISO 1328-1 allows |
 //! | `word` | one varied key in one word: `key=0:40:9`, `key~normal:0:5` |
 
 mod check;
 mod file;
 mod raw;
 mod read;
+mod tolerance;
 mod word;
 
-pub(crate) use check::{DESIGNS, SEED, iso_1328, setting, vary};
+pub(crate) use check::{DESIGNS, SEED, setting, vary};
 pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
 pub(crate) use raw::RawVary;
 pub use read::PlanWords;
+pub use tolerance::PitchTolerance;
+pub(crate) use tolerance::classed;

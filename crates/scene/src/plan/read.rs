@@ -6,11 +6,13 @@ use cases::{Cases, Sampling};
 
 use super::{
     Plan, PlanAxis, PlanOutput,
-    check::{DESIGNS, SAMPLES, SEED, check, finish},
+    check::{CLASSED, DESIGNS, SAMPLES, SEED, check, finish},
+    classed,
     raw::{RawPlan, tables},
+    tolerance::is_pitch,
     word,
 };
-use crate::{SceneError, Setting, Source, nearest, read_text};
+use crate::{Scene, SceneError, Setting, Source, nearest, read_text};
 
 /// What a command line says of a plan.
 #[derive(Debug, Clone, Default)]
@@ -52,13 +54,41 @@ impl Plan {
     /// # Errors
     /// [`SceneError`]: the first complaint, by the word that it is about.
     pub fn of_words(scene_file: &Path, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
+        let text = read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
+        Self::of_scene_text(text, scene_file, settings, words)
+    }
+
+    /// The same of a scene's text; `scene_file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// As [`Plan::of_words`].
+    pub fn of_scene_text(
+        scene_text: String,
+        scene_file: &Path,
+        settings: &[Setting],
+        words: &PlanWords<'_>,
+    ) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
-        let scene_text =
-            read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
         let (mut axes, mut kinds) = (Vec::new(), Vec::new());
         for written in words.vary {
-            let (key, axis) = word::axis(written).map_err(|what| wrong(format!("--vary {written}"), what))?;
-            axes.push(PlanAxis { keys: vec![key] });
+            let complain = |what: String| wrong(format!("--vary {written}"), what);
+            let (keys, varied) = word::axis(written).map_err(complain)?;
+            let (pitch, axis) = match varied {
+                word::Varied::By(_) if keys.iter().any(|key| is_pitch(key)) => {
+                    return Err(complain("pitch errors are drawn within a class, as `~iso1328:6`".into()));
+                }
+                word::Varied::By(axis) => (None, axis),
+                word::Varied::Class(_) if keys.len() > 1 && keys.iter().any(|key| is_pitch(key)) => {
+                    return Err(complain("pitch errors of each gear are drawn by a `--vary` of its own".into()));
+                }
+                word::Varied::Class(class) => {
+                    let known = Scene::parse_with(&scene_text, scene_file, settings)?;
+                    let key = &keys[0];
+                    let found = classed(&known, key, class, known.number_at(key));
+                    found.ok_or_else(|| complain(format!("ISO 1328 has no tolerance for it: {CLASSED}")))?
+                }
+            };
+            axes.push(PlanAxis { keys, pitch });
             kinds.push(axis);
         }
         let design = match words.design {

@@ -1,17 +1,27 @@
-//! One varied key in one word of a command line.
+//! One axis in one word of a command line.
 
 use cases::{Axis, Distribution};
+use geometry::TOLERANCE_CLASSES;
 
-/// A key and how it is varied.
+/// How a word varies its key.
+pub(super) enum Varied {
+    /// By numbers that it says.
+    By(Axis),
+    /// Within a tolerance class of ISO 1328-1.
+    Class(u32),
+}
+
+/// Keys and how they are varied; several keys, with `+` between, get the same value.
 ///
 /// ```text
 /// key=1,2,5              each of these            key~0:40                   drawn, uniform
 /// key=0:40:9             nine, evenly spaced      key~0.1:10:log             its logarithm uniform
 /// key=0.1:10:9:log       their logarithms are     key~normal:0:5             mean, standard deviation
-///                                                 key~normal:0:5:-10:10      between limits
+/// one+other=1,2,5        both of them             key~normal:0:5:-10:10      between limits
+///                                                 key~iso1328:6              within a class of ISO 1328-1
 /// ```
 /// The error says what is wrong with it.
-pub(super) fn axis(word: &str) -> Result<(String, Axis), String> {
+pub(super) fn axis(word: &str) -> Result<(Vec<String>, Varied), String> {
     let at = word.find(['=', '~']).ok_or("it has neither `=` (each value) nor `~` (drawn)")?;
     let (key, rest) = word.split_at(at);
     let (drawn, values) = (rest.starts_with('~'), &rest[1..]);
@@ -31,6 +41,12 @@ pub(super) fn axis(word: &str) -> Result<(String, Axis), String> {
             [mean, deviation, least, largest] => normal(mean, deviation, [least, largest]),
             _ => return Err("a normal distribution is `normal:MEAN:DEVIATION`, or with `:LEAST:LARGEST`".into()),
         },
+        (true, ["iso1328", class]) => {
+            let class = class.trim().parse().ok().filter(|class| TOLERANCE_CLASSES.contains(class));
+            let (first, last) = (TOLERANCE_CLASSES.start(), TOLERANCE_CLASSES.end());
+            let class = class.ok_or_else(|| format!("a tolerance class is a number, {first} to {last}"))?;
+            return Ok((keys(key), Varied::Class(class)));
+        }
         (true, [from, to, scale @ ..]) => {
             let (from, to) = (number(from)?, number(to)?);
             let logarithmic = is_logarithmic(scale)?;
@@ -42,7 +58,12 @@ pub(super) fn axis(word: &str) -> Result<(String, Axis), String> {
         }
         _ => return Err("say `=A,B,C`, `=FROM:TO:COUNT`, `~FROM:TO` or `~normal:MEAN:DEVIATION`".into()),
     };
-    Ok((key.trim().to_owned(), axis))
+    Ok((keys(key), Varied::By(axis)))
+}
+
+/// Keys of an axis, as a word says them.
+fn keys(word: &str) -> Vec<String> {
+    word.split('+').map(|key| key.trim().to_owned()).collect()
 }
 
 fn is_logarithmic(rest: &[&str]) -> Result<bool, String> {

@@ -54,6 +54,7 @@ fn property(key: &Key) -> Value {
         Kind::Words { choices } => json!({ "type": "array", "items": { "type": "string", "enum": choices } }),
         Kind::Switch { default } => json!({ "type": "boolean", "default": default }),
         Kind::Text => json!({ "type": "string" }),
+        Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         Kind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
         Kind::Rows { columns } => {
             let row =

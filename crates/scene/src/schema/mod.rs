@@ -87,6 +87,8 @@ pub(crate) enum Kind {
     Switch { default: bool },
     /// Any text: a name, a path.
     Text,
+    /// A list of texts.
+    Texts,
     /// A list of numbers.
     Numbers,
     /// Rows of so many numbers.
@@ -143,6 +145,10 @@ pub(crate) const fn switch(name: &'static str, default: bool, about: &'static st
 
 pub(crate) const fn text(name: &'static str, about: &'static str) -> Key {
     key(name, Kind::Text, about)
+}
+
+pub(crate) const fn texts(name: &'static str, about: &'static str) -> Key {
+    key(name, Kind::Texts, about)
 }
 
 pub(crate) const fn numbers(name: &'static str, about: &'static str) -> Key {
@@ -294,7 +300,9 @@ mod tests {
                     Kind::Whole { .. } => ("0.5", "must be a whole number"),
                     Kind::Word { .. } | Kind::Text => ("1", "must be a text in quotes"),
                     Kind::Switch { .. } => ("1", "must be true or false"),
-                    Kind::Words { .. } | Kind::Numbers | Kind::Rows { .. } | Kind::Tables(_) => ("1", "must be a list"),
+                    Kind::Words { .. } | Kind::Texts | Kind::Numbers | Kind::Rows { .. } | Kind::Tables(_) => {
+                        ("1", "must be a list")
+                    }
                     Kind::Table(_) => ("1", "must be a table"),
                 };
                 // Tables that every scene has stand there already.

@@ -103,5 +103,6 @@ table! {
         vtu: switch(false), "ParaView files";
         fields: words(FieldName), "fields of the ParaView files; default: all";
         vtu_every: whole(1, 1_000_000, 1), "one ParaView file every so many positions";
+        derivatives: texts(), "keys by which transmission error, stiffness, pressure and pair forces of history.csv are differentiated";
     }
 }

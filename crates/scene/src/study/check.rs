@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
-use super::file::{Follow, FullRun, OverTime, Study, StudyCase, StudyQuantity, Take};
+use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
 use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
 use crate::{Run, Scene, SceneError, Setting, Source, Whole, Word};
 
@@ -70,13 +70,21 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
     let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
+    let told = |e: SceneError| match e {
         SceneError::Read { file, source } => {
             let what = format!("{} cannot be read: {source}", file.display());
             s.conflict(&word.span(), what, "paths are relative to the study file")
         }
         other => other,
-    })?;
+    };
+    let (scene, refused) = match Scene::read_with(&path, &settings) {
+        Ok(scene) => (scene, None),
+        // A value may be wrong in one case alone; a scene that is wrong without it is wrong in all.
+        Err(e @ (SceneError::OutOfRange { .. } | SceneError::Geometry { .. })) if !settings.is_empty() => {
+            (Scene::read(&path).map_err(told)?, Some(refusal(&e)))
+        }
+        Err(e) => return Err(told(e)),
+    };
     if let Some(motion) = &scene.motion {
         let which = match motion.run {
             Run::Sweep => Some("sweep"),
@@ -97,7 +105,11 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
             return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
         }
     }
-    Ok(StudyCase { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene })
+    Ok(StudyCase { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene, refused })
+}
+
+fn refusal(e: &SceneError) -> RefusedCase {
+    RefusedCase { message: e.to_string(), excerpt: e.excerpt().map(str::to_owned), hint: e.hint() }
 }
 
 /// A key of the scene that a case sets otherwise; messages name it by its place in the study file.

@@ -34,8 +34,21 @@ pub struct StudyCase {
     pub label: String,
     /// Place on the axis of the parameter.
     pub value: f64,
-    /// The scene.
+    /// The scene; of a refused case the one without what it sets.
     pub scene: Scene,
+    /// Why the scene does not allow the values that the case sets: it has no result, and takes nothing from the others.
+    pub refused: Option<RefusedCase>,
+}
+
+/// A complaint about the values of a case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RefusedCase {
+    /// One line: what, where, what is allowed.
+    pub message: String,
+    /// The line that is meant, with a mark below it.
+    pub excerpt: Option<String>,
+    /// What to do next.
+    pub hint: Option<String>,
 }
 
 /// A number that is read off a column of a case's rows.

@@ -14,4 +14,4 @@ mod raw;
 mod read;
 
 pub use columns::{ColumnsOf, column_advice};
-pub use file::{Follow, FullRun, OverTime, Study, StudyCase, StudyQuantity, Take};
+pub use file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};

@@ -291,6 +291,7 @@ const SCENE: &[Row] = &[
     ("output.vtu", Reduced, "", "true"),
     ("output.fields", Reduced, "output.vtu=true", "[\"pressure\"]"),
     ("output.vtu_every", Reduced, "output.vtu=true", "2"),
+    ("output.derivatives", Reduced, "", "[\"pinion.modification.lead_crowning_um\"]"),
 ];
 
 /// Every table with its rows, and words that all of them want.

@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, gears, resolution::with_slices,
-    run_phase,
+    run_phase, unless_cancelled,
 };
 
 /// A scene with `run = "basins"`.
@@ -104,7 +104,7 @@ impl<'a> BasinAnalysis<'a> {
         let places = words.places();
         let runs = run_phase(observer, "basins", PhaseWork::Steps(places.len() as u64), |progress| {
             let one = |&[error, rate]: &[f64; 2]| {
-                let found = inputs.build().and_then(|mut own| {
+                let found = unless_cancelled(progress).and_then(|()| inputs.build()).and_then(|mut own| {
                     let from = plane.state(error, rate);
                     checked_run(&inputs, &mut own.model, resonance_hz, Some(&from))
                 });

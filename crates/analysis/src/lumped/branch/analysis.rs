@@ -19,7 +19,7 @@ use crate::{
     facts::Facts,
     gears,
     resolution::with_slices,
-    run_phase,
+    run_phase, unless_cancelled,
 };
 
 /// Residual of the balance of forces that Newton's method ends with: twelve digits of a contact solver are not to be
@@ -102,6 +102,7 @@ impl<'a> ContinuationAnalysis<'a> {
         let (points, turns) = run_phase(observer, "read", PhaseWork::Steps(branch.motions.len() as u64), |progress| {
             let points = branch.motions.iter().map(|motion| {
                 progress.tick();
+                unless_cancelled(progress)?;
                 read(&mut family, motion)
             });
             let points = points.collect::<Result<Vec<_>, _>>()?;
@@ -112,6 +113,7 @@ impl<'a> ContinuationAnalysis<'a> {
         let in_time = run_phase(observer, "in time", PhaseWork::Steps(chosen.len() as u64), |progress| {
             let one = |&i: &usize| {
                 progress.tick();
+                unless_cancelled(progress)?;
                 let of = (&branch.motions[i], points[i].peak_to_peak_dte_um);
                 integrated(&family, &inputs, of)
             };
@@ -174,7 +176,7 @@ fn follow(
         let mut tracer = Tracer::new(family, options, way.abs()).map_err(complain)?;
         let branch = tracer.branch(words.from, start, &walk, |motion| {
             progress.say(format!("{} = {:.6}", words.key.word(), motion.parameter));
-            ControlFlow::Continue(())
+            if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         branch.map_err(complain)
     };

@@ -90,6 +90,7 @@ impl<'a> KeySweep<'a> {
         let count = (values.len() * options.ways.len()) as u64;
         let points: Vec<SweepPoint> = run_phase(observer, "sweep", PhaseWork::Steps(count), |progress| {
             let at = |value: &SweepValue, from: Option<&_>| match &value.inputs {
+                Ok(_) if progress.is_cancelled() => Err(Arc::new(AnalysisError::Cancelled)),
                 Ok(inputs) => point::run(inputs, value.value, options, from).map_err(Arc::new),
                 Err(e) => Err(Arc::clone(e)),
             };

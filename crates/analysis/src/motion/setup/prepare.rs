@@ -1,6 +1,6 @@
 //! Everything before the first step: gears, the quasi-static cycle that the motion starts from, the mechanism.
 
-use std::sync::Arc;
+use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{MotionSettings, PairMechanism};
 use geometry::GearPair;
@@ -23,7 +23,7 @@ use crate::{
     options::options,
     reduced,
     resolution::resolution,
-    run_phase, static_certificate, wider_window,
+    run_phase, static_certificate, unless_cancelled, wider_window,
 };
 
 /// Gears, geometry and window of a run.
@@ -124,10 +124,13 @@ pub(crate) fn prepare(
     let positions = scene.analysis.positions_per_cycle;
     let steps = PhaseWork::Steps(u64::from(positions));
     let history = run_phase(observer, "quasi-static", steps, |progress| {
-        model.run(positions as usize, 1, |index, position, model| {
+        let history = model.run_while(positions as usize, 1, |index, position, model| {
             progress.tick();
             sink.position(index, position, model);
-        })
+            if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        unless_cancelled(progress)?;
+        Ok::<_, Failure>(history?)
     })?;
     let quasi_static = QuasiStatic::of(&history);
     let (resolution, said) = resolution(scene, pair, &contact);
@@ -139,7 +142,7 @@ pub(crate) fn prepare(
     let mut facts = facts_of(&model, inputs, &history);
     facts.resolution = Some(resolution);
     if scene.output.root_stress {
-        warnings.extend(iso_root::add(&mut facts, scene, pair));
+        warnings.extend(iso_root::warning(scene, pair));
     }
     let gears = model.into_gears();
     let (coast, coast_keys) = match coast {
@@ -192,8 +195,6 @@ fn reduce(
 fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHistory) -> Facts {
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
     Facts {
-        geometry: gears::geometry_facts(&inputs.pair),
-        geometry_sheet: Some(inputs.pair.sheet()),
         meshes: inputs.meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),
@@ -201,7 +202,7 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
         // The motion begins in it and is measured by it.
         certificate: static_certificate(&history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect(),
-        ..Facts::default()
+        ..Facts::of_pair(inputs.scene, &inputs.pair)
     }
 }
 

@@ -14,7 +14,7 @@ use crate::{
         course::failure,
         setup::{PreparedMotion, RPM, steady_by},
     },
-    run_phase,
+    run_phase, unless_cancelled,
 };
 
 /// The error of teeth missing beside the window, which a wider one may cure.
@@ -57,21 +57,24 @@ pub(super) fn run(
         let force = point.extremes.largest_force.max(point.coast_force);
         dropped_by(&prepared.system, point.changes.jump, force).filter(wider)
     };
-    let outcomes = run_phase(observer, "sweep", PhaseWork::Steps(steps), |progress| {
-        dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
+    let (outcomes, cancelled) = run_phase(observer, "sweep", PhaseWork::Steps(steps), |progress| {
+        let outcomes = dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
             progress.tick();
             match outcome {
                 Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),
                 Err(miss) => progress.say(format!("{:.0}/min: {}", miss.speed / RPM, miss.error)),
             }
             match outcome {
+                _ if progress.is_cancelled() => ControlFlow::Break(()),
                 Err(miss) if curable(&miss.error) => ControlFlow::Break(()),
                 Ok(point) if dropped(point).is_some() => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
-        })
-    })
-    .map_err(|e| failure(scene, e))?;
+        });
+        (outcomes, unless_cancelled(progress))
+    });
+    cancelled?;
+    let outcomes = outcomes.map_err(|e| failure(scene, e))?;
     if let Some(error) = outcomes.iter().filter_map(|o| o.as_ref().ok()).find_map(dropped) {
         return Err(Failure::Static(error));
     }

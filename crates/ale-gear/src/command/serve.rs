@@ -1,0 +1,79 @@
+//! `ale-gear serve`: a page on this machine where a pair is tried by hand.
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use ::serve::{Limits, Server};
+use report::folder::remove_partial_paths;
+
+use super::cache_args::CacheArgs;
+use crate::{
+    error::CommandError,
+    memory,
+    scene::{SceneError, Starter, read_text},
+    stop,
+    talk::{self, Loudness},
+};
+
+/// Words of `ale-gear serve`.
+#[derive(Debug, clap::Args)]
+pub(super) struct ServeArgs {
+    /// Scene file to begin with [default: the default pair on meshes of the built-in mesher]
+    scene: Option<PathBuf>,
+    /// Port of 127.0.0.1 [default: a free one]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    no_browser: bool,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// What the scene is called where none is given.
+const NAME: &str = "scene.toml";
+
+impl ServeArgs {
+    /// Serves until the user stops it; the address goes to stdout at once.
+    pub(super) fn execute(self) -> Result<String, CommandError> {
+        let (text, file) = self.text()?;
+        let server = Server::bind(self.port).map_err(|e| CommandError::input(&e, Some(e.hint())))?;
+        let handle = server.stop_handle();
+        stop::gently(move || handle.stop());
+        let address = server.address();
+        announce(&address)?;
+        talk::say(Loudness::Bars, || "ale-gear: serves this machine alone, until Ctrl-C");
+        if !self.no_browser
+            && let Err(error) = open::that_detached(&address)
+        {
+            talk::note(format!("no browser was opened ({error}): open the address above in one"));
+        }
+        server.run(&text, &file, Limits { free_bytes: memory::available_bytes }, &self.cache.open());
+        remove_partial_paths();
+        Ok(String::new())
+    }
+
+    /// The text to begin with, and what it is called. A scene that cannot be read ends here; what is wrong in it the page
+    /// shows beside its key.
+    fn text(&self) -> Result<(String, PathBuf), CommandError> {
+        match &self.scene {
+            None => {
+                let starter = Starter { name: "helical-30x30-beta20".into(), ..Starter::default() };
+                Ok((starter.text(NAME), PathBuf::from(NAME)))
+            }
+            Some(file) => {
+                let text = read_text(file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
+                Ok((text, file.clone()))
+            }
+        }
+    }
+}
+
+/// The address on a line of its own, for who starts this from a program.
+fn announce(address: &str) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    let written = writeln!(out, "{address}").and_then(|()| out.flush());
+    written.map_err(|e| CommandError::write(Path::new("stdout"), &e))
+}

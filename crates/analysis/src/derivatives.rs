@@ -1,0 +1,76 @@
+//! Derivatives of a run at rest by keys of its scene.
+
+use ltca::{Sensitivities, Sensitivity, StaticModel};
+use scene::Scene;
+
+use crate::{AnalysisError, VariedScene, error::solver_error};
+
+/// Derivatives of positions by keys.
+#[derive(Debug, Clone, Default)]
+pub struct Derivatives {
+    /// The keys.
+    pub keys: Vec<String>,
+    /// Position by position, key by key.
+    pub rates: Vec<Vec<Sensitivity>>,
+}
+
+/// Differentiates positions by the keys that a scene names in `output.derivatives`, as they are solved.
+#[derive(Debug)]
+pub struct DerivativeRecorder {
+    scene: Scene,
+    varied: Vec<VariedScene>,
+    sensitivities: Option<Sensitivities>,
+    found: Derivatives,
+}
+
+impl VariedScene {
+    /// The neighbours of a scene along a key.
+    ///
+    /// # Errors
+    /// [`AnalysisError`]: a value beside that of the scene is none.
+    pub fn by_key(scene: &Scene, key: &str) -> Result<Self, AnalysisError> {
+        let value = scene.number_at(key).ok_or(AnalysisError::NoValues)?;
+        let step = Scene::design_step(key);
+        let at = |by: f64| scene.with_number(key, value + by);
+        Ok(Self { sides: [at(-step)?, at(step)?], steps: [step; 2] })
+    }
+}
+
+impl DerivativeRecorder {
+    /// Of a scene as it is solved; `None` where it asks for nothing.
+    ///
+    /// # Errors
+    /// As of [`VariedScene::by_key`].
+    pub fn new(scene: &Scene) -> Result<Option<Self>, AnalysisError> {
+        let keys = scene.output.derivatives.clone();
+        if keys.is_empty() {
+            return Ok(None);
+        }
+        let varied = keys.iter().map(|key| VariedScene::by_key(scene, key)).collect::<Result<_, _>>()?;
+        let found = Derivatives { keys, rates: Vec::new() };
+        Ok(Some(Self { scene: scene.clone(), varied, sensitivities: None, found }))
+    }
+
+    /// Takes those of a position, which the model has just found.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] where there are none.
+    pub fn position(&mut self, model: &StaticModel) -> Result<(), AnalysisError> {
+        let sensitivities = match &mut self.sensitivities {
+            Some(known) => known,
+            None => {
+                let of = |varied: &VariedScene| varied.variation(&self.scene, model.options());
+                let variations = self.varied.iter().map(of).collect::<Result<_, _>>();
+                let variations = variations.map_err(|failure| failure.into_error(&self.scene))?;
+                self.sensitivities.insert(Sensitivities::new(variations))
+            }
+        };
+        self.found.rates.push(sensitivities.of(model).map_err(|e| solver_error(&self.scene, e))?);
+        Ok(())
+    }
+
+    /// All of them.
+    pub fn into_derivatives(self) -> Derivatives {
+        self.found
+    }
+}

@@ -1,0 +1,213 @@
+//! Whether the flanks that a mesh names are those of its gear; where not, the commonest mistakes are tried and named.
+
+use std::f64::consts::FRAC_PI_2;
+
+use geometry::{Gear, Side, Vec3};
+use mesh::{DEFAULT_TOLERANCE_MODULES, GearMesh, GroupNames};
+use nalgebra::Rotation3;
+
+use crate::{AnalysisError, meshes::mismatch};
+
+/// The flanks of a mesh beside those of its gear.
+pub(crate) struct NamedFlanks<'a> {
+    /// The mesh's file, for messages.
+    pub file: &'a str,
+    /// `pinion` or `wheel`.
+    pub whose: &'a str,
+    /// The mesh with its parts.
+    pub found: &'a GearMesh,
+    /// The gear.
+    pub exact: &'a Gear,
+    /// What the mesh calls its parts.
+    pub names: &'a GroupNames,
+}
+
+/// What may be wrong with a whole mesh: where a point of it should lie, and on the flank of which tooth and side.
+struct Mistake<'a> {
+    /// What it is, for the hint.
+    hint: String,
+    place: Box<dyn Fn(Vec3) -> Vec3 + 'a>,
+    tooth: i64,
+    opposite: bool,
+}
+
+impl Mistake<'_> {
+    fn naming(hint: &str, tooth: i64, opposite: bool) -> Self {
+        Self { hint: hint.to_owned(), place: Box::new(|p| p), tooth, opposite }
+    }
+
+    fn moved<'a>(hint: String, place: impl Fn(Vec3) -> Vec3 + 'a) -> Mistake<'a> {
+        Mistake { hint, place: Box::new(place), tooth: 0, opposite: false }
+    }
+}
+
+impl NamedFlanks<'_> {
+    /// Named flanks must lie where the scene says that this gear has its flanks: else it is the mesh of another gear,
+    /// and the gaps of the one would be put on the compliance of the other.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Mismatch`] with a node that is off, and the mistake that explains all of them, where there is
+    /// one.
+    pub fn lie_on_the_gear(&self) -> Result<(), AnalysisError> {
+        let Self { file, whose, found, exact, .. } = *self;
+        let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
+        for (tooth, side, node) in self.nodes() {
+            let off = self.distance(side, i64::from(tooth), self.point(node));
+            if off > allowed {
+                let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
+                let said = format!(
+                    "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, allowed is \
+                     {allowed:.3} mm",
+                    found.mesh().node_tags[node as usize],
+                    side.name()
+                );
+                return Err(mismatch(said, self.explanation(allowed)));
+            }
+        }
+        let [low, high] = self.heights();
+        let middle = 0.5 * (low + high);
+        // A spur gear has its flanks at any height, the face width has not.
+        if middle.abs() > LARGEST_SHIFT * (high - low) {
+            let said = format!("{file}: the {whose}'s flanks lie at z = {low:.3} to {high:.3} mm, not about z = 0");
+            return Err(mismatch(said, shifted(middle)));
+        }
+        Ok(())
+    }
+
+    /// Named flanks must be there as a whole: contact sees none where the mesh has no face to carry it.
+    ///
+    /// ```text
+    /// A = b r_b (u_a^2 - u_f^2) / (2 cos b_b)
+    /// ```
+    /// Area of a flank from the root form circle to the tip, mm^2.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Mismatch`]: a group that is not there, or covers a part of its flank.
+    pub fn are_whole(&self) -> Result<(), AnalysisError> {
+        let Self { file, whose, found, exact, names } = *self;
+        let profile = exact.profile();
+        let arc = 0.5 * exact.base_radius() * (profile.roll_tip().powi(2) - profile.roll_form().powi(2));
+        let whole = exact.face_width() * arc / exact.base_helix_angle().cos();
+        for (tooth, side) in found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]) {
+            let faces = found.flank(tooth, side).unwrap_or_default();
+            if faces.is_empty() {
+                let group = names.flank_of(side, i64::from(tooth));
+                let said =
+                    format!("{file}: no physical group `{group}`, though the other flank of tooth {tooth} has one");
+                return Err(mismatch(said, "name both flanks of a tooth, or neither; the program finds unnamed ones"));
+            }
+            let area: f64 = faces.iter().map(|face| found.mesh().area(face)).sum();
+            if area < COVERED * whole {
+                let said = format!(
+                    "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of \
+                     {whole:.2} mm^2",
+                    side.name(),
+                    100.0 * area / whole
+                );
+                let hint =
+                    "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
+                return Err(mismatch(said, hint));
+            }
+        }
+        Ok(())
+    }
+
+    /// Nodes of all flanks, each with its tooth and side.
+    fn nodes(&self) -> impl Iterator<Item = (u32, Side, u32)> + '_ {
+        let flanks = self.found.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]);
+        flanks.flat_map(|(tooth, side)| {
+            let faces = self.found.flank(tooth, side).unwrap_or_default();
+            faces.iter().flat_map(|face| face.nodes()).map(move |&node| (tooth, side, node))
+        })
+    }
+
+    fn point(&self, node: u32) -> Vec3 {
+        Vec3::from(self.found.mesh().nodes[node as usize])
+    }
+
+    /// Distance of a point from a flank of the gear, mm; infinite where it faces none.
+    fn distance(&self, side: Side, tooth: i64, point: Vec3) -> f64 {
+        self.exact.flank_of(side, tooth).locate(&point).map_or(f64::INFINITY, |foot| foot.distance.abs())
+    }
+
+    /// Lowest and highest node of the flanks, mm.
+    fn heights(&self) -> [f64; 2] {
+        let heights = self.nodes().map(|(_, _, node)| self.point(node).z);
+        heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
+    }
+
+    /// The mistake with which all nodes lie within `allowed` of their flanks, in words.
+    fn explanation(&self, allowed: f64) -> String {
+        let fits = |mistake: &Mistake<'_>| {
+            self.nodes().all(|(tooth, side, node)| {
+                let side = if mistake.opposite { side.opposite() } else { side };
+                self.distance(side, i64::from(tooth) + mistake.tooth, (mistake.place)(self.point(node))) <= allowed
+            })
+        };
+        let unknown = "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), axis on z, \
+                       tooth 0 on +x?";
+        self.mistakes().iter().find(|m| fits(m)).map_or_else(|| unknown.to_owned(), |m| m.hint.clone())
+    }
+
+    /// The commonest ones.
+    fn mistakes(&self) -> Vec<Mistake<'static>> {
+        let [low, high] = self.heights();
+        let middle = 0.5 * (low + high);
+        let turned = |angle: f64, what: String| {
+            let back = Rotation3::from_axis_angle(&Vec3::z_axis(), -angle);
+            Mistake::moved(what, move |p| back * p)
+        };
+        let quarter = |quarters: i32, axis: &str| {
+            let by = 90 * quarters;
+            turned(
+                f64::from(quarters) * FRAC_PI_2,
+                format!(
+                    "the mesh is turned by {by} deg: its tooth 0 lies on {axis}, it must lie on +x (turn it by {} deg)",
+                    -by
+                ),
+            )
+        };
+        let pitch = self.exact.pitch_angle();
+        vec![
+            Mistake::naming(
+                "teeth are numbered from 1 in the mesh: the tooth on +x is number 0 (`flank_left_0`), the next \
+                 counter-clockwise 1",
+                -1,
+                false,
+            ),
+            Mistake::naming(
+                "left and right are swapped: seen from +z the left flank is the counter-clockwise side of a tooth",
+                0,
+                true,
+            ),
+            Mistake::moved(shifted(middle), move |p| p - Vec3::new(0.0, 0.0, middle)),
+            quarter(1, "+y"),
+            quarter(-1, "-y"),
+            quarter(2, "-x"),
+            turned(
+                0.5 * pitch,
+                "a tooth space lies on +x: the middle of tooth 0 must (turn the mesh by half a pitch)".into(),
+            ),
+            Mistake::moved(
+                "the mesh has the other hand of helix: give `helix_angle_deg` the other sign, or mirror the mesh"
+                    .into(),
+                |p| Vec3::new(p.x, p.y, -p.z),
+            ),
+        ]
+    }
+}
+
+/// What to do with a mesh whose mid-face is at `middle`, mm.
+fn shifted(middle: f64) -> String {
+    format!(
+        "mid-face of the mesh is at z = {middle:.4} mm: it must be at 0, move the mesh by {:.4} mm along z",
+        -middle
+    )
+}
+
+/// Distance of the flanks' middle from mid-face over their width from which on they are another face: chamfers at one
+/// end are less.
+const LARGEST_SHIFT: f64 = 0.25;
+
+/// Share of a flank that its faces must cover: groups may begin at the active root circle or leave out chamfers.
+const COVERED: f64 = 0.75;

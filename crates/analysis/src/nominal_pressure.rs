@@ -1,0 +1,100 @@
+//! Nominal pressure of the flanks: Hertz at the inner points of single contact and at the pitch point, and what ISO
+//! 6336-2 says.
+
+use contact::hertz;
+use geometry::{GearPair, Side};
+use lumped::iso::IsoFlank;
+use scene::Scene;
+use serde::Serialize;
+
+use crate::iso_root::base_force;
+
+/// Where the numbers come from; said wherever they are handed on.
+const METHOD: &str = "Hertz pressure of nominal involutes under the torque of the scene, spread evenly over the contact lines of the position \
+     in which one of them passes the point at mid-face; ISO 6336-2:2019 without load factors K and f_ZCa";
+
+/// Nominal pressures of a pair; units are in the names.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
+pub struct NominalPressure {
+    pub method: &'static str,
+    pub normal_force_n: f64,
+    pub tangential_force_n: f64,
+    pub iso_contact_stress_mpa: f64,
+    pub zone_factor: f64,
+    pub elasticity_factor: f64,
+    pub contact_ratio_factor: f64,
+    pub helix_angle_factor: f64,
+    /// Z_B, Z_D.
+    pub single_contact_factors: Option<[f64; 2]>,
+    /// B, C, D; C alone unless between one and two pairs mesh.
+    pub hertz: Vec<PointPressure>,
+}
+
+/// Hertz pressure at a point of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs)]
+pub struct PointPressure {
+    pub name: char,
+    pub line_length_mm: f64,
+    pub relative_radius_mm: f64,
+    pub pressure_mpa: f64,
+}
+
+/// Of the pair of a scene, under its torque.
+///
+/// ```text
+/// p = sqrt(F_bn E* / (pi L rho_n)),   rho_n = xi (T - xi) / (T cos b_b),   F_bn = T_driven / (r_b cos b_b)
+/// ```
+/// L is the total length of the analytic contact lines when one of them passes xi at mid-face: of a spur pair at B and
+/// D the face width, for one pair of teeth carries all on the inner side of these points.
+pub fn nominal_pressure(scene: &Scene, pair: &GearPair) -> NominalPressure {
+    let gears = scene.gears();
+    let (young, poisson) = (gears.map(|g| g.material.young_mpa), gears.map(|g| g.material.poisson));
+    let force = base_force(scene, pair);
+    let tangential = force * pair.pinion.transverse_pressure_angle().cos();
+    let normal = force / pair.base_helix_angle().cos();
+    let iso = IsoFlank::new(pair, young, poisson);
+    let modulus = hertz::effective_modulus([0, 1].map(|i| (young[i], poisson[i])));
+    let hertz = points(pair)
+        .map(|(name, xi)| {
+            let line_length_mm = length_at(pair, xi);
+            let whole = pair.tangent_length();
+            let relative_radius_mm = xi * (whole - xi) / (whole * pair.base_helix_angle().cos());
+            let pressure_mpa = hertz::line_pressure(normal / line_length_mm, relative_radius_mm, modulus);
+            PointPressure { name, line_length_mm, relative_radius_mm, pressure_mpa }
+        })
+        .collect();
+    NominalPressure {
+        method: METHOD,
+        normal_force_n: normal,
+        tangential_force_n: tangential,
+        iso_contact_stress_mpa: iso.nominal_stress(pair, tangential),
+        zone_factor: iso.zone,
+        elasticity_factor: iso.elasticity,
+        contact_ratio_factor: iso.contact_ratio,
+        helix_angle_factor: iso.helix,
+        single_contact_factors: iso.single_contact,
+        hertz,
+    }
+}
+
+/// Points with their path coordinates, mm; B and D a little to the inner side, where one pair of a spur gear carries
+/// all.
+fn points(pair: &GearPair) -> impl Iterator<Item = (char, f64)> {
+    let ([start, end], pitch) = (pair.path_of_contact(), pair.transverse_base_pitch());
+    let one_pair = (1.0..2.0).contains(&pair.transverse_contact_ratio());
+    let little = 1e-9 * pitch;
+    let pitch_point = pair.pinion.base_radius() * pair.working_pressure_angle().tan();
+    let single = |xi: f64| one_pair.then_some(xi);
+    [('B', single(end - pitch + little)), ('C', Some(pitch_point)), ('D', single(start + pitch - little))]
+        .into_iter()
+        .filter_map(|(name, xi)| Some((name, xi?)))
+}
+
+/// Total length of the contact lines when that of a pair passes `xi` at mid-face, mm.
+fn length_at(pair: &GearPair, xi: f64) -> f64 {
+    let side = Side::Left;
+    let angle = (xi - pair.path_coordinate(side, 0.0, 0, 0.0)) / (side.sign() * pair.pinion.base_radius());
+    pair.contact_line_length(side, angle)
+}

@@ -1,0 +1,46 @@
+//! The load factors of ISO 6336-1 that say how unevenly the load lies, from its solved distribution. Theory (34a).
+
+use ltca::{PairResult, StaticHistory, StaticPosition};
+
+/// K_Hbeta after ISO 6336-1 (its definition, not its estimates): the largest load per width over the mean one, of the
+/// largest line loads that each height of the face sees over the mesh; heights without load count as 0.
+///
+/// `None` where points touch, and without load.
+pub fn face_load_factor(slices: usize, history: &StaticHistory) -> Option<f64> {
+    let loaded = history.positions.iter().flat_map(|position| &position.pairs).flat_map(|pair| &pair.slices);
+    let mut of_height: Vec<(f64, f64)> = Vec::with_capacity(slices);
+    for slice in loaded {
+        // Slices lie at the same heights in all positions.
+        match of_height.iter_mut().find(|(z, _)| *z == slice.z) {
+            Some((_, largest)) => *largest = largest.max(slice.line_load),
+            None => of_height.push((slice.z, slice.line_load)),
+        }
+    }
+    let largest = of_height.iter().map(|(_, load)| *load).fold(0.0, f64::max);
+    let mean = of_height.iter().map(|(_, load)| load).sum::<f64>() / slices.max(1) as f64;
+    (largest > 0.0).then_some(largest / mean)
+}
+
+/// K_Halpha after the definition of ISO 6336-1 (not its estimates): the largest load that a pair of teeth carries over
+/// the mesh, over the largest one that it would carry if the pairs in mesh shared the load as the lengths of their
+/// nominal contact lines.
+///
+/// ```text
+/// K_Halpha = max F_k / max (F l_k / L)       over all positions and pairs k;  F = sum F_k,  L = sum l_k
+/// ```
+/// F_k normal forces, l_k analytic lengths of the unloaded lines. The standard compares with "a similar pair free from
+/// inaccuracies"; here that pair has evenly loaded lines, as the standard's own mean load. Below 1 where soft ends of
+/// lines or reliefs spread the load over more pairs; 1 for a spur pair of which one pair carries all for a while,
+/// whatever its errors. `None` without load.
+pub fn transverse_load_factor(history: &StaticHistory) -> Option<f64> {
+    let largest = |of: &dyn Fn(&StaticPosition, &PairResult) -> f64| {
+        let all = history.positions.iter().flat_map(|p| p.pairs.iter().map(move |pair| of(p, pair)));
+        all.fold(0.0, f64::max)
+    };
+    let even = largest(&|p, pair| {
+        let force: f64 = p.pairs.iter().map(|pair| pair.normal_force).sum();
+        let length: f64 = p.pairs.iter().map(|pair| pair.geometric_line_length).sum();
+        if length > 0.0 { force * pair.geometric_line_length / length } else { 0.0 }
+    });
+    (even > 0.0).then(|| largest(&|_, pair| pair.normal_force) / even)
+}

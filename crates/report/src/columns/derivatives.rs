@@ -1,0 +1,50 @@
+//! Columns of derivatives behind those of `history.csv` of a run at rest.
+
+use analysis::{Derivatives, results::pairs};
+use ltca::{PositionRates, Sensitivity, StaticPosition};
+
+/// A derivative by a key: what it is of, and its number, per unit of the key.
+type Rate = (&'static str, fn(&Sensitivity) -> f64);
+
+/// Those that stand once.
+const RATES: [Rate; 6] = [
+    ("d_ste_um", |s| 1e3 * s.rates().transmission_error),
+    ("d_ste_um_falling", |s| 1e3 * s.sides[0].transmission_error),
+    ("d_ste_um_growing", |s| 1e3 * s.sides[1].transmission_error),
+    ("d_kinematic_te_um", |s| 1e3 * s.rates().kinematic_transmission_error),
+    ("d_mesh_stiffness_n_per_um", |s| 1e-3 * s.rates().secant_stiffness),
+    ("d_max_pressure_mpa", |s| s.rates().max_pressure),
+];
+
+/// A key as a part of a name.
+fn word(key: &str) -> String {
+    key.replace('.', "_")
+}
+
+/// Names of all columns, with pairs of these numbers.
+pub(super) fn names(keys: &[String], pairs: &[i64]) -> Vec<String> {
+    let of_pairs = || pairs.iter().map(|k| format!("d_normal_force_pair_{k}_n"));
+    let of = |key: &String| {
+        let names = RATES.iter().map(|(name, _)| (*name).to_owned()).chain(of_pairs());
+        names.map(|name| format!("{name}_per_{}", word(key))).collect::<Vec<_>>()
+    };
+    keys.iter().flat_map(of).collect()
+}
+
+/// The numbers of a position, in the same order; `pitch` angle of the pinion, rad.
+pub(super) fn row(of: &Derivatives, index: usize, position: &StaticPosition, numbers: &[i64], pitch: f64) -> Vec<f64> {
+    let none = Vec::new();
+    let by_key = |s: &Sensitivity| {
+        let rates = s.rates();
+        let of_pairs = numbers.iter().map(|&k| pair_force(&rates, position, k, pitch)).collect::<Vec<f64>>();
+        RATES.iter().map(|(_, rate)| rate(s)).chain(of_pairs).collect::<Vec<f64>>()
+    };
+    of.rates.get(index).unwrap_or(&none).iter().flat_map(by_key).collect()
+}
+
+/// Of the normal force of the pair of that column, N; 0 when it is not in the window.
+fn pair_force(rates: &PositionRates, position: &StaticPosition, column: i64, pitch: f64) -> f64 {
+    let own = position.pairs.iter().zip(&rates.pair_forces);
+    let own = own.filter(|(pair, _)| pairs::in_cycle(position, pair.pair, pitch) == column);
+    0.0 + own.map(|(_, rate)| rate).sum::<f64>()
+}

@@ -1,0 +1,32 @@
+//! Keys of what neither meshes nor matrices know, and scenes that differ in one of them.
+
+use crate::{OutputScene, Scene, SceneError, Setting};
+
+impl Scene {
+    /// Whether a key is of micro-geometry or misalignment.
+    pub fn is_design_key(key: &str) -> bool {
+        key.contains(".modification.") || key.starts_with("pair.misalignment.")
+    }
+
+    /// A step of such a key that moves flanks by some 1e-5 mm, for differences; in the key's unit.
+    pub fn design_step(key: &str) -> f64 {
+        if key.ends_with("_um") { 0.01 } else { 1e-3 }
+    }
+
+    /// The same scene with another number; of a modification of both flanks on the driving ones. It asks for no
+    /// derivatives.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the scene does not allow.
+    pub fn with_number(&self, key: &str, value: f64) -> Result<Self, SceneError> {
+        let mut parts: Vec<&str> = key.split('.').collect();
+        let of_flank = parts.get(1) == Some(&"modification");
+        if of_flank && !parts.get(2).is_some_and(|part| *part == "drive" || *part == "coast") {
+            parts.insert(2, "drive");
+        }
+        let own = Self { output: OutputScene { derivatives: Vec::new(), ..self.output.clone() }, ..self.clone() };
+        let setting = Setting::number(&parts.join("."), value)?;
+        let scene = Self::parse_with(&own.to_toml(), &self.file, &[setting])?;
+        Ok(Self { set: self.set.clone(), ..scene })
+    }
+}
