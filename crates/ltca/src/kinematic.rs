@@ -16,8 +16,6 @@ use crate::{
 /// rotations on either side; the gap is nearly linear in it, so three or four do.
 const STEPS: usize = 80;
 const NEWTON_STEPS: usize = 10;
-/// Round-off of places that a gap may be off by after these steps.
-const STUCK: f64 = 16.0;
 /// Share by which gaps of two pairs may change differently as the gear turns.
 const OTHER_LEVERS: f64 = 0.05;
 /// Heights between which a parabola tells where the gap is least, over half the face width.
@@ -99,9 +97,7 @@ impl<'a> Unloaded<'a> {
             }
             between[usize::from(nearest.gap < 0.0)] = Some(unloaded.rotation);
             unloaded.touch = Some(nearest);
-            // Gaps that no step makes smaller are round-off themselves.
-            let allowed = if taken > NEWTON_STEPS { STUCK * round_off } else { round_off };
-            let touches = nearest.gap.abs() <= allowed && taken > 0;
+            let touches = nearest.gap.abs() <= round_off && taken > 0;
             match between {
                 // Steps that go to and fro over a kink: the end of what two flanks face of each other, another pair.
                 [Some(out), Some(within)] if taken >= NEWTON_STEPS && !touches => {

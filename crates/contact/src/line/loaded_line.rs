@@ -13,7 +13,7 @@ pub struct LineStation {
 }
 
 /// Ends are found to this share of the distance between stations.
-const RESOLUTION: f64 = 1e-6;
+const RESOLUTION: f64 = 1e-9;
 /// What stands for the gap of flanks that do not face each other, mm.
 const FAR: f64 = 1.0;
 /// Stations that the deflection is interpolated from.
