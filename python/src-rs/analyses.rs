@@ -14,7 +14,7 @@ use report::{
     Recorder,
     folder::ResultDirectory,
     optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum},
-    plan_files::{DoneCases, solve_cases, write_cases},
+    plan_files::{DoneCases, PageWords, solve_cases, write_cases},
     read_columns, solve_in_time,
 };
 use study::Columns;
@@ -48,8 +48,8 @@ pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
     Result::written(("dynamic", &scene.name), folder, verdict.err().map(Complaint::from))
 }
 
-/// Many cases of a scene, a row a case.
-pub fn vary(plan: &Plan, held: Held<'_>, watch: &mut Watch) -> Answer {
+/// Many cases of a scene, a row a case; `again`: the call that makes it again.
+pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let done = DoneCases::in_memory(Default::default());
@@ -62,7 +62,7 @@ pub fn vary(plan: &Plan, held: Held<'_>, watch: &mut Watch) -> Answer {
     solve_cases((plan, 0..count), held.models, &one_in_time, &done, &*progress)?;
     watch.end();
     analysis::unless_cancelled(&*progress)?;
-    write_cases(plan, &done, &watch.cost(), &results)?;
+    write_cases((plan, &done), PageWords { again, ..PageWords::default() }, &watch.cost(), &results)?;
     results.finish(drop)?;
     Result::written(("plan", &plan.name), folder, None)
 }

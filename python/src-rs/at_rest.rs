@@ -4,16 +4,16 @@ use std::{sync::Mutex, sync::PoisonError};
 
 use ::scene::Scene;
 use analysis::{
-    AnalysisError, GearCache, SharedModels, SinkResult, StaticResult, StaticSink,
+    AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticResult, StaticSink,
     accuracy::{AccurateAnalysis, AccurateResult},
     facts::Facts,
-    results::{pairs, root_stress_headline, root_stress_warnings, static_headline},
+    results::{root_stress_headline, root_stress_warnings, static_headline},
     static_certificate,
 };
 use ltca::{StaticHistory, StaticModel, StaticPosition};
 use report::{
     Cost, Recorder, ReportError,
-    columns::{STATIC_HISTORY, StaticLayout},
+    columns::history_rows,
     folder::ResultDirectory,
     paraview::FieldWriter,
     view::{View, ViewRecorder},
@@ -30,6 +30,8 @@ pub struct AtRest {
     history: StaticHistory,
     facts: Facts,
     cost: Cost,
+    /// Where the scene asks for some.
+    derivatives: Option<Derivatives>,
     /// Files for ParaView, where they were asked for.
     fields: Option<TempDir>,
     gears: Mutex<InSpace>,
@@ -45,6 +47,8 @@ enum InSpace {
 struct Keeper<'a> {
     scene: &'a Scene,
     recorder: ViewRecorder,
+    /// Why there is none is told at the first position.
+    derivatives: Result<Option<DerivativeRecorder>, Option<AnalysisError>>,
     fields: Option<(FieldWriter<'a>, &'a ResultDirectory)>,
     start: std::time::Instant,
     first_result_s: Option<f64>,
@@ -53,12 +57,18 @@ struct Keeper<'a> {
 impl StaticSink for Keeper<'_> {
     fn begin(&mut self, scene: &Scene) {
         self.recorder = ViewRecorder::new(scene);
+        self.derivatives = DerivativeRecorder::new(scene).map_err(Some);
         self.fields = self.fields.take().map(|(_, results)| (FieldWriter::new(self.scene, results), results));
     }
 
     fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult {
         self.first_result_s.get_or_insert_with(|| self.start.elapsed().as_secs_f64());
         self.recorder.position(index, position, model);
+        match &mut self.derivatives {
+            Ok(Some(recorder)) => recorder.position(model)?,
+            Ok(None) => {}
+            Err(why) => return why.take().map_or(Ok(()), |why| Err(why.into())),
+        }
         Ok(self.fields.as_mut().map_or(Ok(()), |(fields, _)| fields.position(index, position, model))?)
     }
 
@@ -80,13 +90,15 @@ impl AtRest {
         let mut keeper = Keeper {
             scene,
             recorder: ViewRecorder::new(scene),
+            derivatives: Ok(None),
             fields: results.as_ref().map(|r| (FieldWriter::new(scene, r), r)),
             start: watch.start(),
             first_result_s: None,
         };
         let analysis = AccurateAnalysis::new(scene).with_cache(cache).with_shared(models);
         let AccurateResult { scene: solved, result } = analysis.solve_into(watch, &mut keeper)?;
-        let Keeper { recorder, first_result_s, .. } = keeper;
+        let Keeper { recorder, derivatives, first_result_s, .. } = keeper;
+        let derivatives = derivatives.ok().flatten().map(DerivativeRecorder::into_derivatives);
         if let Some(results) = results {
             results.finish(drop)?;
         }
@@ -102,14 +114,12 @@ impl AtRest {
             None => InSpace::Drawn(None, Vec::new()),
         };
         let cost = watch.cost();
-        Ok(Self { scene: solved, history, facts, cost, fields: folder, gears: Mutex::new(gears) })
+        Ok(Self { scene: solved, history, facts, cost, derivatives, fields: folder, gears: Mutex::new(gears) })
     }
 
     /// The rows, column by column.
     pub fn columns(&self) -> Columns {
-        let layout = StaticLayout::of(&self.scene, &self.history);
-        let pairs = pairs::columns(&self.history, layout.pitch());
-        STATIC_HISTORY.sheet(&layout, &pairs).columns(&layout, &self.history.positions)
+        history_rows(&self.scene, &self.history, self.derivatives.as_ref())
     }
 
     /// The headline numbers as JSON.
@@ -154,7 +164,7 @@ impl AtRest {
         };
         let mut history = self.history.clone();
         history.warnings.extend_from_slice(said);
-        let pattern = write_static_rows(&self.scene, &history, None, results)?;
+        let pattern = write_static_rows(&self.scene, &history, self.derivatives.as_ref(), results)?;
         let shown = (pattern.as_deref(), view);
         write_static_result(&self.scene, &history, (&self.facts, &self.cost), shown, results)
     }

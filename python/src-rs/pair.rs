@@ -256,8 +256,9 @@ impl Pair {
         };
         let (text, file, settings) = self.parts(set)?;
         let plan = Plan::of_scene_text(text, &file, &settings, &words).map_err(Complaint::from)?;
+        let again = format!("ale_gear.Pair(scene).vary({:?}, {outputs:?})", words.vary);
         let held = Arc::clone(&self.held);
-        let result = run(py, progress, move |watch| analyses::vary(&plan, held.held(), watch))?;
+        let result = run(py, progress, move |watch| analyses::vary(&plan, &again, held.held(), watch))?;
         that_holds(py, result)
     }
 

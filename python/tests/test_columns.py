@@ -26,6 +26,7 @@ CASES = [
     ("coarse", {**FEW, "pair.misalignment.inclination_um": 12.0}),
     ("coarse", {**FEW, "pinion.modification.drive.lead_crowning_um": 8.0}),
     ("coarse", {**FEW, "analysis.cycles": 2}),
+    ("coarse", {**FEW, "output.derivatives": ["pair.misalignment.inclination_um"]}),
     ("iso", {}),
     ("iso", {"operation.torque_nm": 400.0}),
     ("spur", {**FEW, **SECTOR}),

@@ -34,6 +34,14 @@ impl VariedScene {
         let at = |by: f64| scene.with_number(key, value + by);
         Ok(Self { sides: [at(-step)?, at(step)?], steps: [step; 2] })
     }
+
+    /// The same of some keys.
+    ///
+    /// # Errors
+    /// As of [`VariedScene::by_key`].
+    pub fn by_keys(scene: &Scene, keys: &[String]) -> Result<Vec<Self>, AnalysisError> {
+        keys.iter().map(|key| Self::by_key(scene, key)).collect()
+    }
 }
 
 impl DerivativeRecorder {
@@ -46,7 +54,7 @@ impl DerivativeRecorder {
         if keys.is_empty() {
             return Ok(None);
         }
-        let varied = keys.iter().map(|key| VariedScene::by_key(scene, key)).collect::<Result<_, _>>()?;
+        let varied = VariedScene::by_keys(scene, &keys)?;
         let found = Derivatives { keys, rates: Vec::new() };
         Ok(Some(Self { scene: scene.clone(), varied, sensitivities: None, found }))
     }

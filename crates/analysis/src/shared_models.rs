@@ -14,7 +14,7 @@ use mesh::Mesh;
 use scene::{ContactScene, Method, Model, ModificationScene, Scene};
 
 use crate::{
-    AnalysisError, GearCache, NoObserver, NoSink,
+    AnalysisError, Derivatives, GearCache, NoObserver, NoSink,
     accuracy::{AccurateAnalysis, AccurateResult},
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
@@ -64,6 +64,13 @@ pub struct VariedScene {
     pub sides: [Scene; 2],
     /// By how much, in the parameter's unit.
     pub steps: [f64; 2],
+}
+
+/// What is asked for beside the positions: derivatives by some parameters, of the unloaded pair too or not.
+#[derive(Clone, Copy, Default)]
+struct Rates<'a> {
+    of: &'a [VariedScene],
+    of_unloaded: bool,
 }
 
 /// Positions and their derivatives.
@@ -163,7 +170,27 @@ impl<'a> SharedModels<'a> {
         Ok((scene, history))
     }
 
-    /// The same, and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
+    /// The same with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks for none.
+    ///
+    /// # Errors
+    /// As of [`SharedModels::solve`], and where there are no derivatives.
+    pub fn solve_with_derivatives(
+        &self,
+        scene: &Scene,
+    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
+        let keys = scene.output.derivatives.clone();
+        if keys.is_empty() {
+            let (scene, history) = self.solve(scene)?;
+            return Ok((scene, history, None));
+        }
+        let varied = VariedScene::by_keys(scene, &keys)?;
+        let asked = Rates { of: &varied, of_unloaded: true };
+        let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, &|| true)?;
+        static_certificate(&history.positions).verdict(&scene)?;
+        Ok((scene, history, Some(Derivatives { keys, rates })))
+    }
+
+    /// As [`SharedModels::solve`], and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
     ///
     /// # Errors
     /// As of [`SharedModels::solve`].
@@ -193,7 +220,7 @@ impl<'a> SharedModels<'a> {
             unwanted.set(unwanted.get() || !wanted());
             !unwanted.get()
         };
-        let (SolvedWithRates { scene, mut history, .. }, base) = self.positions(scene, &[], &still)?;
+        let (SolvedWithRates { scene, mut history, .. }, base) = self.positions(scene, Rates::default(), &still)?;
         if unwanted.get() {
             return Ok(None);
         }
@@ -220,7 +247,8 @@ impl<'a> SharedModels<'a> {
     /// # Errors
     /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
-        let (solved, _) = self.positions(scene, varied, &|| true)?;
+        let asked = Rates { of: varied, of_unloaded: false };
+        let (solved, _) = self.positions(scene, asked, &|| true)?;
         static_certificate(&solved.history.positions).verdict(&solved.scene)?;
         Ok(solved)
     }
@@ -229,7 +257,7 @@ impl<'a> SharedModels<'a> {
     fn positions(
         &self,
         scene: &Scene,
-        varied: &[VariedScene],
+        asked: Rates<'_>,
         wanted: &dyn Fn() -> bool,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = settled_scene(scene, self.meshes.is_some());
@@ -244,11 +272,12 @@ impl<'a> SharedModels<'a> {
                 let mut model = base.model.modified(pair.clone(), with(window))?;
                 last.replace(Some(Arc::clone(&base)));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
-                let variations = varied.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
-                let mut sensitivities = Sensitivities::new(variations).of_loaded_pair();
+                let variations = asked.of.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
+                let all = Sensitivities::new(variations);
+                let mut sensitivities = if asked.of_unloaded { all } else { all.of_loaded_pair() };
                 let mut rates = Vec::new();
                 let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
-                    if varied.is_empty() {
+                    if asked.of.is_empty() {
                         return if wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
                     }
                     rates.push(sensitivities.of(model));

@@ -210,6 +210,9 @@ impl Flank {
 
 /// Angle in (-pi, pi].
 pub(crate) fn wrap(angle: f64) -> f64 {
+    if angle.abs() < PI {
+        return angle;
+    }
     let turned = angle - (angle / (2.0 * PI)).round() * (2.0 * PI);
     // Half a turn either way is the positive one.
     if turned <= -PI { turned + 2.0 * PI } else { turned }

@@ -28,8 +28,7 @@ impl GearPair {
         let contact = [rb * (cos + touch * sin), rb * (sin - touch * cos)];
         let start = contact[1].atan2(contact[0] - a);
         let centre_line = a_wt - touch + own.profile().base_half_angle();
-        // A tooth is nowhere wider than where it is rooted.
-        let widest = own.profile().fillet(0.0).1.max(own.profile().half_angle(own.profile().roll_form()));
+        let outline = Outline::new(own);
         // From a little before the tip touches until the corner is well past the line of centres.
         let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
         let depth = |k: u32| {
@@ -39,9 +38,35 @@ impl GearPair {
             let radius = x.hypot(y);
             let angle = y.atan2(x) + turn * rb_mate / rb;
             let off = (angle - centre_line + PI).rem_euclid(2.0 * PI) - PI;
-            if off.abs() >= widest { 0.0 } else { radius * (half_angle(own, radius) - off.abs()) }
+            if off.abs() >= outline.widest_from(radius) { 0.0 } else { radius * (half_angle(own, radius) - off.abs()) }
         };
         (0..=SAMPLES).map(depth).fold(0.0, f64::max)
+    }
+}
+
+/// Places on a fillet, ends included.
+const PLACES: usize = 17;
+
+/// How wide a tooth is at most: radii (mm) of places on its fillet, from the root land on, and the largest half angle
+/// (rad) from each of them outwards.
+struct Outline([(f64, f64); PLACES]);
+
+impl Outline {
+    fn new(gear: &Gear) -> Self {
+        let profile = gear.profile();
+        let mut places: [_; PLACES] = std::array::from_fn(|i| profile.fillet(i as f64 / (PLACES - 1) as f64));
+        let mut widest = profile.half_angle(profile.roll_form());
+        for (_, half) in places.iter_mut().rev() {
+            widest = widest.max(*half);
+            *half = widest;
+        }
+        Self(places)
+    }
+
+    /// Bound of the half angle at a radius (mm) and beyond. A tooth narrows outwards, but for one waist above an
+    /// undercut: between two places it is nowhere wider than at one of them.
+    fn widest_from(&self, radius: f64) -> f64 {
+        self.0[self.0.partition_point(|(r, _)| *r <= radius).saturating_sub(1)].1
     }
 }
 

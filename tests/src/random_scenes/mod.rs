@@ -84,6 +84,7 @@ pub fn draw(seed: u64, index: u64) -> RandomScene {
     }
     question::draw_output(&mut d, &asked);
     question::draw_accuracy(&mut d, &asked);
+    question::draw_derivatives(&mut d, &asked);
     let anything = d.chance(ANYTHING);
     if anything {
         let keys = keys_of_schema();

@@ -124,6 +124,18 @@ pub fn draw_output(d: &mut Draft, asked: &Asked) {
     }
 }
 
+/// What a loaded pair at rest is differentiated by.
+pub fn draw_derivatives(d: &mut Draft, asked: &Asked) {
+    let slices = d.get("contact.method").is_none_or(|m| m.as_str() == Some("slice"));
+    let asks = asked.meshed && asked.model == "reduced" && !asked.in_time && d.get("accuracy").is_none();
+    if !(slices && asks && d.chance(0.1)) {
+        return;
+    }
+    let keys = ["pair.misalignment.in_plane_of_action_um", "pair.misalignment.deviation_um"];
+    let keys = d.some_of(&keys);
+    d.set("output.derivatives", keys);
+}
+
 /// How exact some number is to be; the model stays that of the scene, which is small. Of a motion only a steady one at
 /// constant speed under a constant load has bounds.
 pub fn draw_accuracy(d: &mut Draft, asked: &Asked) {

@@ -1,6 +1,6 @@
 //! Derivatives in `history.csv`, against differences of runs.
 
-use crate::util::{ISO_SCENE, Scratch, column, motion_scene, tiny_at_rest};
+use crate::util::{ISO_SCENE, Scratch, chart_rows, column, motion_scene, tiny_at_rest};
 
 const KEYS: [(&str, f64); 3] = [
     ("pinion.modification.tip_relief_um", 0.01),
@@ -57,6 +57,29 @@ fn derivatives_are_those_of_central_differences() {
     let plain = scratch.read("plain/history.csv");
     for (line, own) in plain.lines().zip(csv.lines()) {
         assert!(own.starts_with(line), "{line}\n{own}");
+    }
+}
+
+/// A plan takes derivatives of a case as it takes any column: those of a run with its values, bit by bit.
+#[test]
+fn a_plan_takes_the_derivatives_of_its_cases() {
+    let (key, _) = KEYS[0];
+    let names = ["d_ste_um", "d_kinematic_te_um"].map(|of| format!("{of}_per_{}", key.replace('.', "_")));
+    let outputs = names.each_ref().map(|name| format!("[[output]]\ncolumn = \"{name}\"\ntake = \"largest\"\n"));
+    let plan = format!("scene = \"a.toml\"\n[[vary]]\nkey = \"{key}\"\nvalues = [6, 10]\n{}", outputs.concat());
+    let scene = relieved() + &format!("[output]\nderivatives = [\"{key}\"]\n");
+    let scratch = Scratch::new().file("a.toml", scene).file("plan.toml", plan);
+    for words in [["vary", "plan.toml", "--out", "o"], ["run", "a.toml", "--out", "of_10"]] {
+        let run = scratch.ale_gear(words);
+        assert_eq!(run.code, Some(0), "{words:?}: {}{}", run.stdout, run.stderr);
+    }
+    let [cases, rows] = ["o/cases.csv", "of_10/history.csv"].map(|file| scratch.read(file));
+    for name in names {
+        let largest = column(&rows, &name).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let of_cases: Vec<String> =
+            chart_rows(&cases).iter().map(|row| row[&format!("largest_{name}")].clone()).collect();
+        assert_eq!(of_cases[1].parse(), Ok(largest), "{name} of the second case");
+        assert_ne!(of_cases[0], of_cases[1], "{name}");
     }
 }
 

@@ -54,7 +54,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let motion = bench.in_motion(&AS_IT_IS)?;
     Ok(vec![
         Figure::new(
-            "oscillator with clearance: share of the speeds with two answers, 256 steps a period",
+            "oscillator with clearance: share of the speeds with coexisting solutions, 256 steps a period",
             Shown::at_least(exact, 0.05),
         ),
         Figure::new(

@@ -19,9 +19,11 @@ pub struct Depth {
 /// A [`FlankModification`] on a gear of known size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DepthField {
-    /// Evaluation range of the profile, roll angles.
-    range: [f64; 2],
-    half_width: f64,
+    /// Middle of the evaluation range of the profile, roll angle, and 1 over half of the range.
+    middle: f64,
+    per_roll: f64,
+    /// 2/b, 1/mm.
+    per_height: f64,
     profile_crowning: f64,
     profile_slope: f64,
     lead_crowning: f64,
@@ -103,7 +105,7 @@ impl DepthField {
             None => None,
             Some(r) => {
                 let start = size.roll_of("start of tip relief", r.start)?;
-                Some(Ramp { amount: r.amount, start, length: tip - start, shape: r.shape })
+                Some(Ramp::new(r.amount, r.shape, start, tip - start))
             }
         };
         let root_relief = match m.root_relief {
@@ -117,7 +119,7 @@ impl DepthField {
                         expected: "above 0: it starts above the root form circle",
                     });
                 }
-                Some(Ramp { amount: r.amount, start, length: form - start, shape: r.shape })
+                Some(Ramp::new(r.amount, r.shape, start, form - start))
             }
         };
         let mut along_lead = [None; 2];
@@ -132,11 +134,12 @@ impl DepthField {
             }
             let sign = if end == 0 { -1.0 } else { 1.0 };
             let start = sign * (size.half_width - r.length);
-            *ramp = Some(Ramp { amount: r.amount, start, length: sign * r.length, shape: r.shape });
+            *ramp = Some(Ramp::new(r.amount, r.shape, start, sign * r.length));
         }
         let mut field = Self {
-            range: [from, tip],
-            half_width: size.half_width,
+            middle: 0.5 * (from + tip),
+            per_roll: 2.0 / (tip - from),
+            per_height: 1.0 / size.half_width,
             profile_crowning: m.profile_crowning,
             profile_slope: m.profile_slope,
             lead_crowning: m.lead_crowning,
@@ -169,9 +172,8 @@ impl DepthField {
     /// C_alpha p^2 + C_Halpha p / 2 + C_beta q^2 + C_Hbeta q / 2 + S_alpha p q / 4 + reliefs + grid
     /// ```
     pub fn at(&self, u: f64, z: f64) -> Depth {
-        let [low, high] = self.range;
-        let (p, dp) = ((2.0 * u - low - high) / (high - low), 2.0 / (high - low));
-        let (q, dq) = (z / self.half_width, 1.0 / self.half_width);
+        let [dp, dq] = [self.per_roll, self.per_height];
+        let [p, q] = [dp * (u - self.middle), dq * z];
         let mut depth = Depth {
             value: self.profile_crowning * p * p
                 + 0.5 * self.profile_slope * p

@@ -55,25 +55,32 @@ pub struct EndRelief {
     pub shape: ReliefShape,
 }
 
-/// Depth that starts at `start` and is `amount` at `start + length`; `length` < 0: towards smaller x.
+/// Depth that starts at one place of an axis and is the amount at another; beyond the start there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ramp {
-    pub amount: f64,
-    pub start: f64,
-    pub length: f64,
-    pub shape: ReliefShape,
+    amount: f64,
+    start: f64,
+    /// 1 over the way from the start to the other place; negative: towards smaller x.
+    per_length: f64,
+    shape: ReliefShape,
 }
 
 impl Ramp {
+    /// From no depth at `start` to `amount` at `start + length`.
+    pub fn new(amount: f64, shape: ReliefShape, start: f64, length: f64) -> Self {
+        Self { amount, start, per_length: 1.0 / length, shape }
+    }
+
     /// Depth and its derivative by x; at the start itself the slope is that of the flank before it.
     pub fn at(&self, x: f64) -> (f64, f64) {
-        let t = (x - self.start) / self.length;
+        let t = (x - self.start) * self.per_length;
         if t <= 0.0 {
             return (0.0, 0.0);
         }
+        let slope = self.amount * self.per_length;
         match self.shape {
-            ReliefShape::Linear => (self.amount * t, self.amount / self.length),
-            ReliefShape::Parabolic => (self.amount * t * t, 2.0 * self.amount * t / self.length),
+            ReliefShape::Linear => (self.amount * t, slope),
+            ReliefShape::Parabolic => (self.amount * t * t, 2.0 * t * slope),
         }
     }
 }

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use ltca::{StaticHistory, StaticPosition};
 use scene::Scene;
+use study::Columns;
 
 use super::{At, Column, Group, Over, Rows, Table, columns, derivatives};
 use crate::{charts::Curve, csv::push_row};
@@ -81,7 +82,7 @@ columns!(StaticRows, LEADING, |_, _| true, {
         "static transmission error on the transverse line of action, positive when the driven gear lags",
         |_, p, _| p.transmission_error * 1e3;
     KINEMATIC_TE = "kinematic_te_um" ["um"]
-        "transmission error of the unloaded pair: micro-geometry, pitch errors and misalignment alone. Both errors count from where the unmodified flanks would touch with parallel axes",
+        "no-load transmission error: of micro-geometry, pitch errors and misalignment alone. Both errors count from where the unmodified flanks would touch with parallel axes",
         |_, p, _| p.kinematic_transmission_error * 1e3;
     SECANT_STIFFNESS = "mesh_stiffness_n_per_um" ["N/um"] "secant: F_bt / (STE - kinematic TE)",
         |_, p, _| p.secant_stiffness * 1e-3;
@@ -181,17 +182,24 @@ pub const STATIC_HISTORY: Table<StaticRows> = Table {
 ///
 /// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
 pub fn write_history(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> String {
+    let columns = history_rows(scene, history, derivatives);
+    let mut csv = columns.names().join(",") + "\n";
+    columns.rows().for_each(|row| push_row(&mut csv, row));
+    csv
+}
+
+/// The same as columns.
+pub fn history_rows(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> Columns {
     let layout = StaticLayout::of(scene, history);
     let numbers = pairs::columns(history, layout.pitch);
     let sheet = STATIC_HISTORY.sheet(&layout, &numbers);
-    let Some(rates) = derivatives else { return sheet.csv(&layout, &history.positions) };
-    let names: Vec<String> = sheet.names().into_iter().chain(derivatives::names(&rates.keys, &numbers)).collect();
-    let mut csv = names.join(",") + "\n";
+    let of_rates = derivatives.map_or_else(Vec::new, |rates| derivatives::names(&rates.keys, &numbers));
+    let mut columns = Columns::named(sheet.names().into_iter().chain(of_rates));
     for (i, position) in history.positions.iter().enumerate() {
-        let own = derivatives::row(rates, i, position, &numbers, layout.pitch);
-        push_row(&mut csv, sheet.row(&layout, position).chain(own));
+        let own = derivatives.map(|rates| derivatives::row(rates, i, position, &numbers, layout.pitch));
+        columns.push(sheet.row(&layout, position).chain(own.into_iter().flatten()));
     }
-    csv
+    columns
 }
 
 /// Names of the columns for the pairs with these numbers.

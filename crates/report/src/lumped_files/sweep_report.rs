@@ -95,7 +95,7 @@ pub fn lumped_sweep_table(scene: &Scene, facts: &Facts, cost: &Cost, s: &SweepHe
     }
     if let Some(bands) = &s.hysteresis {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
-        t.text("two answers", bands.len(), &text.join(", "));
+        t.text("coexisting solutions", bands.len(), &text.join(", "));
     }
     t.text("points at which flanks part", s.parting, "");
     if !s.failed.is_empty() {

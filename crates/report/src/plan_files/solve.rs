@@ -53,8 +53,8 @@ fn solve(plan: &Plan, models: &SharedModels<'_>, in_time: InTime<'_>, case: usiz
     // Nobody looks at these.
     (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
     if scene.analysis.kind == Kind::Static {
-        let (scene, history) = models.solve(&scene).map_err(|e| e.to_string())?;
-        return static_case_values(&plan.outputs, &scene, &history);
+        let (scene, history, derivatives) = models.solve_with_derivatives(&scene).map_err(|e| e.to_string())?;
+        return static_case_values(&plan.outputs, (&scene, &history, derivatives.as_ref()));
     }
     let (rows, headline) = in_time(case, &scene)?;
     case_values(&plan.outputs, &rows, &headline, scene.analysis.cycles)

@@ -1,6 +1,6 @@
 //! The numbers that a plan wants of a case, read off its rows and its headline.
 
-use analysis::results::{pairs, static_headline};
+use analysis::{Derivatives, results::static_headline};
 use ltca::StaticHistory;
 use scene::{
     Scene,
@@ -10,21 +10,18 @@ use scene::{
 use serde_json::Value;
 use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
 
-use crate::columns::{STATIC_HISTORY, StaticLayout};
+use crate::columns::history_rows;
 
-/// Of a case at rest.
+/// Of a case at rest, with the derivatives that it asks for.
 ///
 /// # Errors
 /// Why there is none: a name that stands for no number, a headline without value.
-pub fn static_case_values(outputs: &[PlanOutput], scene: &Scene, history: &StaticHistory) -> Result<Vec<f64>, String> {
+pub fn static_case_values(
+    outputs: &[PlanOutput],
+    (scene, history, derivatives): (&Scene, &StaticHistory, Option<&Derivatives>),
+) -> Result<Vec<f64>, String> {
     let needs = |headline: bool| outputs.iter().any(|o| matches!(o, PlanOutput::Headline(_)) == headline);
-    let layout = StaticLayout::of(scene, history);
-    let rows = if needs(false) {
-        let sheet = STATIC_HISTORY.sheet(&layout, &pairs::columns(history, layout.pitch()));
-        sheet.columns(&layout, &history.positions)
-    } else {
-        Columns::default()
-    };
+    let rows = if needs(false) { history_rows(scene, history, derivatives) } else { Columns::default() };
     let headline = if needs(true) {
         let headline = static_headline(scene, history).map_err(|e| e.to_string())?;
         serde_json::to_value(headline).map_err(|e| e.to_string())?
