@@ -272,7 +272,8 @@ impl<'a> SharedModels<'a> {
                 let mut model = base.model.modified(pair.clone(), with(window))?;
                 last.replace(Some(Arc::clone(&base)));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
-                let variations = asked.of.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
+                let variations =
+                    asked.of.iter().map(|v| v.variation(&scene, &with(window))).collect::<Result<_, _>>()?;
                 let all = Sensitivities::new(variations);
                 let mut sensitivities = if asked.of_unloaded { all } else { all.of_loaded_pair() };
                 let mut rates = Vec::new();

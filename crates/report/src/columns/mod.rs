@@ -16,6 +16,8 @@ pub use energy::{ENERGY, EnergyRows, energy_columns};
 pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_quantity};
 pub use motion_history::{MOTION_HISTORY, MotionRows};
 pub use motion_rows::motion_rows;
-pub use static_history::{STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, history_rows, write_history};
+pub use static_history::{
+    STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, history_rows, write_history,
+};
 pub(crate) use table::columns;
 pub use table::{At, Column, GEARS, Group, Over, Rows, Sheet, Table};
