@@ -83,8 +83,7 @@ impl Assembly {
 
     /// Stiffness of shafts, bearings, housing and mesh springs: N/mm, N, N mm.
     pub fn stiffness(&self) -> DMatrix<f64> {
-        let mut k = self.of_shafts(|line| &line.stiffness);
-        self.add_supports(&mut k, &self.supports.stiffness);
+        let mut k = self.stiffness_without_meshes();
         for spring in &self.structure.springs {
             let mut lever = DVector::zeros(self.size());
             for (disc, own) in spring.discs.iter().zip(&spring.levers) {
@@ -94,6 +93,35 @@ impl Assembly {
             k.ger(spring.stiffness, &lever, &lever, 1.0);
         }
         k
+    }
+
+    /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
+    pub fn stiffness_without_meshes(&self) -> DMatrix<f64> {
+        let mut k = self.of_shafts(|line| &line.stiffness);
+        self.add_supports(&mut k, &self.supports.stiffness);
+        k
+    }
+
+    /// Takes a shaft that does not move out of a stiffness: its seats, among the `kept` coordinates, and its other nodes
+    /// meet nothing.
+    pub(crate) fn hold(&self, shaft: usize, k: &mut DMatrix<f64>, kept: &[usize]) {
+        for i in self.first[shaft]..self.first[shaft + 1] {
+            k.row_mut(i).fill(0.0);
+            k.column_mut(i).fill(0.0);
+            if !kept.contains(&i) {
+                k[(i, i)] = 1.0;
+            }
+        }
+    }
+
+    /// Positions of the nodes of a shaft, mm, and the first coordinate of the first of them.
+    pub(crate) fn line(&self, shaft: usize) -> (usize, &BeamLine) {
+        (self.first[shaft], &self.lines[shaft])
+    }
+
+    /// First coordinate of a bearing's node.
+    pub(crate) fn bearing(&self, bearing: usize) -> usize {
+        self.bearings[bearing]
     }
 
     /// Consistent mass of the shafts, and that of the discs: t, t mm, t mm^2.

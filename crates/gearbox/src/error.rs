@@ -1,6 +1,7 @@
 //! What a gearbox refuses, and what can go wrong on the way.
 
 use fem::FemError;
+use ltca::StaticError;
 use lumped::LumpedError;
 
 /// Why shafts, bearings and gears cannot be put together or solved.
@@ -91,6 +92,65 @@ pub enum GearboxError {
     /// Linear algebra of the whole.
     #[error(transparent)]
     Matrix(#[from] FemError),
+    /// Axes of a mesh at another distance than its gears are made for.
+    #[error("mesh {mesh}: the axes are {distance_mm} mm apart, and the pair is made for {wanted_mm} mm")]
+    Distance {
+        /// Name of the mesh.
+        mesh: String,
+        /// Distance of the shafts, mm.
+        distance_mm: f64,
+        /// Centre distance of the pair, mm.
+        wanted_mm: f64,
+    },
+    /// Gears of a mesh whose mid-planes differ.
+    #[error("mesh {mesh}: gear 2 lies {offset_mm} mm beside gear 1 along the axis")]
+    Beside {
+        /// Name of the mesh.
+        mesh: String,
+        /// How far, mm.
+        offset_mm: f64,
+    },
+    /// Two ways through the train turn a shaft unlike.
+    #[error("shaft {shaft} would turn {} and {} times the input's turns", ratios[0], ratios[1])]
+    Ratios {
+        /// Name of the shaft.
+        shaft: String,
+        /// The two ratios.
+        ratios: [f64; 2],
+    },
+    /// A shaft that no chain of meshes joins to the input.
+    #[error("shaft {shaft} meshes with nothing that the input drives")]
+    NotDriven {
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// A torque that drives where it should load.
+    #[error("the torque of {torque_nmm} N mm at {disc} drives its shaft instead of loading it")]
+    Drives {
+        /// Name of the disc.
+        disc: String,
+        /// The torque, N mm about +z.
+        torque_nmm: f64,
+    },
+    /// Newton's method does not settle.
+    #[error("no equilibrium after {iterations} steps: the last one was {step:.1e} of the displacements")]
+    NoEquilibrium {
+        /// Steps taken.
+        iterations: usize,
+        /// Last step over the displacements, in the norm of the stiffness.
+        step: f64,
+    },
+    /// The contact of a mesh.
+    #[error("mesh {mesh}: {source}")]
+    AtMesh {
+        /// Name of the mesh.
+        mesh: String,
+        /// What is wrong.
+        source: Box<GearboxError>,
+    },
+    /// The exact contact of a pair of gears.
+    #[error(transparent)]
+    Contact(#[from] StaticError),
     /// The line of action of a mesh.
     #[error("mesh {mesh}: {source}")]
     Mesh {
@@ -122,6 +182,16 @@ impl GearboxError {
                 "six coordinates a bearing, in the order of the bearings: x, y, z and the turns about them"
             }
             Self::Count { .. } => return None,
+            Self::Distance { .. } => "place the shafts by the centre distance, or give the pair theirs",
+            Self::Beside { .. } => "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model",
+            Self::Ratios { .. } => "numbers of teeth around a closed train must agree",
+            Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
+            Self::Drives { .. } => "turn its sign, or make this shaft the input",
+            Self::NoEquilibrium { .. } => {
+                "is every shaft held in x, y, z and against tilting, are torques in N mm, and can the teeth carry them?"
+            }
+            Self::AtMesh { source, .. } => return source.hint(),
+            Self::Contact(source) => return source.hint(),
             Self::Matrix(FemError::NotPositiveDefinite { .. }) => {
                 "does every shaft have mass, and is every shaft held in x, y, z and against tilting?"
             }
