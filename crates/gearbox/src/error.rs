@@ -183,7 +183,9 @@ impl GearboxError {
             }
             Self::Count { .. } => return None,
             Self::Distance { .. } => "place the shafts by the centre distance, or give the pair theirs",
-            Self::Beside { .. } => "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model",
+            Self::Beside { .. } => {
+                "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model"
+            }
             Self::Ratios { .. } => "numbers of teeth around a closed train must agree",
             Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
             Self::Drives { .. } => "turn its sign, or make this shaft the input",

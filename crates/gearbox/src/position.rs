@@ -1,4 +1,4 @@
-//! What is read off a solved position of a gearbox.
+//! What is read off a solved position of a gearbox. Theory (83).
 
 use contact::SliceResult;
 use nalgebra::{DVector, Vector3};
@@ -53,11 +53,7 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
         input_torque,
         held_reactions: held,
         output_lags: lags,
-        certificate: GearboxCertificate {
-            residual: found.residual,
-            body_balance: body,
-            iterations: found.iterations,
-        },
+        certificate: GearboxCertificate { residual: found.residual, body_balance: body, iterations: found.iterations },
     }
 }
 

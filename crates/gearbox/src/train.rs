@@ -100,7 +100,8 @@ impl Train {
                 let driver = [Driver::Pinion, Driver::Wheel][from];
                 let side = driver.loaded_side(turning);
                 let angles = mesh.discs.map(|d| marks[structure.discs[d].shaft] + keys[d]);
-                let start = if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], directions[i]) };
+                let start =
+                    if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], directions[i]) };
                 let meets = [start, wheel_angle(&mesh.pair, side, start, directions[i])][to];
                 let mut timing = 0.0;
                 match ratios[on[to]] {
@@ -120,14 +121,8 @@ impl Train {
                 }
                 let pitch = mesh.pair.pinion.pitch_angle();
                 middles[i] = [mesh.pair.middle_angle(side), pitch];
-                found[i] = Some(Meshing {
-                    sense: turning,
-                    driver,
-                    direction: directions[i],
-                    start,
-                    ratio: ratio_1,
-                    timing,
-                });
+                found[i] =
+                    Some(Meshing { sense: turning, driver, direction: directions[i], start, ratio: ratio_1, timing });
                 grown = true;
             }
             if !grown {
