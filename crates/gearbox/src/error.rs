@@ -162,6 +162,29 @@ pub enum GearboxError {
 }
 
 impl GearboxError {
+    /// Whether the input has a meaning and no result came out.
+    pub fn is_without_result(&self) -> bool {
+        match self {
+            Self::NoEquilibrium { .. } => true,
+            Self::AtMesh { source, .. } => source.is_without_result(),
+            Self::Contact(source) => {
+                matches!(source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
+            }
+            _ => false,
+        }
+    }
+
+    /// The mesh whose window has too few teeth: a wider one may do.
+    pub fn starved_mesh(&self) -> Option<&str> {
+        match self {
+            Self::AtMesh { mesh, source } => {
+                let starved = matches!(&**source, Self::Contact(own) if own.is_starved());
+                starved.then_some(mesh)
+            }
+            _ => None,
+        }
+    }
+
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         let text = match self {

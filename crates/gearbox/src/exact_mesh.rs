@@ -107,7 +107,7 @@ impl MeshElement for ExactMesh {
             station: self.station,
             poses: &self.poses,
         };
-        let torque = self.options.torque;
+        let torque = self.contact.force().wrench[self.options.driven()].moment[2].abs();
         let served = self.window.check_neighbours(self.station, torque, 1e-3 * deepest, |k| neighbours.gap(k));
         Ok(served.map_err(StaticError::from)?)
     }
