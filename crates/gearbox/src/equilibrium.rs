@@ -4,14 +4,15 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::GearboxError;
 
-/// Steps before giving up; four to six are usual, more where teeth come into contact on the way.
+/// Steps before giving up; two to four are usual, more where teeth come into contact on the way.
 const STEPS: usize = 60;
 /// Halvings of a step that does not lead nearer.
 const HALVINGS: usize = 24;
-/// Step over the displacements that ends the search.
-const FINE: f64 = 1e-13;
+/// Step over the displacements that ends the search. It is taken, and the forces follow it by the tangent, which is good
+/// to some thousandths: what is left is some 1e-12.
+const FINE: f64 = 1e-9;
 /// The same where round-off of the contact does not let the residual fall any more.
-const ROUND_OFF: f64 = 1e-9;
+const ROUND_OFF: f64 = 1e-7;
 
 /// What meshes and loads leave over at some displacements: residual r = K z - f - f_mesh, and dr/dz.
 pub(crate) struct Left {
@@ -22,7 +23,9 @@ pub(crate) struct Left {
 /// Equilibrium, and how well it was found.
 pub(crate) struct Found {
     pub displacements: DVector<f64>,
-    /// Residual over the load, in the norm of the compliance.
+    /// How far they are from where the meshes were evaluated last: forces follow by their tangents.
+    pub last_step: DVector<f64>,
+    /// Residual where the meshes were evaluated last, over the load, in the norm of the compliance.
     pub residual: f64,
     pub iterations: usize,
 }
@@ -100,11 +103,18 @@ pub(crate) fn equilibrium(
     let mut merit = norms.of_forces(&left.residual);
     let mut share = f64::INFINITY;
     for iterations in 0..STEPS {
-        let found = |z| Found { displacements: z, residual: merit / whole, iterations };
+        let found = |z: DVector<f64>, step: DVector<f64>| {
+            let residual = merit / whole;
+            Found { displacements: z + &step, last_step: step, residual, iterations }
+        };
+        if merit == 0.0 {
+            let nothing = DVector::zeros(z.len());
+            return Ok(found(z, nothing));
+        }
         let step = norms.step(&left);
         share = norms.of_displacements(&step) / norms.of_displacements(&z).max(f64::MIN_POSITIVE);
-        if merit == 0.0 || share <= FINE {
-            return Ok(found(z));
+        if share <= FINE {
+            return Ok(found(z, step));
         }
         let mut part = 1.0;
         let mut better = None;
@@ -128,7 +138,7 @@ pub(crate) fn equilibrium(
             None if share <= ROUND_OFF => {
                 // The elements stand where the last try was.
                 left_at(&z)?;
-                return Ok(found(z));
+                return Ok(found(z, step));
             }
             None => return Err(GearboxError::NoEquilibrium { iterations, step: share }),
         }

@@ -21,7 +21,12 @@ pub struct ExactMesh {
     window: SlidingWindow,
     station: Station,
     poses: [Pose; 2],
+    /// Deepest overlap of the last evaluation, mm; not above 0: none that the next one could be like.
+    reach: f64,
 }
+
+/// Overlap over that of the last evaluation up to which the search is narrow.
+const REACH: f64 = 1.25;
 
 impl ExactMesh {
     /// Gears that were reduced at the first window of `options` (`ltca::StaticModel::first_teeth`). Driver and sense of
@@ -41,7 +46,7 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
-        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2] })
+        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], reach: 0.0 })
     }
 
     /// The pair.
@@ -84,10 +89,17 @@ impl MeshElement for ExactMesh {
         let window = self.window.window();
         let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
         self.poses = displaced(nominal, &(*d).into());
-        let found = match self.contact.evaluate(&self.poses) {
-            Ok(found) => found,
+        // A step of Newton's method changes the overlap by little; where it does not, all rows are looked for again.
+        let reach = (self.reach > 0.0).then_some(REACH * self.reach);
+        let found = match reach {
+            Some(reach) => self.contact.evaluate_within(&self.poses, reach),
+            None => self.contact.evaluate(&self.poses),
+        };
+        let found = match found {
+            Ok(found) => found.clone(),
             Err(source) => return Err(self.failed(source)),
         };
+        self.reach = self.contact.deepest_overlap();
         let force = Vector12::from_fn(|i, _| {
             let wrench = &found.wrench[i / 6];
             if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }

@@ -51,7 +51,8 @@ pub struct StaticGearbox {
     load: DVector<f64>,
     stiffness: DMatrix<f64>,
     norms: Norms,
-    last: Option<DVector<f64>>,
+    /// Angle and solution of the last two positions, the last one first.
+    last: Vec<(f64, DVector<f64>)>,
 }
 
 impl StaticGearbox {
@@ -104,7 +105,7 @@ impl StaticGearbox {
             load,
             stiffness,
             norms,
-            last: None,
+            last: Vec::new(),
         })
     }
 
@@ -133,7 +134,7 @@ impl StaticGearbox {
         }
         let Self { seats, elements, places, load, stiffness, norms, meshes, last, .. } = self;
         let own_load = seats.basis.transpose() * &*load;
-        let start = last.take().unwrap_or_else(|| norms.displacements(&own_load));
+        let start = continued(last, angle).unwrap_or_else(|| norms.displacements(&own_load));
         let mut replies = Vec::new();
         let found = equilibrium(norms, &own_load, start, |z| {
             let y = &seats.basis * z;
@@ -157,9 +158,20 @@ impl StaticGearbox {
         for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
             element.check().map_err(|source| at_mesh(mesh, source))?;
         }
-        *last = Some(found.displacements.clone());
+        last.insert(0, (angle, found.displacements.clone()));
+        last.truncate(2);
+        self.follow(&mut replies, &found.last_step);
         let forces = self.in_common_axes(&replies);
         Ok(position(self, Solved { angle, cycles, found, replies, forces, slices }))
+    }
+
+    /// Forces of the meshes after a last small step.
+    fn follow(&self, replies: &mut [MeshReply], step: &DVector<f64>) {
+        let seats = &self.seats.basis * step;
+        for ((at, turn), reply) in self.places.iter().zip(replies) {
+            let own = turn.transpose() * Vector12::from_fn(|k, _| seats[at[k / 6] + k % 6]);
+            reply.force += reply.tangent * own;
+        }
     }
 
     /// Forces and moments of the meshes on their gears, common axes.
@@ -180,6 +192,15 @@ impl StaticGearbox {
         }
         left
     }
+}
+
+/// Where the last positions lead to at an angle: on along the line through both, as far as they are apart; else where
+/// the last one is. `None` where there is none. A position that has failed leaves the others as they are.
+fn continued(last: &[(f64, DVector<f64>)], angle: f64) -> Option<DVector<f64>> {
+    let (at, z) = last.first()?;
+    let Some((before, y)) = last.get(1) else { return Some(z.clone()) };
+    let part = (angle - at) / (at - before);
+    Some(if part.abs() <= 1.0 + 1e-9 { z + part * (z - y) } else { z.clone() })
 }
 
 fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {

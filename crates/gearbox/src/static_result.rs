@@ -56,7 +56,7 @@ pub struct MeshState {
 /// How well a position is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxCertificate {
-    /// Forces left over at the seats over the load, in the norm of the compliance.
+    /// Forces left over at the seats over the load, in the norm of the compliance, before the last small step.
     pub residual: f64,
     /// Largest sum of forces, or of moments, on a shaft over the largest that acts on it: meshes, torques, bearings.
     pub body_balance: f64,

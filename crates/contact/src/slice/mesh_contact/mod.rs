@@ -208,6 +208,27 @@ impl MeshContact {
         Ok(&self.force)
     }
 
+    /// As [`MeshContact::evaluate`] where the deepest overlap is about as it was: rows with gaps beyond `reach` (mm) are
+    /// not looked for, which saves most of the search. Where teeth overlap by more than that, it looks for all.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate_within(&mut self, poses: &[Pose; 2], reach: f64) -> Result<&MeshForce, ContactError> {
+        self.prepare(poses, Some(reach));
+        if self.modal.is_some() || self.deepest().is_nan() || self.deepest() > reach {
+            return self.evaluate(poses);
+        }
+        self.solve(Balance::Held, 0)?;
+        self.sum_forces();
+        self.find_tangent();
+        Ok(&self.force)
+    }
+
+    /// Deepest overlap of the flanks in the last evaluation, mm; negative where they are apart.
+    pub fn deepest_overlap(&self) -> f64 {
+        self.deepest()
+    }
+
     /// Resultants of the current solution.
     fn sum_forces(&mut self) {
         let Self { force, contact: PoseContact { rows, at, .. }, solver, set, .. } = self;
