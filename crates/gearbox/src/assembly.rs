@@ -1,4 +1,4 @@
-//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (76), (77).
+//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79).
 
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
 use nalgebra::{DMatrix, DVector};

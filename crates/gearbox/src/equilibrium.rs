@@ -1,4 +1,4 @@
-//! Newton's method on the seats with the tangents of the meshes. Theory (82).
+//! Newton's method on the seats with the tangents of the meshes. Theory (84).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 

@@ -1,4 +1,4 @@
-//! The exact contact of two elastic gears as a mesh of the gearbox. Theory (38), (79).
+//! The exact contact of two elastic gears as a mesh of the gearbox. Theory (38), (81).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (79).
+//! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
 
 use contact::SliceResult;
 use nalgebra::{SMatrix, SVector, Vector6};

@@ -1,4 +1,4 @@
-//! Where the energy of a mode is: which shaft, bearing or mesh it bends, and what it moves. Theory (78).
+//! Where the energy of a mode is: which shaft, bearing or mesh it bends, and what it moves. Theory (80).
 
 use nalgebra::{Complex, DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! What is read off a solved position of a gearbox. Theory (83).
+//! What is read off a solved position of a gearbox. Theory (85).
 
 use contact::SliceResult;
 use nalgebra::{DVector, Vector3};

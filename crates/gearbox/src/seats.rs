@@ -1,4 +1,4 @@
-//! Shafts, bearings and housing condensed to the seats of gears and couplings. Theory (81).
+//! Shafts, bearings and housing condensed to the seats of gears and couplings. Theory (83).
 
 use fem::Condensation;
 use nalgebra::{DMatrix, DVector};

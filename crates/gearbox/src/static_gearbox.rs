@@ -1,4 +1,4 @@
-//! Where shafts, bearings and gears stand under torques. Theory (79), (81), (82).
+//! Where shafts, bearings and gears stand under torques. Theory (81), (83), (84).
 
 use geometry::{GearPair, Sense};
 use lumped::shaft18::MeshGeometry;

@@ -1,4 +1,4 @@
-//! Bearings in series with the housing: what holds the shafts at their bearing seats. Theory (77).
+//! Bearings in series with the housing: what holds the shafts at their bearing seats. Theory (79).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 

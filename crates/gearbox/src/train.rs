@@ -1,4 +1,4 @@
-//! Which way gears turn, how fast, which of them drive, and at which phase their meshes are. Theory (80).
+//! Which way gears turn, how fast, which of them drive, and at which phase their meshes are. Theory (82).
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Natural frequencies and whirl modes of spinning shafts. Theory (76), (78).
+//! Natural frequencies and whirl modes of spinning shafts. Theory (78), (80).
 
 use faer::{Mat, c64};
 use fem::{Modes, dense::general_eigen, natural_modes};

@@ -104,7 +104,7 @@ pub fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMat
 }
 
 /// Gyroscopic matrix of a beam of `length` > 0 mm that spins about its own axis with 1 rad/s about +z, t mm^2 for turns.
-/// Theory (76).
+/// Theory (78).
 ///
 /// ```text
 /// M q'' + Omega G q' + K q = f,   G = integral of 2 rho I [N_x' N_y - N_y' N_x] dz     (N_x, N_y: turns about x and y)
