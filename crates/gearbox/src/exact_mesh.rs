@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use ale::{SlidingWindow, Station};
-use contact::{ContactSet, MeshContact, NeighbourPairs, Pose, SliceResult, displaced, frames, slice_result};
+use contact::{
+    ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames,
+    slice_result,
+};
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};
 use nalgebra::SMatrix;
@@ -21,8 +24,8 @@ pub struct ExactMesh {
     window: SlidingWindow,
     station: Station,
     poses: [Pose; 2],
-    /// Deepest overlap of the last evaluation, mm; not above 0: none that the next one could be like.
-    reach: f64,
+    /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
+    within: Option<f64>,
 }
 
 /// Overlap over that of the last evaluation up to which the search is narrow.
@@ -46,7 +49,7 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
-        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], reach: 0.0 })
+        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], within: None })
     }
 
     /// The pair.
@@ -57,6 +60,24 @@ impl ExactMesh {
     /// The options.
     pub fn options(&self) -> &StaticOptions {
         &self.options
+    }
+
+    /// Forces at the poses. A step of Newton's method is small: rows stay, and with them the tangent, which is as good as
+    /// a new one; where they do not, the search is as wide as the overlap before asks for.
+    fn find(&mut self) -> Result<MeshForce, ContactError> {
+        if let Some(within) = &mut self.within
+            && let Some(found) = self.contact.evaluate_moved(&self.poses, within)
+        {
+            return Ok(found.clone());
+        }
+        let overlap = self.contact.deepest_overlap();
+        let found = if overlap > 0.0 {
+            self.contact.evaluate_within(&self.poses, REACH * overlap)?.clone()
+        } else {
+            self.contact.evaluate(&self.poses)?.clone()
+        };
+        self.within = Some(self.contact.deepest_overlap().max(REACH * overlap));
+        Ok(found)
     }
 
     fn failed(&self, source: contact::ContactError) -> GearboxError {
@@ -81,6 +102,8 @@ impl MeshElement for ExactMesh {
             self.window = window;
         }
         self.station = station;
+        // Another place has rows and a tangent of its own.
+        self.within = None;
         Ok(())
     }
 
@@ -89,17 +112,10 @@ impl MeshElement for ExactMesh {
         let window = self.window.window();
         let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
         self.poses = displaced(nominal, &(*d).into());
-        // A step of Newton's method changes the overlap by little; where it does not, all rows are looked for again.
-        let reach = (self.reach > 0.0).then_some(REACH * self.reach);
-        let found = match reach {
-            Some(reach) => self.contact.evaluate_within(&self.poses, reach),
-            None => self.contact.evaluate(&self.poses),
-        };
-        let found = match found {
-            Ok(found) => found.clone(),
+        let found = match self.find() {
+            Ok(found) => found,
             Err(source) => return Err(self.failed(source)),
         };
-        self.reach = self.contact.deepest_overlap();
         let force = Vector12::from_fn(|i, _| {
             let wrench = &found.wrench[i / 6];
             if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }

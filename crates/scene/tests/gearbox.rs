@@ -56,7 +56,12 @@ fn mistakes_are_told_with_their_place() {
         ("torque_nm = 740.0", "torque_nm = -740.0", "torque_nm", ""),
         ("rotation = \"cw\"", "rotation = \"left\"", "\"left\"", "ccw"),
         ("[analysis]", "[housing]\nmatrix_n_mm_rad = [[1.0]]\n[analysis]", "a matrix of 1 rows", "give 36"),
-        ("matrix_n_mm_rad = [\n", "stiffness_n_per_mm = [1.0, 1.0, 1.0]\nmatrix_n_mm_rad = [\n", "stiffness twice", "not both"),
+        (
+            "matrix_n_mm_rad = [\n",
+            "stiffness_n_per_mm = [1.0, 1.0, 1.0]\nmatrix_n_mm_rad = [\n",
+            "stiffness twice",
+            "not both",
+        ),
     ];
     for (from, to, said, hinted) in cases {
         let error = refused(from, to);
