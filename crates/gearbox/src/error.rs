@@ -89,6 +89,14 @@ pub enum GearboxError {
         /// How many are needed.
         wanted: usize,
     },
+    /// More nodes than dense matrices hold.
+    #[error("{nodes:.0} nodes of shafts are too many: {most} at the most")]
+    TooLarge {
+        /// Nodes that the elements would have.
+        nodes: f64,
+        /// How many are allowed.
+        most: usize,
+    },
     /// Linear algebra of the whole.
     #[error(transparent)]
     Matrix(#[from] FemError),
@@ -205,6 +213,7 @@ impl GearboxError {
                 "six coordinates a bearing, in the order of the bearings: x, y, z and the turns about them"
             }
             Self::Count { .. } => return None,
+            Self::TooLarge { .. } => "take longer elements, or fewer sections",
             Self::Distance { .. } => "place the shafts by the centre distance, or give the pair theirs",
             Self::Beside { .. } => {
                 "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model"

@@ -147,6 +147,7 @@ impl Structure {
                 finite(&shaft.name, "origin, mm", value)?;
             }
         }
+        self.check_size()?;
         for disc in &self.discs {
             self.on_shaft(&disc.name, disc.shaft, disc.position)?;
             not_negative(&disc.name, "mass, t", disc.mass)?;
@@ -174,6 +175,18 @@ impl Structure {
             }
         }
         Ok(())
+    }
+
+    /// That matrices of all nodes are of a size that dense algebra stands.
+    fn check_size(&self) -> Result<(), GearboxError> {
+        const MOST: usize = 600;
+        let of_shaft = |shaft: &Shaft| {
+            let of_piece = |p: &BeamPiece| (p.length / shaft.longest_element).ceil().max(1.0);
+            1.0 + shaft.pieces.iter().map(of_piece).sum::<f64>()
+        };
+        let nodes = self.shafts.iter().map(of_shaft).sum::<f64>() + (self.discs.len() + self.bearings.len()) as f64;
+        // What is no number is told by the shaft itself.
+        if nodes > MOST as f64 { Err(GearboxError::TooLarge { nodes, most: MOST }) } else { Ok(()) }
     }
 
     /// That the discs a mesh names are there.

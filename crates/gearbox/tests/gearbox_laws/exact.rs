@@ -1,4 +1,5 @@
 //! The exact contact of elastic gears in a gearbox.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::sync::Arc;
 
@@ -70,6 +71,7 @@ fn held_shafts_leave_the_pair_alone() {
             let mesh = &found.meshes[0];
             let at = format!("input {input}, {sense:?}, direction {direction}, {cycles} cycles");
             let off = mesh.transmission_error / wanted.transmission_error - 1.0;
+            println!("{at}: transmission error off by {off:.1e}, {:?}", found.certificate);
             assert!(off.abs() < 1e-9, "{at}: transmission error {off:.1e}");
             let normal: f64 = wanted.pairs.iter().map(|p| p.normal_force).sum();
             let (sin, cos) = direction.sin_cos();
@@ -144,6 +146,7 @@ fn an_overhung_pinion_presses_with_one_end_of_its_face() {
     }
     let [even, uneven] = [&between, &leaning].map(|p| face_load_factor(p, 0, 16).unwrap());
     assert!(uneven > even + 0.1, "K_Hbeta {even} between bearings, {uneven} overhung");
+    println!("K_Hbeta {even:.3} between bearings, {uneven:.3} overhung");
     let lean = leaning[2].meshes[0].misalignment_in_plane;
     let load = line_load(&leaning, 0);
     let (low, high) = (load[0].1, load[load.len() - 1].1);
@@ -164,6 +167,7 @@ fn two_stages_of_exact_contacts_are_in_balance() {
     let mut gearbox = exact(structure, meshes, run, &gears);
     for angle in [0.0, 0.05] {
         let found = gearbox.solve(angle).unwrap_or_else(|e| panic!("{e}"));
+        println!("two stages: {:?}, input torque {:.1}", found.certificate, found.input_torque);
         assert!(found.certificate.body_balance < 1e-9, "{:?}", found.certificate);
         assert!(found.certificate.residual < 1e-9, "{:?}", found.certificate);
         let wanted = TORQUE * (17.0 / 53.0) * (19.0 / 47.0);

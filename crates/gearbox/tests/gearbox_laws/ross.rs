@@ -1,14 +1,15 @@
 //! Natural frequencies beside another program's.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use gearbox::{Assembly, Rotors};
 
 use crate::rotors::{friswell, overhung};
 
-/// Ten frequencies of two rotors at three speeds within 0.1 % of those in `tests/data/ross.csv`, which says where they
-/// come from.
+/// Ten frequencies of two rotors at three speeds are those in `tests/data/ross.csv`, which says where they come from and
+/// why to a millionth.
 #[test]
 fn ten_frequencies_of_two_rotors_are_those_of_ross() {
-    const TOLERANCE: f64 = 1e-3;
+    const TOLERANCE: f64 = 1e-6;
     let table = include_str!("../data/ross.csv");
     let rows: Vec<(&str, f64, usize, f64)> = table
         .lines()
@@ -33,5 +34,6 @@ fn ten_frequencies_of_two_rotors_are_those_of_ross() {
             }
         }
     }
+    println!("worst difference of 60 frequencies {worst:.1e}");
     assert!(worst > 0.0, "another program cannot have the same bits");
 }

@@ -1,4 +1,5 @@
 //! Whirl modes of rotors: references, symmetry, and what must be zero.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::f64::consts::PI;
 
@@ -21,6 +22,7 @@ fn friswells_rotor_has_the_printed_frequencies() {
     ];
     for (speed, wanted) in printed {
         let found = rotor.whirl_modes(&[speed]).unwrap();
+        println!("{speed:.1} rad/s: {:.4?}", found.modes.iter().take(6).map(|m| m.frequency).collect::<Vec<_>>());
         for (mode, wanted) in found.modes.iter().zip(wanted) {
             // Half a unit of the last digit printed; 716.78 is printed for 716.786, cut and not rounded.
             let off = (mode.frequency - wanted).abs();
@@ -194,6 +196,12 @@ fn parts_beside_the_shaft_or_without_sense_are_refused() {
     let mut nan = friswell();
     nan.discs[0].mass = f64::NAN;
     assert!(matches!(Assembly::new(nan), Err(GearboxError::OutOfRange { .. })));
+    let mut fine = friswell();
+    fine.shafts[0].longest_element = 1e-3;
+    assert!(matches!(Assembly::new(fine), Err(GearboxError::TooLarge { most: 600, .. })));
+    let mut endless = friswell();
+    endless.shafts[0].longest_element = f64::NAN;
+    assert!(matches!(Assembly::new(endless), Err(GearboxError::Shaft { .. })));
     let mut elsewhere = friswell();
     elsewhere.bearings[0].shaft = 3;
     assert!(matches!(Assembly::new(elsewhere), Err(GearboxError::NoShaft { shaft: 3, count: 1, .. })));
