@@ -114,7 +114,7 @@ pub fn general_eigen(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), FemErro
     for j in 0..n {
         let length = (0..n).map(|i| vectors[(i, j)].norm_sqr()).sum::<f64>().sqrt();
         if length > 0.0 {
-            (0..n).for_each(|i| vectors[(i, j)] = vectors[(i, j)] / length);
+            (0..n).for_each(|i| vectors[(i, j)] /= length);
         }
     }
     Ok((values, vectors))

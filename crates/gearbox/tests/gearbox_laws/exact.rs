@@ -78,14 +78,14 @@ fn held_shafts_leave_the_pair_alone() {
             for g in 0..2 {
                 let [x, y, z] = mesh.force[g];
                 let own = [cos * x + sin * y, cos * y - sin * x, z];
-                for axis in 0..3 {
-                    let off = (own[axis] - wanted.wrench[g].force[axis]).abs() / normal;
+                for (axis, own) in own.iter().enumerate() {
+                    let off = (own - wanted.wrench[g].force[axis]).abs() / normal;
                     assert!(off < 1e-9, "{at}: force {axis} on gear {g}: {off:.1e}");
                 }
                 let [x, y, z] = mesh.moment[g];
                 let own = [cos * x + sin * y, cos * y - sin * x, z];
-                for axis in 0..3 {
-                    let off = (own[axis] - wanted.wrench[g].moment[axis]).abs() / TORQUE;
+                for (axis, own) in own.iter().enumerate() {
+                    let off = (own - wanted.wrench[g].moment[axis]).abs() / TORQUE;
                     assert!(off < 1e-9, "{at}: moment {axis} on gear {g}: {off:.1e}");
                 }
             }
