@@ -74,68 +74,19 @@ impl Train {
         if let Some((disc, &value)) = structure.discs.iter().zip(keys).find(|(_, k)| !k.is_finite()) {
             return Err(GearboxError::OutOfRange { part: disc.name.clone(), quantity: "key, rad", value });
         }
-        let mut directions = Vec::with_capacity(meshes.len());
-        for mesh in meshes {
-            directions.push(direction(structure, mesh)?);
-        }
-        let shafts = structure.shafts.len();
-        let mut ratios: Vec<Option<f64>> = vec![None; shafts];
-        let mut marks = vec![0.0; shafts];
-        ratios[structure.discs[input].shaft] = Some(1.0);
-        let mut found: Vec<Option<Meshing>> = vec![None; meshes.len()];
-        let mut middles = vec![[0.0; 2]; meshes.len()];
-        // Every round follows the meshes of one more step from the input, in their order.
-        loop {
-            let known = ratios.clone();
-            let mut grown = false;
-            for (i, mesh) in meshes.iter().enumerate().filter(|(i, _)| found[*i].is_none()).collect::<Vec<_>>() {
-                let on = mesh.discs.map(|d| structure.discs[d].shaft);
-                let Some(from) = [0, 1].into_iter().find(|g| known[on[*g]].is_some()) else { continue };
-                let to = 1 - from;
-                let own = known[on[from]].unwrap_or_default();
-                let teeth = [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
-                let follows = -own * teeth[from] / teeth[to];
-                let ratio_1 = if from == 0 { own } else { follows };
-                let turning = if (ratio_1 > 0.0) == (sense == Sense::Ccw) { Sense::Ccw } else { Sense::Cw };
-                let driver = [Driver::Pinion, Driver::Wheel][from];
-                let side = driver.loaded_side(turning);
-                let angles = mesh.discs.map(|d| marks[structure.discs[d].shaft] + keys[d]);
-                let start =
-                    if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], directions[i]) };
-                let meets = [start, wheel_angle(&mesh.pair, side, start, directions[i])][to];
-                let mut timing = 0.0;
-                match ratios[on[to]] {
-                    None => {
-                        ratios[on[to]] = Some(follows);
-                        marks[on[to]] = meets - keys[mesh.discs[to]];
-                    }
-                    Some(other) if (other - follows).abs() > SAME * other.abs() => {
-                        let shaft = structure.shafts[on[to]].name.clone();
-                        return Err(GearboxError::Ratios { shaft, ratios: [other, follows] });
-                    }
-                    Some(_) => {
-                        let pitch = TAU / teeth[to];
-                        let apart = meets - angles[to];
-                        timing = apart - (apart / pitch).round() * pitch;
-                    }
-                }
-                let pitch = mesh.pair.pinion.pitch_angle();
-                middles[i] = [mesh.pair.middle_angle(side), pitch];
-                found[i] =
-                    Some(Meshing { sense: turning, driver, direction: directions[i], start, ratio: ratio_1, timing });
-                grown = true;
-            }
-            if !grown {
-                break;
-            }
-        }
+        let mut walk = Walk::new(structure, meshes, (keys, sense))?;
+        walk.ratios[structure.discs[input].shaft] = Some(1.0);
+        while walk.goes_on()? {}
         let ratio = |(shaft, r): (&crate::Shaft, Option<f64>)| {
             r.ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
         };
-        let ratios = structure.shafts.iter().zip(ratios).map(ratio).collect::<Result<Vec<_>, _>>()?;
-        // A mesh that no round has reached is between shafts that nothing drives.
-        let meshes = found.into_iter().flatten().collect();
-        Ok(Self { meshes, middles, ratios })
+        let ratios = structure.shafts.iter().zip(walk.ratios).map(ratio).collect::<Result<Vec<_>, _>>()?;
+        // Where every shaft is driven, every mesh has been reached.
+        let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
+        let middle =
+            |(mesh, own): (&Mesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
+        let middles = meshes.iter().zip(&meshing).map(middle).collect();
+        Ok(Self { meshes: meshing, middles, ratios })
     }
 
     /// How each mesh runs.
@@ -160,6 +111,84 @@ impl Train {
             mesh.sense.sign() as f64 * turned / pitch + 0.5
         };
         self.meshes.iter().zip(&self.middles).map(of).collect()
+    }
+}
+
+/// The way through the train so far.
+struct Walk<'a> {
+    structure: &'a Structure,
+    meshes: &'a [Mesh],
+    keys: &'a [f64],
+    sense: Sense,
+    directions: Vec<f64>,
+    /// Of each shaft that has been reached: turns a turn of the input, and the angle of its mark with the input at 0.
+    ratios: Vec<Option<f64>>,
+    marks: Vec<f64>,
+    found: Vec<Option<Meshing>>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(
+        structure: &'a Structure,
+        meshes: &'a [Mesh],
+        (keys, sense): (&'a [f64], Sense),
+    ) -> Result<Self, GearboxError> {
+        let directions = meshes.iter().map(|mesh| direction(structure, mesh)).collect::<Result<_, _>>()?;
+        let shafts = structure.shafts.len();
+        let (ratios, marks, found) = (vec![None; shafts], vec![0.0; shafts], vec![None; meshes.len()]);
+        Ok(Self { structure, meshes, keys, sense, directions, ratios, marks, found })
+    }
+
+    /// Follows the meshes of the shafts that are reached, in their order; whether there was one.
+    fn goes_on(&mut self) -> Result<bool, GearboxError> {
+        let known = self.ratios.clone();
+        let mut grown = false;
+        for (i, mesh) in self.meshes.iter().enumerate() {
+            let on = mesh.discs.map(|d| self.structure.discs[d].shaft);
+            let from = [0, 1].into_iter().find_map(|g| Some((g, known[on[g]]?)));
+            if let (None, Some((from, ratio))) = (&self.found[i], from) {
+                self.found[i] = Some(self.follow(i, from, ratio)?);
+                grown = true;
+            }
+        }
+        Ok(grown)
+    }
+
+    /// Follows mesh i from its gear `from`, whose shaft turns `ratio` times a turn of the input.
+    fn follow(&mut self, i: usize, from: usize, ratio: f64) -> Result<Meshing, GearboxError> {
+        let (mesh, direction, to) = (&self.meshes[i], self.directions[i], 1 - from);
+        let teeth = [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
+        let follows = -ratio * teeth[from] / teeth[to];
+        let ratio_1 = [ratio, follows][from];
+        let sense = if ratio_1 > 0.0 { self.sense } else { self.sense.opposite() };
+        let driver = [Driver::Pinion, Driver::Wheel][from];
+        let side = driver.loaded_side(sense);
+        let angles = mesh.discs.map(|d| self.marks[self.structure.discs[d].shaft] + self.keys[d]);
+        let start = if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], direction) };
+        let meets = [start, wheel_angle(&mesh.pair, side, start, direction)][to];
+        let timing = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        Ok(Meshing { sense, driver, direction, start, ratio: ratio_1, timing })
+    }
+
+    /// Reaches the shaft of a gear that turns `ratio` times a turn of the input and has to stand at `angle` (rad), or at
+    /// a whole number of pitches from there: by how much it has to be set against its key, rad.
+    fn reach(&mut self, disc: usize, ratio: f64, angle: f64, pitch: f64) -> Result<f64, GearboxError> {
+        let shaft = self.structure.discs[disc].shaft;
+        match self.ratios[shaft] {
+            None => {
+                self.ratios[shaft] = Some(ratio);
+                self.marks[shaft] = angle - self.keys[disc];
+                Ok(0.0)
+            }
+            Some(other) if (other - ratio).abs() > SAME * other.abs() => {
+                let shaft = self.structure.shafts[shaft].name.clone();
+                Err(GearboxError::Ratios { shaft, ratios: [other, ratio] })
+            }
+            Some(_) => {
+                let apart = angle - (self.marks[shaft] + self.keys[disc]);
+                Ok(apart - (apart / pitch).round() * pitch)
+            }
+        }
     }
 }
 

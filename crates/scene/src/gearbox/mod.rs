@@ -4,12 +4,13 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
-//! | `raw`, `check` | its words, and what they mean: every complaint is made here |
+//! | `raw`, `check`, `values` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
 mod raw;
 mod read;
+mod values;
 
 pub use file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
