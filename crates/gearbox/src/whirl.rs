@@ -6,6 +6,8 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::{Assembly, GearboxError, ModalEnergy};
 
+/// Stiffness over mass, 1/s^2, and mass (t) that no machine has.
+const MOST: f64 = 1e100;
 /// Share of a mode's kinetic energy up to which that of a shaft across its axis is round-off.
 const LATERAL: f64 = 1e-6;
 
@@ -64,6 +66,11 @@ impl Rotors {
     /// [`GearboxError::Matrix`] where a coordinate has no mass.
     pub fn new(assembly: Assembly) -> Result<Self, GearboxError> {
         let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        // Beyond this squares of frequencies are no numbers, and the search for them does not end.
+        let steepest = stiffness.amax() / mass.diagonal().min();
+        if steepest.is_nan() || steepest > MOST || mass.amax() > MOST {
+            return Err(fem::FemError::NotFinite { row: 0, column: 0 }.into());
+        }
         let mut rest = natural_modes(&stiffness, &mass)?;
         let highest = rest.frequencies.last().copied().unwrap_or(0.0);
         let least = highest * (rest.frequencies.len() as f64 * f64::EPSILON).sqrt();

@@ -212,3 +212,46 @@ fn a_power_split_shares_the_load() {
     assert!(forces(&thick)[1] > forces(&even)[1]);
     assert_eq!(forces(&thin)[1], 0.0, "flanks that are apart carry nothing");
 }
+
+/// Whatever number stands in a structure, there is an answer or a reason, and both come to an end.
+#[test]
+fn no_number_is_without_an_answer() {
+    let pair = pair([21, 40], 18.0);
+    let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+    type Change = fn(&mut Structure, f64);
+    let changes: [(&str, Change); 9] = [
+        ("length", |s, x| s.shafts[0].pieces[0].length = x),
+        ("longest element", |s, x| s.shafts[0].longest_element = x),
+        ("origin", |s, x| s.shafts[1].origin[0] = x),
+        ("height", |s, x| s.shafts[1].origin[2] = x),
+        ("place of a gear", |s, x| s.discs[0].position = x),
+        ("mass", |s, x| s.discs[0].mass = x),
+        ("place of a bearing", |s, x| s.bearings[0].position = x),
+        ("stiffness", |s, x| s.bearings[0].stiffness[(0, 0)] = x),
+        ("coupling", |s, x| (s.bearings[0].stiffness[(0, 4)], s.bearings[0].stiffness[(4, 0)]) = (x, x)),
+    ];
+    let (mut answers, mut reasons) = (0, 0);
+    for (name, change) in changes {
+        for value in [0.0, -1.0, 1e-300, 1e300, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let mut structure = single(&pair, 0.0);
+            change(&mut structure, value);
+            let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
+            let solved = StaticGearbox::new(structure.clone(), meshes.clone(), run, springs);
+            match solved.and_then(|mut gearbox| gearbox.solve(0.0)) {
+                Ok(found) => {
+                    answers += 1;
+                    assert!(found.certificate.residual < 1e-6, "{name} = {value}: {:?}", found.certificate);
+                }
+                Err(error) => {
+                    reasons += 1;
+                    assert!(!error.to_string().is_empty(), "{name} = {value}");
+                }
+            }
+            if let Ok(rotors) = Assembly::new(structure).and_then(gearbox::Rotors::new) {
+                let found = rotors.whirl_modes(&[100.0, -50.0]);
+                assert!(found.is_err() || found.is_ok_and(|f| f.modes.iter().all(|m| m.frequency.is_finite())));
+            }
+        }
+    }
+    assert!(answers > 3 && reasons > 30, "{answers} answers, {reasons} reasons");
+}

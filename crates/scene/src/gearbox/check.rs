@@ -13,6 +13,8 @@ use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Wo
 
 /// Parts of a kind at the most: the matrices are dense.
 const PARTS: usize = 100;
+/// Keys that a mesh sets otherwise at the most; a scene has a third of them.
+const SETTINGS: usize = 1000;
 /// Lengths and positions at the most, mm.
 const FAR: f64 = 1e6;
 
@@ -194,6 +196,10 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
         return Err(missing(s, table, "[[mesh]]", "scene", "the path of the scene of this pair"));
     };
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
+    if let Some(own) = raw.set.iter().flatten().nth(SETTINGS) {
+        let said = format!("a mesh sets more than {SETTINGS} keys");
+        return Err(s.conflict(&own.span(), said, "change the scene of the pair instead"));
+    }
     let settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
     let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
         SceneError::Read { file, source } => {
