@@ -83,3 +83,32 @@ fn a_gearbox_has_meshes_and_an_input() {
     assert!(of("[[shaft]]\nname = \"a\"\n").contains("no sections"));
     assert!(of("[[shaft]]\n").contains("has no `name`"));
 }
+
+/// Lines left out, told twice or cut short, and numbers of any size: a gearbox or a complaint with a place, and no panic.
+#[test]
+fn a_damaged_gearbox_is_read_or_refused() {
+    let whole = text();
+    let lines: Vec<&str> = whole.lines().collect();
+    let file = folder().join("two_stages.toml");
+    let (mut read, mut told) = (0, 0);
+    let mut meet = |text: &str| match Gearbox::parse(text, &file) {
+        Ok(_) => read += 1,
+        Err(e) => {
+            told += 1;
+            assert!(!e.to_string().is_empty() && !e.to_string().contains('\n'), "{e}");
+            let _ = (e.hint(), e.excerpt());
+        }
+    };
+    for i in 0..lines.len() {
+        let with = |own: &[&str]| [&lines[..i], own, &lines[i + 1..]].concat().join("\n");
+        meet(&with(&[]));
+        meet(&with(&[lines[i], lines[i]]));
+        meet(&with(&[&lines[i][..lines[i].len() / 2]]));
+        if let Some((key, _)) = lines[i].split_once(" = ") {
+            for value in ["nan", "inf", "-1", "0", "1e300", "[]", "[[1.0]]", "\"\"", "true", "{}"] {
+                meet(&with(&[&format!("{key} = {value}")]));
+            }
+        }
+    }
+    assert!(read > 50 && told > 500, "{read} were read, {told} refused");
+}
