@@ -205,6 +205,14 @@ pub enum AnalysisError {
         /// What happened.
         source: Box<LumpedError>,
     },
+    /// A gearbox cannot be put together, or has no equilibrium.
+    #[error("{file}: {source}")]
+    Gearbox {
+        /// The gearbox file.
+        file: String,
+        /// What happened.
+        source: Box<gearbox::GearboxError>,
+    },
     /// No periodic motion was found.
     #[error("{file}: {source}")]
     Periodic {
@@ -346,6 +354,7 @@ impl AnalysisError {
             | Self::NoScratch
             | Self::NoReference { .. } => true,
             Self::Lumped { source, .. } => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
+            Self::Gearbox { source, .. } => source.is_without_result(),
             Self::AtValue { source, .. } => source.is_without_result(),
             Self::Shared(source) => source.is_without_result(),
             Self::Motion { .. } | Self::Periodic { .. } | Self::NoSpeed { .. } | Self::Statistics(_) => true,
@@ -372,6 +381,7 @@ impl AnalysisError {
             Self::Material { source, .. } | Self::Body { source, .. } => source.hint(),
             Self::UnstableSteps(steps) => Some(steps.hint()),
             Self::Iso { source, .. } | Self::Lumped { source, .. } => source.hint(),
+            Self::Gearbox { source, .. } => source.hint(),
             Self::OutOfBounds => {
                 Some("the motion has left all bounds: take smaller steps, or look at supports and damping".to_owned())
             }

@@ -39,6 +39,7 @@ pub mod facts;
 mod failure;
 mod flank_checks;
 mod foreseen;
+pub mod gearbox_at_rest;
 pub mod gears;
 mod inputs;
 pub mod iso_model;

@@ -78,3 +78,15 @@ pub fn frames(
     ];
     [0, 1].map(|i| gear_pose(pair, options, i, angles[i] + turns[i] + whole[i]))
 }
+
+/// Poses of both gears displaced from `nominal` by the twelve displacements `d`: of pinion and wheel in turn x, y, z
+/// (mm) and turns about x and y (rad), common axes. The turns about z are not applied: [`frames`] takes them, about the
+/// gears' own axes.
+pub fn displaced(nominal: [Pose; 2], d: &[f64; 12]) -> [Pose; 2] {
+    [0, 1].map(|g| {
+        let at = 6 * g;
+        let moved = Vec3::new(d[at], d[at + 1], d[at + 2]);
+        let tilt = UnitQuaternion::from_scaled_axis(Vec3::new(d[at + 3], d[at + 4], 0.0));
+        Pose::from_parts(Translation3::from(nominal[g].translation.vector + moved), tilt * nominal[g].rotation)
+    })
+}

@@ -3,11 +3,11 @@
 
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
-    Accum, Mat, MatMut, MatRef, Par, Spec,
+    Accum, Mat, MatMut, MatRef, Par, Spec, c64,
     diag::Diag,
     linalg::{
         cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch},
-        evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch},
+        evd::{ComputeEigenvectors, evd_real, evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch},
         matmul::matmul,
         triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place},
     },
@@ -67,6 +67,57 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), FemEr
     self_adjoint_evd(a, values.as_mut(), Some(vectors.as_mut()), Par::Seq, stack, Default::default())
         .map_err(|_| FemError::NotFinite { row: 0, column: 0 })?;
     Ok((values.column_vector().iter().copied().collect(), vectors))
+}
+
+/// Eigenvalues and eigenvectors (columns, in that order, each of length 1) of a real square matrix. Complex ones come in
+/// conjugate pairs, one after the other.
+///
+/// # Errors
+/// [`FemError::Shape`], [`FemError::NotFinite`], [`FemError::OutOfMemory`], [`FemError::NoEigenvalues`] where the
+/// iteration does not end.
+pub fn general_eigen(a: MatRef<'_, f64>) -> Result<(Vec<c64>, Mat<c64>), FemError> {
+    let n = a.nrows();
+    if a.ncols() != n {
+        return Err(FemError::Shape { what: "columns of a square matrix", expected: n, found: a.ncols() });
+    }
+    if n == 0 {
+        return Ok((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let not_finite = (0..n).flat_map(|j| (0..n).map(move |i| (i, j))).find(|&(i, j)| !a[(i, j)].is_finite());
+    if let Some((row, column)) = not_finite {
+        return Err(FemError::NotFinite { row, column });
+    }
+    let (none, right) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
+    let scratch = evd_scratch::<f64>(n, none, right, Par::Seq, Default::default());
+    let mut memory =
+        MemBuffer::try_new(scratch).map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+    let (mut re, mut im, mut u) = (Diag::<f64>::zeros(n), Diag::<f64>::zeros(n), Mat::zeros(n, n));
+    let stack = MemStack::new(&mut memory);
+    evd_real(a, re.as_mut(), im.as_mut(), None, Some(u.as_mut()), Par::Seq, stack, Default::default())
+        .map_err(|_| FemError::NoEigenvalues { size: n })?;
+    let (re, im) = (re.column_vector(), im.column_vector());
+    let values: Vec<c64> = (0..n).map(|i| c64::new(re[i], im[i])).collect();
+    let mut vectors = Mat::<c64>::zeros(n, n);
+    let mut j = 0;
+    while j < n {
+        // The columns of a pair are real and imaginary part of the first one's vector.
+        let pair = im[j] != 0.0 && j + 1 < n;
+        for i in 0..n {
+            let (x, y) = (u[(i, j)], if pair { u[(i, j + 1)] } else { 0.0 });
+            vectors[(i, j)] = c64::new(x, y);
+            if pair {
+                vectors[(i, j + 1)] = c64::new(x, -y);
+            }
+        }
+        j += 1 + usize::from(pair);
+    }
+    for j in 0..n {
+        let length = (0..n).map(|i| vectors[(i, j)].norm_sqr()).sum::<f64>().sqrt();
+        if length > 0.0 {
+            (0..n).for_each(|i| vectors[(i, j)] /= length);
+        }
+    }
+    Ok((values, vectors))
 }
 
 /// L^-1 B in place for a lower triangle L, n x n; B n x k.

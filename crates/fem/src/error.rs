@@ -108,6 +108,12 @@ pub enum FemError {
         /// Degree of freedom (matrix row) where elimination broke down.
         dof: usize,
     },
+    /// The search for the eigenvalues of a matrix did not end.
+    #[error("no eigenvalues of a matrix of {size} rows were found")]
+    NoEigenvalues {
+        /// Rows of the matrix.
+        size: usize,
+    },
     /// The fill-reducing ordering failed.
     #[error("nested dissection of {nodes} nodes failed with METIS status {status}")]
     Ordering {
@@ -152,6 +158,7 @@ impl FemError {
             Self::TooLarge { .. } | Self::OutOfMemory { .. } => {
                 "take a coarser mesh, or a cyclic sector instead of the whole gear"
             }
+            Self::NoEigenvalues { .. } => "are stiffnesses, masses and damping in their units?",
             Self::NotFinite { .. } => "does the mesh have coordinates that are not numbers?",
             Self::Shape { .. } | Self::BadDof { .. } | Self::Ordering { .. } => return None,
         };

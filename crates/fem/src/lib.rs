@@ -9,12 +9,13 @@
 //! 4. [`IndefiniteFactor`]: the same for a system with constraints;
 //! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: what follows from displacements and mesh.
 //!
-//! Beside it, for shafts: [`beam`] elements, and the [`natural_modes`] of small systems.
+//! Beside it, for shafts: [`beam`] elements, the static [`Condensation`] and the [`natural_modes`] of small systems.
 //!
 //! Units: mm, N, MPa, t, s. Results are the same to the last bit for any number of threads.
 
 mod assembly;
 pub mod beam;
+mod condensation;
 pub mod dense;
 mod dofs;
 mod element_matrices;
@@ -29,6 +30,7 @@ mod stress;
 mod symmetric;
 
 pub use assembly::{System, assemble, assemble_mass, assemble_stiffness};
+pub use condensation::Condensation;
 pub use dofs::DofMap;
 pub use element_matrices::{
     ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from,

@@ -51,7 +51,7 @@ pub struct Equilibrium {
 }
 
 /// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
-pub(crate) const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
+pub const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 80;
 /// Gap over the approach up to which rows are candidates: what loads on other teeth may close.

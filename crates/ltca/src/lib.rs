@@ -8,6 +8,7 @@ mod cycle_solver;
 mod deflection_course;
 mod equilibrium;
 mod error;
+mod face_load;
 mod flank_gap;
 mod kinematic;
 mod line;
@@ -23,8 +24,9 @@ mod statics;
 mod windowed_pair;
 
 pub use deflection_course::DeflectionCourse;
-pub use equilibrium::Equilibrium;
+pub use equilibrium::{Equilibrium, GUESSED_LINE_STIFFNESS};
 pub use error::StaticError;
+pub use face_load::{envelope as load_envelope, face_load_factor};
 pub use kinematic::kinematic_transmission_error;
 pub use options::StaticOptions;
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};

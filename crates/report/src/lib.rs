@@ -13,6 +13,7 @@
 //! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`envelope_files`] | failure modes with their figures, maps of where methods fail |
+//! | [`gearbox_files`] | a gearbox at rest: meshes, bearings, shaft lines |
 //! | [`study_files`] | the same figures of several scenes, side by side |
 //! | [`optimum_files`] | an optimisation: the scene of the optimum, tables, report |
 //! | [`plan_files`] | many cases of one scene, a row a case |
@@ -38,6 +39,7 @@ pub mod envelope_files;
 mod error;
 mod files;
 pub mod folder;
+pub mod gearbox_files;
 mod in_time;
 pub mod lumped_files;
 mod marked_place;

@@ -17,6 +17,7 @@ mod error;
 mod excerpt;
 mod gear;
 mod gear_pair;
+pub mod gearbox;
 mod geometry_fault;
 mod hints;
 mod input_text;

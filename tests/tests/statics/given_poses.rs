@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use ale::Station;
-use contact::{Law, MeshForce, Pose, WindowContact};
+use contact::{Law, MeshContact, MeshForce, Pose, WindowContact};
 use ltca::{StaticModel, StaticOptions};
 use verification::{Case, generated};
 
@@ -81,4 +81,41 @@ fn apart_nothing_presses_at_all() {
         assert_eq!((flat(&nothing.wrench), nothing.tangent), ([0.0; 12], [[0.0; 12]; 12]), "{name}");
         assert!(nothing.pair_forces.iter().all(|f| *f == 0.0), "{name}");
     }
+}
+
+/// Slices look for what is near alone, and follow small motions on the rows of before, with the same forces as from the
+/// beginning; and where teeth overlap or move by more, that is said or all is looked for anew.
+#[test]
+fn narrow_searches_and_small_motions_change_no_force() {
+    let case = generated(20.0, [3, 2, 2, 4, 1]);
+    let mut model = case.reduced(case.slice_options());
+    model.solve(Station { cycle: 0, phase: 0.3 }).unwrap();
+    let poses = model.last().unwrap().poses;
+    let own = || MeshContact::new(model.pair(), model.contact_set().clone(), &model.options().contact).unwrap();
+    let near = |found: &MeshForce, poses: &[Pose; 2], at: &str| {
+        let anew = evaluated(&model, poses);
+        let largest = flat(&anew.wrench).iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let apart = flat(&found.wrench).iter().zip(flat(&anew.wrench)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-9 * largest, "{at}: forces are {:.1e} apart", apart / largest);
+    };
+    let mut contact = own();
+    contact.evaluate(&poses).unwrap();
+    let overlap = contact.deepest_overlap();
+    assert!(overlap > 0.0);
+    for reach in [0.1 * overlap, 1.25 * overlap, 5.0 * overlap] {
+        near(contact.evaluate_within(&poses, reach).unwrap(), &poses, &format!("reach {reach} of {overlap} mm"));
+    }
+    let (mut within, mut at) = (1.5 * overlap, poses);
+    contact.evaluate_within(&poses, within).unwrap();
+    for axis in [11, 0, 7, 10, 5, 11, 2, 3] {
+        // A hundredth of the approach, at the flanks of either gear.
+        let size = 0.01 * overlap / if axis % 6 < 3 { 1.0 } else { model.pair().wheel.tip_radius() };
+        at = moved(&at, axis, size);
+        let found =
+            contact.evaluate_moved(&at, &mut within).unwrap_or_else(|| panic!("axis {axis} is no small motion"));
+        near(found, &at, &format!("axis {axis}"));
+    }
+    assert!(within < 1.45 * overlap, "eight motions have left {within} of {} mm", 1.5 * overlap);
+    let mut far = f64::INFINITY;
+    assert!(contact.evaluate_moved(&moved(&at, 11, 1e-2), &mut far).is_none(), "no small motion");
 }

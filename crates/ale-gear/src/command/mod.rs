@@ -7,6 +7,7 @@ mod chart;
 mod compare;
 mod curve;
 mod envelope;
+mod gearbox;
 mod geometry;
 mod init;
 mod mesh;
@@ -86,6 +87,8 @@ enum Command {
     Optimise(optimise::OptimiseArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
+    /// Shafts, bearings and several meshes at rest: how they stand under load, and what that does to the teeth
+    Gearbox(gearbox::GearboxArgs),
     /// Geometry sheet of a scene's pair on stdout: diameters, roll angles, span, balls, backlash, sliding
     Geometry(geometry::GeometryArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
@@ -158,6 +161,7 @@ impl Cli {
             Some(Command::Run(args)) => return args.execute(quiet),
             Some(Command::Envelope(args)) => return args.execute(),
             Some(Command::Curve(args)) => return args.execute(quiet),
+            Some(Command::Gearbox(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Vary(args)) => args.execute().map(told),

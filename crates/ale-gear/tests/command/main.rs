@@ -4,6 +4,7 @@ mod cache;
 mod command_line;
 mod faults;
 mod folders;
+mod gearbox;
 mod messages;
 mod resume;
 #[path = "../util/mod.rs"]

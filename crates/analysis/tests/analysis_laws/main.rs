@@ -3,6 +3,7 @@
 mod accuracy;
 mod basins;
 mod continuation;
+mod gearbox;
 mod held_pair;
 mod mapped;
 mod motion_accuracy;

@@ -7,10 +7,10 @@ mod forces;
 use std::sync::Arc;
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{ContactSet, MeshContact, Pose, frames, reference_angle, slice_result};
+use contact::{ContactSet, MeshContact, Pose, displaced, frames, reference_angle, slice_result};
 use geometry::{GearPair, Side};
 use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 use reduction::{ElasticGear, GearModes};
 
 use super::{COORDINATES, Displacement, LoadedSlice};
@@ -181,13 +181,7 @@ impl MeshSide {
         let turns = [d[COORDINATES - 1], d[2 * COORDINATES - 1] + self.slack];
         let set = self.contact.contact_set();
         let nominal = frames(pair, set, self.window.window(), &self.options.contact, station, turns);
-        [0, 1].map(|g| {
-            let at = COORDINATES * g;
-            let moved = Vector3::new(d[at], d[at + 1], d[at + 2]);
-            let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[at + 3], d[at + 4], 0.0));
-            let place = nominal[g].translation.vector + moved;
-            Pose::from_parts(Translation3::from(place), tilt * nominal[g].rotation)
-        })
+        displaced(nominal, &(*d).into())
     }
 
     /// The last evaluation.

@@ -103,6 +103,36 @@ pub fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMat
     m
 }
 
+/// Gyroscopic matrix of a beam of `length` > 0 mm that spins about its own axis with 1 rad/s about +z, t mm^2 for turns.
+/// Theory (78).
+///
+/// ```text
+/// M q'' + Omega G q' + K q = f,   G = integral of 2 rho I [N_x' N_y - N_y' N_x] dz     (N_x, N_y: turns about x and y)
+/// of one section, per length:   rho I theta_x'' + 2 rho I Omega theta_y',   rho I theta_y'' - 2 rho I Omega theta_x'
+/// ```
+/// Skew-symmetric: it does no work. Small turns. None without rotary inertia ([`BeamTheory::Euler`]). Source: H. D.
+/// Nelson, J. Mech. Des. 102 (1980) 793.
+pub fn beam_gyroscopic(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
+    let mut g = SMatrix::zeros();
+    if theory == BeamTheory::Euler {
+        return g;
+    }
+    let phi = shear_ratio(section, length, theory);
+    for (xi, weight) in GAUSS {
+        let (_, turn) = shapes(xi, length, phi);
+        let part = 2.0 * section.inertia_per_length() * weight * length * turn * turn.transpose();
+        // A slope u_y' is a turn by -theta_x.
+        for (i, (about_x, s)) in IN_Y.iter().enumerate() {
+            for (j, (about_y, t)) in IN_X.iter().enumerate() {
+                let coupled = -s * t * part[(i, j)];
+                g[(*about_x, *about_y)] += coupled;
+                g[(*about_y, *about_x)] -= coupled;
+            }
+        }
+    }
+    g
+}
+
 /// Displacement and turn of the section at xi = z/l for unit displacement and slope of either node.
 fn shapes(xi: f64, l: f64, phi: f64) -> (Vector4<f64>, Vector4<f64>) {
     let (x, x2, x3) = (xi, xi * xi, xi * xi * xi);

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{BeamSection, BeamTheory, NODE_COORDINATES, beam_mass, beam_stiffness};
+use super::{BeamSection, BeamTheory, NODE_COORDINATES, beam_gyroscopic, beam_mass, beam_stiffness};
 use crate::FemError;
 
 /// A length of shaft with one section.
@@ -22,6 +22,8 @@ pub struct BeamLine {
     pub stiffness: DMatrix<f64>,
     /// Consistent mass of the same.
     pub mass: DMatrix<f64>,
+    /// Gyroscopic matrix of the same for a spin of 1 rad/s about +z ([`beam_gyroscopic`]).
+    pub gyroscopic: DMatrix<f64>,
 }
 
 impl BeamLine {
@@ -67,7 +69,7 @@ impl BeamLine {
             start = end;
         }
         let n = NODE_COORDINATES * positions.len();
-        let (mut stiffness, mut mass) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        let [mut stiffness, mut mass, mut gyroscopic] = [0; 3].map(|_| DMatrix::zeros(n, n));
         for (i, (length, section)) in elements.iter().enumerate() {
             let at = NODE_COORDINATES * i;
             let size = 2 * NODE_COORDINATES;
@@ -75,8 +77,10 @@ impl BeamLine {
             block += beam_stiffness(section, *length, theory);
             let mut block = mass.view_mut((at, at), (size, size));
             block += beam_mass(section, *length, theory);
+            let mut block = gyroscopic.view_mut((at, at), (size, size));
+            block += beam_gyroscopic(section, *length, theory);
         }
-        Ok(Self { positions, stiffness, mass })
+        Ok(Self { positions, stiffness, mass, gyroscopic })
     }
 
     /// Positions of the nodes, mm, ascending.

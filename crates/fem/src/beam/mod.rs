@@ -7,7 +7,7 @@ mod element;
 mod line;
 mod section;
 
-pub use element::{BeamTheory, beam_mass, beam_stiffness};
+pub use element::{BeamTheory, beam_gyroscopic, beam_mass, beam_stiffness};
 pub use line::{BeamLine, BeamPiece};
 pub use section::BeamSection;
 

@@ -3,6 +3,7 @@
 mod assembly;
 mod beam;
 mod common;
+mod eigen;
 mod elements;
 mod factor;
 mod stress;

@@ -1,9 +1,12 @@
 //! One shaft after Prohl and Myklestad: masses at its stations, elasticity between them. Theory (50), (52).
 
-use fem::beam::{BeamPiece, BeamTheory};
+use fem::{
+    Condensation, FemError,
+    beam::{BeamPiece, BeamTheory},
+};
 use nalgebra::{Cholesky, DMatrix};
 
-use super::{Influence, Shaft, bending_influence, condense::Condensation, equivalent_torsional_stiffness};
+use super::{Influence, Shaft, bending_influence, equivalent_torsional_stiffness};
 use crate::LumpedError;
 
 /// Coordinates of a point of the shaft: displacements and turns.
@@ -83,7 +86,10 @@ impl LumpedShaft {
             kept.extend((0..AXES).filter(|&axis| station.kept[axis]).map(|axis| (i, axis)));
         }
         let numbers: Vec<usize> = kept.iter().map(|&(i, axis)| AXES * points.stations[i] + axis).collect();
-        let by = Condensation::new(&stiffness, &numbers, number)?;
+        let by = Condensation::new(&stiffness, &numbers).map_err(|e| match e {
+            FemError::NotPositiveDefinite { .. } => LumpedError::Free { shaft: number },
+            other => other.into(),
+        })?;
         let rows = shaft.stations.len() * AXES;
         let stations =
             DMatrix::from_fn(rows, kept.len(), |i, j| by.map[(AXES * points.stations[i / AXES] + i % AXES, j)]);

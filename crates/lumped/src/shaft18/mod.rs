@@ -19,7 +19,6 @@
 //! [`bending_influence`]; its claim of chaos without backlash cannot hold, since the equations are then linear with
 //! periodic coefficients.
 
-mod condense;
 mod continuum;
 mod coupling;
 mod flexibility;

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 55] = [
+const OURS: [&str; 58] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -167,6 +167,9 @@ const OURS: [&str; 55] = [
     "in_time.csv",
     "bifurcation.svg",
     "study.csv",
+    "positions.csv",
+    "shafts.csv",
+    "line_load.csv",
     "cases.csv",
     "cases.parquet",
     "optimum.toml",

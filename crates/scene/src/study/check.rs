@@ -112,8 +112,8 @@ fn refusal(e: &SceneError) -> RefusedCase {
     RefusedCase { message: e.to_string(), excerpt: e.excerpt().map(str::to_owned), hint: e.hint() }
 }
 
-/// A key of the scene that a case sets otherwise; messages name it by its place in the study file.
-fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
+/// A key of a scene that another file sets otherwise; messages name it by its place in that file.
+pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting> {
     let place = s.place(&word.span());
     match Setting::parse(word.get_ref()) {
         Ok(setting) => Ok(setting.clone().called(&format!("{place}: set {}", setting.key()))),

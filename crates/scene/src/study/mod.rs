@@ -13,5 +13,6 @@ mod file;
 mod raw;
 mod read;
 
+pub(crate) use check::setting;
 pub use columns::{ColumnsOf, column_advice};
 pub use file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};

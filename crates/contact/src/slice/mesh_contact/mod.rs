@@ -28,6 +28,9 @@ pub(super) use compliance::places;
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 
+/// Motion over the deepest overlap up to which the tangent changes by little.
+const SMALL_MOTION: f64 = 0.03;
+
 /// The slice contact of a window: search, compliance and solution. Memory is allocated once and used again.
 ///
 /// Poses are those of the frames of the window's matrices (`ltca::Equilibrium::poses`). The search starts from the last
@@ -206,6 +209,52 @@ impl MeshContact {
         }
         self.find_tangent();
         Ok(&self.force)
+    }
+
+    /// As [`MeshContact::evaluate`] where the deepest overlap is about as it was: rows with gaps beyond `reach` (mm) are
+    /// not looked for, which saves most of the search. Where teeth overlap by more than that, it looks for all.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the contact problem cannot be solved.
+    pub fn evaluate_within(&mut self, poses: &[Pose; 2], reach: f64) -> Result<&MeshForce, ContactError> {
+        self.prepare(poses, Some(reach));
+        if self.modal.is_some() || self.deepest().is_nan() || self.deepest() > reach {
+            return self.evaluate(poses);
+        }
+        self.solve(Balance::Held, 0)?;
+        self.sum_forces();
+        self.find_tangent();
+        Ok(&self.force)
+    }
+
+    /// Forces a small motion on from the last evaluation, on its rows and with its tangent; `None` where the motion is
+    /// not small, where the rows do not lead to a solution, or become active or inactive. `within` (mm): gap below which
+    /// the last evaluation has all rows ([`MeshContact::evaluate_within`]); the motion makes it smaller.
+    ///
+    /// Forces are as exact as those of [`MeshContact::evaluate`]; the tangent is that of the poses before.
+    pub fn evaluate_moved(&mut self, poses: &[Pose; 2], within: &mut f64) -> Option<&MeshForce> {
+        let before = self.contact.at?;
+        let way = |g: usize| {
+            let moved = poses[g].translation.vector - before[g].translation.vector;
+            moved.norm() + self.radius * (poses[g].rotation * before[g].rotation.inverse()).angle()
+        };
+        let (gone, overlap) = (way(0) + way(1), self.deepest_overlap());
+        // No row that was left out may come nearer than the deepest overlap.
+        let left = *within - gone;
+        if gone.is_nan() || gone > SMALL_MOTION * overlap || overlap + gone > left {
+            return None;
+        }
+        *within = left;
+        if !self.solve_moved(poses, Balance::Held, 0) {
+            return None;
+        }
+        self.sum_forces();
+        Some(&self.force)
+    }
+
+    /// Deepest overlap of the flanks in the last evaluation, mm; 0 where they are apart.
+    pub fn deepest_overlap(&self) -> f64 {
+        self.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap))
     }
 
     /// Resultants of the current solution.

@@ -18,7 +18,7 @@ impl MeshContact {
     }
 
     /// Deepest overlap at the points found, mm.
-    fn deepest(&self) -> f64 {
+    pub(super) fn deepest(&self) -> f64 {
         self.nearest.iter().fold(f64::MIN, |m, (_, p)| m.max(-p.gap()))
     }
 

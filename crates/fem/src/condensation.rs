@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix};
 
-use crate::LumpedError;
+use crate::FemError;
 
 /// Stiffness, mass, damping and the like in the kept coordinates.
 ///
@@ -11,14 +11,19 @@ use crate::LumpedError;
 /// ```
 /// Exact for static loads on the kept coordinates; the others' inertia goes along with their static shapes (Guyan).
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Condensation {
+pub struct Condensation {
     /// T, in the order of all coordinates.
     pub map: DMatrix<f64>,
 }
 
 impl Condensation {
-    /// From the stiffness of all coordinates and the numbers of those kept; `shaft` for the complaint.
-    pub fn new(stiffness: &DMatrix<f64>, kept: &[usize], shaft: usize) -> Result<Self, LumpedError> {
+    /// From the stiffness of all coordinates, symmetric, and the numbers of those kept.
+    ///
+    /// # Errors
+    /// [`FemError::Shape`], [`FemError::BadDof`], [`FemError::NotFinite`]; [`FemError::NotPositiveDefinite`] where
+    /// what is left out can move freely.
+    pub fn new(stiffness: &DMatrix<f64>, kept: &[usize]) -> Result<Self, FemError> {
+        check(stiffness, kept)?;
         let n = stiffness.nrows();
         let left: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
         let mut map = DMatrix::zeros(n, kept.len());
@@ -41,11 +46,12 @@ impl Condensation {
                 }
                 right.row_mut(i).scale_mut(scale[i]);
             }
-            let free = || LumpedError::Free { shaft };
-            let factor = Cholesky::new(k).ok_or_else(free)?;
-            let least = (0..left.len()).map(|i| factor.l_dirty()[(i, i)]).fold(f64::INFINITY, f64::min);
-            if least < 1e-6 {
-                return Err(free());
+            let free = |i: usize, pivot_ratio| FemError::NotPositiveDefinite { dof: left[i], pivot_ratio };
+            let factor = Cholesky::new(k).ok_or_else(|| free(0, 0.0))?;
+            let pivot = |i: &usize| factor.l_dirty()[(*i, *i)].powi(2);
+            let least = (0..left.len()).min_by(|a, b| pivot(a).total_cmp(&pivot(b)));
+            if let Some(i) = least.filter(|i| pivot(i) < 1e-12) {
+                return Err(free(i, pivot(&i)));
             }
             let follow = factor.solve(&right);
             for (i, &row) in left.iter().enumerate() {
@@ -60,5 +66,19 @@ impl Condensation {
     /// T' A T.
     pub fn of(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
         self.map.transpose() * a * &self.map
+    }
+}
+
+fn check(stiffness: &DMatrix<f64>, kept: &[usize]) -> Result<(), FemError> {
+    let n = stiffness.nrows();
+    if stiffness.ncols() != n {
+        return Err(FemError::Shape { what: "columns of stiffness", expected: n, found: stiffness.ncols() });
+    }
+    if let Some((_, &dof)) = kept.iter().enumerate().find(|(i, dof)| **dof >= n || kept[..*i].contains(dof)) {
+        return Err(FemError::BadDof { dof, count: n });
+    }
+    match stiffness.iter().position(|x| !x.is_finite()) {
+        Some(i) => Err(FemError::NotFinite { row: i % n, column: i / n }),
+        None => Ok(()),
     }
 }

@@ -1,0 +1,117 @@
+//! The meshes of a gearbox: pairs as they run, their reduced gears, and the contact of each.
+
+use std::sync::Arc;
+
+use gearbox::{ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Train};
+use geometry::Sense;
+use ltca::StaticOptions;
+use reduction::ElasticGear;
+use scene::{Driver, Rotation, Scene, gearbox::Gearbox};
+
+use crate::{
+    AnalysisError, GearCache,
+    elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
+    gears,
+    inputs::{meshes_of, settled_scene},
+    meshes::SceneMesh,
+    options::options,
+};
+
+/// The scene of a mesh with the axes where the shafts have them, and, once it is known, as the mesh runs.
+fn scene_of(file: &Gearbox, mesh: usize, meshing: Option<&Meshing>) -> Scene {
+    let own = &file.meshes[mesh];
+    let mut scene = own.scene.clone();
+    let [a, b] = own.gears.map(|g| file.shafts[file.gears[g].shaft].origin);
+    let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
+    // A stated distance stands, and is held against that of the shafts; digits of a file are no difference.
+    if scene.pair.centre_distance_mm.is_none_or(|stated| (stated - apart).abs() < 1e-6 * apart) {
+        scene.pair.centre_distance_mm = Some(apart);
+    }
+    if let Some(meshing) = meshing {
+        scene.operation.driver = match meshing.driver {
+            geometry::Driver::Pinion => Driver::Pinion,
+            geometry::Driver::Wheel => Driver::Wheel,
+        };
+        scene.operation.rotation = match meshing.sense {
+            Sense::Ccw => Rotation::Ccw,
+            Sense::Cw => Rotation::Cw,
+        };
+    }
+    settled_scene(&scene, false)
+}
+
+/// All meshes.
+pub(super) fn meshes(file: &Gearbox, train: Option<&Train>) -> Result<Vec<Mesh>, AnalysisError> {
+    let one = |i: usize| {
+        let pair = scene_of(file, i, train.map(|t| &t.meshing()[i])).gear_pair()?;
+        let own = &file.meshes[i];
+        Ok(Mesh { name: own.name.clone(), discs: own.gears, pair })
+    };
+    (0..file.meshes.len()).map(one).collect()
+}
+
+/// The gears of a mesh, reduced.
+pub(super) struct ReducedMesh {
+    pub scene: Scene,
+    pub options: StaticOptions,
+    meshes: [SceneMesh; 2],
+    gears: Arc<[ElasticGear; 2]>,
+    keys: RecordKeys,
+    /// What the user should hear of them.
+    pub warnings: Vec<String>,
+}
+
+impl ReducedMesh {
+    pub fn new(
+        file: &Gearbox,
+        i: usize,
+        meshing: &Meshing,
+        mesh: &Mesh,
+        cache: &dyn GearCache,
+    ) -> Result<Self, AnalysisError> {
+        let scene = scene_of(file, i, Some(meshing));
+        let meshes = meshes_of(&scene, &mesh.pair, None)?;
+        let options = options(&scene, &mesh.pair);
+        let ElasticGears { gears, keys, warnings } = elastic_gears(&scene, &mesh.pair, &options, &meshes, cache)?;
+        let of_pair = gears::warnings(&mesh.pair).into_iter().chain(meshes.iter().flat_map(|m| m.warnings.clone()));
+        let warnings = of_pair.chain(warnings).map(|said| format!("{}: {said}", mesh.name)).collect();
+        Ok(Self { scene, options, meshes, gears: Arc::new(gears), keys, warnings })
+    }
+
+    /// Its contact.
+    pub fn element(&self, mesh: &Mesh) -> Result<Box<dyn MeshElement>, GearboxError> {
+        Ok(Box::new(ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.gears), self.options.clone())?))
+    }
+
+    /// Teeth of its window.
+    pub fn window(&self) -> usize {
+        self.options.window.unwrap_or_default()
+    }
+
+    /// Reduces anew with one more tooth in the window; whether there was one.
+    pub fn widen(
+        &mut self,
+        file: &Gearbox,
+        i: usize,
+        mesh: &Mesh,
+        cache: &dyn GearCache,
+    ) -> Result<bool, AnalysisError> {
+        let teeth = self.options.window_teeth(&mesh.pair) + 1;
+        let room = self.meshes.iter().all(|m| {
+            let there = if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() };
+            teeth < there
+        });
+        if file.meshes[i].scene.analysis.window_teeth.is_some() || !room {
+            return Ok(false);
+        }
+        self.options.window = Some(teeth);
+        let found = elastic_gears(&self.scene, &mesh.pair, &self.options, &self.meshes, cache)?;
+        (self.gears, self.keys) = (Arc::new(found.gears), found.keys);
+        Ok(true)
+    }
+
+    /// Keeps the gears for later runs; what could not be written.
+    pub fn save(&self, cache: &dyn GearCache) -> Vec<String> {
+        if cache.is_on() { self.keys.save(cache, &self.gears) } else { Vec::new() }
+    }
+}

@@ -1,0 +1,105 @@
+//! A gearbox at rest: from its file to where shafts, bearings and gears stand.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `parts` | shafts, discs and bearings of the file |
+//! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `result` | what is read off all positions |
+
+mod meshes;
+mod parts;
+mod result;
+
+use std::f64::consts::TAU;
+
+use gearbox::{GearboxError, GearboxPosition, StaticGearbox, Train};
+use scene::gearbox::Gearbox;
+
+use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
+use meshes::ReducedMesh;
+pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
+
+/// Solves a gearbox at all positions that its file asks for.
+///
+/// # Errors
+/// [`AnalysisError`].
+pub fn solve_gearbox(
+    file: &Gearbox,
+    cache: &dyn GearCache,
+    observer: &mut dyn Observer,
+) -> Result<GearboxResult, AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::Gearbox {
+        file: file.file.display().to_string(),
+        source: Box::new(source),
+    };
+    let structure = parts::structure(file).map_err(failed)?;
+    let mut warnings = Vec::new();
+    // First with the pairs as they are: which flanks press is known once all turn.
+    let rough = meshes::meshes(file, None)?;
+    let (input, sense, keys) = parts::input(file);
+    let train = Train::new(&structure, &rough, &keys, input, sense).map_err(failed)?;
+    let operation = parts::operation(file, &train);
+    let meshes = meshes::meshes(file, Some(&train))?;
+    let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
+        let one = |(i, mesh): (usize, &gearbox::Mesh)| {
+            progress.say(mesh.name.clone());
+            let own = ReducedMesh::new(file, i, &train.meshing()[i], mesh, cache)?;
+            progress.tick();
+            unless_cancelled(progress)?;
+            Ok(own)
+        };
+        meshes.iter().enumerate().map(one).collect::<Result<Vec<_>, AnalysisError>>()
+    })?;
+    for own in &reduced {
+        warnings.extend(own.warnings.clone());
+    }
+    let positions = loop {
+        let solved = run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
+            let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
+                reduced[i].element(mesh)
+            });
+            let mut gearbox = made.map_err(failed)?;
+            let mut positions: Vec<GearboxPosition> = Vec::new();
+            for angle in angles(file, gearbox.train()) {
+                match gearbox.solve(angle) {
+                    Ok(position) => positions.push(position),
+                    Err(e) => return Err(failed(e)),
+                }
+                progress.tick();
+                unless_cancelled(progress)?;
+            }
+            Ok(positions)
+        });
+        let error = match solved {
+            Ok(positions) => break positions,
+            Err(error) => error,
+        };
+        // A starved window asks for one more tooth.
+        let starved = match &error {
+            AnalysisError::Gearbox { source, .. } => source.starved_mesh(),
+            _ => None,
+        };
+        let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
+        let Some(i) = which else { return Err(error) };
+        if !reduced[i].widen(file, i, &meshes[i], cache)? {
+            return Err(error);
+        }
+        warnings.push(format!("{error}; the window was widened to {} teeth", reduced[i].window()));
+    };
+    warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
+    Ok(result::result(file, meshes, &train, &reduced, positions, warnings))
+}
+
+fn count(file: &Gearbox) -> u32 {
+    file.positions_per_cycle.saturating_mul(file.cycles)
+}
+
+/// Angles of the input (rad about +z) at which the first mesh has gone through its cycles, evenly spaced from where it
+/// starts.
+fn angles(file: &Gearbox, train: &Train) -> impl Iterator<Item = f64> + use<> {
+    let first = &train.meshing()[0];
+    let teeth = f64::from(file.meshes[0].scene.pinion.teeth);
+    let pitch = first.sense.sign() as f64 * TAU / teeth / first.ratio;
+    let per_cycle = f64::from(file.positions_per_cycle);
+    (0..count(file)).map(move |i| pitch * f64::from(i) / per_cycle)
+}

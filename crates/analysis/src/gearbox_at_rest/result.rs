@@ -1,0 +1,139 @@
+//! What is read off all positions of a gearbox.
+
+use gearbox::{GearboxPosition, Mesh, Train, face_load_factor};
+use geometry::GearPair;
+use scene::gearbox::Gearbox;
+
+use super::meshes::ReducedMesh;
+
+/// A gearbox at rest, solved.
+#[derive(Debug, Clone)]
+pub struct GearboxResult {
+    /// Turns of each shaft a turn of the input, negative against it.
+    pub ratios: Vec<f64>,
+    /// Pairs as they run, in the order of the meshes.
+    pub pairs: Vec<GearPair>,
+    /// Meshes.
+    pub meshes: Vec<MeshResult>,
+    /// Bearings.
+    pub bearings: Vec<BearingLoad>,
+    /// Outputs, in the order of the torques.
+    pub outputs: Vec<OutputResult>,
+    /// Mean torque at the input, N mm about +z.
+    pub input_torque: f64,
+    /// Worst of all positions: residual, balance of bodies.
+    pub certificate: [f64; 2],
+    /// All positions.
+    pub positions: Vec<GearboxPosition>,
+    /// What the user should hear.
+    pub warnings: Vec<String>,
+}
+
+/// A mesh over all positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshResult {
+    /// Name.
+    pub name: String,
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Mean of the sum of normal forces, N.
+    pub normal_force: f64,
+    /// Mean and peak to peak of the transmission error, mm.
+    pub transmission_error: [f64; 2],
+    /// Mean misalignment in and across the plane of action, mm over the face width.
+    pub misalignment: [f64; 2],
+    /// K_Hbeta of the solved load distribution.
+    pub face_load_factor: Option<f64>,
+    /// Largest pressure, MPa.
+    pub max_pressure: f64,
+    /// Turn by which gear 2 is set where the train closes a ring, rad.
+    pub timing: f64,
+}
+
+/// A bearing over all positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingLoad {
+    /// Name.
+    pub name: String,
+    /// Mean force on the shaft, N.
+    pub force: [f64; 3],
+    /// Mean moment on it, N mm.
+    pub moment: [f64; 3],
+    /// Largest tilt of the shaft against the seat, rad.
+    pub tilt: f64,
+}
+
+/// An output over all positions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputResult {
+    /// Mean of how far it lags, rad.
+    pub mean: f64,
+    /// Peak to peak of that: the transmission error from input to output, rad.
+    pub peak_to_peak: f64,
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0f64);
+    for value in values {
+        sum += value;
+        count += 1.0;
+    }
+    sum / count.max(1.0)
+}
+
+fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    if low <= high { high - low } else { 0.0 }
+}
+
+pub(super) fn result(
+    file: &Gearbox,
+    meshes: Vec<Mesh>,
+    train: &Train,
+    reduced: &[ReducedMesh],
+    positions: Vec<GearboxPosition>,
+    warnings: Vec<String>,
+) -> GearboxResult {
+    let all = &positions;
+    let mesh = |i: usize| {
+        let own = || all.iter().map(move |p| &p.meshes[i]);
+        let slices = reduced[i].options.contact.slices;
+        let pressure = own().flat_map(|m| &m.slices).map(|s| s.pressure).fold(0.0, f64::max);
+        let te = || own().map(|m| m.transmission_error);
+        MeshResult {
+            name: meshes[i].name.clone(),
+            slices,
+            normal_force: mean(own().map(|m| m.normal_force)),
+            transmission_error: [mean(te()), peak_to_peak(te())],
+            misalignment: [mean(own().map(|m| m.misalignment_in_plane)), mean(own().map(|m| m.misalignment_across))],
+            face_load_factor: face_load_factor(all, i, slices),
+            max_pressure: pressure,
+            timing: train.meshing()[i].timing,
+        }
+    };
+    let bearing = |i: usize| {
+        let own = || all.iter().map(move |p| &p.bearings[i]);
+        BearingLoad {
+            name: file.bearings[i].name.clone(),
+            force: std::array::from_fn(|k| mean(own().map(|b| b.force[k]))),
+            moment: std::array::from_fn(|k| mean(own().map(|b| b.moment[k]))),
+            tilt: own().map(|b| b.displacement[3].hypot(b.displacement[4])).fold(0.0, f64::max),
+        }
+    };
+    let output = |i: usize| {
+        let own = || all.iter().map(move |p| p.output_lags[i]);
+        OutputResult { mean: mean(own()), peak_to_peak: peak_to_peak(own()) }
+    };
+    let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    GearboxResult {
+        ratios: train.ratios().to_vec(),
+        meshes: (0..meshes.len()).map(mesh).collect(),
+        bearings: (0..file.bearings.len()).map(bearing).collect(),
+        outputs: (0..file.torques.len()).map(output).collect(),
+        input_torque: mean(all.iter().map(|p| p.input_torque)),
+        certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
+        pairs: meshes.into_iter().map(|m| m.pair).collect(),
+        positions,
+        warnings,
+    }
+}

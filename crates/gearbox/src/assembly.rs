@@ -1,0 +1,187 @@
+//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79).
+
+use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
+use nalgebra::{DMatrix, DVector};
+
+use crate::{GearboxError, Structure, Supports};
+
+/// A structure cut into beam elements; six coordinates a node (displacements x, y, z in mm, turns about them in rad),
+/// shaft after shaft.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembly {
+    structure: Structure,
+    lines: Vec<BeamLine>,
+    /// First coordinate of each shaft, and the number of all at the end.
+    first: Vec<usize>,
+    discs: Vec<usize>,
+    bearings: Vec<usize>,
+    supports: Supports,
+}
+
+impl Assembly {
+    /// Checks the structure and cuts its shafts into elements, with nodes at all discs and bearings.
+    ///
+    /// # Errors
+    /// [`GearboxError`] when some value has no meaning.
+    pub fn new(structure: Structure) -> Result<Self, GearboxError> {
+        structure.check()?;
+        let mut lines = Vec::with_capacity(structure.shafts.len());
+        for (i, shaft) in structure.shafts.iter().enumerate() {
+            let of_discs = structure.discs.iter().filter(|d| d.shaft == i).map(|d| d.position);
+            let of_bearings = structure.bearings.iter().filter(|b| b.shaft == i).map(|b| b.position);
+            let places: Vec<f64> = of_discs.chain(of_bearings).collect();
+            let line = BeamLine::new(&shaft.pieces, &places, shaft.longest_element, BeamTheory::Timoshenko);
+            lines.push(line.map_err(|source| GearboxError::Shaft { shaft: shaft.name.clone(), source })?);
+        }
+        let mut first = vec![0];
+        for line in &lines {
+            first.push(first[first.len() - 1] + line.stiffness.nrows());
+        }
+        let node = |shaft: usize, z: f64| first[shaft] + NODE_COORDINATES * lines[shaft].node_at(z);
+        let discs = structure.discs.iter().map(|d| node(d.shaft, d.position)).collect();
+        let bearings = structure.bearings.iter().map(|b| node(b.shaft, b.position)).collect();
+        let supports = Supports::new(&structure)?;
+        Ok(Self { structure, lines, first, discs, bearings, supports })
+    }
+
+    /// What it was made from.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// Number of coordinates.
+    pub fn size(&self) -> usize {
+        self.first[self.lines.len()]
+    }
+
+    /// First of the six coordinates of a disc.
+    pub fn disc(&self, disc: usize) -> Option<usize> {
+        self.discs.get(disc).copied()
+    }
+
+    /// Bearings and housing.
+    pub fn supports(&self) -> &Supports {
+        &self.supports
+    }
+
+    /// First coordinate and elements of each shaft.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = (usize, &BeamLine)> {
+        self.first.iter().copied().zip(&self.lines)
+    }
+
+    /// Displacements at the bearings out of those of all nodes, six a bearing.
+    pub fn at_bearings(&self, q: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(6 * self.bearings.len(), |i, _| q[self.bearings[i / 6] + i % 6])
+    }
+
+    /// Compression of a mesh spring, mm.
+    pub(crate) fn compression(&self, spring: usize, q: &DVector<f64>) -> f64 {
+        let spring = &self.structure.springs[spring];
+        let of = |g: usize| q.fixed_rows::<6>(self.discs[spring.discs[g]]).dot(&spring.levers[g]);
+        of(0) + of(1)
+    }
+
+    /// Stiffness of shafts, bearings, housing and mesh springs: N/mm, N, N mm.
+    pub fn stiffness(&self) -> DMatrix<f64> {
+        let mut k = self.stiffness_without_meshes();
+        for spring in &self.structure.springs {
+            let mut lever = DVector::zeros(self.size());
+            for (disc, own) in spring.discs.iter().zip(&spring.levers) {
+                let mut rows = lever.fixed_rows_mut::<6>(self.discs[*disc]);
+                rows += own;
+            }
+            k.ger(spring.stiffness, &lever, &lever, 1.0);
+        }
+        k
+    }
+
+    /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
+    pub fn stiffness_without_meshes(&self) -> DMatrix<f64> {
+        let mut k = self.of_shafts(|line| &line.stiffness);
+        self.add_supports(&mut k, &self.supports.stiffness);
+        k
+    }
+
+    /// Takes a shaft that does not move out of a stiffness: its seats, among the `kept` coordinates, and its other nodes
+    /// meet nothing.
+    pub(crate) fn hold(&self, shaft: usize, k: &mut DMatrix<f64>, kept: &[usize]) {
+        for i in self.first[shaft]..self.first[shaft + 1] {
+            k.row_mut(i).fill(0.0);
+            k.column_mut(i).fill(0.0);
+            if !kept.contains(&i) {
+                k[(i, i)] = 1.0;
+            }
+        }
+    }
+
+    /// Positions of the nodes of a shaft, mm, and the first coordinate of the first of them.
+    pub(crate) fn line(&self, shaft: usize) -> (usize, &BeamLine) {
+        (self.first[shaft], &self.lines[shaft])
+    }
+
+    /// First coordinate of a bearing's node.
+    pub(crate) fn bearing(&self, bearing: usize) -> usize {
+        self.bearings[bearing]
+    }
+
+    /// Consistent mass of the shafts, and that of the discs: t, t mm, t mm^2.
+    pub fn mass(&self) -> DMatrix<f64> {
+        let mut m = self.of_shafts(|line| &line.mass);
+        for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
+            let inertia = [disc.mass; 3].into_iter().chain([disc.diametral_inertia; 2]).chain([disc.polar_inertia]);
+            inertia.enumerate().for_each(|(axis, value)| m[(at + axis, at + axis)] += value);
+        }
+        m
+    }
+
+    /// Damping of the bearings: N s/mm, N s, N mm s.
+    pub fn damping(&self) -> DMatrix<f64> {
+        let mut c = DMatrix::zeros(self.size(), self.size());
+        self.add_supports(&mut c, &self.supports.damping);
+        c
+    }
+
+    /// Gyroscopic matrix of shafts and discs that spin at `speeds` (rad/s about +z, one a shaft), t mm^2/s:
+    /// skew-symmetric.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] for another number of speeds, [`GearboxError::OutOfRange`] where one is no number.
+    pub fn gyroscopic(&self, speeds: &[f64]) -> Result<DMatrix<f64>, GearboxError> {
+        let wanted = self.lines.len();
+        if speeds.len() != wanted {
+            return Err(GearboxError::Count { what: "speeds of shafts", found: speeds.len(), wanted });
+        }
+        if let Some((shaft, &value)) = self.structure.shafts.iter().zip(speeds).find(|(_, s)| !s.is_finite()) {
+            return Err(GearboxError::OutOfRange { part: shaft.name.clone(), quantity: "speed, rad/s", value });
+        }
+        let mut g = DMatrix::zeros(self.size(), self.size());
+        for ((at, line), speed) in self.lines().zip(speeds) {
+            let n = line.gyroscopic.nrows();
+            g.view_mut((at, at), (n, n)).copy_from(&(*speed * &line.gyroscopic));
+        }
+        for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
+            let momentum = disc.polar_inertia * speeds[disc.shaft];
+            g[(at + 3, at + 4)] += momentum;
+            g[(at + 4, at + 3)] -= momentum;
+        }
+        Ok(g)
+    }
+
+    fn of_shafts(&self, matrix: impl Fn(&BeamLine) -> &DMatrix<f64>) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.size(), self.size());
+        for (at, line) in self.lines() {
+            let own = matrix(line);
+            all.view_mut((at, at), (own.nrows(), own.ncols())).copy_from(own);
+        }
+        all
+    }
+
+    fn add_supports(&self, all: &mut DMatrix<f64>, own: &DMatrix<f64>) {
+        let of = |i: usize| self.bearings[i / 6] + i % 6;
+        for i in 0..own.nrows() {
+            for j in 0..own.ncols() {
+                all[(of(i), of(j))] += own[(i, j)];
+            }
+        }
+    }
+}

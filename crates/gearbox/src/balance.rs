@@ -1,0 +1,100 @@
+//! Equilibrium of every body: what is left over of all that acts on it. Theory (85).
+
+use nalgebra::{DVector, Vector3};
+
+use crate::{StaticGearbox, Vector12, static_result::BearingState};
+
+/// What holds the bodies, and how well they are in balance.
+pub(crate) struct Balance {
+    /// Torque at the input, N mm about +z.
+    pub input_torque: f64,
+    /// Force and moment about its origin on each shaft that is held; `None` for the others.
+    pub held: Vec<Option<[f64; 6]>>,
+    /// Largest force or moment that is left over on a shaft, over the largest that acts on it.
+    pub body: f64,
+}
+
+/// Sums of forces and of moments about a shaft's origin, with the largest of each.
+#[derive(Default)]
+struct Sum {
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    largest: [f64; 2],
+}
+
+impl Sum {
+    /// Adds a force and a moment at height z of the shaft.
+    fn add(&mut self, z: f64, force: Vector3<f64>, moment: Vector3<f64>) {
+        let arm = Vector3::new(0.0, 0.0, z).cross(&force);
+        self.force += force;
+        self.moment += arm + moment;
+        self.largest[0] = self.largest[0].max(force.amax());
+        self.largest[1] = self.largest[1].max(arm.amax()).max(moment.amax());
+    }
+
+    fn left(&self) -> f64 {
+        let of = |sum: f64, largest: f64| if largest > 0.0 { sum / largest } else { 0.0 };
+        of(self.force.amax(), self.largest[0]).max(of(self.moment.amax(), self.largest[1]))
+    }
+}
+
+/// Sums up what meshes, torques, bearings and the input do to every shaft: places where the parts are, undeformed, as
+/// linear shafts have it.
+pub(crate) fn balances(
+    gearbox: &StaticGearbox,
+    reactions: &DVector<f64>,
+    forces: &[Vector12],
+    bearings: &[BearingState],
+) -> Balance {
+    let structure = gearbox.assembly.structure();
+    let input = &structure.discs[gearbox.operation.input];
+    let turn_at = |shaft: usize| gearbox.seats.on_shaft(shaft).map(|(at, _)| reactions[at + 5]).sum::<f64>();
+    let input_torque = if gearbox.held[input.shaft] {
+        turn_at(input.shaft)
+    } else {
+        gearbox.seats.of_disc(&gearbox.assembly, gearbox.operation.input).map_or(0.0, |at| reactions[at + 5])
+    };
+    let about_z = |torque: f64| Vector3::new(0.0, 0.0, torque);
+    let (mut held, mut body) = (Vec::new(), 0.0f64);
+    for shaft in 0..structure.shafts.len() {
+        let mut sum = Sum::default();
+        for (mesh, force) in gearbox.meshes.iter().zip(forces) {
+            for (g, &disc) in mesh.discs.iter().enumerate().filter(|(_, d)| structure.discs[**d].shaft == shaft) {
+                let own = force.fixed_rows::<6>(6 * g);
+                sum.add(gear_height(gearbox, disc), own.fixed_rows::<3>(0).into(), own.fixed_rows::<3>(3).into());
+            }
+        }
+        for torque in gearbox.operation.torques.iter().filter(|t| structure.discs[t.disc].shaft == shaft) {
+            sum.add(0.0, Vector3::zeros(), about_z(torque.torque));
+        }
+        if input.shaft == shaft {
+            sum.add(0.0, Vector3::zeros(), about_z(input_torque));
+        }
+        if gearbox.held[shaft] {
+            // What is not balanced but about its axis is what holds it.
+            let (f, m) = (-sum.force, -sum.moment);
+            held.push(Some([f.x, f.y, f.z, m.x, m.y, 0.0]));
+            let axial = sum.moment.z.abs();
+            body = body.max(if sum.largest[1] > 0.0 { axial / sum.largest[1] } else { 0.0 });
+            continue;
+        }
+        for (i, state) in bearings.iter().enumerate().filter(|(i, _)| structure.bearings[*i].shaft == shaft) {
+            let height = height(gearbox, shaft, gearbox.assembly.bearing(i));
+            sum.add(height, state.force.into(), state.moment.into());
+        }
+        held.push(None);
+        body = body.max(sum.left());
+    }
+    Balance { input_torque, held, body }
+}
+
+fn gear_height(gearbox: &StaticGearbox, disc: usize) -> f64 {
+    let shaft = gearbox.assembly.structure().discs[disc].shaft;
+    gearbox.assembly.disc(disc).map_or(0.0, |node| height(gearbox, shaft, node))
+}
+
+/// Height of a node on its shaft, mm.
+fn height(gearbox: &StaticGearbox, shaft: usize, node: usize) -> f64 {
+    let (first, line) = gearbox.assembly.line(shaft);
+    line.positions()[(node - first) / 6]
+}

@@ -1,0 +1,237 @@
+//! What a gearbox refuses, and what can go wrong on the way.
+
+use fem::FemError;
+use ltca::StaticError;
+use lumped::LumpedError;
+
+/// Why shafts, bearings and gears cannot be put together or solved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GearboxError {
+    /// No shaft at all.
+    #[error("there is no shaft")]
+    NoShafts,
+    /// The sections of a shaft make no sense.
+    #[error("shaft {shaft}: {source}")]
+    Shaft {
+        /// Name of the shaft.
+        shaft: String,
+        /// What is wrong.
+        source: FemError,
+    },
+    /// A part names a shaft that is not there.
+    #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
+    NoShaft {
+        /// Name of the part.
+        part: String,
+        /// The shaft it names.
+        shaft: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A part names a disc or gear that is not there.
+    #[error("{part} is at disc {disc}, and there are {count} (they count from 0)")]
+    NoDisc {
+        /// Name of the part.
+        part: String,
+        /// The disc it names.
+        disc: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A part sits beside its shaft.
+    #[error("{part} at {position_mm} mm is not on its shaft of {length_mm} mm")]
+    OffShaft {
+        /// Name of the part.
+        part: String,
+        /// Position, mm.
+        position_mm: f64,
+        /// Length of the shaft, mm.
+        length_mm: f64,
+    },
+    /// A value is not a finite number, or below 0 where it must not be.
+    #[error("{part}: {quantity} = {value} must be a number of 0 or more")]
+    OutOfRange {
+        /// Name of the part.
+        part: String,
+        /// The quantity, with its unit.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A stiffness or damping matrix that is not symmetric, or pushes where it should hold.
+    #[error("{part}: {matrix} is not symmetric and free of negative stiffness: {off:.1e} of its largest entry")]
+    NotElastic {
+        /// Name of the part.
+        part: String,
+        /// Which of its matrices.
+        matrix: &'static str,
+        /// How far off it is, relative.
+        off: f64,
+    },
+    /// A matrix between bearing seats of another size.
+    #[error("the housing has {found} coordinates, and {bearings} bearings have {wanted}")]
+    HousingSize {
+        /// Rows or columns given.
+        found: usize,
+        /// Number of bearings.
+        bearings: usize,
+        /// Rows and columns that are needed.
+        wanted: usize,
+    },
+    /// A list that should have one entry for each part.
+    #[error("{found} {what} are given for {wanted}")]
+    Count {
+        /// What is counted.
+        what: &'static str,
+        /// How many are there.
+        found: usize,
+        /// How many are needed.
+        wanted: usize,
+    },
+    /// More nodes than dense matrices hold.
+    #[error("{nodes:.0} nodes of shafts are too many: {most} at the most")]
+    TooLarge {
+        /// Nodes that the elements would have.
+        nodes: f64,
+        /// How many are allowed.
+        most: usize,
+    },
+    /// Linear algebra of the whole.
+    #[error(transparent)]
+    Matrix(#[from] FemError),
+    /// Axes of a mesh at another distance than its gears are made for.
+    #[error("mesh {mesh}: the axes are {distance_mm} mm apart, and the pair is made for {wanted_mm} mm")]
+    Distance {
+        /// Name of the mesh.
+        mesh: String,
+        /// Distance of the shafts, mm.
+        distance_mm: f64,
+        /// Centre distance of the pair, mm.
+        wanted_mm: f64,
+    },
+    /// Gears of a mesh whose mid-planes differ.
+    #[error("mesh {mesh}: gear 2 lies {offset_mm} mm beside gear 1 along the axis")]
+    Beside {
+        /// Name of the mesh.
+        mesh: String,
+        /// How far, mm.
+        offset_mm: f64,
+    },
+    /// Two ways through the train turn a shaft unlike.
+    #[error("shaft {shaft} would turn {} and {} times the input's turns", ratios[0], ratios[1])]
+    Ratios {
+        /// Name of the shaft.
+        shaft: String,
+        /// The two ratios.
+        ratios: [f64; 2],
+    },
+    /// A shaft that no chain of meshes joins to the input.
+    #[error("shaft {shaft} meshes with nothing that the input drives")]
+    NotDriven {
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// A torque that drives where it should load.
+    #[error("the torque of {torque_nmm} N mm at {disc} drives its shaft instead of loading it")]
+    Drives {
+        /// Name of the disc.
+        disc: String,
+        /// The torque, N mm about +z.
+        torque_nmm: f64,
+    },
+    /// Newton's method does not settle.
+    #[error("no equilibrium after {iterations} steps: the last one was {step:.1e} of the displacements")]
+    NoEquilibrium {
+        /// Steps taken.
+        iterations: usize,
+        /// Last step over the displacements, in the norm of the stiffness.
+        step: f64,
+    },
+    /// The contact of a mesh.
+    #[error("mesh {mesh}: {source}")]
+    AtMesh {
+        /// Name of the mesh.
+        mesh: String,
+        /// What is wrong.
+        source: Box<GearboxError>,
+    },
+    /// The exact contact of a pair of gears.
+    #[error(transparent)]
+    Contact(#[from] StaticError),
+    /// The line of action of a mesh.
+    #[error("mesh {mesh}: {source}")]
+    Mesh {
+        /// Name of the mesh.
+        mesh: String,
+        /// What is wrong.
+        source: LumpedError,
+    },
+}
+
+impl GearboxError {
+    /// Whether the input has a meaning and no result came out.
+    pub fn is_without_result(&self) -> bool {
+        match self {
+            Self::NoEquilibrium { .. } => true,
+            Self::AtMesh { source, .. } => source.is_without_result(),
+            Self::Contact(source) => {
+                matches!(source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
+            }
+            _ => false,
+        }
+    }
+
+    /// The mesh whose window has too few teeth: a wider one may do.
+    pub fn starved_mesh(&self) -> Option<&str> {
+        match self {
+            Self::AtMesh { mesh, source } => {
+                let starved = matches!(&**source, Self::Contact(own) if own.is_starved());
+                starved.then_some(mesh)
+            }
+            _ => None,
+        }
+    }
+
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        let text = match self {
+            Self::NoShafts => "give one shaft at least",
+            Self::Shaft { source, .. } => return source.hint(),
+            Self::NoShaft { .. } | Self::NoDisc { .. } => {
+                "shafts and discs are numbered in the order in which they are given"
+            }
+            Self::OffShaft { .. } => "positions count from the shaft's own beginning, its sections one after the other",
+            Self::OutOfRange { .. } => {
+                "inside are mm, N, t, s: 1 MN/m is 1000 N/mm, 1 kg is 0.001 t, 1 kg m^2 is 1000 t mm^2"
+            }
+            Self::NotElastic { .. } => {
+                "elastic bearings and housings have symmetric matrices; the oil film of plain bearings, which has none, \
+                 is not in these models"
+            }
+            Self::HousingSize { .. } => {
+                "six coordinates a bearing, in the order of the bearings: x, y, z and the turns about them"
+            }
+            Self::Count { .. } => return None,
+            Self::TooLarge { .. } => "take longer elements, or fewer sections",
+            Self::Distance { .. } => "place the shafts by the centre distance, or give the pair theirs",
+            Self::Beside { .. } => {
+                "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model"
+            }
+            Self::Ratios { .. } => "numbers of teeth around a closed train must agree",
+            Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
+            Self::Drives { .. } => "turn its sign, or make this shaft the input",
+            Self::NoEquilibrium { .. } => {
+                "is every shaft held in x, y, z and against tilting, are torques in N mm, and can the teeth carry them?"
+            }
+            Self::AtMesh { source, .. } => return source.hint(),
+            Self::Contact(source) => return source.hint(),
+            Self::Matrix(FemError::NotPositiveDefinite { .. }) => {
+                "does every shaft have mass, and is every shaft held in x, y, z and against tilting?"
+            }
+            Self::Matrix(source) => return source.hint(),
+            Self::Mesh { source, .. } => return source.hint(),
+        };
+        Some(text.to_owned())
+    }
+}

@@ -1,0 +1,151 @@
+//! The exact contact of two elastic gears as a mesh of the gearbox. Theory (38), (81).
+
+use std::sync::Arc;
+
+use ale::{SlidingWindow, Station};
+use contact::{
+    ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames,
+    slice_result,
+};
+use geometry::GearPair;
+use ltca::{StaticError, StaticOptions};
+use nalgebra::SMatrix;
+use reduction::ElasticGear;
+
+use crate::{GearboxError, MeshElement, MeshReply, Vector12};
+
+/// Slices of two reduced gears, station by station, as `ltca` solves them for a pair alone.
+#[derive(Debug)]
+pub struct ExactMesh {
+    pair: GearPair,
+    gears: Arc<[ElasticGear; 2]>,
+    options: StaticOptions,
+    contact: MeshContact,
+    window: SlidingWindow,
+    station: Station,
+    poses: [Pose; 2],
+    /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
+    within: Option<f64>,
+}
+
+/// Overlap over that of the last evaluation up to which the search is narrow.
+const REACH: f64 = 1.25;
+
+impl ExactMesh {
+    /// Gears that were reduced at the first window of `options` (`ltca::StaticModel::first_teeth`). Driver and sense of
+    /// the options are those of [`crate::Train::meshing`]; the torque is not used.
+    ///
+    /// # Errors
+    /// [`GearboxError::Contact`]: points, or gears that are not reduced.
+    pub fn new(
+        pair: GearPair,
+        gears: impl Into<Arc<[ElasticGear; 2]>>,
+        options: StaticOptions,
+    ) -> Result<Self, GearboxError> {
+        let gears = gears.into();
+        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
+        let window = SlidingWindow::at_start(options.window_teeth(&pair), teeth, options.contact.sense)
+            .map_err(StaticError::from)?;
+        let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
+        let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
+        let station = Station::at_cycles(0.0);
+        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], within: None })
+    }
+
+    /// The pair.
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    /// The options.
+    pub fn options(&self) -> &StaticOptions {
+        &self.options
+    }
+
+    /// Forces at the poses. A step of Newton's method is small: rows stay, and with them the tangent, which is as good as
+    /// a new one; where they do not, the search is as wide as the overlap before asks for.
+    fn find(&mut self) -> Result<MeshForce, ContactError> {
+        if let Some(within) = &mut self.within
+            && let Some(found) = self.contact.evaluate_moved(&self.poses, within)
+        {
+            return Ok(found.clone());
+        }
+        let overlap = self.contact.deepest_overlap();
+        let found = if overlap > 0.0 {
+            self.contact.evaluate_within(&self.poses, REACH * overlap)?.clone()
+        } else {
+            self.contact.evaluate(&self.poses)?.clone()
+        };
+        self.within = Some(self.contact.deepest_overlap().max(REACH * overlap));
+        Ok(found)
+    }
+
+    fn failed(&self, source: contact::ContactError) -> GearboxError {
+        StaticError::Contact { cycle: self.station.cycle, phase: self.station.phase, source }.into()
+    }
+}
+
+impl MeshElement for ExactMesh {
+    fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
+        if !cycles.is_finite() {
+            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
+        }
+        let station = Station::at_cycles(cycles);
+        let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()];
+        let window = SlidingWindow::at(station, self.window.window().count(), teeth, self.options.contact.sense)
+            .map_err(StaticError::from)?;
+        if window != self.window {
+            let set = self.contact.contact_set().clone();
+            self.contact
+                .enter_window(&self.pair, &self.gears, window.window(), set, &self.options.contact)
+                .map_err(StaticError::from)?;
+            self.window = window;
+        }
+        self.station = station;
+        // Another place has rows and a tangent of its own.
+        self.within = None;
+        Ok(())
+    }
+
+    fn evaluate(&mut self, d: &Vector12) -> Result<MeshReply, GearboxError> {
+        let set = self.contact.contact_set();
+        let window = self.window.window();
+        let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
+        self.poses = displaced(nominal, &(*d).into());
+        let found = match self.find() {
+            Ok(found) => found,
+            Err(source) => return Err(self.failed(source)),
+        };
+        let force = Vector12::from_fn(|i, _| {
+            let wrench = &found.wrench[i / 6];
+            if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }
+        });
+        let tangent = SMatrix::from_fn(|i, j| found.tangent[i][j]);
+        Ok(MeshReply { force, tangent, normal_force: found.pair_forces.iter().sum() })
+    }
+
+    /// Refuses a window beside which a pair of teeth ought to carry load.
+    fn check(&mut self) -> Result<(), GearboxError> {
+        let deepest = self.contact.rows().iter().fold(0.0, |m: f64, row| m.max(-row.gap));
+        let neighbours = NeighbourPairs {
+            pair: &self.pair,
+            options: &self.options.contact,
+            set: self.contact.contact_set(),
+            window: self.window.window(),
+            station: self.station,
+            poses: &self.poses,
+        };
+        let torque = self.contact.force().wrench[self.options.driven()].moment[2].abs();
+        let served = self.window.check_neighbours(self.station, torque, 1e-3 * deepest, |k| neighbours.gap(k));
+        Ok(served.map_err(StaticError::from)?)
+    }
+
+    fn slices(&self) -> Vec<SliceResult> {
+        let (contact, set) = (&self.contact, self.contact.contact_set());
+        let forces = contact.solver().forces();
+        let rows = contact.rows().iter().zip(contact.slices()).zip(forces).zip(contact.states(forces));
+        rows.filter(|((_, f), _)| **f > 0.0)
+            .map(|(((row, slice), &f), state)| slice_result(slice, set.side(row.patches.0), f, &state.local))
+            .collect()
+    }
+}

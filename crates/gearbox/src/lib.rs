@@ -1,0 +1,45 @@
+//! How do shafts, bearings and gears stand and swing together?
+//!
+//! The files in the order of the model:
+//!
+//! 1. [`Structure`] and its parts: what the user says;
+//! 2. [`Supports`]: bearings in series with the housing;
+//! 3. [`Assembly`]: matrices of all nodes;
+//! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
+//! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
+//! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
+//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load.
+//!
+//! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
+//! threads.
+
+mod assembly;
+mod balance;
+mod campbell;
+mod equilibrium;
+mod error;
+mod exact_mesh;
+mod mesh_element;
+mod modal_energy;
+mod position;
+mod seats;
+mod static_gearbox;
+mod static_result;
+mod structure;
+mod supports;
+mod train;
+mod whirl;
+
+pub use assembly::Assembly;
+pub use error::GearboxError;
+pub use exact_mesh::ExactMesh;
+pub use mesh_element::{LinearMesh, MeshElement, MeshReply, Vector12};
+pub use modal_energy::{Component, EnergyShare, ModalEnergy};
+pub use static_gearbox::{Operation, StaticGearbox, Torque};
+pub use static_result::{
+    BearingState, GearboxCertificate, GearboxPosition, MeshState, ShaftLine, face_load_factor, line_load,
+};
+pub use structure::{Bearing, Disc, MeshSpring, Shaft, Structure};
+pub use supports::Supports;
+pub use train::{Mesh, Meshing, Train};
+pub use whirl::{Rotors, WhirlMode, WhirlModes};

@@ -1,0 +1,76 @@
+//! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
+
+use contact::SliceResult;
+use nalgebra::{SMatrix, SVector, Vector6};
+
+use crate::GearboxError;
+
+/// Displacements of gear 1 and gear 2, or forces on them: x, y, z and the turns about them, twice. The mesh's own axes:
+/// x from gear 1's axis to gear 2's, z as all axes.
+pub type Vector12 = SVector<f64, 12>;
+
+/// Forces of a mesh and how they follow the displacements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshReply {
+    /// Forces (N) and moments (N mm, about the gears' own centres) on gear 1 and gear 2.
+    pub force: Vector12,
+    /// df/dq: N/mm, N, N mm.
+    pub tangent: SMatrix<f64, 12, 12>,
+    /// Sum of the normal forces, N.
+    pub normal_force: f64,
+}
+
+/// A mesh between two gears whose nominal motion is given: displacements count from where the unmodified flanks touch
+/// without load, at any phase.
+pub trait MeshElement {
+    /// Goes on to a place in the mesh cycles: gear 1 has turned by this many pitches, [`crate::Train::cycles`].
+    ///
+    /// # Errors
+    /// [`GearboxError`] when the element cannot follow.
+    fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError>;
+
+    /// Forces at displacements.
+    ///
+    /// # Errors
+    /// [`GearboxError`] when there are none.
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError>;
+
+    /// Asked once equilibrium is found, after the last [`MeshElement::evaluate`]: whether the forces are all there are.
+    ///
+    /// # Errors
+    /// [`GearboxError`] when they are not.
+    fn check(&mut self) -> Result<(), GearboxError> {
+        Ok(())
+    }
+
+    /// Loaded slices of the last evaluation, for elements that know them.
+    fn slices(&self) -> Vec<SliceResult> {
+        Vec::new()
+    }
+}
+
+/// A mesh as a spring along its line of action that presses and does not pull: F = k max(0, h . q + e).
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearMesh {
+    /// What displacements of gear 1 and gear 2 compress it by, in the mesh's own axes: 1, mm.
+    pub levers: [Vector6<f64>; 2],
+    /// Stiffness along the normal, N/mm.
+    pub stiffness: f64,
+    /// What the flanks are thicker by than nominal ones, along the normal, mm.
+    pub excess: f64,
+}
+
+impl MeshElement for LinearMesh {
+    fn go_to(&mut self, _cycles: f64) -> Result<(), GearboxError> {
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+        let h = Vector12::from_fn(|i, _| self.levers[i / 6][i % 6]);
+        let compression = h.dot(displacements) + self.excess;
+        // Also no force for a compression that is no number: the solver then says that there is no equilibrium.
+        let stiffness = if compression > 0.0 { self.stiffness } else { 0.0 };
+        let normal_force = if compression > 0.0 { self.stiffness * compression } else { 0.0 };
+        Ok(MeshReply { force: -normal_force * h, tangent: -stiffness * h * h.transpose(), normal_force })
+    }
+}

@@ -1,0 +1,88 @@
+//! Where the energy of a mode is: which shaft, bearing or mesh it bends, and what it moves. Theory (80).
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::Assembly;
+
+/// A part that holds energy; numbers from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Component {
+    /// A shaft.
+    Shaft(usize),
+    /// A bearing.
+    Bearing(usize),
+    /// The housing.
+    Housing,
+    /// A mesh spring.
+    Mesh(usize),
+    /// A disc or gear body.
+    Disc(usize),
+}
+
+/// A part and its share of the energy, 0 .. 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergyShare {
+    /// The part.
+    pub component: Component,
+    /// Its share.
+    pub share: f64,
+}
+
+/// Shares of all parts in the strain energy and the kinetic energy of a mode, over a period; each adds up to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalEnergy {
+    /// Strain energy of shafts, bearings, housing and meshes. Empty where nothing is strained: a free motion whose
+    /// frequency is due to gyroscopic moments alone.
+    pub strain: Vec<EnergyShare>,
+    /// Kinetic energy of shafts and discs.
+    pub kinetic: Vec<EnergyShare>,
+}
+
+/// Strain energy over the work of all inner forces below which it is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
+impl ModalEnergy {
+    /// Of complex amplitudes x: x^H K x and x^H M x, part by part, over those of all matrices.
+    pub(crate) fn of(assembly: &Assembly, [k, m]: [&DMatrix<f64>; 2], shape: &DVector<Complex<f64>>) -> Self {
+        let parts = [shape.map(|x| x.re), shape.map(|x| x.im)];
+        let mut strain = Vec::new();
+        let mut kinetic = Vec::new();
+        // What entries of the stiffness make of the amplitudes: the measure of round-off.
+        let mut gross = 0.0;
+        for (i, (at, line)) in assembly.lines().enumerate() {
+            let own = parts.each_ref().map(|p| p.rows(at, line.mass.nrows()).into_owned());
+            let of = |m: &DMatrix<f64>| own.iter().map(|p| p.dot(&(m * p))).sum::<f64>();
+            strain.push((Component::Shaft(i), of(&line.stiffness)));
+            kinetic.push((Component::Shaft(i), of(&line.mass)));
+            gross += own.iter().map(|p| p.component_mul(p).dot(&line.stiffness.diagonal())).sum::<f64>();
+        }
+        let at_bearings = parts.each_ref().map(|p| assembly.supports().energies(&assembly.at_bearings(p)));
+        for i in 0..at_bearings[0].0.len() {
+            strain.push((Component::Bearing(i), at_bearings[0].0[i] + at_bearings[1].0[i]));
+        }
+        if let [(_, Some(a)), (_, Some(b))] = at_bearings {
+            strain.push((Component::Housing, a + b));
+        }
+        for (i, spring) in assembly.structure().springs.iter().enumerate() {
+            let of = |p: &DVector<f64>| spring.stiffness * assembly.compression(i, p).powi(2);
+            strain.push((Component::Mesh(i), of(&parts[0]) + of(&parts[1])));
+        }
+        for (i, disc) in assembly.structure().discs.iter().enumerate() {
+            let Some(at) = assembly.disc(i) else { continue };
+            let square = |axis: usize| shape[at + axis].norm_sqr();
+            let shift: f64 = (0..3).map(square).sum();
+            let turn = disc.diametral_inertia * (square(3) + square(4)) + disc.polar_inertia * square(5);
+            kinetic.push((Component::Disc(i), disc.mass * shift + turn));
+        }
+        let total = |matrix: &DMatrix<f64>| parts.iter().map(|p| p.dot(&(matrix * p))).sum::<f64>();
+        Self { strain: shares(&strain, total(k), ROUND_OFF * gross), kinetic: shares(&kinetic, total(m), 0.0) }
+    }
+}
+
+/// Shares in a total; none where that is at most `least`.
+fn shares(energies: &[(Component, f64)], total: f64, least: f64) -> Vec<EnergyShare> {
+    if total <= least {
+        return Vec::new();
+    }
+    energies.iter().map(|(component, e)| EnergyShare { component: *component, share: e / total }).collect()
+}

@@ -1,0 +1,94 @@
+//! Shafts, bearings and housing condensed to the seats of gears and couplings. Theory (83).
+
+use fem::Condensation;
+use nalgebra::{DMatrix, DVector};
+
+use crate::{Assembly, GearboxError};
+
+/// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free.
+///
+/// ```text
+/// K_s = T' K T,   q = T y   (all other coordinates follow, exactly at rest);   y = B z
+/// ```
+/// B leaves out the held turn of the input, and lets the seats of a held shaft turn about its axis together.
+#[derive(Debug, Clone)]
+pub(crate) struct Seats {
+    /// First coordinate of each seat among those of the assembly.
+    nodes: Vec<usize>,
+    /// Shaft of each seat.
+    shafts: Vec<usize>,
+    condensation: Condensation,
+    /// K_s.
+    pub stiffness: DMatrix<f64>,
+    /// B.
+    pub basis: DMatrix<f64>,
+}
+
+impl Seats {
+    /// Of the discs that forces act on. `held`: which shafts are rigid in rigid bearings.
+    pub fn new(assembly: &Assembly, discs: &[usize], held: &[bool], input: usize) -> Result<Self, GearboxError> {
+        let (mut nodes, mut shafts) = (Vec::new(), Vec::new());
+        for &disc in discs {
+            let shaft = assembly.structure().discs[disc].shaft;
+            let Some(node) = assembly.disc(disc) else { continue };
+            if !nodes.contains(&node) {
+                nodes.push(node);
+                shafts.push(shaft);
+            }
+        }
+        let kept: Vec<usize> = nodes.iter().flat_map(|n| *n..*n + 6).collect();
+        let mut k = assembly.stiffness_without_meshes();
+        // A held shaft keeps no elasticity of its own: what it does to the housing, it does not by moving.
+        for (shaft, _) in held.iter().enumerate().filter(|(_, h)| **h) {
+            assembly.hold(shaft, &mut k, &kept);
+        }
+        let condensation = Condensation::new(&k, &kept)?;
+        let raw = condensation.of(&k);
+        let stiffness = 0.5 * (&raw + raw.transpose());
+        let input_node = assembly.disc(input);
+        let input_shaft = assembly.structure().discs[input].shaft;
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        let mut turning: Vec<usize> = Vec::new();
+        for (seat, (&node, &shaft)) in nodes.iter().zip(&shafts).enumerate() {
+            for axis in 0..6 {
+                let mut column = DVector::zeros(kept.len());
+                if held[shaft] {
+                    if axis != 5 || shaft == input_shaft || turning.contains(&shaft) {
+                        continue;
+                    }
+                    turning.push(shaft);
+                    shafts.iter().enumerate().filter(|(_, s)| **s == shaft).for_each(|(i, _)| column[6 * i + 5] = 1.0);
+                } else if axis == 5 && Some(node) == input_node {
+                    continue;
+                } else {
+                    column[6 * seat + axis] = 1.0;
+                }
+                columns.push(column);
+            }
+        }
+        let basis = DMatrix::from_fn(kept.len(), columns.len(), |i, j| columns[j][i]);
+        Ok(Self { nodes, shafts, condensation, stiffness, basis })
+    }
+
+    /// First coordinate of a disc's seat among the seats'.
+    pub fn of_disc(&self, assembly: &Assembly, disc: usize) -> Option<usize> {
+        let node = assembly.disc(disc)?;
+        Some(6 * self.nodes.iter().position(|n| *n == node)?)
+    }
+
+    /// Seats of a shaft, each with its first coordinate among the seats' and among those of the assembly.
+    pub fn on_shaft(&self, shaft: usize) -> impl Iterator<Item = (usize, usize)> {
+        let all = self.nodes.iter().zip(&self.shafts).enumerate();
+        all.filter(move |(_, (_, s))| **s == shaft).map(|(i, (node, _))| (6 * i, *node))
+    }
+
+    /// Number of coordinates of all seats.
+    pub fn size(&self) -> usize {
+        6 * self.nodes.len()
+    }
+
+    /// Displacements of all nodes.
+    pub fn all(&self, seats: &DVector<f64>) -> DVector<f64> {
+        &self.condensation.map * seats
+    }
+}

@@ -1,0 +1,261 @@
+//! Where shafts, bearings and gears stand under torques. Theory (81), (83), (84).
+
+use geometry::{GearPair, Sense};
+use lumped::shaft18::MeshGeometry;
+use nalgebra::{DMatrix, DVector, SMatrix};
+
+use crate::{
+    Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
+    equilibrium::{Left, Norms, equilibrium},
+    position::{Solved, position},
+    seats::Seats,
+};
+
+/// A torque on a disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Torque {
+    /// Disc.
+    pub disc: usize,
+    /// N mm about +z; against the sense in which its shaft turns, for the input alone drives.
+    pub torque: f64,
+}
+
+/// How a gearbox is driven and loaded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operation {
+    /// Disc whose turn is given: the input coupling.
+    pub input: usize,
+    /// Sense in which it turns.
+    pub sense: Sense,
+    /// Torques of the outputs.
+    pub torques: Vec<Torque>,
+    /// Angle of tooth 0 of each disc against the mark of its shaft, rad ([`Train::new`]).
+    pub keys: Vec<f64>,
+    /// Shafts that are rigid in rigid bearings: they turn about their axes and do nothing else. A pair alone is two of
+    /// them.
+    pub held: Vec<usize>,
+}
+
+/// A gearbox at rest: any number of shafts and meshes.
+pub struct StaticGearbox {
+    pub(crate) assembly: Assembly,
+    pub(crate) meshes: Vec<Mesh>,
+    pub(crate) train: Train,
+    pub(crate) operation: Operation,
+    pub(crate) held: Vec<bool>,
+    pub(crate) seats: Seats,
+    elements: Vec<Box<dyn MeshElement>>,
+    /// First coordinates of both gears of each mesh among the seats', and the turn of its axes.
+    places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
+    /// Load on the seats.
+    load: DVector<f64>,
+    stiffness: DMatrix<f64>,
+    norms: Norms,
+    /// Angle and solution of the last two positions, the last one first.
+    last: Vec<(f64, DVector<f64>)>,
+}
+
+impl StaticGearbox {
+    /// With one element a mesh, in their order; `elements` makes them from how the mesh runs.
+    ///
+    /// # Errors
+    /// [`GearboxError`]: where parts do not fit, a torque drives, or something moves freely.
+    pub fn new(
+        structure: Structure,
+        meshes: Vec<Mesh>,
+        operation: Operation,
+        mut elements: impl FnMut(usize, &Mesh, &crate::Meshing) -> Result<Box<dyn MeshElement>, GearboxError>,
+    ) -> Result<Self, GearboxError> {
+        let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
+        check(&structure, &train, &operation)?;
+        let mut held = vec![false; structure.shafts.len()];
+        operation.held.iter().for_each(|&shaft| held[shaft] = true);
+        let assembly = Assembly::new(structure)?;
+        let mut discs: Vec<usize> = meshes.iter().flat_map(|m| m.discs).collect();
+        discs.extend(operation.torques.iter().map(|t| t.disc).chain([operation.input]));
+        let seats = Seats::new(&assembly, &discs, &held, operation.input)?;
+        let mut load = DVector::zeros(seats.size());
+        for torque in &operation.torques {
+            if let Some(at) = seats.of_disc(&assembly, torque.disc) {
+                load[at + 5] += torque.torque;
+            }
+        }
+        let stiffness = seats.basis.transpose() * &seats.stiffness * &seats.basis;
+        let mut guessed = stiffness.clone();
+        let (mut places, mut made) = (Vec::new(), Vec::new());
+        for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
+            let at = mesh.discs.map(|d| seats.of_disc(&assembly, d).unwrap_or(0));
+            let turn = turn(meshing.direction);
+            let named = |source: GearboxError| at_mesh(mesh, source);
+            made.push(elements(i, mesh, meshing).map_err(named)?);
+            let lever = seats.basis.transpose() * spread(seats.size(), at, &(turn * guessed_lever(mesh, meshing)?));
+            guessed.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
+            places.push((at, turn));
+        }
+        let norms = Norms::new(guessed)?;
+        Ok(Self {
+            assembly,
+            meshes,
+            train,
+            operation,
+            held,
+            seats,
+            elements: made,
+            places,
+            load,
+            stiffness,
+            norms,
+            last: Vec::new(),
+        })
+    }
+
+    /// Nominal motion of the train.
+    pub fn train(&self) -> &Train {
+        &self.train
+    }
+
+    /// Matrices and parts.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// Equilibrium with the input turned by `angle` (rad about +z) from its start.
+    ///
+    /// # Errors
+    /// [`GearboxError`].
+    pub fn solve(&mut self, angle: f64) -> Result<GearboxPosition, GearboxError> {
+        if !angle.is_finite() {
+            let part = "the input".into();
+            return Err(GearboxError::OutOfRange { part, quantity: "angle, rad", value: angle });
+        }
+        let cycles = self.train.cycles(angle);
+        for ((element, &c), mesh) in self.elements.iter_mut().zip(&cycles).zip(&self.meshes) {
+            element.go_to(c).map_err(|source| at_mesh(mesh, source))?;
+        }
+        let Self { seats, elements, places, load, stiffness, norms, meshes, last, .. } = self;
+        let own_load = seats.basis.transpose() * &*load;
+        let start = continued(last, angle).unwrap_or_else(|| norms.displacements(&own_load));
+        let mut replies = Vec::new();
+        let found = equilibrium(norms, &own_load, start, |z| {
+            let y = &seats.basis * z;
+            replies.clear();
+            let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
+            for (i, ((at, turn), element)) in places.iter().zip(elements.iter_mut()).enumerate() {
+                let own = turn.transpose() * Vector12::from_fn(|k, _| y[at[k / 6] + k % 6]);
+                let reply = element.evaluate(&own).map_err(|source| at_mesh(&meshes[i], source))?;
+                forces += spread(y.len(), *at, &(turn * reply.force));
+                let tangent = turn * reply.tangent * turn.transpose();
+                for (k, m) in (0..12).flat_map(|k| (0..12).map(move |m| (k, m))) {
+                    slopes[(at[k / 6] + k % 6, at[m / 6] + m % 6)] += tangent[(k, m)];
+                }
+                replies.push(reply);
+            }
+            let residual = &*stiffness * z - &own_load - seats.basis.transpose() * forces;
+            let tangent = &*stiffness - seats.basis.transpose() * slopes * &seats.basis;
+            Ok(Left { residual, tangent })
+        })?;
+        let slices = elements.iter().map(|e| e.slices()).collect();
+        for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
+            element.check().map_err(|source| at_mesh(mesh, source))?;
+        }
+        last.insert(0, (angle, found.displacements.clone()));
+        last.truncate(2);
+        self.follow(&mut replies, &found.last_step);
+        let forces = self.in_common_axes(&replies);
+        Ok(position(self, Solved { angle, cycles, found, replies, forces, slices }))
+    }
+
+    /// Forces of the meshes after a last small step.
+    fn follow(&self, replies: &mut [MeshReply], step: &DVector<f64>) {
+        let seats = &self.seats.basis * step;
+        for ((at, turn), reply) in self.places.iter().zip(replies) {
+            let own = turn.transpose() * Vector12::from_fn(|k, _| seats[at[k / 6] + k % 6]);
+            reply.force += reply.tangent * own;
+        }
+    }
+
+    /// Forces and moments of the meshes on their gears, common axes.
+    fn in_common_axes(&self, replies: &[MeshReply]) -> Vec<Vector12> {
+        self.places.iter().zip(replies).map(|((_, turn), reply)| turn * reply.force).collect()
+    }
+
+    /// Where the gears of a mesh are among the seats' coordinates, and the turn of its axes.
+    pub(crate) fn place(&self, mesh: usize) -> &([usize; 2], SMatrix<f64, 12, 12>) {
+        &self.places[mesh]
+    }
+
+    /// What holds the seats beside the meshes: forces that shafts, loads and meshes leave over, zero in free coordinates.
+    pub(crate) fn reactions(&self, seats: &DVector<f64>, forces: &[Vector12]) -> DVector<f64> {
+        let mut left = &self.seats.stiffness * seats - &self.load;
+        for ((at, _), force) in self.places.iter().zip(forces) {
+            left -= spread(left.len(), *at, force);
+        }
+        left
+    }
+}
+
+/// Where the last positions lead to at an angle: on along the line through both, as far as they are apart; else where
+/// the last one is. `None` where there is none. A position that has failed leaves the others as they are.
+fn continued(last: &[(f64, DVector<f64>)], angle: f64) -> Option<DVector<f64>> {
+    let (at, z) = last.first()?;
+    let Some((before, y)) = last.get(1) else { return Some(z.clone()) };
+    let part = (angle - at) / (at - before);
+    Some(if part.abs() <= 1.0 + 1e-9 { z + part * (z - y) } else { z.clone() })
+}
+
+fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
+    GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
+}
+
+/// That loads and held shafts are there, and loads do not drive.
+fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
+    let count = structure.shafts.len();
+    if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
+        return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
+    }
+    for torque in &operation.torques {
+        structure.has_discs("a torque", [torque.disc; 2])?;
+        let disc = &structure.discs[torque.disc];
+        let (part, value) = (disc.name.clone(), torque.torque);
+        if !value.is_finite() {
+            return Err(GearboxError::OutOfRange { part, quantity: "torque, N mm", value });
+        }
+        let speed = train.ratios()[disc.shaft] * operation.sense.sign() as f64;
+        if value * speed > 0.0 {
+            return Err(GearboxError::Drives { disc: part, torque_nmm: value });
+        }
+    }
+    Ok(())
+}
+
+/// Turn of vectors from a mesh's axes to the common ones.
+fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
+    // Along an axis exactly: a pair alone stays the pair it is.
+    let (sin, cos) = if direction == 0.0 { (0.0, 1.0) } else { direction.sin_cos() };
+    let mut all = SMatrix::identity();
+    for at in [0, 3, 6, 9] {
+        all[(at, at)] = cos;
+        all[(at, at + 1)] = -sin;
+        all[(at + 1, at)] = sin;
+        all[(at + 1, at + 1)] = cos;
+    }
+    all
+}
+
+/// Twelve values put where both gears are among the seats.
+fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
+    let mut all = DVector::zeros(size);
+    (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
+    all
+}
+
+fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
+    let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
+    let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
+    Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))
+}
+
+/// Stiffness along the normal that the search begins with, N/mm.
+fn guessed_stiffness(pair: &GearPair) -> f64 {
+    ltca::GUESSED_LINE_STIFFNESS * pair.face_width() / pair.base_helix_angle().cos().powi(2)
+}

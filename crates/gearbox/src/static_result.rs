@@ -1,0 +1,102 @@
+//! What a gearbox at rest hands on, position by position.
+
+use contact::SliceResult;
+
+/// How a shaft bends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShaftLine {
+    /// Nodes, mm from the shaft's z = 0, ascending.
+    pub positions: Vec<f64>,
+    /// Displacements x, y, z (mm) and turns about them (rad) of each node, common axes.
+    pub displacements: Vec<[f64; 6]>,
+}
+
+/// What a bearing carries; zero on a held shaft, whose reaction stands by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingState {
+    /// Force on the shaft, N.
+    pub force: [f64; 3],
+    /// Moment on the shaft about the bearing's middle, N mm.
+    pub moment: [f64; 3],
+    /// Displacement of the shaft against the seat in the housing, mm, and turns of one against the other (rad): its
+    /// fourth and fifth entry are the tilt that the bearing has to stand.
+    pub displacement: [f64; 6],
+}
+
+/// How a mesh stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshState {
+    /// Mesh cycles: whole ones, and the phase behind the point ([`crate::Train::cycles`]).
+    pub cycles: f64,
+    /// Displacements of gear 1 and gear 2 from their nominal places, mm and rad, in the mesh's own axes.
+    pub displacements: [f64; 12],
+    /// Force on gear 1 and gear 2, N, common axes.
+    pub force: [[f64; 3]; 2],
+    /// Moment on them about their centres, N mm, common axes.
+    pub moment: [[f64; 3]; 2],
+    /// Sum of the normal forces, N.
+    pub normal_force: f64,
+    /// Transmission error by the turns of both gears, mm on the transverse line of action: positive when the driven gear
+    /// lags.
+    ///
+    /// ```text
+    /// te = s (r_b1 theta_1 + r_b2 theta_2)      theta: turns about +z beside the nominal ones, s = +1 left, -1 right flanks
+    /// ```
+    /// What the axes give way by is part of it: the driven gear makes up for it by lagging more.
+    pub transmission_error: f64,
+    /// f_in: deviation of gear 2's axis from gear 1's in the plane of action, mm over the face width; positive where the
+    /// gap opens as z grows ([`contact::Misalignment`]). By shafts, bearings and housing alone.
+    pub misalignment_in_plane: f64,
+    /// f_across, across that plane.
+    pub misalignment_across: f64,
+    /// Loaded slices, for elements that know them: the line load over the width.
+    pub slices: Vec<SliceResult>,
+}
+
+/// How well a position is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxCertificate {
+    /// Forces left over at the seats over the load, in the norm of the compliance, before the last small step.
+    pub residual: f64,
+    /// Largest sum of forces, or of moments, on a shaft over the largest that acts on it: meshes, torques, bearings.
+    pub body_balance: f64,
+    /// Newton steps.
+    pub iterations: usize,
+}
+
+/// A gearbox at one angle of its input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxPosition {
+    /// Angle of the input shaft from its start, rad about +z.
+    pub input_angle: f64,
+    /// Shafts in their order.
+    pub shafts: Vec<ShaftLine>,
+    /// Bearings in their order.
+    pub bearings: Vec<BearingState>,
+    /// Meshes in their order.
+    pub meshes: Vec<MeshState>,
+    /// Torque that holds the input, N mm about +z.
+    pub input_torque: f64,
+    /// Force (N) and moment about its origin (N mm) that hold a held shaft; `None` for shafts in bearings.
+    pub held_reactions: Vec<Option<[f64; 6]>>,
+    /// How far the discs of the torques stay behind their nominal turn, rad, in the order of the torques: the
+    /// transmission error from input to output.
+    pub output_lags: Vec<f64>,
+    /// How well it is solved.
+    pub certificate: GearboxCertificate,
+}
+
+/// K_Hbeta of a mesh over some positions, of a face of `slices` slices ([`ltca::face_load_factor`]); `None` where its
+/// element knows no slices, and without load.
+pub fn face_load_factor(positions: &[GearboxPosition], mesh: usize, slices: usize) -> Option<f64> {
+    let of_mesh = positions.iter().filter_map(|p| p.meshes.get(mesh));
+    ltca::face_load_factor(slices, of_mesh.flat_map(|m| &m.slices))
+}
+
+/// Height on gear 1 (mm, ascending) and largest line load (N/mm) that it sees over some positions.
+pub fn line_load(positions: &[GearboxPosition], mesh: usize) -> Vec<(f64, f64)> {
+    let of_mesh = positions.iter().filter_map(|p| p.meshes.get(mesh));
+    let mut of_height = ltca::load_envelope(of_mesh.flat_map(|m| &m.slices));
+    of_height.sort_by(|a, b| a.0.total_cmp(&b.0));
+    of_height
+}

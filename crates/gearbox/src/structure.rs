@@ -1,0 +1,247 @@
+//! What a gearbox is made of: shafts, discs, bearings, a housing and linear meshes.
+
+use std::f64::consts::PI;
+
+use fem::beam::BeamPiece;
+use lumped::shaft18::MeshGeometry;
+use nalgebra::{DMatrix, Matrix6, Vector6};
+
+use crate::GearboxError;
+
+/// A shaft: Timoshenko sections one after the other along +z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaft {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Where its own z = 0 lies in the gearbox, mm. Axes of all shafts are along +z.
+    pub origin: [f64; 3],
+    /// Sections, from its own z = 0 on.
+    pub pieces: Vec<BeamPiece>,
+    /// Longest beam element, mm; at rest it does not matter, for the elements are exact.
+    pub longest_element: f64,
+}
+
+/// A rigid disc or gear body on a shaft; without mass it is a seat: of a gear that is elastic itself, of a coupling, or
+/// of anything else that a force acts on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disc {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Shaft, from 0.
+    pub shaft: usize,
+    /// Position of its mid-plane, mm from the shaft's z = 0.
+    pub position: f64,
+    /// Mass, t.
+    pub mass: f64,
+    /// Inertia about a diameter through its centre, t mm^2.
+    pub diametral_inertia: f64,
+    /// Inertia about the axis, t mm^2.
+    pub polar_inertia: f64,
+}
+
+/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bearing {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Shaft, from 0.
+    pub shaft: usize,
+    /// Position of its middle, mm from the shaft's z = 0.
+    pub position: f64,
+    /// Stiffness for displacements x, y, z and turns about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero row
+    /// and column for the turn about z.
+    pub stiffness: Matrix6<f64>,
+    /// Damping of the same, symmetric: N s/mm, N s, N mm s.
+    pub damping: Matrix6<f64>,
+}
+
+/// A mesh as one spring along its line of action: a mean mesh stiffness, for natural frequencies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSpring {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Gears 1 and 2, numbers of discs.
+    pub discs: [usize; 2],
+    /// What displacements and turns of gear 1 and gear 2 compress it by: 1, mm.
+    pub levers: [Vector6<f64>; 2],
+    /// Stiffness along the normal, N/mm.
+    pub stiffness: f64,
+}
+
+/// All of it. Lengths in mm, forces in N, masses in t; common axes x, y, z.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Structure {
+    /// Shafts.
+    pub shafts: Vec<Shaft>,
+    /// Discs, gears and seats.
+    pub discs: Vec<Disc>,
+    /// Bearings.
+    pub bearings: Vec<Bearing>,
+    /// Stiffness of the housing between the bearing seats, six coordinates a bearing in their order, symmetric; held on
+    /// its foundation. `None`: rigid.
+    pub housing: Option<DMatrix<f64>>,
+    /// Meshes as springs.
+    pub springs: Vec<MeshSpring>,
+}
+
+impl Disc {
+    /// A seat without mass.
+    pub fn seat(name: impl Into<String>, shaft: usize, position: f64) -> Self {
+        Self { name: name.into(), shaft, position, mass: 0.0, diametral_inertia: 0.0, polar_inertia: 0.0 }
+    }
+
+    /// A ring between two diameters (mm), of some width (mm) and density (t/mm^3).
+    ///
+    /// ```text
+    /// m = rho pi w (D^2 - d^2)/4,   I_p = m (D^2 + d^2)/8,   I_d = I_p/2 + m w^2/12
+    /// ```
+    pub fn ring(
+        name: impl Into<String>,
+        shaft: usize,
+        position: f64,
+        [outer, inner]: [f64; 2],
+        width: f64,
+        density: f64,
+    ) -> Self {
+        let mass = density * PI * width * 0.25 * (outer * outer - inner * inner);
+        let polar_inertia = mass * (outer * outer + inner * inner) / 8.0;
+        let diametral_inertia = 0.5 * polar_inertia + mass * width * width / 12.0;
+        Self { name: name.into(), shaft, position, mass, diametral_inertia, polar_inertia }
+    }
+}
+
+impl Bearing {
+    /// A bearing without coupling between the coordinates and without damping: stiffness of x, y, z (N/mm) and of the
+    /// turns about x, y, z (N mm).
+    pub fn diagonal(name: impl Into<String>, shaft: usize, position: f64, stiffness: [f64; 6]) -> Self {
+        let stiffness = Matrix6::from_diagonal(&Vector6::from(stiffness));
+        Self { name: name.into(), shaft, position, stiffness, damping: Matrix6::zeros() }
+    }
+}
+
+impl MeshSpring {
+    /// The spring of two involute gears, evenly loaded: the levers of theory (53).
+    ///
+    /// # Errors
+    /// [`GearboxError::Mesh`] when the gears have no line of action.
+    pub fn new(
+        name: impl Into<String>,
+        discs: [usize; 2],
+        geometry: &MeshGeometry,
+        stiffness: f64,
+    ) -> Result<Self, GearboxError> {
+        let name = name.into();
+        let line = geometry.line().map_err(|source| GearboxError::Mesh { mesh: name.clone(), source })?;
+        Ok(Self { name, discs, levers: line.levers, stiffness })
+    }
+}
+
+impl Structure {
+    /// That all parts are where something is, and all values have a meaning.
+    pub(crate) fn check(&self) -> Result<(), GearboxError> {
+        if self.shafts.is_empty() {
+            return Err(GearboxError::NoShafts);
+        }
+        for shaft in &self.shafts {
+            for value in shaft.origin {
+                finite(&shaft.name, "origin, mm", value)?;
+            }
+        }
+        self.check_size()?;
+        for disc in &self.discs {
+            self.on_shaft(&disc.name, disc.shaft, disc.position)?;
+            not_negative(&disc.name, "mass, t", disc.mass)?;
+            not_negative(&disc.name, "diametral inertia, t mm^2", disc.diametral_inertia)?;
+            not_negative(&disc.name, "polar inertia, t mm^2", disc.polar_inertia)?;
+        }
+        for bearing in &self.bearings {
+            self.on_shaft(&bearing.name, bearing.shaft, bearing.position)?;
+            let of = |m: &Matrix6<f64>| DMatrix::from_column_slice(6, 6, m.as_slice());
+            elastic(&bearing.name, "stiffness", &of(&bearing.stiffness))?;
+            elastic(&bearing.name, "damping", &of(&bearing.damping))?;
+        }
+        if let Some(housing) = &self.housing {
+            let (bearings, wanted) = (self.bearings.len(), 6 * self.bearings.len());
+            if let Some(&found) = [housing.nrows(), housing.ncols()].iter().find(|n| **n != wanted) {
+                return Err(GearboxError::HousingSize { found, bearings, wanted });
+            }
+            elastic("housing", "stiffness", housing)?;
+        }
+        for spring in &self.springs {
+            self.has_discs(&spring.name, spring.discs)?;
+            not_negative(&spring.name, "mesh stiffness, N/mm", spring.stiffness)?;
+            for value in spring.levers.iter().flat_map(|h| h.iter()) {
+                finite(&spring.name, "lever of the mesh", *value)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// That matrices of all nodes are of a size that dense algebra stands.
+    fn check_size(&self) -> Result<(), GearboxError> {
+        const MOST: usize = 600;
+        let of_shaft = |shaft: &Shaft| {
+            let of_piece = |p: &BeamPiece| (p.length / shaft.longest_element).ceil().max(1.0);
+            1.0 + shaft.pieces.iter().map(of_piece).sum::<f64>()
+        };
+        let nodes = self.shafts.iter().map(of_shaft).sum::<f64>() + (self.discs.len() + self.bearings.len()) as f64;
+        // What is no number is told by the shaft itself.
+        if nodes > MOST as f64 { Err(GearboxError::TooLarge { nodes, most: MOST }) } else { Ok(()) }
+    }
+
+    /// That the discs a mesh names are there.
+    pub(crate) fn has_discs(&self, part: &str, discs: [usize; 2]) -> Result<(), GearboxError> {
+        let count = self.discs.len();
+        match discs.into_iter().find(|d| *d >= count) {
+            Some(disc) => Err(GearboxError::NoDisc { part: part.into(), disc, count }),
+            None => Ok(()),
+        }
+    }
+
+    fn on_shaft(&self, part: &str, shaft: usize, position_mm: f64) -> Result<(), GearboxError> {
+        let Some(on) = self.shafts.get(shaft) else {
+            return Err(GearboxError::NoShaft { part: part.into(), shaft, count: self.shafts.len() });
+        };
+        let length_mm: f64 = on.pieces.iter().map(|p| p.length).sum();
+        let near = 1e-9 * length_mm;
+        if (-near..=length_mm + near).contains(&position_mm) {
+            return Ok(());
+        }
+        Err(GearboxError::OffShaft { part: part.into(), position_mm, length_mm })
+    }
+}
+
+fn finite(part: &str, quantity: &'static str, value: f64) -> Result<(), GearboxError> {
+    if value.is_finite() { Ok(()) } else { Err(GearboxError::OutOfRange { part: part.into(), quantity, value }) }
+}
+
+fn not_negative(part: &str, quantity: &'static str, value: f64) -> Result<(), GearboxError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(GearboxError::OutOfRange { part: part.into(), quantity, value })
+    }
+}
+
+/// A symmetric matrix without negative eigenvalues, but for round-off and the digits of a file.
+fn elastic(part: &str, matrix: &'static str, values: &DMatrix<f64>) -> Result<(), GearboxError> {
+    const DIGITS: f64 = 1e-6;
+    if let Some(value) = values.iter().copied().find(|x| !x.is_finite()) {
+        return Err(GearboxError::OutOfRange { part: part.into(), quantity: matrix, value });
+    }
+    let bad = |off: f64| Err(GearboxError::NotElastic { part: part.into(), matrix, off });
+    let largest = values.amax();
+    if largest == 0.0 {
+        return Ok(());
+    }
+    // Turns and displacements differ by the square of a length: scaled, small entries count as well.
+    let scale: Vec<f64> = values.diagonal().iter().map(|d| if *d > 0.0 { d.sqrt().recip() } else { 1.0 }).collect();
+    let n = values.nrows();
+    let scaled = DMatrix::from_fn(n, n, |i, j| values[(i, j)] * scale[i] * scale[j]);
+    let off = (&scaled - scaled.transpose()).amax();
+    if off > DIGITS * scaled.amax() {
+        return bad(off / scaled.amax());
+    }
+    let least = scaled.clone().symmetric_eigenvalues().min();
+    if least < -DIGITS * scaled.amax() { bad(-least / scaled.amax()) } else { Ok(()) }
+}

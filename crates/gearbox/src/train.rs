@@ -1,0 +1,232 @@
+//! Which way gears turn, how fast, which of them drive, and at which phase their meshes are. Theory (82).
+
+use std::f64::consts::TAU;
+
+use geometry::{Driver, GearPair, Sense, Side};
+
+use crate::{GearboxError, Structure};
+
+/// A mesh: two gears, seats on their shafts, and what shape they are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Discs of gear 1 and gear 2, whichever drives.
+    pub discs: [usize; 2],
+    /// Their shapes; gear 1 is the pair's pinion.
+    pub pair: GearPair,
+}
+
+/// How one mesh runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meshing {
+    /// Sense in which gear 1 turns.
+    pub sense: Sense,
+    /// Which gear drives: the one that is nearer to the input.
+    pub driver: Driver,
+    /// Direction from gear 1's axis to gear 2's, rad from +x towards +y.
+    pub direction: f64,
+    /// Angle of gear 1's tooth 0 with the input at 0, rad from +x.
+    pub start: f64,
+    /// Turns of gear 1 a turn of the input shaft, negative against it.
+    pub ratio: f64,
+    /// Turn by which gear 2 has to be set against its key so that its flanks touch, rad, at most half a pitch: 0 but where the train
+    /// closes a ring (idlers, power splits), whose last gear meets teeth that are already placed.
+    pub timing: f64,
+}
+
+/// Nominal motion of the whole train from one input: rigid, unloaded flanks in touch at every mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Train {
+    meshes: Vec<Meshing>,
+    middles: Vec<[f64; 2]>,
+    ratios: Vec<f64>,
+}
+
+/// Relative difference of distances, ratios and angles that is round-off of their input.
+const SAME: f64 = 1e-9;
+
+impl Train {
+    /// Follows the meshes from the shaft of disc `input`, which turns in `sense`.
+    ///
+    /// ```text
+    /// omega_2 = -omega_1 z_1/z_2,   theta_2 = theta_w(theta_1 - phi) + phi
+    /// ```
+    /// phi: direction of the mesh, theta_w: angle of the wheel whose flanks touch ([`GearPair::wheel_angle`]). `keys[i]`
+    /// is the angle of tooth 0 of disc i against the mark of its shaft, rad; the mark of the input shaft is at 0, and
+    /// those of the others follow from the first mesh that reaches them.
+    ///
+    /// # Errors
+    /// [`GearboxError`]: distances of axes that the pairs were not made for, gears beside each other, rings whose ratios
+    /// disagree, shafts that nothing drives.
+    pub fn new(
+        structure: &Structure,
+        meshes: &[Mesh],
+        keys: &[f64],
+        input: usize,
+        sense: Sense,
+    ) -> Result<Self, GearboxError> {
+        structure.check()?;
+        structure.has_discs("the input", [input; 2])?;
+        if keys.len() != structure.discs.len() {
+            return Err(GearboxError::Count { what: "keys", found: keys.len(), wanted: structure.discs.len() });
+        }
+        if let Some((disc, &value)) = structure.discs.iter().zip(keys).find(|(_, k)| !k.is_finite()) {
+            return Err(GearboxError::OutOfRange { part: disc.name.clone(), quantity: "key, rad", value });
+        }
+        let mut walk = Walk::new(structure, meshes, (keys, sense))?;
+        walk.ratios[structure.discs[input].shaft] = Some(1.0);
+        while walk.goes_on()? {}
+        let ratio = |(shaft, r): (&crate::Shaft, Option<f64>)| {
+            r.ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
+        };
+        let ratios = structure.shafts.iter().zip(walk.ratios).map(ratio).collect::<Result<Vec<_>, _>>()?;
+        // Where every shaft is driven, every mesh has been reached.
+        let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
+        let middle =
+            |(mesh, own): (&Mesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
+        let middles = meshes.iter().zip(&meshing).map(middle).collect();
+        Ok(Self { meshes: meshing, middles, ratios })
+    }
+
+    /// How each mesh runs.
+    pub fn meshing(&self) -> &[Meshing] {
+        &self.meshes
+    }
+
+    /// Turns of each shaft a turn of the input shaft, negative against it.
+    pub fn ratios(&self) -> &[f64] {
+        &self.ratios
+    }
+
+    /// Mesh cycles of each mesh with the input shaft turned by `angle` (rad about +z) from its start: whole cycles count the
+    /// teeth of gear 1 in its sense, from where its tooth 0 is in the middle of the path of contact at 1/2.
+    ///
+    /// ```text
+    /// c = sign (theta_1 - phi - theta_m) z_1/(2 pi) + 1/2,   theta_1 = start + ratio angle
+    /// ```
+    pub fn cycles(&self, angle: f64) -> Vec<f64> {
+        let of = |(mesh, [middle, pitch]): (&Meshing, &[f64; 2])| {
+            let turned = mesh.start + mesh.ratio * angle - mesh.direction - middle;
+            mesh.sense.sign() as f64 * turned / pitch + 0.5
+        };
+        self.meshes.iter().zip(&self.middles).map(of).collect()
+    }
+}
+
+/// The way through the train so far.
+struct Walk<'a> {
+    structure: &'a Structure,
+    meshes: &'a [Mesh],
+    keys: &'a [f64],
+    sense: Sense,
+    directions: Vec<f64>,
+    /// Of each shaft that has been reached: turns a turn of the input, and the angle of its mark with the input at 0.
+    ratios: Vec<Option<f64>>,
+    marks: Vec<f64>,
+    found: Vec<Option<Meshing>>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(
+        structure: &'a Structure,
+        meshes: &'a [Mesh],
+        (keys, sense): (&'a [f64], Sense),
+    ) -> Result<Self, GearboxError> {
+        let directions = meshes.iter().map(|mesh| direction(structure, mesh)).collect::<Result<_, _>>()?;
+        let shafts = structure.shafts.len();
+        let (ratios, marks, found) = (vec![None; shafts], vec![0.0; shafts], vec![None; meshes.len()]);
+        Ok(Self { structure, meshes, keys, sense, directions, ratios, marks, found })
+    }
+
+    /// Follows the meshes of the shafts that are reached, in their order; whether there was one.
+    fn goes_on(&mut self) -> Result<bool, GearboxError> {
+        let known = self.ratios.clone();
+        let mut grown = false;
+        for (i, mesh) in self.meshes.iter().enumerate() {
+            let on = mesh.discs.map(|d| self.structure.discs[d].shaft);
+            let from = [0, 1].into_iter().find_map(|g| Some((g, known[on[g]]?)));
+            if let (None, Some((from, ratio))) = (&self.found[i], from) {
+                self.found[i] = Some(self.follow(i, from, ratio)?);
+                grown = true;
+            }
+        }
+        Ok(grown)
+    }
+
+    /// Follows mesh i from its gear `from`, whose shaft turns `ratio` times a turn of the input.
+    fn follow(&mut self, i: usize, from: usize, ratio: f64) -> Result<Meshing, GearboxError> {
+        let (mesh, direction, to) = (&self.meshes[i], self.directions[i], 1 - from);
+        let teeth = [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
+        let follows = -ratio * teeth[from] / teeth[to];
+        let ratio_1 = [ratio, follows][from];
+        let sense = if ratio_1 > 0.0 { self.sense } else { self.sense.opposite() };
+        let driver = [Driver::Pinion, Driver::Wheel][from];
+        let side = driver.loaded_side(sense);
+        let angles = mesh.discs.map(|d| self.marks[self.structure.discs[d].shaft] + self.keys[d]);
+        let start = if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], direction) };
+        let meets = [start, wheel_angle(&mesh.pair, side, start, direction)][to];
+        let timing = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        Ok(Meshing { sense, driver, direction, start, ratio: ratio_1, timing })
+    }
+
+    /// Reaches the shaft of a gear that turns `ratio` times a turn of the input and has to stand at `angle` (rad), or at
+    /// a whole number of pitches from there: by how much it has to be set against its key, rad.
+    fn reach(&mut self, disc: usize, ratio: f64, angle: f64, pitch: f64) -> Result<f64, GearboxError> {
+        let shaft = self.structure.discs[disc].shaft;
+        match self.ratios[shaft] {
+            None => {
+                self.ratios[shaft] = Some(ratio);
+                self.marks[shaft] = angle - self.keys[disc];
+                Ok(0.0)
+            }
+            Some(other) if (other - ratio).abs() > SAME * other.abs() => {
+                let shaft = self.structure.shafts[shaft].name.clone();
+                Err(GearboxError::Ratios { shaft, ratios: [other, ratio] })
+            }
+            Some(_) => {
+                let apart = angle - (self.marks[shaft] + self.keys[disc]);
+                Ok(apart - (apart / pitch).round() * pitch)
+            }
+        }
+    }
+}
+
+impl Meshing {
+    /// The flanks of gear 1 that carry the load.
+    pub fn side(&self) -> Side {
+        self.driver.loaded_side(self.sense)
+    }
+}
+
+/// Direction of a mesh's line of centres, where its gears stand as the pair was made to.
+fn direction(structure: &Structure, mesh: &Mesh) -> Result<f64, GearboxError> {
+    structure.has_discs(&mesh.name, mesh.discs)?;
+    let centre = |disc: usize| {
+        let disc = &structure.discs[disc];
+        let [x, y, z] = structure.shafts[disc.shaft].origin;
+        [x, y, z + disc.position]
+    };
+    let [a, b] = mesh.discs.map(centre);
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let (distance_mm, wanted_mm) = (dx.hypot(dy), mesh.pair.centre_distance());
+    if (distance_mm - wanted_mm).abs() > SAME * wanted_mm {
+        return Err(GearboxError::Distance { mesh: mesh.name.clone(), distance_mm, wanted_mm });
+    }
+    let offset_mm = b[2] - a[2];
+    if offset_mm.abs() > SAME * wanted_mm {
+        return Err(GearboxError::Beside { mesh: mesh.name.clone(), offset_mm });
+    }
+    Ok(dy.atan2(dx))
+}
+
+/// Angle of gear 2's tooth 0 where it touches that of gear 1 at `start`, both from +x, rad.
+fn wheel_angle(pair: &GearPair, side: Side, start: f64, direction: f64) -> f64 {
+    pair.wheel_angle(side, start - direction) + direction
+}
+
+/// The other way round.
+fn pinion_angle(pair: &GearPair, side: Side, wheel: f64, direction: f64) -> f64 {
+    let ratio = pair.wheel.base_radius() / pair.pinion.base_radius();
+    (pair.wheel_angle(side, 0.0) - (wheel - direction)) * ratio + direction
+}

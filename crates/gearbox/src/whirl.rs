@@ -1,0 +1,170 @@
+//! Natural frequencies and whirl modes of spinning shafts. Theory (78), (80).
+
+use faer::{Mat, c64};
+use fem::{Modes, dense::general_eigen, natural_modes};
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::{Assembly, GearboxError, ModalEnergy};
+
+/// Stiffness over mass, 1/s^2, and mass (t) that no machine has.
+const MOST: f64 = 1e100;
+/// Share of a mode's kinetic energy up to which that of a shaft across its axis is round-off.
+const LATERAL: f64 = 1e-6;
+
+/// One natural motion exp(lambda t), lambda = -decay + i frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WhirlMode {
+    /// Angular frequency, rad/s, > 0.
+    pub frequency: f64,
+    /// Rate at which it dies away, 1/s; 0 without damping.
+    pub decay: f64,
+    /// Complex amplitudes of all coordinates of the [`Assembly`], mm and rad, with x^H M x = 1 t mm^2; the largest
+    /// contribution to that is real.
+    pub shape: DVector<Complex<f64>>,
+    /// How far each shaft whirls with its own spin: +1 forward on circles, -1 backward, 0 in a plane. 0 as well for a
+    /// shaft at rest and for one that moves along or about its axis alone.
+    ///
+    /// ```text
+    /// w = -2 sign(Omega) sum Im(conj(x) y) / sum (|x|^2 + |y|^2)      over the nodes
+    /// ```
+    pub whirl: Vec<f64>,
+    /// Where its energy is.
+    pub energy: ModalEnergy,
+}
+
+/// All natural motions at one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WhirlModes {
+    /// Speeds of the shafts, rad/s about +z.
+    pub speeds: Vec<f64>,
+    /// Oscillating ones, ascending in frequency.
+    pub modes: Vec<WhirlMode>,
+    /// How many eigenvalues are zero: two for each rigid motion that nothing holds.
+    pub zeros: usize,
+    /// Rates of motions that die away without oscillating, 1/s, ascending.
+    pub decaying: Vec<f64>,
+}
+
+/// Natural motions of an assembly at any speed; the modes at rest are found once.
+#[derive(Debug, Clone)]
+pub struct Rotors {
+    assembly: Assembly,
+    stiffness: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    rest: Modes,
+    /// Damping in the modes at rest.
+    damping: DMatrix<f64>,
+}
+
+impl Rotors {
+    /// Modes at rest, which all others are made of.
+    ///
+    /// A frequency at rest whose square is below n eps times that of the highest, n coordinates, is round-off, and
+    /// counts as a rigid motion.
+    ///
+    /// # Errors
+    /// [`GearboxError::Matrix`] where a coordinate has no mass.
+    pub fn new(assembly: Assembly) -> Result<Self, GearboxError> {
+        let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
+        // Beyond this squares of frequencies are no numbers, and the search for them does not end.
+        let steepest = stiffness.amax() / mass.diagonal().min();
+        if steepest.is_nan() || steepest > MOST || mass.amax() > MOST {
+            return Err(fem::FemError::NotFinite { row: 0, column: 0 }.into());
+        }
+        let mut rest = natural_modes(&stiffness, &mass)?;
+        let highest = rest.frequencies.last().copied().unwrap_or(0.0);
+        let least = highest * (rest.frequencies.len() as f64 * f64::EPSILON).sqrt();
+        rest.frequencies.iter_mut().filter(|w| **w < least).for_each(|w| *w = 0.0);
+        let damping = rest.shapes.transpose() * assembly.damping() * &rest.shapes;
+        Ok(Self { assembly, stiffness, mass, rest, damping })
+    }
+
+    /// The assembly.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// Undamped modes at rest: angular frequencies (rad/s, rigid motions 0) and shapes of unit mass.
+    pub fn modes_at_rest(&self) -> &Modes {
+        &self.rest
+    }
+
+    /// Natural motions with the shafts spinning at `speeds` (rad/s about +z, one a shaft).
+    ///
+    /// ```text
+    /// q = Phi eta,   d/dt [W eta; eta'] = [0, W; -W, -Phi'(C + G) Phi] [W eta; eta']      W = diag(omega) at rest
+    /// ```
+    /// Without damping this matrix is skew-symmetric, and its eigenvalues lie on the imaginary axis to round-off.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`], [`GearboxError::OutOfRange`], [`GearboxError::Matrix`].
+    pub fn whirl_modes(&self, speeds: &[f64]) -> Result<WhirlModes, GearboxError> {
+        let gyroscopic = self.assembly.gyroscopic(speeds)?;
+        let spin = self.rest.shapes.transpose() * gyroscopic * &self.rest.shapes;
+        // Skew-symmetric to the last bit: no damping by round-off.
+        let spin = 0.5 * (&spin - spin.transpose());
+        let n = self.rest.frequencies.len();
+        let omega = &self.rest.frequencies;
+        let state = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => 0.0,
+            (true, false) if j - n == i => omega[i],
+            (false, true) if i - n == j => -omega[j],
+            (false, false) => -(self.damping[(i - n, j - n)] + spin[(i - n, j - n)]),
+            _ => 0.0,
+        });
+        let (values, vectors) = general_eigen(state.as_ref())?;
+        let largest = values.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let small = 2.0 * n as f64 * f64::EPSILON * largest;
+        let mut found = WhirlModes { speeds: speeds.to_vec(), modes: Vec::new(), zeros: 0, decaying: Vec::new() };
+        for (j, value) in values.iter().enumerate() {
+            if value.norm() <= small {
+                found.zeros += 1;
+            } else if value.im > small {
+                let velocity = DVector::from_fn(n, |i, _| complex(vectors[(n + i, j)] / *value));
+                found.modes.push(self.mode(*value, &velocity, speeds));
+            } else if value.im.abs() <= small {
+                found.decaying.push(-value.re);
+            }
+        }
+        found.modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+        found.decaying.sort_by(f64::total_cmp);
+        Ok(found)
+    }
+
+    fn mode(&self, value: c64, eta: &DVector<Complex<f64>>, speeds: &[f64]) -> WhirlMode {
+        let parts = [eta.map(|x| x.re), eta.map(|x| x.im)].map(|part| &self.rest.shapes * part);
+        let heavy = [0, 1].map(|k| &self.mass * &parts[k]);
+        let share = |i: usize| parts[0][i] * heavy[0][i] + parts[1][i] * heavy[1][i];
+        let total: f64 = (0..parts[0].len()).map(share).sum();
+        let most = (0..parts[0].len()).max_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(0);
+        let largest = Complex::new(parts[0][most], parts[1][most]);
+        let turn = largest.conj() / largest.norm().max(f64::MIN_POSITIVE) / total.max(f64::MIN_POSITIVE).sqrt();
+        let shape = DVector::from_fn(parts[0].len(), |i, _| Complex::new(parts[0][i], parts[1][i]) * turn);
+        let whirl = self.whirl(&shape, speeds);
+        let energy = ModalEnergy::of(&self.assembly, [&self.stiffness, &self.mass], &shape);
+        // No negative zero: what does not decay decays by nothing.
+        WhirlMode { frequency: value.im, decay: 0.0 - value.re, shape, whirl, energy }
+    }
+
+    fn whirl(&self, shape: &DVector<Complex<f64>>, speeds: &[f64]) -> Vec<f64> {
+        let parts = [shape.map(|x| x.re), shape.map(|x| x.im)];
+        let heavy = parts.each_ref().map(|p| &self.mass * p);
+        let energy = |i: usize| parts[0][i] * heavy[0][i] + parts[1][i] * heavy[1][i];
+        let of_shaft = |((at, line), speed): ((usize, &fem::beam::BeamLine), &f64)| {
+            let nodes: Vec<usize> = (0..line.positions().len()).map(|i| at + 6 * i).collect();
+            let across: f64 = nodes.iter().flat_map(|&i| [i, i + 1, i + 3, i + 4]).map(energy).sum();
+            let (mut area, mut square) = (0.0, 0.0);
+            for i in nodes {
+                let (x, y) = (shape[i], shape[i + 1]);
+                area -= 2.0 * (x.conj() * y).im;
+                square += x.norm_sqr() + y.norm_sqr();
+            }
+            if *speed == 0.0 || across <= LATERAL || square == 0.0 { 0.0 } else { speed.signum() * area / square }
+        };
+        self.assembly.lines().zip(speeds).map(of_shaft).collect()
+    }
+}
+
+fn complex(x: c64) -> Complex<f64> {
+    Complex::new(x.re, x.im)
+}

@@ -1,0 +1,10 @@
+//! Laws of shafts, bearings and gears that stand and swing together.
+
+mod exact;
+mod overhung;
+mod pairs;
+mod rest;
+mod ross;
+mod rotors;
+mod trains;
+mod whirl;

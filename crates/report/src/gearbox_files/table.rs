@@ -1,0 +1,56 @@
+//! The table at the end of a gearbox.
+
+use std::fmt::Write;
+
+use analysis::gearbox_at_rest::GearboxResult;
+use scene::gearbox::Gearbox;
+
+use crate::{Cost, tables::fixed};
+
+/// Meshes, bearings and outputs, a line each.
+pub fn gearbox_table(file: &Gearbox, result: &GearboxResult, cost: &Cost) -> String {
+    let mut t = format!("{}\n\n", file.name);
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        t,
+        "  {:<24} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9}",
+        "mesh", "force N", "STE um", "p-p um", "f_in um", "K_Hbeta", "MPa"
+    );
+    for m in &result.meshes {
+        let factor = m.face_load_factor.map_or_else(|| "-".to_owned(), |k| fixed(k, 3));
+        let _ = writeln!(
+            t,
+            "  {:<24} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9}",
+            m.name,
+            fixed(m.normal_force, 0),
+            fixed(1e3 * m.transmission_error[0], 3),
+            fixed(1e3 * m.transmission_error[1], 3),
+            fixed(1e3 * m.misalignment[0], 2),
+            factor,
+            fixed(m.max_pressure, 0),
+        );
+    }
+    let _ = writeln!(t, "\n  {:<24} {:>10} {:>10} {:>10}", "bearing", "radial N", "axial N", "tilt mrad");
+    for b in &result.bearings {
+        let _ = writeln!(
+            t,
+            "  {:<24} {:>10} {:>10} {:>10}",
+            b.name,
+            fixed(b.force[0].hypot(b.force[1]), 0),
+            fixed(b.force[2], 0),
+            fixed(1e3 * b.tilt, 3)
+        );
+    }
+    let _ = writeln!(t, "\n  input torque {} N m", fixed(1e-3 * result.input_torque, 2));
+    for (i, o) in result.outputs.iter().enumerate() {
+        let (mean, range) = (fixed(1e6 * o.mean, 1), fixed(1e6 * o.peak_to_peak, 2));
+        let _ = writeln!(t, "  output {} lags by {mean} urad, {range} urad peak to peak", i + 1);
+    }
+    let [residual, balance] = result.certificate;
+    let _ = writeln!(t, "  worst residual {residual:.0e}, bodies in balance to {balance:.0e}");
+    let _ = writeln!(t, "  {} positions in {:.2} s", result.positions.len(), cost.wall_s);
+    for warning in &result.warnings {
+        let _ = writeln!(t, "\nwarning: {warning}");
+    }
+    t
+}

@@ -1,0 +1,127 @@
+//! The words of a gearbox file, nothing checked yet.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::spanned::{Number, Numbers, Rows, Switch, Whole, Word, Words};
+
+/// Every table with its keys.
+const TABLES: &[(&str, &[&str])] = &[
+    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis"]),
+    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "held"]),
+    ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
+    (
+        "[bearing]",
+        &["name", "shaft", "position_mm", "stiffness_n_per_mm", "tilt_stiffness_nm_per_rad", "matrix_n_mm_rad"],
+    ),
+    ("[gear]", &["name", "shaft", "position_mm", "key_deg"]),
+    ("[mesh]", &["name", "scene", "set", "pinion", "wheel"]),
+    ("input", &["shaft", "position_mm", "rotation"]),
+    ("[torque]", &["shaft", "position_mm", "torque_nm"]),
+    ("housing", &["matrix_n_mm_rad"]),
+    ("analysis", &["positions_per_cycle", "cycles"]),
+];
+
+/// The same, as messages look them up.
+pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
+    TABLES.iter().map(|(name, keys)| ((*name).to_owned(), keys.to_vec())).collect()
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGearbox {
+    pub name: Option<String>,
+    #[serde(default)]
+    pub shaft: Vec<Spanned<RawShaft>>,
+    #[serde(default)]
+    pub bearing: Vec<Spanned<RawBearing>>,
+    #[serde(default)]
+    pub gear: Vec<Spanned<RawGear>>,
+    #[serde(default)]
+    pub mesh: Vec<Spanned<RawMesh>>,
+    pub input: Option<Spanned<RawInput>>,
+    #[serde(default)]
+    pub torque: Vec<Spanned<RawTorque>>,
+    pub housing: Option<Spanned<RawHousing>>,
+    #[serde(default)]
+    pub analysis: RawAnalysis,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawShaft {
+    pub name: Word,
+    pub origin_mm: Numbers,
+    #[serde(default)]
+    pub section: Vec<Spanned<RawSection>>,
+    pub young_mpa: Number,
+    pub poisson: Number,
+    pub held: Switch,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSection {
+    pub length_mm: Number,
+    pub outer_diameter_mm: Number,
+    pub inner_diameter_mm: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBearing {
+    pub name: Word,
+    pub shaft: Word,
+    pub position_mm: Number,
+    pub stiffness_n_per_mm: Numbers,
+    pub tilt_stiffness_nm_per_rad: Numbers,
+    pub matrix_n_mm_rad: Rows,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawGear {
+    pub name: Word,
+    pub shaft: Word,
+    pub position_mm: Number,
+    pub key_deg: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawMesh {
+    pub name: Word,
+    pub scene: Word,
+    pub set: Words,
+    pub pinion: Word,
+    pub wheel: Word,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawInput {
+    pub shaft: Word,
+    pub position_mm: Number,
+    pub rotation: Word,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTorque {
+    pub shaft: Word,
+    pub position_mm: Number,
+    pub torque_nm: Number,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawHousing {
+    pub matrix_n_mm_rad: Rows,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAnalysis {
+    pub positions_per_cycle: Whole,
+    pub cycles: Whole,
+}

@@ -1,0 +1,31 @@
+//! From a file to a checked gearbox.
+
+use std::path::Path;
+
+use super::{
+    Gearbox,
+    check::check,
+    raw::{RawGearbox, tables},
+};
+use crate::{SceneError, Source, read_text};
+
+impl Gearbox {
+    /// Reads and checks a gearbox file and the scenes of its meshes.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the gearbox file or in a scene.
+    pub fn read(file: &Path) -> Result<Self, SceneError> {
+        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of a gearbox file; `file` is what messages name and what paths are relative to.
+    ///
+    /// # Errors
+    /// As [`Gearbox::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        let source = Source::of(file, text, tables);
+        let raw: RawGearbox = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        check(&source, raw)
+    }
+}

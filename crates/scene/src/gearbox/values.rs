@@ -1,0 +1,80 @@
+//! Values of a gearbox file: lists and matrices of a size, and words that must be there.
+
+use toml::Spanned;
+
+use crate::spanned::{Numbers, Rows};
+use crate::{Number, SceneError, Source, Word};
+
+pub(super) type Checked<T> = Result<T, SceneError>;
+
+/// A square matrix of some size.
+pub(super) fn square<R>(s: &Source<'_>, table: &Spanned<R>, rows: &Rows, size: usize) -> Checked<Vec<Vec<f64>>> {
+    let Some(rows) = rows else {
+        return Err(missing(s, table, "this table", "matrix_n_mm_rad", "rows of numbers"));
+    };
+    let found = rows.get_ref().len();
+    if found != size {
+        let advice =
+            format!("give {size}: x, y, z and the turns about them, six a bearing in the order of the bearings");
+        return Err(s.conflict(&rows.span(), format!("a matrix of {found} rows"), advice));
+    }
+    for row in rows.get_ref() {
+        let own = row.get_ref();
+        if own.len() != size || own.iter().any(|x| !x.is_finite()) {
+            let said = format!("a row of {} entries, or one that is no number", own.len());
+            return Err(s.conflict(&row.span(), said, format!("give {size} numbers a row")));
+        }
+    }
+    Ok(rows.get_ref().iter().map(|row| row.get_ref().clone()).collect())
+}
+
+/// A list of so many numbers, each up to `most` in size.
+pub(super) fn numbers<const N: usize>(
+    s: &Source<'_>,
+    key: &str,
+    list: &Numbers,
+    most: f64,
+) -> Checked<Option<[f64; N]>> {
+    let Some(list) = list else { return Ok(None) };
+    let found = list.get_ref().len();
+    if found != N {
+        let said = format!("`{key}` has {found} numbers");
+        return Err(s.conflict(&list.span(), said, format!("give {N}")));
+    }
+    let mut all = [0.0; N];
+    for (own, value) in all.iter_mut().zip(list.get_ref()) {
+        let least = if key == "origin_mm" { -most } else { 0.0 };
+        *own = s.number(key, &Some(value.clone()), 0.0, least, most)?;
+    }
+    Ok(Some(all))
+}
+
+pub(super) fn needed_word<R>(
+    s: &Source<'_>,
+    table: &Spanned<R>,
+    name: &str,
+    key: &str,
+    word: &Word,
+    what: &str,
+) -> Checked<String> {
+    word.as_ref().map(|w| w.get_ref().clone()).ok_or_else(|| missing(s, table, name, key, what))
+}
+
+pub(super) fn needed_number<R>(
+    s: &Source<'_>,
+    table: &Spanned<R>,
+    name: &str,
+    key: &str,
+    value: &Number,
+    low: f64,
+    high: f64,
+) -> Checked<f64> {
+    if value.is_none() {
+        return Err(missing(s, table, name, key, &format!("a number of {low} .. {high}")));
+    }
+    s.number(key, value, 0.0, low, high)
+}
+
+pub(super) fn missing<R>(s: &Source<'_>, table: &Spanned<R>, name: &str, key: &str, what: &str) -> SceneError {
+    s.conflict(&table.span(), format!("{name} has no `{key}`"), format!("give {what}"))
+}
