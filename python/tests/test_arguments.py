@@ -35,7 +35,7 @@ plain = (
 anything = st.recursive(plain, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8) | st.integers(), inner, max_size=3),
                         max_leaves=6)
 keys = st.sampled_from([*Scene.keys(), "operation", "pinion", "motion.ramp", "", ".", "a.b", "operation.torque_nm.x", "pinion.mesher"]) | st.text(max_size=12)
-many = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+many = settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
 
 
 def refused_or_taken(call, *, hinted: bool = True):
@@ -103,7 +103,8 @@ def test_any_argument_of_the_others(pair, scene_of_module, tmp_file, value):
         lambda: Mesh(value, np.zeros((1, 8), int), {}), lambda: Mesh(np.zeros((8, 3)), value, {}),
         lambda: Mesh(np.zeros((8, 3)), np.arange(8).reshape(1, 8), value), lambda: Mesh.read(value),
         lambda: pair.curve(value, 2.0), lambda: pair.curve(1.0, 2.0, key=value, set={"analysis.model": "nothing"}),
-        lambda: pair.motion(set={"motion.run": value}) if value not in ("steady",) else None,
+        # A motion that is sound would be solved: nothing sets a key back to its default.
+        lambda: pair.motion(set={"motion.run": value}) if value is not None and value != "steady" else None,
     ):
         refused_or_taken(call)
 
