@@ -101,6 +101,8 @@ fn every_kind() -> Scratch {
     let words = ["--parameter", bounds, "--evaluations", "2", "--front", "1", "--set", "output.root_stress=false"];
     run(&[&["optimise", "rest.toml", "--out", "out-optimise"], &words[..]].concat());
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
+    let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
+    run(&["gearbox", &stages, "--out", "out-gearbox"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
     scratch
 }

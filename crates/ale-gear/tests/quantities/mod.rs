@@ -57,7 +57,7 @@ pub fn written_in(folder: &Path) -> Vec<(PathBuf, BTreeSet<String>)> {
     names.into_iter().filter_map(|path| quantities(&path).map(|q| (path, q))).collect()
 }
 
-/// `pinion_x_um` as `<gear>_x_um`, numbers of pairs and harmonics as `<k>` and `<h>`.
+/// `pinion_x_um` as `<gear>_x_um`, numbers of pairs, meshes, bearings and outputs as `<k>`, of harmonics as `<h>`.
 pub fn generalised(name: &str) -> String {
     let name = ["pinion_", "wheel_"]
         .iter()
@@ -67,7 +67,7 @@ pub fn generalised(name: &str) -> String {
     for i in 1..words.len() {
         let is_number = words[i].parse::<i64>().is_ok();
         match words[i - 1] {
-            "pair" if is_number => words[i] = "<k>",
+            "pair" | "mesh" | "bearing" | "output" if is_number => words[i] = "<k>",
             "harmonic" if is_number => words[i] = "<h>",
             "mode" | "order" if is_number => words[i] = "<n>",
             _ => {}
