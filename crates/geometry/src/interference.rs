@@ -83,3 +83,29 @@ fn half_angle(gear: &Gear, radius: f64) -> f64 {
     let t = crate::profile::bisect(0.0, 1.0, |t| radius - profile.fillet(t).0);
     profile.fillet(t).1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Outline, half_angle};
+    use crate::{Gear, GearData};
+
+    /// The bound lets no place of a tooth be passed over, undercut teeth among them.
+    #[test]
+    fn no_tooth_is_wider_than_its_bound() {
+        let mut seen = 0;
+        for teeth in [6, 8, 13, 17, 30, 100] {
+            for profile_shift in [-0.4, 0.0, 0.5] {
+                let data = GearData { teeth, profile_shift, bore_diameter: f64::from(teeth), ..GearData::default() };
+                let Ok(gear) = Gear::new(data) else { continue };
+                seen += 1;
+                let (outline, root) = (Outline::new(&gear), gear.profile().fillet(0.0).0);
+                for k in 0..=500 {
+                    let radius = root + (gear.tip_radius() - root) * f64::from(k) / 500.0;
+                    let (own, bound) = (half_angle(&gear, radius), outline.widest_from(radius));
+                    assert!(own <= bound + 1e-12, "z {teeth}, x {profile_shift}, r {radius}: {own} against {bound}");
+                }
+            }
+        }
+        assert!(seen >= 12, "only {seen} gears could be made");
+    }
+}
