@@ -34,6 +34,8 @@ type Answer<T> = std::result::Result<T, Complaint>;
 pub struct Pair {
     scene: Scene,
     held: Arc<Kept>,
+    /// Of each question; `None`: the cores are shared with all others.
+    threads: Option<u32>,
 }
 
 /// What the threads that work hold as well.
@@ -59,6 +61,20 @@ fn cache_of(cache: Given<'_, '_>) -> Answer<Arc<dyn GearCache + Send>> {
     Ok(if switch("cache", any)? { Arc::new(Cache::of_user()) } else { Arc::new(NoCache) })
 }
 
+/// Threads of a question: no more than machines have.
+fn threads_of(any: &Bound<'_, PyAny>) -> Answer<u32> {
+    match whole("threads", any, 1)? {
+        n if n <= MOST_THREADS => Ok(n),
+        n => Err(Complaint::argument(
+            "threads",
+            format!("is {n}, at most {MOST_THREADS} are made"),
+            "take as many as cores",
+        )),
+    }
+}
+
+const MOST_THREADS: u32 = 1024;
+
 fn setting(key: &str, value: impl Into<::scene::Value>) -> Answer<Setting> {
     Ok(Setting::of(key, &value.into())?)
 }
@@ -79,7 +95,7 @@ impl Pair {
     /// Solves scenes at rest, side by side where there are several.
     fn at_rest(&self, py: Python<'_>, scenes: Vec<::scene::Scene>, progress: Given<'_, '_>) -> PyResult<Vec<Result>> {
         let held = Arc::clone(&self.held);
-        run(py, progress, move |watch| {
+        run(py, progress, self.threads, move |watch| {
             let solve = |scene: &::scene::Scene, watch: &mut Watch| {
                 Result::at_rest(&scene.name, AtRest::solve(scene, &held.models, &*held.cache, watch)?)
             };
@@ -99,7 +115,7 @@ impl Pair {
             more.insert(0, setting("analysis.kind", "dynamic")?);
         }
         let (scene, held) = (self.asked(more)?, Arc::clone(&self.held));
-        let result = run(py, progress, move |watch| analyses::in_time(&scene, held.held(), watch))?;
+        let result = run(py, progress, self.threads, move |watch| analyses::in_time(&scene, held.held(), watch))?;
         that_holds(py, result)
     }
 }
@@ -117,22 +133,29 @@ fn that_holds(py: Python<'_>, result: Result) -> PyResult<Py<Result>> {
 #[pymethods]
 impl Pair {
     /// Of a scene; `meshes` of pinion and wheel take the place of the scene's, `cache` is the folder of reduced gears
-    /// (`True`: the user's, as the command has it).
+    /// (`True`: the user's, as the command has it), `threads` those of each question: with one, questions asked by
+    /// threads of Python run side by side.
     #[new]
-    #[pyo3(signature = (scene, *, meshes = None, cache = None))]
-    fn new(scene: &Bound<'_, PyAny>, meshes: Given<'_, '_>, cache: Given<'_, '_>) -> Answer<Self> {
+    #[pyo3(signature = (scene, *, meshes = None, cache = None, threads = None))]
+    fn new(
+        scene: &Bound<'_, PyAny>,
+        meshes: Given<'_, '_>,
+        cache: Given<'_, '_>,
+        threads: Given<'_, '_>,
+    ) -> Answer<Self> {
         let Ok(scene) = scene.cast::<Scene>() else {
             let what = format_args!("is {}, wanted is a Scene", shown(scene)).to_string();
             return Err(Complaint::argument("scene", what, "as `Pair(Scene.read(\"scene.toml\"))`"));
         };
         let meshes = meshes.map(Mesh::two).transpose()?;
+        let threads = threads.map(threads_of).transpose()?;
         let cache = Arc::new(KeptGears::holding(cache_of(cache)?));
         let models = SharedModels::holding(Arc::clone(&cache) as Arc<dyn GearCache + Send>);
         let models = match &meshes {
             Some(meshes) => models.with_meshes(meshes.clone()),
             None => models,
         };
-        Ok(Self { scene: scene.get().clone(), held: Arc::new(Kept { models, cache, meshes }) })
+        Ok(Self { scene: scene.get().clone(), held: Arc::new(Kept { models, cache, meshes }), threads })
     }
 
     /// The scene.
@@ -147,7 +170,7 @@ impl Pair {
     fn reduce<'py>(slf: &Bound<'py, Self>, progress: Given<'_, 'py>) -> PyResult<Bound<'py, Self>> {
         let own = slf.get();
         let (scene, held) = (own.asked(Vec::new())?, Arc::clone(&own.held));
-        run(slf.py(), progress, move |_| Ok(held.models.reduce(&scene)?))?;
+        run(slf.py(), progress, slf.get().threads, move |_| Ok(held.models.reduce(&scene)?))?;
         Ok(slf.clone())
     }
 
@@ -258,7 +281,7 @@ impl Pair {
         let plan = Plan::of_scene_text(text, &file, &settings, &words).map_err(Complaint::from)?;
         let again = format!("ale_gear.Pair(scene).vary({:?}, {outputs:?})", words.vary);
         let held = Arc::clone(&self.held);
-        let result = run(py, progress, move |watch| analyses::vary(&plan, &again, held.held(), watch))?;
+        let result = run(py, progress, self.threads, move |watch| analyses::vary(&plan, &again, held.held(), watch))?;
         that_holds(py, result)
     }
 
@@ -296,7 +319,8 @@ impl Pair {
         let plan = Optimisation::of_scene_text(text, &file, &settings, &words).map_err(Complaint::from)?;
         let again = format!("ale_gear.Pair(scene).optimise({parameters:?}, measure={measure:?})");
         let held = Arc::clone(&self.held);
-        let result = run(py, progress, move |watch| analyses::optimum(&plan, &again, held.held(), watch))?;
+        let result =
+            run(py, progress, self.threads, move |watch| analyses::optimum(&plan, &again, held.held(), watch))?;
         that_holds(py, result)
     }
 

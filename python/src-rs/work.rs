@@ -13,6 +13,7 @@ use std::{
 
 use analysis::{Observer, PhaseWork, Progress};
 use pyo3::prelude::*;
+use rayon::ThreadPoolBuilder;
 use report::{Cost, Phase, Recorder};
 
 use crate::{
@@ -128,10 +129,12 @@ impl Drop for CancelOnDrop<'_> {
 
 /// Does `task` while the caller waits: others may run Python meanwhile.
 ///
-/// After Ctrl-C the caller goes on at once; the work ends where it is asked next, and nobody sees its result.
+/// It takes so many threads as are told, of its own; else it shares the cores with all other work. After Ctrl-C the
+/// caller goes on at once; the work ends where it is asked next, and nobody sees its result.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: Given<'_, '_>,
+    threads: Option<u32>,
     task: impl FnOnce(&mut Watch) -> Result<T, Complaint> + Send + 'static,
 ) -> PyResult<T> {
     let helpers = py.import("ale_gear._progress")?;
@@ -141,6 +144,12 @@ pub fn run<T: Send + 'static>(
     let mut watch = Watch::new(Arc::clone(&shared));
     let work = move || {
         let _ = done.send(task(&mut watch));
+    };
+    let own = threads.map(|n| ThreadPoolBuilder::new().num_threads(n as usize).build()).transpose();
+    let own = own.map_err(|e| Complaint::new(Kind::Input, format!("threads: {e}"), Some("take fewer".into())))?;
+    let work = move || match own {
+        Some(own) => own.install(work),
+        None => work(),
     };
     let worker = thread::Builder::new().name("ale-gear".into()).spawn(work).map_err(Complaint::from)?;
     let _leaving = CancelOnDrop(&shared);

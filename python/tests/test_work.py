@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from ale_gear import Pair, Scene
+from ale_gear import ArgumentError, Pair, Scene
 from conftest import TABLES
 
 # More positions than anybody waits for.
@@ -44,6 +44,20 @@ def test_two_threads_ask_one_pair_at_once(pair):
     for thread in threads:
         thread.join()
     assert found == alone
+
+
+def test_a_question_on_one_core_has_the_same_bits(scene, pair):
+    alone = Pair(scene, threads=1).static(75.0)
+    assert alone.summary["cost"]["threads"] == 1
+    shared = pair.static(75.0)
+    for name in shared:
+        assert alone[name].tobytes() == shared[name].tobytes(), name
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2", 10**6, 10**30])
+def test_threads_that_cannot_be_are_refused(scene, threads):
+    with pytest.raises(ArgumentError, match="threads"):
+        Pair(scene, threads=threads)
 
 
 @pytest.mark.parametrize("ask", [

@@ -197,6 +197,11 @@ impl Meshing {
     pub fn side(&self) -> Side {
         self.driver.loaded_side(self.sense)
     }
+
+    /// Angles of tooth 0 of gear 1 and of gear 2, whose flanks touch, with the input at 0, rad from +x.
+    pub fn gear_angles(&self, pair: &GearPair) -> [f64; 2] {
+        [self.start, wheel_angle(pair, self.side(), self.start, self.direction)]
+    }
 }
 
 /// Direction of a mesh's line of centres, where its gears stand as the pair was made to.

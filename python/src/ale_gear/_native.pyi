@@ -75,7 +75,14 @@ class Mesh:
 class Pair:
     """A scene whose meshes, reduced gears and contact tables stay in memory from question to question."""
 
-    def __new__(cls, scene: Scene, *, meshes: Sequence[Any] | None = None, cache: _Path | bool | None = None) -> Pair: ...
+    def __new__(
+        cls,
+        scene: Scene,
+        *,
+        meshes: Sequence[Any] | None = None,
+        cache: _Path | bool | None = None,
+        threads: int | None = None,
+    ) -> Pair: ...
     @property
     def scene(self) -> Scene: ...
     def reduce(self, *, progress: _Progress = None) -> Pair: ...

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use analysis::gearbox_at_rest::solve_gearbox;
-use report::gearbox_files::{gearbox_summary, gearbox_table, write_gearbox_rows};
+use report::gearbox_files::{gearbox_page, gearbox_summary, gearbox_table, write_gearbox_rows};
 use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs};
@@ -39,17 +39,17 @@ impl GearboxArgs {
         let result = solve_gearbox(&file, &self.cache.open(), &mut phases)?;
         write_gearbox_rows(&file, &result, &results)?;
         let cost = phases.cost();
+        let missed = result.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE);
+        let missed = missed.map(|share| format!("{share:.1e} of the load is left over"));
+        gearbox_page(&file, &result, &cost, missed.as_deref())?.write(&results)?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
         results.write("summary.json", gearbox_summary(&file, &result, &cost, &files).as_bytes())?;
         results.finish(talk::note)?;
         let table = gearbox_table(&file, &result, &cost);
-        let failure = result.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE).map(|share| {
+        let failure = missed.map(|what| {
             let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid".to_owned();
-            CommandError::failed(
-                format_args!("the result does not hold: {share:.1e} of the load is left over"),
-                Some(hint),
-            )
+            CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint))
         });
         let text = if quiet { String::new() } else { format!("{table}\nresults: {}\n", self.out.display()) };
         Ok(Answer { text, failure })

@@ -35,7 +35,10 @@ fn a_gearbox_is_solved_into_its_folder() {
     let mean = ste.iter().sum::<f64>() / 8.0;
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
-    assert_eq!(summary["files"], serde_json::json!(["line_load.csv", "positions.csv", "shafts.csv"]));
+    assert_eq!(
+        summary["files"],
+        serde_json::json!(["line_load.csv", "positions.csv", "report.html", "report.json.gz", "shafts.csv"])
+    );
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
     // Again into the same folder, quietly, on one thread.
     let again = scratch.ale_gear(["gearbox", "two_stages.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);

@@ -132,6 +132,21 @@ fn quantities(seen: &Value) -> Vec<String> {
     names
 }
 
+/// Shafts, gears and bearings in space; a step through the positions turns and bends them.
+pub fn gearbox(browser: PathBuf) {
+    let scratch = Scratch::new();
+    let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
+    let done = scratch.ale_gear(["gearbox", &stages, "--out", "o"]);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    for size in [DESK, PHONE] {
+        let seen = look(&scratch, &browser, "o/report.html", "gearbox", size);
+        check(&seen, "gearbox");
+        assert_eq!(seen["steps"], 8, "a step a position: {seen}");
+    }
+    let again = scratch.ale_gear(["report", "o", "--output", "again.html"]);
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+}
+
 /// The run of a scene; the browser looks at its report.
 fn report_of(browser: &Path, name: &str, scene: &str) -> Value {
     let scratch = Scratch::new().file("a.toml", scene);

@@ -48,6 +48,8 @@ pub struct MeshResult {
     pub max_pressure: f64,
     /// Turn by which gear 2 is set where the train closes a ring, rad.
     pub timing: f64,
+    /// Angles of tooth 0 of gear 1 and gear 2 with the input at its start, rad from +x; they turn as their shafts do.
+    pub gear_angles: [f64; 2],
 }
 
 /// A bearing over all positions.
@@ -109,6 +111,7 @@ pub(super) fn result(
             face_load_factor: face_load_factor(all, i, slices),
             max_pressure: pressure,
             timing: train.meshing()[i].timing,
+            gear_angles: train.meshing()[i].gear_angles(&meshes[i].pair),
         }
     };
     let bearing = |i: usize| {

@@ -1,6 +1,8 @@
-//! Files of a gearbox at rest: positions, shaft lines, line loads, headline numbers, closing table.
+//! Files of a gearbox at rest: positions, shaft lines, line loads, headline numbers, page, closing table.
 
+mod page;
 mod rows;
+mod space;
 mod summary;
 mod table;
 
@@ -9,6 +11,7 @@ use scene::gearbox::Gearbox;
 
 use crate::{ReportError, ResultFiles};
 
+pub use page::gearbox_page;
 pub use summary::gearbox_summary;
 pub use table::gearbox_table;
 

@@ -1,6 +1,6 @@
 //! Style and scripts of the pages, for a page that is not one file.
 //!
-//! In a page they stand in this order: [`UPLOT`], [`CHARTS`], [`THREE`], [`VIEW`].
+//! In a page they stand in this order: [`UPLOT`], [`CHARTS`], [`THREE`], [`VIEW`] or [`GEARBOX`].
 
 /// How pages look, light and dark.
 pub const STYLE: &str = include_str!("style.css");
@@ -15,4 +15,6 @@ pub const CHARTS: &str = include_str!("../charts/charts.js");
 pub const THREE: &str =
     concat!("/*\n", include_str!("../../assets/three.LICENSE"), "*/\n", include_str!("../../assets/three.min.js"));
 /// The gears in space, in the part `view.html`: `report.open(view, stage)`, then `report.view.show(view)`.
-pub const VIEW: &str = include_str!("view.js");
+pub const VIEW: &str = concat!(include_str!("space.js"), include_str!("view.js"));
+/// A gearbox in space, in the part `gearbox_view.html`.
+pub const GEARBOX: &str = concat!(include_str!("space.js"), include_str!("gearbox.js"));

@@ -52,6 +52,8 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("chart.html", include_str!("chart.html")),
         ("compare.html", include_str!("compare.html")),
         ("envelope.html", include_str!("envelope.html")),
+        ("gearbox.html", include_str!("gearbox.html")),
+        ("gearbox_view.html", include_str!("gearbox_view.html")),
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
         ("style.css", scripts::STYLE),
@@ -66,18 +68,18 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
     Ok(environment)
 }
 
-/// The page with the scripts that its parts ask for: charts and maps, gears in space.
+/// The page with the scripts that its parts ask for: charts and maps, gears or a gearbox in space.
 fn with_scripts(mut page: String) -> String {
     let has = |class: &str| page.contains(&format!("class=\"{class}\">"));
     let mut scripts = String::new();
-    let in_space = has("view");
-    if in_space || has("plot") || has("map") {
+    let in_space = [("view", scripts::VIEW), ("gearbox", scripts::GEARBOX)].into_iter().find(|(class, _)| has(class));
+    if in_space.is_some() || has("plot") || has("map") {
         let [style, uplot, charts] = [scripts::UPLOT_STYLE, scripts::UPLOT, scripts::CHARTS];
         scripts += &format!("<style>{style}</style>\n");
         scripts += &format!("<script>{uplot}</script>\n<script>{charts}</script>\n");
     }
-    if in_space {
-        scripts += &format!("<script>{}</script>\n<script>{}</script>\n", scripts::THREE, scripts::VIEW);
+    if let Some((_, view)) = in_space {
+        scripts += &format!("<script>{}</script>\n<script>{view}</script>\n", scripts::THREE);
     }
     if let Some(end) = page.rfind("</body>") {
         page.insert_str(end, &scripts);

@@ -2,48 +2,10 @@
 "use strict";
 (() => {
   const $ = id => document.getElementById(id);
-  const { bytes, viridis, short, ink, scheme, VIRIDIS } = window.report;
+  const { viridis, short, VIRIDIS, unpack, surface } = window.report;
   const BODY = [[0.62, 0.68, 0.75], [0.75, 0.70, 0.62]];
   const SHADES = Array.from({ length: 256 }, (_, i) => new THREE.Color().setRGB(...viridis(i / 255).map(c => c / 255), THREE.SRGBColorSpace).toArray());
-  // Edges sharper than this (cosine) stay edges.
-  const CREASE = Math.cos(0.6);
   const TAU = 2 * Math.PI;
-
-  const unpack = pack => pack.lists.map(text => {
-    const whole = new Int16Array(bytes(text).buffer);
-    return Float32Array.from(whole, n => n === -32768 ? NaN : n * pack.unit);
-  });
-
-  // A surface corner by corner, with normals that are smooth but at edges.
-  const surface = shape => {
-    const points = unpack(shape.points)[0], corners = new Uint16Array(bytes(shape.triangles).buffer), count = corners.length / 3;
-    const normals = new Float32Array(3 * count), around = Array.from({ length: points.length / 3 }, () => []);
-    for (let t = 0; t < count; t++) {
-      const [a, b, c] = [0, 1, 2].map(k => 3 * corners[3 * t + k]);
-      const u = [0, 1, 2].map(i => points[b + i] - points[a + i]), v = [0, 1, 2].map(i => points[c + i] - points[a + i]);
-      normals.set([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], 3 * t);
-      for (let k = 0; k < 3; k++) around[corners[3 * t + k]].push(t);
-    }
-    const size = t => Math.hypot(normals[3 * t], normals[3 * t + 1], normals[3 * t + 2]) || 1;
-    const position = new Float32Array(9 * count), normal = new Float32Array(9 * count);
-    corners.forEach((point, corner) => {
-      const own = Math.floor(corner / 3), sum = [0, 0, 0];
-      for (const t of around[point]) {
-        let dot = 0;
-        for (let i = 0; i < 3; i++) dot += normals[3 * t + i] * normals[3 * own + i];
-        if (dot > CREASE * size(t) * size(own)) for (let i = 0; i < 3; i++) sum[i] += normals[3 * t + i];
-      }
-      const length = Math.hypot(...sum) || 1;
-      for (let i = 0; i < 3; i++) {
-        position[3 * corner + i] = points[3 * point + i];
-        normal[3 * corner + i] = sum[i] / length;
-      }
-    });
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
-    geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
-    return { geometry, points, corners };
-  };
 
   const largestOf = lists => lists.reduce((m, list) => list.reduce((n, v) => Number.isFinite(v) ? Math.max(n, v) : n, m), 0);
   const sizes = list => Float32Array.from({ length: list.length / 3 }, (_, i) => Math.hypot(list[3 * i], list[3 * i + 1], list[3 * i + 2]));
@@ -144,14 +106,6 @@
   const QUANTITIES = { pressure: "pressure [MPa]", displacement: "displacement [um]", stress: "first principal stress [MPa]" };
 
   const start = (first, stage) => {
-    const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    stage.replaceChildren(renderer.domElement);
-    const scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(28, 1, 1, 1e5), controls = new THREE.OrbitControls(camera, stage);
-    scene.add(new THREE.HemisphereLight(0xffffff, 0xb0b0b0, 2.7), camera);
-    const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
-    lamp.position.set(0.6, 0.8, 1);
-    camera.add(lamp);
     const state = { frame: 0, quantity: "pressure", shown: 0, look: null };
     let data = null, gears = [], centre = 0, largest = {}, most = 0;
 
@@ -160,9 +114,9 @@
       const others = JSON.stringify(data?.gears) !== JSON.stringify(next.gears);
       data = next;
       if (others) {
-        gears.forEach(gear => scene.remove(gear.group));
+        gears.forEach(gear => space.scene.remove(gear.group));
         gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
-        gears.forEach(gear => scene.add(gear.group));
+        gears.forEach(gear => space.scene.add(gear.group));
         centre = data.gears[1].centre;
       }
       largest = Object.fromEntries(Object.keys(QUANTITIES).map(q => [q, Math.max(...gears.map(g => g.largest(q)))]));
@@ -176,7 +130,6 @@
       $("view-note").textContent = data.note;
       return others;
     };
-    const draw = () => { renderer.render(scene, camera); state.shown += 1; };
     const update = () => {
       const frame = data.frames[state.frame], solid = state.quantity !== "pressure";
       const times = solid ? most * Number($("scale").value) / 100 : 0;
@@ -190,7 +143,7 @@
       $("times").textContent = `${short(times, 2)} x`;
       $("deformed").hidden = !solid || most === 0;
       bar();
-      draw();
+      space.draw();
     };
     const bar = () => {
       const top = largest[state.quantity], stops = VIRIDIS.map(c => `rgb(${c.join()})`).join();
@@ -225,83 +178,21 @@
         aside = null;
       }
     };
-    const view = name => {
-      state.look = name;
-      stand(name);
-      const [target, direction, across, up] = look[name](), high = 2 * Math.tan(camera.fov * Math.PI / 360);
-      const away = Math.max(across / (high * Math.max(0.1, stage.clientWidth / stage.clientHeight)), up / high);
-      camera.position.set(...direction).setLength(away).add(new THREE.Vector3(...target));
-      controls.target.set(...target);
-      controls.update();
-      update();
-    };
-    const resize = () => {
-      renderer.setSize(stage.clientWidth, stage.clientHeight);
-      camera.aspect = stage.clientWidth / stage.clientHeight;
-      camera.updateProjectionMatrix();
-      // A look that nobody has changed fits the new frame as well.
-      if (state.look) view(state.look); else draw();
-    };
-
-    controls.addEventListener("change", draw);
-    controls.addEventListener("start", () => { state.look = null; });
-    stage.addEventListener("keydown", event => {
-      const turns = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
-      const nearer = { "+": 0.9, "-": 1 / 0.9 }[event.key];
-      if (!turns && !nearer) return;
-      event.preventDefault();
-      state.look = null;
-      const around = new THREE.Spherical().setFromVector3(camera.position.clone().sub(controls.target));
-      around.theta += turns?.[0] ?? 0;
-      around.phi = Math.min(Math.PI - 0.05, Math.max(0.05, around.phi + (turns?.[1] ?? 0)));
-      around.radius *= nearer ?? 1;
-      camera.position.setFromSpherical(around).add(controls.target);
-      controls.update();
-      draw();
-    });
+    const space = window.report.space(stage, state, look, { before: stand, update });
     $("frame").addEventListener("input", () => { state.frame = Number($("frame").value); update(); });
     ["scale", "apart"].forEach(id => $(id).addEventListener("input", update));
     for (const input of document.querySelectorAll("#quantity input")) {
       input.addEventListener("change", () => { state.quantity = input.value; update(); });
     }
-    document.querySelectorAll("[data-look]").forEach(button => button.addEventListener("click", () => view(button.dataset.look)));
-    let running = 0;
-    $("play").addEventListener("click", () => {
-      if (running) clearInterval(running);
-      running = running ? 0 : setInterval(() => { $("frame").value = state.frame = (state.frame + 1) % data.frames.length; update(); }, 90);
-      $("play").textContent = running ? "pause" : "play";
-    });
-    addEventListener("resize", resize);
-    const paper = colour => { scene.background = new THREE.Color(colour); };
-    scheme.addEventListener("change", () => { paper(ink("paper")); draw(); });
-    // Printers take no canvas: a still picture of it on white paper.
-    addEventListener("beforeprint", () => {
-      paper("#fff");
-      draw();
-      $("printed").src = renderer.domElement.toDataURL("image/png");
-      paper(ink("paper"));
-      draw();
-    });
-    paper(ink("paper"));
+    window.report.player($("play"), () => { $("frame").value = state.frame = (state.frame + 1) % data.frames.length; update(); });
     take(first);
-    resize();
-    view("whole");
+    space.open("whole");
     // Other numbers, or other gears, in the same picture.
-    const show = next => { if (take(next)) view("whole"); else update(); };
-    window.report.view = { state, renderer, look: view, show };
+    const show = next => { if (take(next)) space.view("whole"); else update(); };
+    window.report.view = { state, look: space.view, show };
   };
 
-  const open = (data, stage) => {
-    try {
-      start(data, stage);
-    } catch (error) {
-      // A browser without WebGL shows all the rest.
-      stage.textContent = `This browser shows no picture in space (${error.message}).`;
-      stage.classList.add("failed");
-      document.querySelector(".view .controls").hidden = true;
-      window.report.failed = error.message;
-    }
-  };
+  const open = (data, stage) => window.report.tried(stage, () => start(data, stage));
   window.report.open = open;
   const holder = document.querySelector("script.view"), stage = $("stage");
   if (holder && stage) open(JSON.parse(holder.textContent), stage);

@@ -21,7 +21,8 @@ use ltca::StaticHistory;
 use serde::Serialize;
 
 use crate::charts::Numbers;
-use packed::{Packed, triangles};
+pub(crate) use packed::Packed;
+use packed::triangles;
 use scene::Scene;
 use sector::Surface;
 
@@ -61,11 +62,19 @@ struct GearView {
 
 /// A surface of triangles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Shape {
+pub(crate) struct Shape {
     /// Points, mm.
     points: Packed,
     /// Two bytes a corner, low byte first, as base64.
     triangles: String,
+}
+
+impl Shape {
+    /// Tooth 0 of a gear, nominal.
+    pub(crate) fn of_tooth(gear: &Gear) -> Self {
+        let Surface { points, triangles: corners } = Surface::of_tooth(gear);
+        Self { points: Packed::new([points.as_flattened()]), triangles: triangles(&corners) }
+    }
 }
 
 /// The mesh about the window's teeth, in the frame of the matrices.
@@ -158,13 +167,12 @@ impl View {
 impl GearView {
     fn new(pair: &GearPair, i: usize, window: Option<WindowView>) -> Self {
         let gear: &Gear = [&pair.pinion, &pair.wheel][i];
-        let Surface { points, triangles: corners } = Surface::of_tooth(gear);
         Self {
             name: ["pinion", "wheel"][i],
             teeth: gear.teeth(),
             centre: [0.0, pair.centre_distance()][i],
             flank: [gear.base_radius(), gear.profile().base_half_angle(), gear.twist()],
-            sector: Shape { points: Packed::new([points.as_flattened()]), triangles: triangles(&corners) },
+            sector: Shape::of_tooth(gear),
             window,
         }
     }

@@ -13,13 +13,13 @@ const NOTHING: i16 = i16::MIN;
 ///
 /// Off by half a unit at most, 1/65534 of the largest value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Packed {
+pub(crate) struct Packed {
     unit: f64,
     lists: Vec<String>,
 }
 
 impl Packed {
-    pub(super) fn new<'a>(lists: impl IntoIterator<Item = &'a [f64]> + Clone) -> Self {
+    pub(crate) fn new<'a>(lists: impl IntoIterator<Item = &'a [f64]> + Clone) -> Self {
         let all = lists.clone().into_iter().flatten();
         let largest = all.filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
         let unit = if largest > 0.0 { largest / STEPS } else { 1.0 };

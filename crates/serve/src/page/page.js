@@ -19,7 +19,10 @@
     try {
       const reply = await fetch("solve", { method: "POST", body });
       // 409: a later move has come.
-      if (reply.status !== 409) show(await reply.json(), number, since);
+      if (reply.status !== 409) {
+        const came_ms = performance.now() - since;
+        show(await reply.json(), number, since, came_ms);
+      }
     } catch (error) {
       tell({ message: `ale-gear does not answer: ${error.message}`, hint: "does `ale-gear serve` still run?", keys: [] });
     } finally {
@@ -160,38 +163,43 @@
 
   const inSpace = view => { if (window.report.view) window.report.view.show(view); else if (!window.report.failed) window.report.open(view, $("stage")); };
 
-  const show = (answer, number, since) => {
+  // The curve at once; after a frame with it has been handed over all else, and after another the picture in space.
+  const show = (answer, number, since, came_ms) => {
     if (number < moves.shown) return;
     if (!answer.text) { tell(answer.fault); return; }
     moves.shown = number;
     const result = answer.result;
-    if (result) {
-      const [first, ...others] = result.charts;
-      chart($("first"), "first", first, false);
-      for (const data of others) {
-        const figure = figureOf(data.title);
-        drawIn(figure, () => chart(figure, data.title, data, false));
-      }
-      $("pattern").hidden = result.maps.length === 0;
-      drawIn($("pattern"), () => result.maps.forEach((data, k) => chart($("pattern"), `map ${k}`, data, true)));
-      numbers(result.glance);
-      warn(result.warnings);
-      $("name").textContent = result.name;
-    }
+    if (result) chart($("first"), "first", result.charts[0], false);
     tell(answer.fault);
-    slide(answer.sliders, answer);
-    fill(answer);
-    if (document.activeElement !== $("text")) $("text").value = answer.text;
-    if (!result) return;
+    if (!result) { about(answer); return; }
     $("status").textContent = "solved";
     $("time").textContent = `in ${result.solve_ms.toFixed(0)} ms`;
-    // After a frame with these curves has been handed over; the picture in space may follow.
-    requestAnimationFrame(() => {
-      setTimeout(() => {
-        drawn.push({ number, after_ms: performance.now() - since, solve_ms: result.solve_ms });
-        if (number === moves.shown) drawIn($("stage"), () => inSpace(result.view));
-      });
+    afterFrame(() => {
+      const after_ms = performance.now() - since;
+      if (number === moves.shown) { others(result); about(answer); }
+      drawn.push({ number, after_ms, came_ms, solve_ms: result.solve_ms });
+      afterFrame(() => { if (number === moves.shown) drawIn($("stage"), () => inSpace(result.view)); });
     });
+  };
+  const afterFrame = work => requestAnimationFrame(() => setTimeout(work));
+
+  const others = result => {
+    for (const data of result.charts.slice(1)) {
+      const figure = figureOf(data.title);
+      drawIn(figure, () => chart(figure, data.title, data, false));
+    }
+    $("pattern").hidden = result.maps.length === 0;
+    drawIn($("pattern"), () => result.maps.forEach((data, k) => chart($("pattern"), `map ${k}`, data, true)));
+    numbers(result.glance);
+    warn(result.warnings);
+    $("name").textContent = result.name;
+  };
+
+  // The scene of the answer: in the sliders, in the form and as text.
+  const about = answer => {
+    slide(answer.sliders, answer);
+    fill(answer);
+    if (document.activeElement !== $("text") && $("text").value !== answer.text) $("text").value = answer.text;
   };
 
   $("text").addEventListener("change", () => { scene.text = $("text").value; scene.set = {}; send(); });

@@ -1,0 +1,137 @@
+//! A gearbox in space, as the script of its page draws it.
+
+use analysis::gearbox_at_rest::GearboxResult;
+use scene::gearbox::Gearbox;
+use serde::Serialize;
+
+use crate::{
+    charts::Numbers,
+    view::{Packed, Shape},
+};
+
+/// Positions at most.
+const FRAMES: usize = 48;
+/// Digits of places and forces.
+const DIGITS: usize = 6;
+
+/// All that stands still and all that moves.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct BoxInSpace {
+    shafts: Vec<ShaftInSpace>,
+    gears: Vec<GearInSpace>,
+    bearings: Vec<BearingInSpace>,
+    frames: Vec<Frame>,
+    modes: Vec<ModeInSpace>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct ShaftInSpace {
+    /// mm.
+    origin: [f64; 3],
+    /// From, to, outer and inner radius, mm.
+    sections: Vec<[f64; 4]>,
+    /// Heights of the nodes, mm.
+    nodes: Numbers,
+    /// Turns a turn of the input.
+    ratio: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct GearInSpace {
+    shaft: usize,
+    /// Mid-plane over the shaft's origin, mm.
+    position: f64,
+    teeth: u32,
+    /// Angle of tooth 0 with the input at its start, rad.
+    angle: f64,
+    /// Tooth 0.
+    sector: Shape,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct BearingInSpace {
+    shaft: usize,
+    position: f64,
+    /// Of the shaft in it, mm.
+    radius: f64,
+}
+
+/// One position.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Frame {
+    /// Of the input, rad.
+    angle: f64,
+    /// Six numbers a node, a list a shaft: mm and rad.
+    shafts: Packed,
+    /// Forces on the shafts, N.
+    bearings: Vec<Numbers>,
+}
+
+/// A mode: real parts of all shafts, then imaginary parts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct ModeInSpace {
+    name: String,
+    shafts: Packed,
+}
+
+impl BoxInSpace {
+    pub(super) fn new(file: &Gearbox, result: &GearboxResult) -> Self {
+        let shown = result.positions.iter().step_by(result.positions.len().div_ceil(FRAMES).max(1));
+        let frames = shown.map(|p| Frame {
+            angle: p.input_angle,
+            shafts: Packed::new(p.shafts.iter().map(|line| line.displacements.as_flattened())),
+            bearings: p.bearings.iter().map(|b| Numbers(b.force.to_vec(), DIGITS)).collect(),
+        });
+        let bearings = file.bearings.iter().map(|b| BearingInSpace {
+            shaft: b.shaft,
+            position: b.position,
+            radius: radius_at(file, b.shaft, b.position),
+        });
+        Self {
+            shafts: (0..file.shafts.len()).map(|i| shaft(file, result, i)).collect(),
+            gears: (0..file.gears.len()).filter_map(|i| gear(file, result, i)).collect(),
+            bearings: bearings.collect(),
+            frames: frames.collect(),
+            modes: Vec::new(),
+        }
+    }
+}
+
+fn shaft(file: &Gearbox, result: &GearboxResult, i: usize) -> ShaftInSpace {
+    let own = &file.shafts[i];
+    let mut from = 0.0;
+    let sections = own.sections.iter().map(|s| {
+        let section = [from, from + s.length, 0.5 * s.outer, 0.5 * s.inner];
+        from += s.length;
+        section
+    });
+    let sections = sections.collect();
+    let nodes = result.positions.first().map_or_else(Vec::new, |p| p.shafts[i].positions.clone());
+    ShaftInSpace { origin: own.origin, sections, nodes: Numbers(nodes, DIGITS), ratio: result.ratios[i] }
+}
+
+/// A gear as the first mesh that it is in knows it.
+fn gear(file: &Gearbox, result: &GearboxResult, i: usize) -> Option<GearInSpace> {
+    let find = |(k, m): (usize, &scene::gearbox::GearboxMesh)| Some((k, m.gears.iter().position(|&g| g == i)?));
+    let (mesh, end) = file.meshes.iter().enumerate().find_map(find)?;
+    let exact = [&result.pairs[mesh].pinion, &result.pairs[mesh].wheel][end];
+    let own = &file.gears[i];
+    Some(GearInSpace {
+        shaft: own.shaft,
+        position: own.position,
+        teeth: exact.teeth(),
+        angle: result.meshes[mesh].gear_angles[end],
+        sector: Shape::of_tooth(exact),
+    })
+}
+
+/// Outer radius of a shaft at a height, mm.
+fn radius_at(file: &Gearbox, shaft: usize, position: f64) -> f64 {
+    let mut end = 0.0;
+    let sections = &file.shafts[shaft].sections;
+    let there = sections.iter().find(|s| {
+        end += s.length;
+        position <= end
+    });
+    there.or(sections.last()).map_or(1.0, |s| 0.5 * s.outer)
+}
