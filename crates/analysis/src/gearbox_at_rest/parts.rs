@@ -39,7 +39,7 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
         damping: Matrix6::zeros(),
     });
     let housing = file.housing.as_ref().map(|rows| DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]));
-    Ok(Structure { shafts, discs, bearings: bearings.collect(), housing, springs: Vec::new() })
+    Ok(Structure { shafts, discs, bearings: bearings.collect(), housing, ..Structure::default() })
 }
 
 /// Disc of the input, its sense, and the keys of all discs.
