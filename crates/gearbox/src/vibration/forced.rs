@@ -120,6 +120,15 @@ impl Vibration {
         self.meshes.iter().map(|m| m.cycles * TAU).collect()
     }
 
+    /// Mean stiffness of each mesh along its normal, N/mm: what turning gear 1 alone meets.
+    ///
+    /// ```text
+    /// k = -T_66/h_6^2      h: lever of the normal, theory (53)
+    /// ```
+    pub fn mesh_stiffness(&self) -> Vec<f64> {
+        self.meshes.iter().map(|m| -m.excitation.mean.tangent[(5, 5)] / (m.lever[5] * m.lever[5])).collect()
+    }
+
     /// What each mesh does.
     pub fn excitations(&self) -> impl Iterator<Item = &MeshExcitation> {
         self.meshes.iter().map(|m| &m.excitation)

@@ -23,19 +23,18 @@ pub fn own_cycle(
     let mut errors = Vec::with_capacity(positions);
     for i in 0..positions {
         let position = gearbox.solve(i as f64 / positions as f64 / slope)?;
-        samples.push(sample(gearbox, &position, mesh));
+        samples.extend(MeshSample::at(gearbox, &position, mesh));
         errors.push(position.meshes[mesh].transmission_error);
         each();
     }
     Ok((samples, errors))
 }
 
-/// A mesh where it was solved last.
-fn sample(gearbox: &StaticGearbox, position: &GearboxPosition, mesh: usize) -> MeshSample {
-    let state = &position.meshes[mesh];
-    MeshSample {
-        cycles: state.cycles,
-        displacements: Vector12::from(state.displacements),
-        reply: gearbox.replies()[mesh].clone(),
+impl MeshSample {
+    /// A mesh at the position that a gearbox has solved last; `None` without a mesh of that number.
+    pub fn at(gearbox: &StaticGearbox, position: &GearboxPosition, mesh: usize) -> Option<Self> {
+        let (state, reply) = (position.meshes.get(mesh)?, gearbox.replies().get(mesh)?);
+        let displacements = Vector12::from(state.displacements);
+        Some(Self { cycles: state.cycles, displacements, reply: reply.clone() })
     }
 }

@@ -47,6 +47,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("basins.html", include_str!("basins.html")),
         ("branch.html", include_str!("branch.html")),
         ("optimum.html", include_str!("optimum.html")),
+        ("gearbox.html", include_str!("gearbox.html")),
         ("plan.html", include_str!("plan.html")),
         ("study.html", include_str!("study.html")),
         ("chart.html", include_str!("chart.html")),
