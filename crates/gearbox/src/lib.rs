@@ -44,5 +44,5 @@ pub use static_result::{
 pub use structure::{Bearing, Disc, ElasticMesh, Machine, MeshSpring, Shaft, Structure};
 pub use supports::Supports;
 pub use train::{Mesh, Meshing, Train};
-pub use vibration::{Harmonic, MeanMesh, MeshExcitation, MeshSample, Vibration, own_cycle, rms};
+pub use vibration::{Harmonic, MeanMesh, MeshExcitation, MeshSample, Vibration, own_cycle, rms, turn_levers};
 pub use whirl::{Held, Rotors, WhirlMode, WhirlModes};

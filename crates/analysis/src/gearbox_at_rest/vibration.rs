@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearbox::{
     GearboxError, Held, MeanMesh, Mesh, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox, Structure,
-    Train, Vibration, WhirlModes, own_cycle,
+    Train, Vibration, WhirlModes, own_cycle, turn_levers,
 };
 use rayon::prelude::*;
 use scene::gearbox::{Gearbox, GearboxVibration};
@@ -66,7 +66,8 @@ impl Parts<'_> {
                 let (samples, errors) = cycle.map_err(|e| self.failed(e))?;
                 unless_cancelled(progress)?;
                 let nothing = || GearboxError::Count { what: "positions", found: 0, wanted: positions as usize };
-                let found = MeshExcitation::new(&samples, &errors, asked.orders as usize);
+                let turns = turn_levers(&self.meshes[own], &self.train.meshing()[own]).map_err(|e| self.failed(e))?;
+                let found = MeshExcitation::new(&samples, &errors, asked.orders as usize, turns);
                 found.ok_or_else(|| self.failed(nothing()))
             };
             (0..self.meshes.len()).map(one).collect()

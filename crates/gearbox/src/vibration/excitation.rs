@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
-use crate::{GearboxError, MeshElement, MeshReply, Vector12};
+use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, static_gearbox::guessed_lever};
 
 /// A mesh at one place of its cycle, in its own axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +47,28 @@ impl MeanMesh {
     }
 }
 
+/// Levers by which the turns of gear 1 and gear 2 press the flanks of a mesh, mm: those of its normal (theory (53)).
+///
+/// # Errors
+/// [`GearboxError::Mesh`] when the gears have no line of action.
+pub fn turn_levers(mesh: &Mesh, meshing: &Meshing) -> Result<[f64; 2], GearboxError> {
+    let lever = guessed_lever(mesh, meshing)?;
+    Ok([lever[5], lever[11]])
+}
+
+/// A tangent that does not resist a turn with the teeth: turns count by h_1 theta_1 + h_2 theta_2 alone.
+///
+/// ```text
+/// P'T P,   P: theta_i -> (h_1 theta_1 + h_2 theta_2)/(2 h_i)
+/// ```
+/// Contact points off the line of action have levers some 1e-4 unlike: left as they are, a free train would swing.
+fn turning_with_the_teeth(tangent: &SMatrix<f64, 12, 12>, [h1, h2]: [f64; 2]) -> SMatrix<f64, 12, 12> {
+    let mut p = SMatrix::<f64, 12, 12>::identity();
+    (p[(5, 5)], p[(5, 11)]) = (0.5, 0.5 * h2 / h1);
+    (p[(11, 5)], p[(11, 11)]) = (0.5 * h1 / h2, 0.5);
+    p.transpose() * tangent * p
+}
+
 impl MeshElement for MeanMesh {
     fn go_to(&mut self, _cycles: f64) -> Result<(), GearboxError> {
         Ok(())
@@ -79,9 +101,11 @@ pub struct MeshExcitation {
 
 impl MeshExcitation {
     /// Of samples evenly spaced over one cycle, with the transmission error (mm) of each; orders 1 .. `orders`, as far
-    /// as the samples have them: below half of their number. `None` without samples.
-    pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize) -> Option<Self> {
-        let mean = MeanMesh::of(samples)?;
+    /// as the samples have them: below half of their number. `turns`: [`turn_levers`]; the mean does not resist a turn with
+    /// the teeth. `None` without samples.
+    pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize, turns: [f64; 2]) -> Option<Self> {
+        let mut mean = MeanMesh::of(samples)?;
+        mean.tangent = turning_with_the_teeth(&mean.tangent, turns);
         let orders = 1..=orders.min(samples.len().saturating_sub(1) / 2);
         // Means are taken off first: what does not move has no round-off.
         let start =

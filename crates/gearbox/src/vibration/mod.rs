@@ -14,6 +14,6 @@ mod mesh_cycle;
 mod reduced;
 mod response;
 
-pub use excitation::{MeanMesh, MeshExcitation, MeshSample};
+pub use excitation::{MeanMesh, MeshExcitation, MeshSample, turn_levers};
 pub use forced::{Harmonic, Vibration, rms};
 pub use mesh_cycle::own_cycle;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearbox::{
     GearboxError, Held, LinearMesh, Machine, MeanMesh, Mesh, MeshElement, MeshExcitation, MeshReply, MeshSample,
-    Meshing, Operation, StaticGearbox, Structure, Torque, Vector12, Vibration, own_cycle,
+    Meshing, Operation, StaticGearbox, Structure, Torque, Vector12, Vibration, own_cycle, turn_levers,
 };
 use geometry::Sense;
 
@@ -73,7 +73,10 @@ pub fn cycles(structure: &Structure, meshes: &[Mesh], run: &Operation) -> Vec<(V
 /// A box that is turned by its input.
 pub fn vibration(structure: &Structure, meshes: &[Mesh], run: &Operation, held: &Held) -> Vibration {
     let own = cycles(structure, meshes, run);
-    let excitations = own.iter().map(|(s, te)| MeshExcitation::new(s, te, POSITIONS / 2).unwrap());
     let train = gearbox::Train::new(structure, meshes, &run.keys, run.input, run.sense).unwrap();
+    let excitations = own.iter().enumerate().map(|(i, (s, te))| {
+        let turns = turn_levers(&meshes[i], &train.meshing()[i]).unwrap();
+        MeshExcitation::new(s, te, POSITIONS / 2, turns).unwrap()
+    });
     Vibration::new(structure.clone(), (meshes, &train, run.sense), excitations.collect(), held).unwrap()
 }

@@ -23,7 +23,7 @@ fn elastic(mesh: &Mesh, train: &Train, i: usize, stiffness: f64) -> MeshExcitati
     let displacements = 1e-3 * h / h.norm_squared();
     let reply = own.clone().evaluate(&displacements).unwrap();
     let samples = [0.0, 0.25, 0.5, 0.75].map(|cycles| MeshSample { cycles, displacements, reply: reply.clone() });
-    MeshExcitation::new(&samples, &[], 1).unwrap()
+    MeshExcitation::new(&samples, &[], 1, [own.levers[0][5], own.levers[1][5]]).unwrap()
 }
 
 /// Pinion and wheel of a pair on shafts that only turn.
@@ -306,6 +306,37 @@ fn a_key_shifts_the_phase_of_its_own_mesh() {
             assert!((y - x * turn).norm() < 1e-4 * x.norm(), "mesh {} order {}: {x} {y}", a.mesh, a.order);
         }
     }
+}
+
+/// Contact points off the line of action have levers of their own: a tangent of several of them still lets the train turn
+/// with its teeth, and keeps what turning gear 1 alone meets.
+#[test]
+fn a_train_of_any_meshes_turns_on() {
+    let (structure, meshes) = heavy_stages();
+    let train = Train::new(&structure, &meshes, &[0.0; 6], 4, Sense::Ccw).unwrap();
+    let made = |i: usize, off: f64| {
+        let own = LinearMesh { stiffness: 2e5, ..spring(&meshes[i], &train.meshing()[i]) };
+        let replies = [1.0 + off, 1.0 - off].map(|more| {
+            let mut one = own.clone();
+            one.levers[1][5] *= more;
+            let h = Vector12::from_fn(|k, _| one.levers[k / 6][k % 6]);
+            one.evaluate(&(1e-3 * h / h.norm_squared())).unwrap()
+        });
+        let displacements = Vector12::zeros();
+        let samples = replies.map(|reply| MeshSample { cycles: 0.0, displacements, reply });
+        MeshExcitation::new(&samples, &[], 1, [own.levers[0][5], own.levers[1][5]]).unwrap()
+    };
+    let lowest = |off: f64| {
+        let excitations = vec![made(0, off), made(1, off)];
+        let held = Held { shafts: vec![0, 1, 2], turns: Vec::new() };
+        let parts = (&meshes[..], &train, Sense::Ccw);
+        let box_ = Vibration::new(structure.clone(), parts, excitations, &held).unwrap();
+        let found = box_.rotors().modes_at_rest().frequencies.clone();
+        (found, box_.mesh_stiffness()[0])
+    };
+    let ((even, stiffness), (off, other)) = (lowest(0.0), lowest(1e-3));
+    assert_eq!((even[0], off[0]), (0.0, 0.0), "the train turns on: {off:?}");
+    assert!((off[1] / even[1] - 1.0).abs() < 1e-5 && (other / stiffness - 1.0).abs() < 1e-5, "{off:?} beside {even:?}");
 }
 
 /// Meshes of an idler have one frequency: their answers are added up before they are squared, others after.
