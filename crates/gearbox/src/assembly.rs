@@ -1,7 +1,7 @@
 //! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79).
 
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::{GearboxError, Structure, Supports};
 
@@ -92,7 +92,22 @@ impl Assembly {
             }
             k.ger(spring.stiffness, &lever, &lever, 1.0);
         }
+        for mesh in &self.structure.elastic_meshes {
+            let at = mesh.discs.map(|d| self.discs[d]);
+            for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+                k[(at[i / 6] + i % 6, at[j / 6] + j % 6)] += 0.5 * (mesh.stiffness[(i, j)] + mesh.stiffness[(j, i)]);
+            }
+        }
         k
+    }
+
+    /// Displacements of both gears of a mesh out of those of all nodes; nothing moves where a disc is not there.
+    pub(crate) fn at_gears<T: nalgebra::ComplexField + Copy>(
+        &self,
+        discs: [usize; 2],
+        q: &DVector<T>,
+    ) -> SVector<T, 12> {
+        SVector::from_fn(|i, _| self.disc(discs[i / 6]).map_or(T::zero(), |at| q[at + i % 6]))
     }
 
     /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
@@ -124,12 +139,16 @@ impl Assembly {
         self.bearings[bearing]
     }
 
-    /// Consistent mass of the shafts, and that of the discs: t, t mm, t mm^2.
+    /// Consistent mass of the shafts, and that of discs and machines: t, t mm, t mm^2.
     pub fn mass(&self) -> DMatrix<f64> {
         let mut m = self.of_shafts(|line| &line.mass);
         for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
             let inertia = [disc.mass; 3].into_iter().chain([disc.diametral_inertia; 2]).chain([disc.polar_inertia]);
             inertia.enumerate().for_each(|(axis, value)| m[(at + axis, at + axis)] += value);
+        }
+        for machine in &self.structure.machines {
+            let at = self.discs[machine.disc] + 5;
+            m[(at, at)] += machine.inertia;
         }
         m
     }

@@ -8,7 +8,8 @@
 //! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
 //! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
-//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load.
+//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
+//! 8. [`Vibration`]: how it swings about that, driven by its meshes.
 //!
 //! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
 //! threads.
@@ -28,6 +29,7 @@ mod static_result;
 mod structure;
 mod supports;
 mod train;
+mod vibration;
 mod whirl;
 
 pub use assembly::Assembly;
@@ -39,7 +41,8 @@ pub use static_gearbox::{Operation, StaticGearbox, Torque};
 pub use static_result::{
     BearingState, GearboxCertificate, GearboxPosition, MeshState, ShaftLine, face_load_factor, line_load,
 };
-pub use structure::{Bearing, Disc, MeshSpring, Shaft, Structure};
+pub use structure::{Bearing, Disc, ElasticMesh, Machine, MeshSpring, Shaft, Structure};
 pub use supports::Supports;
 pub use train::{Mesh, Meshing, Train};
-pub use whirl::{Rotors, WhirlMode, WhirlModes};
+pub use vibration::{Harmonic, MeanMesh, MeshExcitation, MeshSample, Vibration, own_cycle, rms, turn_levers};
+pub use whirl::{Held, Rotors, WhirlMode, WhirlModes};

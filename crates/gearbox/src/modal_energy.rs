@@ -13,10 +13,12 @@ pub enum Component {
     Bearing(usize),
     /// The housing.
     Housing,
-    /// A mesh spring.
+    /// A mesh: springs first, then whole stiffnesses.
     Mesh(usize),
     /// A disc or gear body.
     Disc(usize),
+    /// A machine at an end of the train.
+    Machine(usize),
 }
 
 /// A part and its share of the energy, 0 .. 1.
@@ -34,7 +36,7 @@ pub struct ModalEnergy {
     /// Strain energy of shafts, bearings, housing and meshes. Empty where nothing is strained: a free motion whose
     /// frequency is due to gyroscopic moments alone.
     pub strain: Vec<EnergyShare>,
-    /// Kinetic energy of shafts and discs.
+    /// Kinetic energy of shafts, discs and machines.
     pub kinetic: Vec<EnergyShare>,
 }
 
@@ -67,12 +69,21 @@ impl ModalEnergy {
             let of = |p: &DVector<f64>| spring.stiffness * assembly.compression(i, p).powi(2);
             strain.push((Component::Mesh(i), of(&parts[0]) + of(&parts[1])));
         }
+        let springs = assembly.structure().springs.len();
+        for (i, mesh) in assembly.structure().elastic_meshes.iter().enumerate() {
+            let own = parts.each_ref().map(|p| assembly.at_gears(mesh.discs, p));
+            strain.push((Component::Mesh(springs + i), own.iter().map(|u| u.dot(&(mesh.stiffness * u))).sum()));
+        }
         for (i, disc) in assembly.structure().discs.iter().enumerate() {
             let Some(at) = assembly.disc(i) else { continue };
             let square = |axis: usize| shape[at + axis].norm_sqr();
             let shift: f64 = (0..3).map(square).sum();
             let turn = disc.diametral_inertia * (square(3) + square(4)) + disc.polar_inertia * square(5);
             kinetic.push((Component::Disc(i), disc.mass * shift + turn));
+        }
+        for (i, machine) in assembly.structure().machines.iter().enumerate() {
+            let Some(at) = assembly.disc(machine.disc) else { continue };
+            kinetic.push((Component::Machine(i), machine.inertia * shape[at + 5].norm_sqr()));
         }
         let total = |matrix: &DMatrix<f64>| parts.iter().map(|p| p.dot(&(matrix * p))).sum::<f64>();
         Self { strain: shares(&strain, total(k), ROUND_OFF * gross), kinetic: shares(&kinetic, total(m), 0.0) }

@@ -53,6 +53,8 @@ pub struct StaticGearbox {
     norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     last: Vec<(f64, DVector<f64>)>,
+    /// Meshes of the last position, in their own axes.
+    replies: Vec<MeshReply>,
 }
 
 impl StaticGearbox {
@@ -106,6 +108,7 @@ impl StaticGearbox {
             stiffness,
             norms,
             last: Vec::new(),
+            replies: Vec::new(),
         })
     }
 
@@ -162,7 +165,13 @@ impl StaticGearbox {
         last.truncate(2);
         self.follow(&mut replies, &found.last_step);
         let forces = self.in_common_axes(&replies);
+        self.replies.clone_from(&replies);
         Ok(position(self, Solved { angle, cycles, found, replies, forces, slices }))
+    }
+
+    /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
+    pub fn replies(&self) -> &[MeshReply] {
+        &self.replies
     }
 
     /// Forces of the meshes after a last small step.
@@ -229,7 +238,7 @@ fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<
 }
 
 /// Turn of vectors from a mesh's axes to the common ones.
-fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
+pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
     // Along an axis exactly: a pair alone stays the pair it is.
     let (sin, cos) = if direction == 0.0 { (0.0, 1.0) } else { direction.sin_cos() };
     let mut all = SMatrix::identity();
@@ -249,7 +258,8 @@ fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
     all
 }
 
-fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
+/// What displacements of both gears compress an evenly loaded mesh by, own axes.
+pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
     let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
     Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))

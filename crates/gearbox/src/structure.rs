@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use fem::beam::BeamPiece;
 use lumped::shaft18::MeshGeometry;
-use nalgebra::{DMatrix, Matrix6, Vector6};
+use nalgebra::{DMatrix, Matrix6, SMatrix, Vector6};
 
 use crate::GearboxError;
 
@@ -68,6 +68,28 @@ pub struct MeshSpring {
     pub stiffness: f64,
 }
 
+/// A mesh as a stiffness between its gears, tilts included: the mean of an exact contact's tangent, turned about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticMesh {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Gears 1 and 2, numbers of discs.
+    pub discs: [usize; 2],
+    /// Stiffness for displacements and turns of gear 1 and gear 2, common axes, symmetric: N/mm, N, N mm.
+    pub stiffness: SMatrix<f64, 12, 12>,
+}
+
+/// A machine behind a coupling that passes on torque alone: its rotor turns with the shaft and does not tilt with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// Name for messages and tables.
+    pub name: String,
+    /// Disc that it turns with.
+    pub disc: usize,
+    /// Inertia about its axis, t mm^2.
+    pub inertia: f64,
+}
+
 /// All of it. Lengths in mm, forces in N, masses in t; common axes x, y, z.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Structure {
@@ -82,6 +104,10 @@ pub struct Structure {
     pub housing: Option<DMatrix<f64>>,
     /// Meshes as springs.
     pub springs: Vec<MeshSpring>,
+    /// Meshes as whole stiffnesses.
+    pub elastic_meshes: Vec<ElasticMesh>,
+    /// Machines at the ends of the train.
+    pub machines: Vec<Machine>,
 }
 
 impl Disc {
@@ -173,6 +199,14 @@ impl Structure {
             for value in spring.levers.iter().flat_map(|h| h.iter()) {
                 finite(&spring.name, "lever of the mesh", *value)?;
             }
+        }
+        for machine in &self.machines {
+            self.has_discs(&machine.name, [machine.disc; 2])?;
+            not_negative(&machine.name, "inertia, t mm^2", machine.inertia)?;
+        }
+        for mesh in &self.elastic_meshes {
+            self.has_discs(&mesh.name, mesh.discs)?;
+            elastic(&mesh.name, "mesh stiffness", &DMatrix::from_column_slice(12, 12, mesh.stiffness.as_slice()))?;
         }
         Ok(())
     }

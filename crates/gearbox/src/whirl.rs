@@ -48,12 +48,23 @@ pub struct WhirlModes {
 /// Natural motions of an assembly at any speed; the modes at rest are found once.
 #[derive(Debug, Clone)]
 pub struct Rotors {
-    assembly: Assembly,
+    pub(crate) assembly: Assembly,
     stiffness: DMatrix<f64>,
     mass: DMatrix<f64>,
-    rest: Modes,
+    pub(crate) rest: Modes,
     /// Damping in the modes at rest.
-    damping: DMatrix<f64>,
+    pub(crate) damping: DMatrix<f64>,
+    /// Damping in the modes at rest that gives each of them the ratio 1: 2 W, 1/s.
+    pub(crate) unit_damping: DMatrix<f64>,
+}
+
+/// What does not move, or as a whole.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Held {
+    /// Shafts that are rigid in rigid bearings: they turn about their axes and do nothing else.
+    pub shafts: Vec<usize>,
+    /// Discs whose turn is given: a machine of any inertia.
+    pub turns: Vec<usize>,
 }
 
 impl Rotors {
@@ -65,18 +76,40 @@ impl Rotors {
     /// # Errors
     /// [`GearboxError::Matrix`] where a coordinate has no mass.
     pub fn new(assembly: Assembly) -> Result<Self, GearboxError> {
+        Self::holding(assembly, &Held::default())
+    }
+
+    /// The same with something held: q = B z, B'K B and B'M B.
+    ///
+    /// # Errors
+    /// As [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for what is not there.
+    pub fn holding(assembly: Assembly, held: &Held) -> Result<Self, GearboxError> {
         let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
         // Beyond this squares of frequencies are no numbers, and the search for them does not end.
         let steepest = stiffness.amax() / mass.diagonal().min();
         if steepest.is_nan() || steepest > MOST || mass.amax() > MOST {
             return Err(fem::FemError::NotFinite { row: 0, column: 0 }.into());
         }
-        let mut rest = natural_modes(&stiffness, &mass)?;
+        let mut rest = if *held == Held::default() {
+            natural_modes(&stiffness, &mass)?
+        } else {
+            let basis = basis(&assembly, held)?;
+            let of = |matrix: &DMatrix<f64>| {
+                let own = basis.transpose() * matrix * &basis;
+                0.5 * (&own + own.transpose())
+            };
+            let found = natural_modes(&of(&stiffness), &of(&mass))?;
+            Modes { shapes: &basis * found.shapes, ..found }
+        };
         let highest = rest.frequencies.last().copied().unwrap_or(0.0);
         let least = highest * (rest.frequencies.len() as f64 * f64::EPSILON).sqrt();
         rest.frequencies.iter_mut().filter(|w| **w < least).for_each(|w| *w = 0.0);
         let damping = rest.shapes.transpose() * assembly.damping() * &rest.shapes;
-        Ok(Self { assembly, stiffness, mass, rest, damping })
+        let unit_damping = DMatrix::from_diagonal(&DVector::from_iterator(
+            rest.frequencies.len(),
+            rest.frequencies.iter().map(|w| 2.0 * w),
+        ));
+        Ok(Self { assembly, stiffness, mass, rest, damping, unit_damping })
     }
 
     /// The assembly.
@@ -99,10 +132,7 @@ impl Rotors {
     /// # Errors
     /// [`GearboxError::Count`], [`GearboxError::OutOfRange`], [`GearboxError::Matrix`].
     pub fn whirl_modes(&self, speeds: &[f64]) -> Result<WhirlModes, GearboxError> {
-        let gyroscopic = self.assembly.gyroscopic(speeds)?;
-        let spin = self.rest.shapes.transpose() * gyroscopic * &self.rest.shapes;
-        // Skew-symmetric to the last bit: no damping by round-off.
-        let spin = 0.5 * (&spin - spin.transpose());
+        let spin = self.spin(speeds)?;
         let n = self.rest.frequencies.len();
         let omega = &self.rest.frequencies;
         let state = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
@@ -129,6 +159,14 @@ impl Rotors {
         found.modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
         found.decaying.sort_by(f64::total_cmp);
         Ok(found)
+    }
+
+    /// Gyroscopic matrix in the modes at rest.
+    pub(crate) fn spin(&self, speeds: &[f64]) -> Result<DMatrix<f64>, GearboxError> {
+        let gyroscopic = self.assembly.gyroscopic(speeds)?;
+        let spin = self.rest.shapes.transpose() * gyroscopic * &self.rest.shapes;
+        // Skew-symmetric to the last bit: no damping by round-off.
+        Ok(0.5 * (&spin - spin.transpose()))
     }
 
     fn mode(&self, value: c64, eta: &DVector<Complex<f64>>, speeds: &[f64]) -> WhirlMode {
@@ -163,6 +201,30 @@ impl Rotors {
         };
         self.assembly.lines().zip(speeds).map(of_shaft).collect()
     }
+}
+
+/// B: a column for each way in which something can still move.
+fn basis(assembly: &Assembly, held: &Held) -> Result<DMatrix<f64>, GearboxError> {
+    let count = assembly.structure().shafts.len();
+    if let Some(&shaft) = held.shafts.iter().find(|s| **s >= count) {
+        return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
+    }
+    let count = assembly.structure().discs.len();
+    let turn = |&disc: &usize| {
+        let no_disc = || GearboxError::NoDisc { part: "a turn that is held".into(), disc, count };
+        assembly.disc(disc).map(|at| at + 5).ok_or_else(no_disc)
+    };
+    let turns = held.turns.iter().map(turn).collect::<Result<Vec<_>, _>>()?;
+    let mut columns = Vec::new();
+    for (shaft, (at, line)) in assembly.lines().enumerate() {
+        let all = at..at + line.stiffness.nrows();
+        if !held.shafts.contains(&shaft) {
+            columns.extend(all.filter(|i| !turns.contains(i)).map(|i| vec![i]));
+        } else if !turns.iter().any(|i| all.contains(i)) {
+            columns.push(all.skip(5).step_by(6).collect());
+        }
+    }
+    Ok(DMatrix::from_fn(assembly.size(), columns.len(), |i, j| if columns[j].contains(&i) { 1.0 } else { 0.0 }))
 }
 
 fn complex(x: c64) -> Complex<f64> {

@@ -57,6 +57,7 @@ mod static_sink;
 pub mod study_files;
 mod summary;
 pub mod tables;
+pub mod universal;
 pub mod view;
 
 pub use columnar::write_parquet;

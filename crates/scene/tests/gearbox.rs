@@ -55,6 +55,12 @@ fn mistakes_are_told_with_their_place() {
         ("set = [\"contact.slices=16\"]", "set = [\"contact.slice=16\"]", "slice", "slices"),
         ("torque_nm = 740.0", "torque_nm = -740.0", "torque_nm", ""),
         ("rotation = \"cw\"", "rotation = \"left\"", "\"left\"", "ccw"),
+        ("from_rpm = 400.0", "from_rpm = 7000.0", "speeds from 7000 to 6000", "higher one"),
+        ("to_rpm = 6000.0\n", "", "[vibration] has no `to_rpm`", "a number"),
+        ("damping_ratio = 0.03", "damping_ratio = 0", "damping_ratio", ""),
+        ("input = \"free\"", "input = \"loose\"", "\"loose\"", "held"),
+        ("orders = 3", "order = 3", "`order`", "did you mean `orders`?"),
+        ("inertia_kg_m2 = 0.02", "inertia_kg_m2 = -0.02", "inertia_kg_m2", ""),
         ("[analysis]", "[housing]\nmatrix_n_mm_rad = [[1.0]]\n[analysis]", "a matrix of 1 rows", "give 36"),
         (
             "matrix_n_mm_rad = [\n",
@@ -68,6 +74,81 @@ fn mistakes_are_told_with_their_place() {
         let (message, hint) = (error.to_string(), error.hint().unwrap_or_default());
         assert!(message.contains("two_stages.toml:") && message.contains(said), "{to}: {message}");
         assert!(hint.contains(hinted) || message.contains(hinted), "{to}: {message}; {hint}");
+    }
+}
+
+/// A housing out of a punch file and out of CalculiX's substructure is the matrix itself, node by node in the order of the
+/// bearings.
+#[test]
+fn a_housing_is_read_from_files_of_other_programs() {
+    let scratch = tempfile::tempdir().unwrap();
+    for name in ["two_stages.toml", "first_stage.toml", "second_stage.toml"] {
+        std::fs::copy(folder().join(name), scratch.path().join(name)).unwrap();
+    }
+    // Nodes 100, 90, .. 50; each on springs, tied to node 100 along x.
+    let nodes: Vec<i64> = (0..6).map(|i| 100 - 10 * i).collect();
+    let mut wanted = vec![vec![0.0; 36]; 36];
+    for i in 0..36 {
+        wanted[i][i] = 1e5 + i as f64;
+        if i % 6 == 0 && i > 0 {
+            (wanted[0][i], wanted[i][0]) = (-1e3, -1e3);
+        }
+    }
+    let mut punch = "DMIG    KHOUSE  0       6       2       0                       36\n".to_owned();
+    for (column, values) in wanted.iter().enumerate() {
+        punch += &format!("DMIG*   KHOUSE          {:>16}{:>16}\n", nodes[column / 6], column % 6 + 1);
+        for (row, value) in values.iter().enumerate().skip(column).filter(|(_, v)| **v != 0.0) {
+            let value = format!("{value:.9E}").replace('E', "D+0").replace("D+0-", "D-0");
+            punch += &format!("*       {:>16}{:>16}{value:>16}\n", nodes[row / 6], row % 6 + 1);
+        }
+    }
+    std::fs::write(scratch.path().join("house.pch"), &punch).unwrap();
+    let of_row = |i: usize| if i % 6 < 3 { nodes[i / 6] } else { nodes[i / 6] + 1 };
+    let mut substructure =
+        "**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES= 36,LINEAR\n** ELEMENT NODES\n".to_owned();
+    for six in (0..36).collect::<Vec<usize>>().chunks(6) {
+        substructure += "**";
+        six.iter().for_each(|i| substructure += &format!("{:>10},", of_row(*i)));
+        substructure += "\n";
+    }
+    for i in 0..36 {
+        substructure += &if i == 0 { "         1\n".to_owned() } else { format!("{:>10},{:>10}\n", i + 1, i % 3 + 1) };
+    }
+    substructure += "*MATRIX,TYPE=STIFFNESS\n";
+    for (i, row) in wanted.iter().enumerate() {
+        for four in row[..=i].chunks(4) {
+            four.iter().for_each(|x| substructure += &format!("{x:.13E},"));
+            substructure += "\n";
+        }
+    }
+    std::fs::write(scratch.path().join("house.mtx"), &substructure).unwrap();
+    let parse = |keys: &str| {
+        let text = text().replacen("[analysis]", &format!("[housing]\n{keys}[analysis]"), 1);
+        Gearbox::parse(&text, &scratch.path().join("two_stages.toml"))
+    };
+    let list = |by: i64| format!("{:?}", nodes.iter().map(|n| n + by).collect::<Vec<_>>());
+    let punched = parse(&format!("file = \"house.pch\"\nmatrix = \"khouse\"\nnodes = {}\n", list(0))).unwrap();
+    assert_eq!(punched.housing.as_ref(), Some(&wanted));
+    let condensed = parse(&format!("file = \"house.mtx\"\nnodes = {}\nturn_nodes = {}\n", list(0), list(1))).unwrap();
+    assert_eq!(condensed.housing.as_ref(), Some(&wanted));
+
+    let nodes = list(0);
+    let cases = [
+        (format!("nodes = {nodes}\n"), "has no `file`"),
+        ("file = \"house.pch\"\n".to_owned(), "has no `nodes`"),
+        ("file = \"house.pch\"\nnodes = [1, 2]\n".to_owned(), "has 2 nodes, and there are 6 bearings"),
+        ("file = \"house.pch\"\nnodes = [100, 90, 80, 70, 60, 60]\n".to_owned(), "node 60 twice"),
+        ("file = \"house.pch\"\nnodes = [100, 90, 80, 70, 60, 40]\n".to_owned(), "of node 50, which is no seat"),
+        (format!("file = \"none.pch\"\nnodes = {nodes}\n"), "cannot be read"),
+        (format!("file = \"house.pch\"\nmatrix = \"MAAX\"\nnodes = {nodes}\n"), "without a matrix MAAX"),
+        (format!("file = \"house.pch\"\nmatrix_n_mm_rad = [[1.0]]\nnodes = {nodes}\n"), "told twice"),
+        (format!("file = \"house.mtx\"\nnodes = {nodes}\n"), "which is no seat"),
+        (format!("file = \"first_stage.toml\"\nnodes = {nodes}\n"), "without a DMIG entry"),
+    ];
+    for (keys, said) in cases {
+        let error = parse(&keys).map(|_| ()).expect_err(said);
+        assert!(error.to_string().contains("two_stages.toml:") && error.to_string().contains(said), "{keys}{error}");
+        assert!(error.hint().is_some(), "{error}");
     }
 }
 

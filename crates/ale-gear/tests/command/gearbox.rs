@@ -35,15 +35,20 @@ fn a_gearbox_is_solved_into_its_folder() {
     let mean = ste.iter().sum::<f64>() / 8.0;
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
-    assert_eq!(
-        summary["files"],
-        serde_json::json!(["line_load.csv", "positions.csv", "report.html", "report.json.gz", "shafts.csv"])
-    );
+    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv positions.csv \
+                 report.html report.json.gz response.csv rms.csv shafts.csv";
+    assert_eq!(summary["files"], serde_json::json!(files.split(' ').collect::<Vec<_>>()));
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
+    let of_vibration = ["modes.csv", "campbell.csv", "response.csv", "bearing_forces.csv", "bearing_forces.uff"]
+        .map(|name| (name, scratch.read(&format!("o/{name}"))));
+    swings(&scratch, &summary);
     // Again into the same folder, quietly, on one thread.
     let again = scratch.ale_gear(["gearbox", "two_stages.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
     assert_eq!((again.code, again.stdout.as_str()), (Some(0), ""), "{}", again.stderr);
     assert!(scratch.read("o/positions.csv") == positions, "bits go with the number of threads");
+    for (name, first) in of_vibration {
+        assert!(scratch.read(&format!("o/{name}")) == first, "bits of {name} go with the number of threads");
+    }
 }
 
 /// A mistake ends with status 2, line and hint, and leaves no folder.
@@ -63,4 +68,93 @@ fn mistakes_in_a_gearbox_are_told_with_their_line() {
     let run = scratch.ale_gear(["gearbox", "none.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(!Path::new(&scratch.path().join("o")).exists());
+}
+
+/// What the files of a vibration say of each other.
+fn swings(scratch: &Scratch, summary: &serde_json::Value) {
+    let own = &summary["vibration"];
+    let modes = scratch.read("o/modes.csv");
+    let frequencies = column(&modes, "frequency_hz");
+    assert_eq!(frequencies.len(), 24, "twelve at the first speed and at the last");
+    let told = own["modes"][2]["frequency_hz"].as_f64().unwrap();
+    assert!((frequencies[2] / told - 1.0).abs() < 1e-12, "{} beside {told} Hz", frequencies[2]);
+    // Shares of strain, then of kinetic energy, add up to 1.
+    let names: Vec<&str> = modes.lines().next().unwrap().split(',').collect();
+    for what in ["strain_share", "kinetic_share"] {
+        let columns: Vec<Vec<f64>> = names.iter().filter(|n| n.ends_with(what)).map(|n| column(&modes, n)).collect();
+        for row in 0..24 {
+            let sum: f64 = columns.iter().map(|c| c[row]).sum();
+            assert!((sum - 1.0).abs() < 1e-6, "{what} of row {row}: {sum}");
+        }
+    }
+    let campbell = scratch.read("o/campbell.csv");
+    assert_eq!(column(&campbell, "mode_3_hz")[0], frequencies[2]);
+    let (speeds, line) = (column(&campbell, "input_rpm"), column(&campbell, "mesh_1_order_2_hz"));
+    for (speed, line) in speeds.iter().zip(line) {
+        assert!((line / (2.0 * 17.0 * speed / 60.0) - 1.0).abs() < 1e-12, "{line} Hz at {speed}/min");
+    }
+    assert_eq!(scratch.read("o/crossings.csv").lines().count() - 1, own["crossings"].as_u64().unwrap() as usize);
+    // The largest root mean square of the summary is that of the rows.
+    let rms = column(&scratch.read("o/rms.csv"), "mesh_2_dynamic_force_rms_n");
+    let largest = own["meshes"][1]["largest_dynamic_force_rms_n"].as_f64().unwrap();
+    assert!((rms.iter().copied().fold(0.0, f64::max) / largest - 1.0).abs() < 1e-12);
+    let response = scratch.read("o/response.csv");
+    let (at, force) = (column(&response, "input_rpm"), column(&response, "mesh_2_dynamic_force_n"));
+    let last: f64 = at.iter().zip(&force).filter(|(s, _)| **s == at[at.len() - 1]).map(|(_, f)| 0.5 * f * f).sum();
+    assert!((last.sqrt() / rms[rms.len() - 1] - 1.0).abs() < 1e-12, "orders of unlike frequencies add up by squares");
+    universal(scratch);
+    assert!(scratch.read("o/report.html").matches("<figure").count() == 3);
+}
+
+/// A strict reader of the universal file: marks, numbers of datasets, columns of every record; values against the table.
+fn universal(scratch: &Scratch) {
+    let (text, table) = (scratch.read("o/bearing_forces.uff"), scratch.read("o/bearing_forces.csv"));
+    let lines: Vec<&str> = text.lines().collect();
+    let mut sets: Vec<&[&str]> = Vec::new();
+    let mut rest = &lines[..];
+    while let [mark, inside @ ..] = rest {
+        assert_eq!(*mark, "    -1");
+        let end = inside.iter().position(|l| *l == "    -1").unwrap();
+        sets.push(&inside[..end]);
+        rest = &inside[end + 1..];
+    }
+    assert_eq!((sets[0][0], sets.len()), ("   164", 1 + 216));
+    assert_eq!(&sets[0][1][..30], "        10mm (newton)         ");
+    let whole = |line: &str, from: usize, to: usize| line[from..to].trim().parse::<usize>().unwrap();
+    let real = |line: &str, from: usize, to: usize| line[from..to].trim().parse::<f64>().unwrap();
+    let orders = 6;
+    for (number, set) in sets[1..].iter().enumerate() {
+        assert_eq!(set[0], "    58");
+        assert!(set.iter().all(|l| l.len() <= 80 && l.is_ascii()), "{set:?}");
+        let (node, direction) = (whole(set[6], 41, 51), whole(set[6], 51, 55));
+        assert_eq!((whole(set[6], 0, 5), whole(set[6], 5, 15)), (12, number + 1));
+        assert_eq!((node, direction), (number / 6 % 6 + 1, number % 6 + 1), "{}", set[6]);
+        let count = whole(set[7], 10, 20);
+        assert_eq!((whole(set[7], 0, 10), count, whole(set[7], 20, 30)), (6, 57, 1));
+        assert_eq!((whole(set[8], 0, 10), set[8][47..].trim()), (18, "Hz"));
+        let moment = usize::from(direction > 3);
+        assert_eq!((whole(set[9], 0, 10), whole(set[9], 10, 15), whole(set[9], 15, 20)), (13, moment, 1));
+        assert_eq!(set[9][47..].trim(), ["N", "N mm"][moment]);
+        let values: Vec<f64> =
+            set[12..].iter().flat_map(|l| (0..l.len() / 20).map(move |i| real(l, 20 * i, 20 * i + 20))).collect();
+        assert_eq!(values.len(), 2 * count);
+        let (what, unit) = (["force", "moment"][moment], ["n", "nmm"][moment]);
+        let axis = ["x", "y", "z"][(direction - 1) % 3];
+        let name = |end: &str| format!("bearing_{node}_housing_{what}_{axis}_{end}");
+        let place = number / 36;
+        let own = |name: &str| column(&table, name).into_iter().skip(place).step_by(orders).collect::<Vec<f64>>();
+        if number % 17 != 0 {
+            // Some of all: a column of the table is read anew each time.
+            continue;
+        }
+        let (size, phase, frequency) = (own(&name(unit)), own(&name("phase_deg")), own("frequency_hz"));
+        let largest = size.iter().copied().fold(0.0, f64::max);
+        for i in 0..count {
+            let (sin, cos) = phase[i].to_radians().sin_cos();
+            let off = (values[2 * i] - size[i] * cos).hypot(values[2 * i + 1] - size[i] * sin);
+            assert!(off <= 1e-11 * largest, "{}: {off} N", name(unit));
+            let at = real(set[7], 30, 43) + i as f64 * real(set[7], 43, 56);
+            assert!((at / frequency[i] - 1.0).abs() < 1e-4, "{at} beside {} Hz", frequency[i]);
+        }
+    }
 }

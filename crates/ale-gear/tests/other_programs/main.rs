@@ -18,8 +18,8 @@ use testing::Suite;
 fn main() -> ExitCode {
     let browser = testing::browser();
     let ccx = testing::program("ccx", "-v");
-    let [parquet, meshes, fields, schema] =
-        ["pyarrow.parquet", "meshio, gmsh", "meshio, pyvista", "jsonschema, tomllib"].map(testing::python);
+    let [parquet, meshes, fields, schema, universal] =
+        ["pyarrow.parquet", "meshio, gmsh", "meshio, pyvista", "jsonschema, tomllib", "pyuff"].map(testing::python);
     Suite::new(file!())
         .always("a_machine_without_programs_has_its_tests_left_out_by_name", left_out_by_name)
         .needing(&browser, "a_static_report_shows_charts_pattern_and_gears_with_fields", browser::static_report)
@@ -36,6 +36,7 @@ fn main() -> ExitCode {
         .needing(&parquet, "pyarrow_reads_the_bits_of_the_history", readers::pyarrow)
         .needing(&meshes, "gmsh_and_meshio_open_a_generated_mesh", readers::gmsh_and_meshio)
         .needing(&fields, "meshio_and_pyvista_read_what_was_computed", vtu::meshio_and_pyvista)
+        .needing(&universal, "pyuff_reads_the_forces_of_the_bearings", readers::pyuff)
         .needing(&schema, "an_independent_validator_agrees_with_the_schema", schema::validator)
         .run()
 }
@@ -54,12 +55,12 @@ fn left_out_by_name() {
     let said = String::from_utf8(run.stdout).unwrap();
     assert!(run.status.success(), "{said}");
     let ignored: Vec<&str> = said.lines().filter(|l| l.contains(" ... ignored (no ")).collect();
-    assert_eq!(ignored.len(), 14, "{said}");
-    assert!(said.contains("test result: ok. 0 passed; 0 failed; 14 ignored; "), "{said}");
+    assert_eq!(ignored.len(), 15, "{said}");
+    assert!(said.contains("test result: ok. 0 passed; 0 failed; 15 ignored; "), "{said}");
     let summary = testing::summary(folder.path());
     for line in ignored {
         let name = line.trim_start_matches("test ").split(' ').next().unwrap();
         assert!(summary.contains(name), "{name} is not in\n{summary}");
     }
-    assert!(summary.lines().last().unwrap().contains(": 14 of 14 LEFT OUT (no "), "{summary}");
+    assert!(summary.lines().last().unwrap().contains(": 15 of 15 LEFT OUT (no "), "{summary}");
 }

@@ -1,4 +1,4 @@
-//! Files of ale-gear in the programs of others: Parquet in pyarrow, meshes in meshio and Gmsh.
+//! Files of ale-gear in the programs of others: Parquet in pyarrow, meshes in meshio and Gmsh, universal files in pyuff.
 
 use std::process::Command;
 
@@ -41,4 +41,22 @@ pub fn gmsh_and_meshio(_: ()) {
     assert!(names.contains(&"bore".into()) && names.contains(&"flank_left_29".into()), "{found}");
     assert!(found["least_det_j"].as_f64().unwrap() > 0.0, "{found}");
     assert!((found["half_width"].as_f64().unwrap() - 10.0).abs() < 1e-12, "{found}");
+}
+
+/// Every function of the universal file is a column of the table of bearing forces, to the digits of both.
+pub fn pyuff(_: ()) {
+    let scratch = Scratch::new();
+    let file = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
+    let run = scratch.ale_gear(["gearbox", file.as_str(), "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let found = read(&scratch, ["uff", "o"]);
+    // Two meshes of three orders, six bearings of six components.
+    assert_eq!(found["functions"], 2 * 3 * 6 * 6, "{found}");
+    assert_eq!((&found["types"][0], &found["length_factor"]), (&Value::from(164), &Value::from(1000.0)), "{found}");
+    // Spectra, complex and of double precision, even steps.
+    assert_eq!(found["kind"], serde_json::json!([[12, 6, 1]]), "{found}");
+    assert_eq!(found["units"], serde_json::json!([["Hz", "N"], ["Hz", "N mm"]]), "{found}");
+    assert!(found["worst"].as_f64().unwrap() < 1e-11, "{found}");
+    // First frequency and step have six digits.
+    assert!(found["worst_hz"].as_f64().unwrap() < 1e-4, "{found}");
 }

@@ -67,7 +67,7 @@ pub fn generalised(name: &str) -> String {
     for i in 1..words.len() {
         let is_number = words[i].parse::<i64>().is_ok();
         match words[i - 1] {
-            "pair" | "mesh" | "bearing" | "output" if is_number => words[i] = "<k>",
+            "pair" | "mesh" | "bearing" | "output" | "shaft" | "gear" if is_number => words[i] = "<k>",
             "harmonic" if is_number => words[i] = "<h>",
             "mode" | "order" if is_number => words[i] = "<n>",
             _ => {}

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use dynamics::RigidBody;
 use gearbox::{ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Train};
 use geometry::Sense;
 use ltca::StaticOptions;
 use reduction::ElasticGear;
-use scene::{Driver, Rotation, Scene, gearbox::Gearbox};
+use scene::{BodyScene, Driver, Rotation, Scene, gearbox::Gearbox};
 
 use crate::{
     AnalysisError, GearCache,
@@ -14,6 +15,7 @@ use crate::{
     gears,
     inputs::{meshes_of, settled_scene},
     meshes::SceneMesh,
+    motion::body,
     options::options,
 };
 
@@ -50,6 +52,32 @@ pub(super) fn meshes(file: &Gearbox, train: Option<&Train>) -> Result<Vec<Mesh>,
     (0..file.meshes.len()).map(one).collect()
 }
 
+/// Solves with the windows of the meshes as they are, and again with one more tooth where one of them starves.
+pub(super) fn widening<T>(
+    (file, meshes): (&Gearbox, &[Mesh]),
+    reduced: &mut [ReducedMesh],
+    cache: &dyn GearCache,
+    warnings: &mut Vec<String>,
+    mut solve: impl FnMut(&[ReducedMesh]) -> Result<T, AnalysisError>,
+) -> Result<T, AnalysisError> {
+    loop {
+        let error = match solve(reduced) {
+            Ok(solved) => return Ok(solved),
+            Err(error) => error,
+        };
+        let starved = match &error {
+            AnalysisError::Gearbox { source, .. } => source.starved_mesh(),
+            _ => None,
+        };
+        let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
+        let Some(i) = which else { return Err(error) };
+        if !reduced[i].widen(file, i, &meshes[i], cache)? {
+            return Err(error);
+        }
+        warnings.push(format!("{error}; the window was widened to {} teeth", reduced[i].window()));
+    }
+}
+
 /// The gears of a mesh, reduced.
 pub(super) struct ReducedMesh {
     pub scene: Scene,
@@ -81,6 +109,12 @@ impl ReducedMesh {
     /// Its contact.
     pub fn element(&self, mesh: &Mesh) -> Result<Box<dyn MeshElement>, GearboxError> {
         Ok(Box::new(ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.gears), self.options.clone())?))
+    }
+
+    /// Mass and inertia of pinion and wheel, of their meshes.
+    pub fn bodies(&self) -> Result<[RigidBody; 2], AnalysisError> {
+        let of = |i: usize| body(&self.scene, &self.meshes, &BodyScene::default(), i);
+        Ok([of(0)?, of(1)?])
     }
 
     /// Teeth of its window.

@@ -5,19 +5,25 @@
 //! | `parts` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
 //! | `result` | what is read off all positions |
+//! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
+mod inertia;
 mod meshes;
 mod parts;
 mod result;
+mod swings;
+mod vibration;
 
 use std::f64::consts::TAU;
 
-use gearbox::{GearboxError, GearboxPosition, StaticGearbox, Train};
+use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
 use scene::gearbox::Gearbox;
 
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
-use meshes::ReducedMesh;
+use meshes::{ReducedMesh, widening};
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
+pub use swings::{ExcitationLine, GearboxSwings, OrderForces, SpeedRms};
+use vibration::Parts;
 
 /// Solves a gearbox at all positions that its file asks for.
 ///
@@ -53,41 +59,39 @@ pub fn solve_gearbox(
     for own in &reduced {
         warnings.extend(own.warnings.clone());
     }
-    let positions = loop {
-        let solved = run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
+    let all = (file, &meshes[..]);
+    let (positions, samples) = widening(all, &mut reduced, cache, &mut warnings, |reduced| {
+        run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
             let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
                 reduced[i].element(mesh)
             });
             let mut gearbox = made.map_err(failed)?;
             let mut positions: Vec<GearboxPosition> = Vec::new();
+            let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
             for angle in angles(file, gearbox.train()) {
-                match gearbox.solve(angle) {
-                    Ok(position) => positions.push(position),
-                    Err(e) => return Err(failed(e)),
+                let position = gearbox.solve(angle).map_err(failed)?;
+                for (i, own) in samples.iter_mut().enumerate() {
+                    own.extend(MeshSample::at(&gearbox, &position, i));
                 }
+                positions.push(position);
                 progress.tick();
                 unless_cancelled(progress)?;
             }
-            Ok(positions)
-        });
-        let error = match solved {
-            Ok(positions) => break positions,
-            Err(error) => error,
-        };
-        // A starved window asks for one more tooth.
-        let starved = match &error {
-            AnalysisError::Gearbox { source, .. } => source.starved_mesh(),
-            _ => None,
-        };
-        let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
-        let Some(i) = which else { return Err(error) };
-        if !reduced[i].widen(file, i, &meshes[i], cache)? {
-            return Err(error);
+            Ok((positions, samples))
+        })
+    })?;
+    let vibration = match &file.vibration {
+        None => None,
+        Some(asked) => {
+            let parts = Parts { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
+            let found = widening(all, &mut reduced, cache, &mut warnings, |reduced| {
+                vibration::vibration(&parts, asked, reduced, &samples, observer)
+            });
+            Some(found?)
         }
-        warnings.push(format!("{error}; the window was widened to {} teeth", reduced[i].window()));
     };
     warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
-    Ok(result::result(file, meshes, &train, &reduced, positions, warnings))
+    Ok(result::result(file, meshes, &train, &reduced, (positions, vibration), warnings))
 }
 
 fn count(file: &Gearbox) -> u32 {

@@ -4,7 +4,7 @@ use gearbox::{GearboxPosition, Mesh, Train, face_load_factor};
 use geometry::GearPair;
 use scene::gearbox::Gearbox;
 
-use super::meshes::ReducedMesh;
+use super::{GearboxSwings, meshes::ReducedMesh};
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -25,6 +25,8 @@ pub struct GearboxResult {
     pub certificate: [f64; 2],
     /// All positions.
     pub positions: Vec<GearboxPosition>,
+    /// How it swings about them, where that is asked for.
+    pub vibration: Option<GearboxSwings>,
     /// What the user should hear.
     pub warnings: Vec<String>,
 }
@@ -93,7 +95,7 @@ pub(super) fn result(
     meshes: Vec<Mesh>,
     train: &Train,
     reduced: &[ReducedMesh],
-    positions: Vec<GearboxPosition>,
+    (positions, vibration): (Vec<GearboxPosition>, Option<GearboxSwings>),
     warnings: Vec<String>,
 ) -> GearboxResult {
     let all = &positions;
@@ -137,6 +139,7 @@ pub(super) fn result(
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
         pairs: meshes.into_iter().map(|m| m.pair).collect(),
         positions,
+        vibration,
         warnings,
     }
 }

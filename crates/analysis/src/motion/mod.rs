@@ -44,7 +44,7 @@ pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
     motion_options, refuse_unstable, scheme, speed, stated_body, steady_by, torque,
 };
-pub(crate) use setup::{Elasticity, MotionInputs, PreparedMotion, Vibration, mesh_range_hz, pair_drive, prepare};
+pub(crate) use setup::{Elasticity, MotionInputs, PreparedMotion, Vibration, body, mesh_range_hz, pair_drive, prepare};
 pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};

@@ -101,3 +101,69 @@ fn a_gearbox_that_does_not_fit_is_wrong_input() {
     assert!(!error.is_without_result() && error.hint().is_some(), "{error}");
     assert!(error.to_string().contains("92 mm apart"), "{error}");
 }
+
+const VIBRATION: &str = "[vibration]\nfrom_rpm = 100.0\nto_rpm = 3000.0\nspeeds = 5\norders = 2\nmodes = 3\n";
+
+/// Two gears of stated inertia on shafts that only turn: the one mode that is left is k cos^2 (r_b1^2/J_1 + r_b2^2/J_2)
+/// with the mean stiffness that the result tells, and the shafts' own inertia.
+#[test]
+fn a_pair_that_only_turns_has_the_frequency_of_two_discs() {
+    let inertia = |name: &str, value: f64| {
+        let before = format!("[[gear]]\nname = \"{name}\"\n");
+        (before.clone(), format!("{before}polar_inertia_kg_m2 = {value:?}\n"))
+    };
+    let text = [inertia("a", 0.002), inertia("b", 0.03)].into_iter().fold(held(0.0, VIBRATION), |text, (from, to)| {
+        assert!(text.contains(&from));
+        text.replace(&from, &to)
+    });
+    let found = solve(&Gearbox::parse(&text, &folder().join("held.toml")).unwrap()).unwrap_or_else(|e| panic!("{e}"));
+    let swings = found.vibration.unwrap();
+    let pair = &found.pairs[0];
+    let shaft = 7.85e-9 * std::f64::consts::PI / 32.0 * 20f64.powi(4) * 100.0;
+    let square: f64 = [(&pair.pinion, 2.0), (&pair.wheel, 30.0)]
+        .map(|(g, j)| (g.base_radius() * pair.base_helix_angle().cos()).powi(2) / (j + shaft))
+        .iter()
+        .sum();
+    let wanted = (swings.mesh_stiffness[0] * square).sqrt();
+    let own = &swings.modes[0].modes;
+    assert_eq!(own.len(), 1, "one coordinate against the other");
+    // Off-diagonal entries of the tangent are those of one lever but for how the load lies over the width.
+    assert!((own[0].frequency / wanted - 1.0).abs() < 1e-3, "{} beside {wanted} rad/s", own[0].frequency);
+    // Some 14 N/(um mm) of face width.
+    assert!((150e3..500e3).contains(&swings.mesh_stiffness[0]), "{} N/mm", swings.mesh_stiffness[0]);
+    // The ring of the stated gear is that of its mesh but for the turn.
+    assert_eq!(swings.gears.iter().map(|g| g.polar_inertia).collect::<Vec<_>>(), [2.0, 30.0]);
+}
+
+/// The two stages of the scenes swing: a mode at each shape of it, forces that balance, gears as heavy as their rings.
+#[test]
+fn the_two_stages_of_the_scenes_swing() {
+    let file = Gearbox::read(&folder().join("two_stages.toml")).unwrap();
+    let found = solve(&file).unwrap_or_else(|e| panic!("{e}"));
+    let swings = found.vibration.unwrap();
+    // Gear 1: a ring from bore to somewhere between root and tip.
+    let ring = |outer: f64| 7.85e-9 * std::f64::consts::PI * 24.0 * 0.25 * (outer * outer - 25.0 * 25.0);
+    let (root, tip) = (38.0, 50.0);
+    assert!((ring(root)..ring(tip)).contains(&swings.gears[0].mass), "{} t", swings.gears[0].mass);
+    assert_eq!(swings.gears[3].mass, 3.2e-3, "what is stated holds");
+    assert_eq!((swings.speeds.len(), swings.orders.len(), swings.orders[0].len()), (57, 57, 6));
+    assert_eq!((swings.modes.len(), swings.modes[0].modes.len(), swings.campbell.frequencies.len()), (21, 12, 12));
+    // A turn of the input is 17 cycles of the first mesh and 17 19/53 of the second.
+    let wanted = [17.0, 34.0, 51.0, 17.0 * 19.0 / 53.0];
+    for (line, wanted) in swings.lines.iter().zip(wanted) {
+        assert!((line.order / wanted - 1.0).abs() < 1e-12, "{line:?}");
+    }
+    assert!(!swings.campbell.resonances.is_empty());
+    for (rms, orders) in swings.rms.iter().zip(&swings.orders) {
+        for mesh in 0..2 {
+            let square: f64 = orders.iter().map(|o| 0.5 * o.mesh_forces[mesh].norm_sqr()).sum();
+            assert!((rms.mesh_forces[mesh] / square.sqrt() - 1.0).abs() < 1e-12, "no two orders have one frequency");
+            assert!(rms.mesh_forces[mesh] > 0.0);
+        }
+    }
+    // Both meshes feel each other.
+    assert!(swings.orders.iter().flatten().all(|o| o.mesh_forces[1 - o.mesh].norm() > 0.0));
+    let mean = found.meshes.iter().map(|m| m.normal_force).fold(0.0, f64::max);
+    let (_, peak) = swings.peak(|r| r.mesh_forces[0]).unwrap();
+    assert!(peak < mean, "vibration beyond the load is not linear: {peak} of {mean} N");
+}

@@ -6,5 +6,7 @@ mod pairs;
 mod rest;
 mod ross;
 mod rotors;
+mod swinging;
 mod trains;
+mod vibration;
 mod whirl;

@@ -8,7 +8,7 @@ use minijinja::{context, value::Serde};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use super::space::BoxInSpace;
+use super::{space::BoxInSpace, vibration_page::vibration};
 use crate::{
     Cost, ReportError,
     charts::{Curve, embedded, line_chart},
@@ -41,6 +41,7 @@ pub fn gearbox_page(
             shafts => Serde(shafts(file, result)),
             bearings => Serde(bearings(file, result)),
             charts => charts(file, result),
+            vibration => file.vibration.as_ref().zip(result.vibration.as_ref()).map(|(v, s)| vibration(file, v, s)),
             certificate => result.certificate,
             cost => Serde(serde_json::to_value(cost).unwrap_or_default()),
         },

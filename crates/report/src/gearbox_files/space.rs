@@ -1,9 +1,12 @@
 //! A gearbox in space, as the script of its page draws it.
 
-use analysis::gearbox_at_rest::GearboxResult;
+use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
+use gearbox::WhirlMode;
+use nalgebra::Complex;
 use scene::gearbox::Gearbox;
 use serde::Serialize;
 
+use super::swing_words::{first_modes, holders};
 use crate::{
     charts::Numbers,
     view::{Packed, Shape},
@@ -92,7 +95,7 @@ impl BoxInSpace {
             gears: (0..file.gears.len()).filter_map(|i| gear(file, result, i)).collect(),
             bearings: bearings.collect(),
             frames: frames.collect(),
-            modes: Vec::new(),
+            modes: result.vibration.iter().flat_map(|swings| modes(file, result, swings)).collect(),
         }
     }
 }
@@ -108,6 +111,32 @@ fn shaft(file: &Gearbox, result: &GearboxResult, i: usize) -> ShaftInSpace {
     let sections = sections.collect();
     let nodes = result.positions.first().map_or_else(Vec::new, |p| p.shafts[i].positions.clone());
     ShaftInSpace { origin: own.origin, sections, nodes: Numbers(nodes, DIGITS), ratio: result.ratios[i] }
+}
+
+/// Natural motions at the lowest speed, cut into shafts; their nodes are those that stand at rest.
+fn modes(file: &Gearbox, result: &GearboxResult, swings: &GearboxSwings) -> Vec<ModeInSpace> {
+    let counts: Vec<usize> = match result.positions.first() {
+        Some(p) => p.shafts.iter().map(|line| 6 * line.positions.len()).collect(),
+        None => return Vec::new(),
+    };
+    let cut = |values: &[f64]| {
+        let mut rest = values;
+        let own = counts.iter().map(move |n| {
+            let (own, others) = rest.split_at((*n).min(rest.len()));
+            rest = others;
+            own.to_vec()
+        });
+        own.collect::<Vec<_>>()
+    };
+    let one = |(i, mode): (usize, &WhirlMode)| {
+        let parts = [|c: &Complex<f64>| c.re, |c: &Complex<f64>| c.im];
+        let parts = parts.map(|of| cut(&mode.shape.iter().map(of).collect::<Vec<_>>()));
+        let held = holders(file, &mode.energy.strain);
+        let name = format!("mode {}: {:.1} Hz, {held}", i + 1, mode.frequency / std::f64::consts::TAU);
+        ModeInSpace { name, shafts: Packed::new(parts.as_flattened().iter().map(Vec::as_slice)) }
+    };
+    let all = first_modes(swings).iter().filter(|m| m.shape.len() == counts.iter().sum::<usize>());
+    all.enumerate().map(one).collect()
 }
 
 /// A gear as the first mesh that it is in knows it.

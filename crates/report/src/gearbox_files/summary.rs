@@ -1,9 +1,12 @@
 //! `summary.json` of a gearbox.
 
-use analysis::gearbox_at_rest::GearboxResult;
-use scene::gearbox::Gearbox;
-use serde_json::json;
+use std::f64::consts::TAU;
 
+use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
+use scene::gearbox::{Gearbox, GearboxVibration};
+use serde_json::{Value, json};
+
+use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 use crate::{Cost, SUMMARY_SCHEMA};
 
 /// What is known of a gearbox but its rows. Names of keys bear the units.
@@ -37,7 +40,8 @@ pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, file
         .iter()
         .map(|o| json!({ "mean_lag_urad": 1e6 * o.mean, "peak_to_peak_lag_urad": 1e6 * o.peak_to_peak }));
     let shafts = file.shafts.iter().zip(&result.ratios).map(|(s, ratio)| json!({ "name": s.name, "ratio": ratio }));
-    let all = json!({
+    let vibration = file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own));
+    let mut all = json!({
         "schema": SUMMARY_SCHEMA,
         "gearbox": file.file.display().to_string(),
         "name": file.name,
@@ -52,5 +56,55 @@ pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, file
         "warnings": result.warnings,
         "files": files,
     });
+    // Keys of what is not asked for are not there.
+    if let Some(vibration) = vibration {
+        all["vibration"] = vibration;
+    }
     format!("{all:#}\n")
+}
+
+/// Headline of a vibration.
+fn vibration(file: &Gearbox, (asked, swings): (&GearboxVibration, &GearboxSwings)) -> Value {
+    let modes = first_modes(swings).iter().map(|mode| {
+        json!({
+            "frequency_hz": mode.frequency / TAU,
+            "strain": holders(file, &mode.energy.strain),
+            "kinetic": holders(file, &mode.energy.kinetic),
+        })
+    });
+    let meshes = mesh_peaks(file, swings).into_iter().enumerate().map(|(i, peak)| {
+        json!({
+            "name": peak.name,
+            "mean_mesh_stiffness_n_per_um": 1e-3 * swings.mesh_stiffness[i],
+            "ste_amplitude_um": swings.transmission_error[i].iter().map(|x| 1e3 * x).collect::<Vec<_>>(),
+            "largest_dynamic_force_rms_n": peak.force_n,
+            "at_input_rpm": peak.input_rpm,
+        })
+    });
+    let bearings = bearing_peaks(file, swings).into_iter().map(|peak| {
+        json!({
+            "name": peak.name,
+            "largest_housing_force_rms_n": peak.force_n,
+            "at_input_rpm": peak.input_rpm,
+        })
+    });
+    let gears = file.gears.iter().zip(&swings.gears).map(|(gear, body)| {
+        json!({
+            "name": gear.name,
+            "mass_kg": 1e3 * body.mass,
+            "transverse_inertia_kg_m2": 1e-3 * body.transverse_inertia,
+            "polar_inertia_kg_m2": 1e-3 * body.polar_inertia,
+        })
+    });
+    json!({
+        "input_rpm": asked.speeds_rpm,
+        "damping_ratio": asked.damping_ratio,
+        "modes": modes.collect::<Vec<_>>(),
+        "modes_kept": swings.modes_kept,
+        "modes_up_to_hz": swings.modes_up_to_hz,
+        "crossings": swings.campbell.resonances.len(),
+        "meshes": meshes.collect::<Vec<_>>(),
+        "bearings": bearings.collect::<Vec<_>>(),
+        "gears": gears.collect::<Vec<_>>(),
+    })
 }

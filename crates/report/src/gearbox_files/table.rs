@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use analysis::gearbox_at_rest::GearboxResult;
+use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
 use scene::gearbox::Gearbox;
 
+use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 use crate::{Cost, tables::fixed};
 
 /// Meshes, bearings and outputs, a line each.
@@ -49,8 +50,28 @@ pub fn gearbox_table(file: &Gearbox, result: &GearboxResult, cost: &Cost) -> Str
     let [residual, balance] = result.certificate;
     let _ = writeln!(t, "  worst residual {residual:.0e}, bodies in balance to {balance:.0e}");
     let _ = writeln!(t, "  {} positions in {:.2} s", result.positions.len(), cost.wall_s);
+    if let Some(swings) = &result.vibration {
+        t += &vibration(file, swings);
+    }
     for warning in &result.warnings {
         let _ = writeln!(t, "\nwarning: {warning}");
+    }
+    t
+}
+
+/// Modes that are listed.
+const LISTED: usize = 8;
+
+/// Lowest natural frequencies, and where meshes and bearings are loaded most.
+fn vibration(file: &Gearbox, swings: &GearboxSwings) -> String {
+    let mut t = format!("\n  {:<6} {:>10}  {:<44}\n", "mode", "Hz", "strain energy in");
+    for (i, mode) in first_modes(swings).iter().take(LISTED).enumerate() {
+        let frequency = fixed(mode.frequency / std::f64::consts::TAU, 1);
+        let _ = writeln!(t, "  {:<6} {frequency:>10}  {}", i + 1, holders(file, &mode.energy.strain));
+    }
+    let _ = writeln!(t, "\n  {:<24} {:>12} {:>14}", "vibration", "rms N, most", "at input 1/min");
+    for peak in mesh_peaks(file, swings).iter().chain(&bearing_peaks(file, swings)) {
+        let _ = writeln!(t, "  {:<24} {:>12} {:>14}", peak.name, fixed(peak.force_n, 2), fixed(peak.input_rpm, 0));
     }
     t
 }

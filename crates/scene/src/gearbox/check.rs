@@ -7,8 +7,10 @@ use toml::Spanned;
 use super::file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
 };
+use super::housing::housing;
 use super::raw::{RawBearing, RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
 use super::values::{Checked, missing, needed_number, needed_word, numbers, square};
+use super::vibration::vibration;
 use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Word, study::setting};
 
 /// Parts of a kind at the most: the matrices are dense.
@@ -41,10 +43,8 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     };
     let input = input(s, table, &names)?;
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
-    let housing = match &raw.housing {
-        Some(table) => Some(square(s, table, &table.get_ref().matrix_n_mm_rad, 6 * bearings.len())?),
-        None => None,
-    };
+    let parts = [meshes.len(), bearings.len()];
+    let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let name = raw.name.unwrap_or_else(|| {
         s.file.file_stem().map_or_else(|| "gearbox".into(), |stem| stem.to_string_lossy().into_owned())
     });
@@ -60,6 +60,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
         housing,
         positions_per_cycle: s.whole("positions_per_cycle", &raw.analysis.positions_per_cycle, 32, 1, 10_000)?,
         cycles: s.whole("cycles", &raw.analysis.cycles, 1, 1, 10_000)?,
+        vibration: raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?,
     })
 }
 
@@ -112,6 +113,7 @@ fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<GearboxShaft> {
         sections: all(&raw.section, |t| section(s, t))?,
         young_mpa: s.number("young_mpa", &raw.young_mpa, 2.06e5, 1.0, 1e12)?,
         poisson: s.number("poisson", &raw.poisson, 0.3, 0.0, 0.499)?,
+        density: 1e-12 * s.number("density_kg_m3", &raw.density_kg_m3, 7850.0, 1.0, 1e5)?,
         held: raw.held.as_ref().is_some_and(|h| *h.get_ref()),
         name,
     })
@@ -177,7 +179,16 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
     let name = needed_word(s, table, "[[gear]]", "name", &raw.name, "a name that meshes call it by")?;
     let (shaft, position) = place(s, table, "[[gear]]", (&raw.shaft, &raw.position_mm), shafts)?;
     let key = s.number("key_deg", &raw.key_deg, 0.0, -360.0, 360.0)?.to_radians();
-    Ok(GearboxGear { name, shaft, position, key })
+    let stated = |key: &str, value: &Number, unit: f64, least: f64| {
+        let read = value.is_some().then(|| s.number(key, value, 0.0, least, 1e12)).transpose();
+        read.map(|x| x.map(|x| unit * x))
+    };
+    let inertia = [
+        stated("mass_kg", &raw.mass_kg, 1e-3, 1e-9)?,
+        stated("transverse_inertia_kg_m2", &raw.transverse_inertia_kg_m2, 1e3, 1e-15)?,
+        stated("polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 1e3, 1e-15)?,
+    ];
+    Ok(GearboxGear { name, shaft, position, key, inertia })
 }
 
 fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Checked<GearboxMesh> {
@@ -235,14 +246,16 @@ fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) ->
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[input]", (&raw.shaft, &raw.position_mm), shafts)?;
     let rotation = s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?;
-    Ok(GearboxInput { shaft, position, rotation })
+    let inertia = 1e3 * s.number("inertia_kg_m2", &raw.inertia_kg_m2, 0.0, 0.0, 1e12)?;
+    Ok(GearboxInput { shaft, position, rotation, inertia })
 }
 
 fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) -> Checked<GearboxTorque> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[torque]]", (&raw.shaft, &raw.position_mm), shafts)?;
     let torque = 1e3 * needed_number(s, table, "[[torque]]", "torque_nm", &raw.torque_nm, 0.0, 1e12)?;
-    Ok(GearboxTorque { shaft, position, torque })
+    let inertia = 1e3 * s.number("inertia_kg_m2", &raw.inertia_kg_m2, 0.0, 0.0, 1e12)?;
+    Ok(GearboxTorque { shaft, position, torque, inertia })
 }
 
 /// Shaft and place of a part.

@@ -29,6 +29,8 @@ pub struct Gearbox {
     pub positions_per_cycle: u32,
     /// Cycles of the first mesh.
     pub cycles: u32,
+    /// Vibration about where it stands, where it is asked for.
+    pub vibration: Option<GearboxVibration>,
 }
 
 /// A shaft.
@@ -44,6 +46,8 @@ pub struct GearboxShaft {
     pub young_mpa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Density, t/mm^3.
+    pub density: f64,
     /// Rigid in rigid bearings.
     pub held: bool,
 }
@@ -83,6 +87,8 @@ pub struct GearboxGear {
     pub position: f64,
     /// Angle of tooth 0 against the mark of the shaft, rad.
     pub key: f64,
+    /// Mass (t), inertia about an axis across its own and about its own (t mm^2), where they are stated.
+    pub inertia: [Option<f64>; 3],
 }
 
 /// Two gears in mesh.
@@ -106,6 +112,8 @@ pub struct GearboxInput {
     pub position: f64,
     /// Sense in which it turns.
     pub rotation: Rotation,
+    /// Inertia of the machine there about its axis, t mm^2.
+    pub inertia: f64,
 }
 
 /// A load on a shaft, against its rotation.
@@ -117,4 +125,23 @@ pub struct GearboxTorque {
     pub position: f64,
     /// N mm, >= 0.
     pub torque: f64,
+    /// Inertia of the machine there about its axis, t mm^2.
+    pub inertia: f64,
+}
+
+/// Vibration about equilibrium, order by order of the meshes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxVibration {
+    /// Speeds of the input, first and last, 1/min.
+    pub speeds_rpm: [f64; 2],
+    /// How many of them, evenly spaced, 2 at least.
+    pub speeds: u32,
+    /// Orders of each mesh.
+    pub orders: u32,
+    /// Damping ratio of all modes.
+    pub damping_ratio: f64,
+    /// Natural frequencies that are told.
+    pub modes: u32,
+    /// Whether the turn of the input is given; else it is free and has the inertia of its machine.
+    pub held_input: bool,
 }

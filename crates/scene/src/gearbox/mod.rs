@@ -4,14 +4,17 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
-//! | `raw`, `check`, `values` | its words, and what they mean: every complaint is made here |
+//! | `raw`, `check`, `values`, `housing`, `vibration` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
+mod housing;
 mod raw;
 mod read;
 mod values;
+mod vibration;
 
 pub use file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
+    GearboxVibration,
 };

@@ -7,19 +7,23 @@ use crate::spanned::{Number, Numbers, Rows, Switch, Whole, Word, Words};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[
-    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis"]),
-    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "held"]),
+    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "vibration"]),
+    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "density_kg_m3", "held"]),
     ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
     (
         "[bearing]",
         &["name", "shaft", "position_mm", "stiffness_n_per_mm", "tilt_stiffness_nm_per_rad", "matrix_n_mm_rad"],
     ),
-    ("[gear]", &["name", "shaft", "position_mm", "key_deg"]),
+    (
+        "[gear]",
+        &["name", "shaft", "position_mm", "key_deg", "mass_kg", "transverse_inertia_kg_m2", "polar_inertia_kg_m2"],
+    ),
     ("[mesh]", &["name", "scene", "set", "pinion", "wheel"]),
-    ("input", &["shaft", "position_mm", "rotation"]),
-    ("[torque]", &["shaft", "position_mm", "torque_nm"]),
-    ("housing", &["matrix_n_mm_rad"]),
+    ("input", &["shaft", "position_mm", "rotation", "inertia_kg_m2"]),
+    ("[torque]", &["shaft", "position_mm", "torque_nm", "inertia_kg_m2"]),
+    ("housing", &["matrix_n_mm_rad", "file", "matrix", "nodes", "turn_nodes"]),
     ("analysis", &["positions_per_cycle", "cycles"]),
+    ("vibration", &["from_rpm", "to_rpm", "speeds", "orders", "damping_ratio", "modes", "input"]),
 ];
 
 /// The same, as messages look them up.
@@ -45,6 +49,7 @@ pub(super) struct RawGearbox {
     pub housing: Option<Spanned<RawHousing>>,
     #[serde(default)]
     pub analysis: RawAnalysis,
+    pub vibration: Option<Spanned<RawVibration>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -56,6 +61,7 @@ pub(super) struct RawShaft {
     pub section: Vec<Spanned<RawSection>>,
     pub young_mpa: Number,
     pub poisson: Number,
+    pub density_kg_m3: Number,
     pub held: Switch,
 }
 
@@ -85,6 +91,9 @@ pub(super) struct RawGear {
     pub shaft: Word,
     pub position_mm: Number,
     pub key_deg: Number,
+    pub mass_kg: Number,
+    pub transverse_inertia_kg_m2: Number,
+    pub polar_inertia_kg_m2: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -103,6 +112,7 @@ pub(super) struct RawInput {
     pub shaft: Word,
     pub position_mm: Number,
     pub rotation: Word,
+    pub inertia_kg_m2: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -111,12 +121,17 @@ pub(super) struct RawTorque {
     pub shaft: Word,
     pub position_mm: Number,
     pub torque_nm: Number,
+    pub inertia_kg_m2: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawHousing {
     pub matrix_n_mm_rad: Rows,
+    pub file: Word,
+    pub matrix: Word,
+    pub nodes: Option<Spanned<Vec<i64>>>,
+    pub turn_nodes: Option<Spanned<Vec<i64>>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -124,4 +139,16 @@ pub(super) struct RawHousing {
 pub(super) struct RawAnalysis {
     pub positions_per_cycle: Whole,
     pub cycles: Whole,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawVibration {
+    pub from_rpm: Number,
+    pub to_rpm: Number,
+    pub speeds: Whole,
+    pub orders: Whole,
+    pub damping_ratio: Number,
+    pub modes: Whole,
+    pub input: Word,
 }

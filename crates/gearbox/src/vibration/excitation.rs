@@ -1,0 +1,131 @@
+//! What a mesh is on average through its cycle, and what it does beside that. Theory (86), (87).
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Complex, SMatrix, SVector};
+
+use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, static_gearbox::guessed_lever};
+
+/// A mesh at one place of its cycle, in its own axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSample {
+    /// Mesh cycles ([`crate::Train::cycles`]).
+    pub cycles: f64,
+    /// Displacements of both gears, mm and rad.
+    pub displacements: Vector12,
+    /// Forces there, and their tangent.
+    pub reply: MeshReply,
+}
+
+/// A mesh that is linear about its mean: f = f_0 + T (q - q_0), at any phase.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeanMesh {
+    /// q_0, mm and rad.
+    pub displacements: Vector12,
+    /// f_0, N and N mm.
+    pub force: Vector12,
+    /// T = df/dq, symmetric: N/mm, N, N mm.
+    pub tangent: SMatrix<f64, 12, 12>,
+    /// Mean of the sum of the normal forces, N.
+    pub normal_force: f64,
+}
+
+impl MeanMesh {
+    /// Means of some samples; `None` without any.
+    pub fn of(samples: &[MeshSample]) -> Option<Self> {
+        if samples.is_empty() {
+            return None;
+        }
+        let share = 1.0 / samples.len() as f64;
+        let tangent = share * samples.iter().map(|s| s.reply.tangent).sum::<SMatrix<f64, 12, 12>>();
+        Some(Self {
+            displacements: share * samples.iter().map(|s| s.displacements).sum::<Vector12>(),
+            force: share * samples.iter().map(|s| s.reply.force).sum::<Vector12>(),
+            tangent: 0.5 * (tangent + tangent.transpose()),
+            normal_force: share * samples.iter().map(|s| s.reply.normal_force).sum::<f64>(),
+        })
+    }
+}
+
+/// Levers by which the turns of gear 1 and gear 2 press the flanks of a mesh, mm: those of its normal (theory (53)).
+///
+/// # Errors
+/// [`GearboxError::Mesh`] when the gears have no line of action.
+pub fn turn_levers(mesh: &Mesh, meshing: &Meshing) -> Result<[f64; 2], GearboxError> {
+    let lever = guessed_lever(mesh, meshing)?;
+    Ok([lever[5], lever[11]])
+}
+
+/// A tangent that does not resist a turn with the teeth: turns count by h_1 theta_1 + h_2 theta_2 alone.
+///
+/// ```text
+/// P'T P,   P: theta_i -> (h_1 theta_1 + h_2 theta_2)/(2 h_i)
+/// ```
+/// Contact points off the line of action have levers some 1e-4 unlike: left as they are, a free train would swing.
+fn turning_with_the_teeth(tangent: &SMatrix<f64, 12, 12>, [h1, h2]: [f64; 2]) -> SMatrix<f64, 12, 12> {
+    let mut p = SMatrix::<f64, 12, 12>::identity();
+    (p[(5, 5)], p[(5, 11)]) = (0.5, 0.5 * h2 / h1);
+    (p[(11, 5)], p[(11, 11)]) = (0.5 * h1 / h2, 0.5);
+    p.transpose() * tangent * p
+}
+
+impl MeshElement for MeanMesh {
+    fn go_to(&mut self, _cycles: f64) -> Result<(), GearboxError> {
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+        let force = self.force + self.tangent * (displacements - self.displacements);
+        Ok(MeshReply { force, tangent: self.tangent, normal_force: self.normal_force })
+    }
+}
+
+/// A mesh for vibration: its mean, and the force by which it differs from that order by order.
+///
+/// ```text
+/// f(c) = f_0 + T (q - q_0) + g(c),   g_k = 2/N sum_j (f_j - T q_j) exp(-2 pi i k c_j)
+/// ```
+/// c: mesh cycles; f_j, q_j, T_j: at rest under load; T: the mean of T_j. Where forces at rest do not change, as in any
+/// train without a ring, g is -T times the displacements of the loaded transmission error: mean mesh stiffness times
+/// the harmonics of the STE. What else is in it is the resultant that moves over the width as contact lines do. The
+/// linear answer at rest is the loaded gearbox at rest, exactly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshExcitation {
+    /// The mean.
+    pub mean: MeanMesh,
+    /// g_1, g_2, ... (peak of a cosine over the cycles, forces on both gears in the mesh's own axes): N, N mm.
+    pub orders: Vec<SVector<Complex<f64>, 12>>,
+    /// Single-sided amplitudes of the loaded transmission error of the same orders, mm, where it is given.
+    pub transmission_error: Vec<Complex<f64>>,
+}
+
+impl MeshExcitation {
+    /// Of samples evenly spaced over one cycle, with the transmission error (mm) of each; orders 1 .. `orders`, as far
+    /// as the samples have them: below half of their number. `turns`: [`turn_levers`]; the mean does not resist a turn with
+    /// the teeth. `None` without samples.
+    pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize, turns: [f64; 2]) -> Option<Self> {
+        let mut mean = MeanMesh::of(samples)?;
+        mean.tangent = turning_with_the_teeth(&mean.tangent, turns);
+        let orders = 1..=orders.min(samples.len().saturating_sub(1) / 2);
+        // Means are taken off first: what does not move has no round-off.
+        let start =
+            |s: &MeshSample| (s.reply.force - mean.force) - mean.tangent * (s.displacements - mean.displacements);
+        let wave = |order: usize, s: &MeshSample| {
+            Complex::from_polar(2.0 / samples.len() as f64, -TAU * (order as f64 * s.cycles).fract())
+        };
+        let force = |k: usize| {
+            let one = |s: &MeshSample| start(s).map(|x| Complex::from(x) * wave(k, s));
+            samples.iter().map(one).sum::<SVector<Complex<f64>, 12>>()
+        };
+        let level = transmission_error.iter().sum::<f64>() / transmission_error.len().max(1) as f64;
+        let error = |k: usize| {
+            let one = |(s, te): (&MeshSample, &f64)| wave(k, s) * (te - level);
+            samples.iter().zip(transmission_error).map(one).sum::<Complex<f64>>()
+        };
+        Some(Self {
+            orders: orders.clone().map(force).collect(),
+            transmission_error: orders.map(error).collect(),
+            mean,
+        })
+    }
+}

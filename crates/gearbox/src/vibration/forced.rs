@@ -1,0 +1,214 @@
+//! Orders of all meshes over speed. Theory (90).
+
+use std::f64::consts::TAU;
+
+use geometry::Sense;
+use nalgebra::{Complex, DMatrix, DVector, SMatrix};
+
+use super::{MeshExcitation, response::Spinning};
+use crate::{
+    Assembly, ElasticMesh, GearboxError, Held, Mesh, Rotors, Structure, Train, Vector12,
+    static_gearbox::{guessed_lever, turn},
+};
+
+/// A gearbox with mass that swings about its equilibrium, its meshes linear.
+#[derive(Debug, Clone)]
+pub struct Vibration {
+    rotors: Rotors,
+    /// Spin of each shaft over that of the input, about +z.
+    ratios: Vec<f64>,
+    meshes: Vec<SwingingMesh>,
+}
+
+/// What is known of a mesh.
+#[derive(Debug, Clone)]
+struct SwingingMesh {
+    discs: [usize; 2],
+    excitation: MeshExcitation,
+    /// Turn of its axes to the common ones.
+    turn: SMatrix<f64, 12, 12>,
+    /// What displacements compress an evenly loaded mesh by.
+    lever: Vector12,
+    /// Cycles with the input at its start, and cycles a rad of the input.
+    start: f64,
+    cycles: f64,
+}
+
+/// What one order of one mesh does at one speed; amplitudes are peaks of Re(x exp(i w t)), t = 0 where the input is at
+/// its start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Harmonic {
+    /// Mesh that excites.
+    pub mesh: usize,
+    /// Order of its frequency, from 1.
+    pub order: usize,
+    /// Angular frequency, rad/s.
+    pub frequency: f64,
+    /// Displacements of all coordinates of the [`Assembly`], mm and rad.
+    pub displacements: DVector<Complex<f64>>,
+    /// Dynamic normal force of every mesh, N, by the torque on its gear 1; positive presses more.
+    pub mesh_forces: Vec<Complex<f64>>,
+    /// Force and moment of each bearing on the housing, six a bearing: N, N mm. Springs alone.
+    pub bearing_forces: DVector<Complex<f64>>,
+}
+
+impl Vibration {
+    /// Of a structure with mass, its `meshes` with their train, and what each of them does (in their order). The mesh
+    /// springs of the structure are to be empty.
+    ///
+    /// # Errors
+    /// [`GearboxError`]: another number of excitations, or as [`Rotors::holding`].
+    pub fn new(
+        structure: Structure,
+        (meshes, train, sense): (&[Mesh], &Train, Sense),
+        excitations: Vec<MeshExcitation>,
+        held: &Held,
+    ) -> Result<Self, GearboxError> {
+        if excitations.len() != meshes.len() {
+            let (found, wanted) = (excitations.len(), meshes.len());
+            return Err(GearboxError::Count { what: "excitations of meshes", found, wanted });
+        }
+        let (start, one) = (train.cycles(0.0), train.cycles(1.0));
+        let mut swinging = Vec::with_capacity(meshes.len());
+        let mut elastic_meshes = Vec::with_capacity(meshes.len());
+        for (i, (mesh, excitation)) in meshes.iter().zip(excitations).enumerate() {
+            let meshing = &train.meshing()[i];
+            let turn = turn(meshing.direction);
+            let stiffness = -turn * excitation.mean.tangent * turn.transpose();
+            elastic_meshes.push(ElasticMesh { name: mesh.name.clone(), discs: mesh.discs, stiffness });
+            let (lever, cycles) = (guessed_lever(mesh, meshing)?, (one[i] - start[i]).abs());
+            swinging.push(SwingingMesh { discs: mesh.discs, excitation, turn, lever, start: start[i], cycles });
+        }
+        let rotors = Rotors::holding(Assembly::new(Structure { elastic_meshes, ..structure })?, held)?;
+        let ratios = train.ratios().iter().map(|r| r * sense.sign() as f64).collect();
+        Ok(Self { rotors, ratios, meshes: swinging })
+    }
+
+    /// The same with modes up to `highest` (rad/s) and what forces at gears and bearings need beyond, gyroscopic
+    /// moments of discs among them ([`Rotors::reduced`]).
+    ///
+    /// # Errors
+    /// None that [`Vibration::new`] has let pass.
+    pub fn reduced(&self, highest: f64) -> Result<Self, GearboxError> {
+        let assembly = self.rotors.assembly();
+        let structure = assembly.structure();
+        let heavy = structure.discs.iter().enumerate().filter(|(_, d)| d.polar_inertia > 0.0).map(|(i, _)| i);
+        let discs = self.meshes.iter().flat_map(|m| m.discs).chain(heavy).filter_map(|d| assembly.disc(d));
+        let held = structure.bearings.iter().enumerate().flat_map(|(i, bearing)| {
+            let at = assembly.bearing(i);
+            (0..6).filter(|k| bearing.stiffness[(*k, *k)] > 0.0).map(move |k| at + k)
+        });
+        let mut at: Vec<usize> = discs.flat_map(|d| d..d + 6).chain(held).collect();
+        at.sort_unstable();
+        at.dedup();
+        let loads = DMatrix::from_fn(assembly.size(), at.len(), |i, j| f64::from(u8::from(i == at[j])));
+        Ok(Self { rotors: self.rotors.reduced(highest, &loads)?, ..self.clone() })
+    }
+
+    /// Shafts, gears and mean meshes.
+    pub fn rotors(&self) -> &Rotors {
+        &self.rotors
+    }
+
+    /// Spins of all shafts with the input at `speed`, rad/s about +z.
+    pub fn speeds(&self, speed: f64) -> Vec<f64> {
+        self.ratios.iter().map(|r| r * speed).collect()
+    }
+
+    /// Mesh frequency over the turns of the input, of each mesh: its order, as the input counts.
+    pub fn mesh_orders(&self) -> Vec<f64> {
+        self.meshes.iter().map(|m| m.cycles * TAU).collect()
+    }
+
+    /// Mean stiffness of each mesh along its normal, N/mm: what turning gear 1 alone meets.
+    ///
+    /// ```text
+    /// k = -T_66/h_6^2      h: lever of the normal, theory (53)
+    /// ```
+    pub fn mesh_stiffness(&self) -> Vec<f64> {
+        self.meshes.iter().map(|m| -m.excitation.mean.tangent[(5, 5)] / (m.lever[5] * m.lever[5])).collect()
+    }
+
+    /// What each mesh does.
+    pub fn excitations(&self) -> impl Iterator<Item = &MeshExcitation> {
+        self.meshes.iter().map(|m| &m.excitation)
+    }
+
+    /// All orders of all meshes with the input at `speed` (rad/s, above 0), mesh after mesh.
+    ///
+    /// ```text
+    /// w = k dc/dt,   f = g_k exp(2 pi i k c(0)),   dynamic force = g_k exp(2 pi i k c(0)) + T x
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Rotors::response`].
+    pub fn harmonics(&self, speed: f64, damping_ratio: f64) -> Result<Vec<Harmonic>, GearboxError> {
+        if !(speed.is_finite() && speed > 0.0) {
+            let part = "the input".into();
+            return Err(GearboxError::OutOfRange { part, quantity: "speed, rad/s", value: speed });
+        }
+        let spinning = Spinning::new(&self.rotors, &self.speeds(speed), damping_ratio)?;
+        let mut all = Vec::new();
+        for (mesh, own) in self.meshes.iter().enumerate() {
+            for order in 1..=own.excitation.orders.len() {
+                all.push(self.harmonic(&spinning, mesh, order, speed)?);
+            }
+        }
+        Ok(all)
+    }
+
+    fn harmonic(
+        &self,
+        spinning: &Spinning<'_>,
+        mesh: usize,
+        order: usize,
+        speed: f64,
+    ) -> Result<Harmonic, GearboxError> {
+        let own = &self.meshes[mesh];
+        let phase = Complex::from_polar(1.0, TAU * (order as f64 * own.start).fract());
+        let exciting = own.excitation.orders[order - 1] * phase;
+        let assembly = self.rotors.assembly();
+        let mut force = DVector::zeros(assembly.size());
+        let common = complex(&own.turn) * exciting;
+        for (g, disc) in own.discs.iter().enumerate() {
+            let Some(at) = assembly.disc(*disc) else { continue };
+            (0..6).for_each(|k| force[at + k] += common[6 * g + k]);
+        }
+        let frequency = order as f64 * TAU * own.cycles * speed;
+        let displacements = spinning.amplitudes(frequency, &force)?;
+        let of_mesh = |(i, m): (usize, &SwingingMesh)| {
+            let moved = complex(&m.turn.transpose()) * assembly.at_gears(m.discs, &displacements);
+            let mut f = complex(&m.excitation.mean.tangent) * moved;
+            if i == mesh {
+                f += exciting;
+            }
+            -f[5] / m.lever[5]
+        };
+        let mesh_forces = self.meshes.iter().enumerate().map(of_mesh).collect();
+        let parts = [displacements.map(|x| x.re), displacements.map(|x| x.im)];
+        let [re, im] = parts.map(|q| assembly.supports().forces(&assembly.at_bearings(&q)));
+        let bearing_forces = DVector::from_fn(re.len(), |i, _| -Complex::new(re[i], im[i]));
+        Ok(Harmonic { mesh, order, frequency, displacements, mesh_forces, bearing_forces })
+    }
+}
+
+fn complex(m: &SMatrix<f64, 12, 12>) -> SMatrix<Complex<f64>, 12, 12> {
+    m.map(Complex::from)
+}
+
+/// Frequencies that are one, relative.
+const SAME: f64 = 1e-9;
+
+/// Root mean square of a sum of harmonics: pairs of frequency and complex amplitude (peak). Those of one frequency are
+/// added up before they are squared, as those of two meshes of an idler are.
+///
+/// ```text
+/// rms = sqrt(sum over frequencies |sum a|^2 / 2)
+/// ```
+pub fn rms(harmonics: impl IntoIterator<Item = (f64, Complex<f64>)>) -> f64 {
+    let mut all: Vec<(f64, Complex<f64>)> = harmonics.into_iter().collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let one = |a: &(f64, Complex<f64>), b: &(f64, Complex<f64>)| b.0 - a.0 <= SAME * b.0.abs();
+    let squares = all.chunk_by(one).map(|same| same.iter().map(|(_, a)| *a).sum::<Complex<f64>>().norm_sqr());
+    (0.5 * squares.sum::<f64>()).sqrt()
+}

@@ -1,0 +1,40 @@
+//! A mesh through its own cycle, at rest under load.
+
+use crate::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Vector12};
+
+/// Solves a gearbox at `positions` places that are evenly spaced over one cycle of `mesh`, and hands on that mesh at
+/// each of them with its transmission error (mm). The other meshes are best linear then ([`crate::MeanMesh`]): their
+/// cycles are not whole.
+///
+/// # Errors
+/// [`GearboxError`] as [`StaticGearbox::solve`]; [`GearboxError::Count`] without a mesh of that number.
+pub fn own_cycle(
+    gearbox: &mut StaticGearbox,
+    mesh: usize,
+    positions: usize,
+    mut each: impl FnMut(),
+) -> Result<(Vec<MeshSample>, Vec<f64>), GearboxError> {
+    let (start, one) = (gearbox.train().cycles(0.0), gearbox.train().cycles(1.0));
+    let slope = match (start.get(mesh), one.get(mesh)) {
+        (Some(a), Some(b)) => b - a,
+        _ => return Err(GearboxError::Count { what: "meshes", found: start.len(), wanted: mesh + 1 }),
+    };
+    let mut samples = Vec::with_capacity(positions);
+    let mut errors = Vec::with_capacity(positions);
+    for i in 0..positions {
+        let position = gearbox.solve(i as f64 / positions as f64 / slope)?;
+        samples.extend(MeshSample::at(gearbox, &position, mesh));
+        errors.push(position.meshes[mesh].transmission_error);
+        each();
+    }
+    Ok((samples, errors))
+}
+
+impl MeshSample {
+    /// A mesh at the position that a gearbox has solved last; `None` without a mesh of that number.
+    pub fn at(gearbox: &StaticGearbox, position: &GearboxPosition, mesh: usize) -> Option<Self> {
+        let (state, reply) = (position.meshes.get(mesh)?, gearbox.replies().get(mesh)?);
+        let displacements = Vector12::from(state.displacements);
+        Some(Self { cycles: state.cycles, displacements, reply: reply.clone() })
+    }
+}
