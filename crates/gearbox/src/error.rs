@@ -1,6 +1,7 @@
 //! What a gearbox refuses, and what can go wrong on the way.
 
 use fem::FemError;
+use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
 
@@ -148,6 +149,15 @@ pub enum GearboxError {
         /// Last step over the displacements, in the norm of the stiffness.
         step: f64,
     },
+    /// A bearing that holds a shaft which has to turn.
+    #[error("{bearing} has stiffness or damping for the turn about its axis: its shaft could not run")]
+    HeldTurn {
+        /// Name of the bearing.
+        bearing: String,
+    },
+    /// A motion could not go on.
+    #[error("the motion: {0}")]
+    Motion(Box<MotionError<GearboxError>>),
     /// The contact of a mesh.
     #[error("mesh {mesh}: {source}")]
     AtMesh {
@@ -174,6 +184,10 @@ impl GearboxError {
     pub fn is_without_result(&self) -> bool {
         match self {
             Self::NoEquilibrium { .. } => true,
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => source.is_without_result(),
+                _ => true,
+            },
             Self::AtMesh { source, .. } => source.is_without_result(),
             Self::Contact(source) => {
                 matches!(source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
@@ -189,6 +203,10 @@ impl GearboxError {
                 let starved = matches!(&**source, Self::Contact(own) if own.is_starved());
                 starved.then_some(mesh)
             }
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => source.starved_mesh(),
+                _ => None,
+            },
             _ => None,
         }
     }
@@ -224,6 +242,13 @@ impl GearboxError {
             Self::NoEquilibrium { .. } => {
                 "is every shaft held in x, y, z and against tilting, are torques in N mm, and can the teeth carry them?"
             }
+            Self::HeldTurn { .. } => {
+                "give a row and a column of zeros for the turn about z, or a matrix of five rows"
+            }
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => return source.hint(),
+                other => other.hint(),
+            },
             Self::AtMesh { source, .. } => return source.hint(),
             Self::Contact(source) => return source.hint(),
             Self::Matrix(FemError::NotPositiveDefinite { .. }) => {
@@ -233,5 +258,11 @@ impl GearboxError {
             Self::Mesh { source, .. } => return source.hint(),
         };
         Some(text.to_owned())
+    }
+}
+
+impl From<MotionError<GearboxError>> for GearboxError {
+    fn from(source: MotionError<GearboxError>) -> Self {
+        Self::Motion(Box::new(source))
     }
 }

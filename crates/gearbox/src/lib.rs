@@ -8,7 +8,8 @@
 //! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
 //! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
-//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load.
+//! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
+//! 8. [`motion`]: how all of it moves in time.
 //!
 //! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
 //! threads.
@@ -21,6 +22,7 @@ mod error;
 mod exact_mesh;
 mod mesh_element;
 mod modal_energy;
+pub mod motion;
 mod position;
 mod seats;
 mod static_gearbox;

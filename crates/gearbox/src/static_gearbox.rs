@@ -203,12 +203,12 @@ fn continued(last: &[(f64, DVector<f64>)], angle: f64) -> Option<DVector<f64>> {
     Some(if part.abs() <= 1.0 + 1e-9 { z + part * (z - y) } else { z.clone() })
 }
 
-fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
+pub(crate) fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
     GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
 }
 
 /// That loads and held shafts are there, and loads do not drive.
-fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
+pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
     let count = structure.shafts.len();
     if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
         return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
@@ -229,7 +229,7 @@ fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<
 }
 
 /// Turn of vectors from a mesh's axes to the common ones.
-fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
+pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
     // Along an axis exactly: a pair alone stays the pair it is.
     let (sin, cos) = if direction == 0.0 { (0.0, 1.0) } else { direction.sin_cos() };
     let mut all = SMatrix::identity();
@@ -249,13 +249,13 @@ fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
     all
 }
 
-fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
+pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
     let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
     Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))
 }
 
 /// Stiffness along the normal that the search begins with, N/mm.
-fn guessed_stiffness(pair: &GearPair) -> f64 {
+pub(crate) fn guessed_stiffness(pair: &GearPair) -> f64 {
     ltca::GUESSED_LINE_STIFFNESS * pair.face_width() / pair.base_helix_angle().cos().powi(2)
 }
