@@ -158,6 +158,23 @@ pub enum GearboxError {
     /// A motion could not go on.
     #[error("the motion: {0}")]
     Motion(Box<MotionError<GearboxError>>),
+    /// A map of the contact.
+    #[error(transparent)]
+    Map(Box<contact_map::MapError<GearboxError>>),
+    /// A mesh that no map holds.
+    #[error("a map does not hold {what}")]
+    Unmapped {
+        /// What.
+        what: &'static str,
+    },
+    /// Flanks that a mesh does not have would touch.
+    #[error("the driving flanks are {gap_mm:.4} mm apart, and the backlash is {backlash_mm:.4} mm: the others would touch")]
+    BeyondBacklash {
+        /// Gap along the normal, mm.
+        gap_mm: f64,
+        /// Backlash along it, mm.
+        backlash_mm: f64,
+    },
     /// The contact of a mesh.
     #[error("mesh {mesh}: {source}")]
     AtMesh {
@@ -183,7 +200,9 @@ impl GearboxError {
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::NoEquilibrium { .. } => true,
+            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } => true,
+            // What the contact is asked for a map is of the map's own choice.
+            Self::Map(_) => true,
             Self::Motion(source) => match &**source {
                 MotionError::Mechanism { source, .. } => source.is_without_result(),
                 _ => true,
@@ -241,6 +260,11 @@ impl GearboxError {
             Self::Drives { .. } => "turn its sign, or make this shaft the input",
             Self::NoEquilibrium { .. } => {
                 "is every shaft held in x, y, z and against tilting, are torques in N mm, and can the teeth carry them?"
+            }
+            Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
+            Self::Unmapped { .. } => "take the mesh as \"exact\"",
+            Self::BeyondBacklash { .. } => {
+                "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
             }
             Self::HeldTurn { .. } => {
                 "give a row and a column of zeros for the turn about z, or a matrix of five rows"

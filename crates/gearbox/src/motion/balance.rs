@@ -120,7 +120,9 @@ impl Mechanism for GearboxMechanism {
         let [angle, _] = self.input(t, q, q);
         for i in 0..self.live.len() {
             let (_, live) = self.ask(i, angle, q)?;
+            let reach = live.element().reach();
             let checked = live.element().check();
+            self.reach[i] = self.reach[i].max(reach);
             checked.map_err(|source| crate::static_gearbox::at_mesh(&self.meshes[i], source))?;
         }
         Ok(())

@@ -34,6 +34,8 @@ pub struct GearboxMechanism {
     pub(super) outputs: DVector<f64>,
     /// Of the outputs, and of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
+    /// Most that each mesh has been used of what it holds, at the ends of steps.
+    pub(super) reach: Vec<f64>,
     /// Mesh cycles with the input at its start.
     pub(super) start_cycles: Vec<f64>,
 }
@@ -88,7 +90,7 @@ impl GearboxMechanism {
         let gyroscopic = free.of(&spin, false);
         let (mass, stiffness) = (free.of(&bodies.mass, true), free.of(&bodies.stiffness, false));
         let damping = free.of(&bodies.damping, false);
-        let drive = options.drive;
+        let (drive, reach) = (options.drive, vec![0.0; live.len()]);
         Ok(Self {
             assembly,
             meshes,
@@ -104,6 +106,7 @@ impl GearboxMechanism {
             gyroscopic,
             outputs,
             loads,
+            reach,
             start_cycles,
         })
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
-//! | `moving_mesh` | what a motion asks of a mesh; `spring_mesh`, `pitch_errors`, `moving_exact`: what answers |
+//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `mapped_mesh`, `moving_exact` |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `run` | from equilibrium on, row by row |
 //! | `instant`, `energy` | what is read off |
@@ -14,8 +14,11 @@ mod energy;
 mod free_coordinates;
 mod instant;
 mod live_mesh;
+mod mapped_mesh;
 mod mechanism;
+mod moving_exact;
 mod moving_mesh;
+mod normal_damper;
 mod options;
 mod pitch_errors;
 mod reduced_bodies;
@@ -25,7 +28,9 @@ mod start;
 
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
+pub use mapped_mesh::{MapRequest, MappedMesh};
 pub use mechanism::GearboxMechanism;
+pub use moving_exact::MovingExactMesh;
 pub use moving_mesh::{MeshDamper, MovingMesh};
 pub use options::{Drive, MotionOptions};
 pub use pitch_errors::PitchErrors;

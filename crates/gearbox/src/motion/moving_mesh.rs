@@ -23,6 +23,12 @@ pub trait MovingMesh: MeshElement {
     /// # Errors
     /// [`GearboxError`] when it is not known.
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError>;
+
+    /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
+    /// such bounds.
+    fn reach(&self) -> f64 {
+        0.0
+    }
 }
 
 /// What dampers of a mesh do.

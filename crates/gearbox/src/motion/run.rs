@@ -33,6 +33,8 @@ pub struct GearboxRun {
     pub divided: u64,
     /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
     pub separations: Vec<[u64; 2]>,
+    /// How much of what each mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
+    pub reach: Vec<f64>,
 }
 
 impl GearboxMechanism {
@@ -67,6 +69,7 @@ impl GearboxMechanism {
         let ledger = integrator.ledger().copied().unwrap_or_default();
         let energy = self.energy(start, &state, &ledger)?;
         let [steps, divided] = integrator.steps();
-        Ok(GearboxRun { states: [start.clone(), state], ledger, energy, steps, divided, separations })
+        let (states, reach) = ([start.clone(), state], self.reach.clone());
+        Ok(GearboxRun { states, ledger, energy, steps, divided, separations, reach })
     }
 }

@@ -8,7 +8,7 @@ use lumped::{
 };
 use nalgebra::{SMatrix, Vector6};
 
-use super::{MeshDamper, MovingMesh, PitchErrors};
+use super::{MeshDamper, MovingMesh, PitchErrors, normal_damper::NormalDamper};
 use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12};
 
 /// Flanks that press along one line of action.
@@ -153,18 +153,9 @@ impl MovingMesh for SpringMesh {
     fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper {
         let mut all = MeshDamper::default();
         for side in self.flanks().filter(|s| s.at.compression > 0.0) {
-            let rate = side.lever.dot(rates) + side.at.error_rate * cycles;
-            let (asked, most) = (self.damping * rate, side.at.force());
-            let damped = asked.clamp(-most, most);
-            let outer = side.lever * side.lever.transpose();
-            all.force -= damped * side.lever;
-            all.along_cycles -= damped * side.at.error_rate;
-            all.dissipated += damped * rate;
-            if damped == asked {
-                all.rate_slope += self.damping * outer;
-            } else {
-                all.slope += damped.signum() * side.at.stiffness[0] * outer;
-            }
+            let (force, by_cycles) = (side.at.force(), side.at.error_rate);
+            let (lever, damping, stiffness) = (&side.lever, self.damping, side.at.stiffness[0]);
+            NormalDamper { lever, damping, force, stiffness, by_cycles }.add(rates, cycles, &mut all);
         }
         all
     }

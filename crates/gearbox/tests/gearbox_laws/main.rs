@@ -2,6 +2,7 @@
 
 mod exact;
 mod motion;
+mod motion_contact;
 mod overhung;
 mod pairs;
 mod rest;

@@ -153,44 +153,61 @@ fn amplitude(samples: &[f64], order: usize) -> f64 {
 
 /// One wrong tooth of gear 2 meets its mate once a turn of the middle shaft: the forces of both meshes then have the
 /// frequency of that shaft, and lines beside their mesh frequencies at distances of it. With all teeth alike they have
-/// none of them.
+/// none of them. The transmission error of the first mesh has the tooth's own share at the shaft's frequency.
 #[test]
 fn a_pitch_error_on_the_middle_shaft_shows_at_its_frequency_at_both_meshes() {
+    let wrong_by = 0.01;
     let spectra = |error: f64| {
         let mut mechanism = train(Drive::Speed(60.0), Sense::Ccw, error);
         // 53 cycles of the first mesh are a turn of the middle shaft: one to settle, one to look at.
         let (rows, _) = run(&mut mechanism, Scheme::Energy, 2.0 * 53.0, 40);
         let turn = &rows[rows.len() - 1 - 53 * 40..rows.len() - 1];
         let force = |mesh: usize| turn.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
-        [force(0), force(1)]
+        ([force(0), force(1)], turn.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>())
     };
-    let (wrong, right) = (spectra(0.01), spectra(0.0));
+    let ((wrong, lag), (right, _)) = (spectra(wrong_by), spectra(0.0));
     for (mesh, teeth) in [53, 19].into_iter().enumerate() {
         let mean = right[mesh].iter().sum::<f64>() / right[mesh].len() as f64;
         for order in [1, 2, teeth - 1, teeth + 1] {
-            // Every 53rd and 19th order is a mesh frequency of its own, and so are sums of them.
-            let with = amplitude(&wrong[mesh], order) / mean;
-            let without = amplitude(&right[mesh], order) / mean;
-            assert!(with > 1e-4, "mesh {mesh}, order {order} of the middle shaft: {with:.1e}");
-            assert!(with > 100.0 * without, "mesh {mesh}, order {order}: {with:.1e} beside {without:.1e}");
+            let [with, without] = [&wrong, &right].map(|all| amplitude(&all[mesh], order) / mean);
+            assert!(with > 1e3 * without, "mesh {mesh}, order {order} of the shaft: {with:.1e} beside {without:.1e}");
         }
         let own = amplitude(&right[mesh], teeth) / mean;
         assert!(own > 1e-3, "mesh {mesh} at its mesh frequency: {own:.1e}");
+        let sideband = amplitude(&wrong[mesh], teeth + 1) / mean;
+        assert!(sideband > 1e-6, "mesh {mesh} beside its mesh frequency: {sideband:.1e}");
     }
+    // The tooth counts for a cycle of 53: 2 e/53 at the first order, on the transverse line of action.
+    let helix = pair([17, 53], 15.0).base_helix_angle();
+    let (found, wanted) = (amplitude(&lag, 1), 2.0 * wrong_by / 53.0 / helix.cos());
+    // What little the shafts turn against each other is the rest.
+    assert!((found / wanted - 1.0).abs() < 0.02, "{found:.3e} mm beside {wanted:.3e} mm");
 }
 
 /// Two rigid shafts in rigid bearings and the spring between their gears are the pair's own model: started 20 um off
-/// its equilibrium the pair rings through backlash the same way, step by step.
+/// its equilibrium the pair rings, flanks part and meet, the same way step by step.
+///
+/// The model knows the phase by nominal time: alike for a stiffness that is always the same, and for one that varies
+/// where the pinion is so heavy that it keeps its speed.
 #[test]
 fn a_pair_alone_moves_as_its_own_model() {
+    for (k, pinion, tolerance) in [(Fourier::constant(4e5), 0.2, 1e-8), (stiffness(), 2e5, 1e-5)] {
+        let [found, wanted] = pair_alone(&k, [pinion, 9.0]);
+        let size = wanted.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(size > 0.015, "{size} mm");
+        assert!(off < tolerance * size, "pinion of {pinion} t mm^2: {off:.2e} mm of {size:.2e} mm");
+    }
+}
+
+/// Transmission errors of the pair in the gearbox and of its own model, step by step.
+fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let gears = pair([17, 53], 15.0);
     let mut structure = single(&gears, 0.0);
-    let inertia = [2.0e-1, 9.0e0];
     for (disc, polar) in structure.discs.iter_mut().zip(inertia) {
         (disc.mass, disc.polar_inertia, disc.diametral_inertia) = (1e-3, polar, 0.5 * polar);
     }
     let (speed, torque) = (300.0, 2e5);
-    let k = stiffness();
     let mut operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
     operation.held = vec![0, 1];
     let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
@@ -253,7 +270,8 @@ fn a_pair_alone_moves_as_its_own_model() {
     let mut state = State::new(0.0, q, DVector::zeros(2));
     let step = 1.0 / mechanism.mesh_frequencies()[0] / 100.0;
     let steps = 400;
-    let plan = MotionPlan { scheme: Scheme::Energy, step, steps, steps_per_row: 1 };
+    let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
+    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1 };
     let mut found = Vec::new();
     let done = mechanism
         .run(&start, &plan, |instant| {
@@ -261,17 +279,14 @@ fn a_pair_alone_moves_as_its_own_model() {
             true
         })
         .unwrap();
-    let mut integrator = Integrator::new(Scheme::Energy, StepControl::Fixed(step), own.scale());
+    let mut integrator = Integrator::new(scheme, StepControl::Fixed(step), own.scale());
     let mut wanted = vec![meshing.side().sign() * r[1] * start.q[0]];
     for i in 1..=steps {
         integrator.advance(&mut own, &mut state, step * i as f64, |_, _| ()).unwrap();
         wanted.push(meshing.side().sign() * (r[0] * state.q[0] + r[1] * state.q[1]) - beyond);
     }
-    let size = wanted.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(done.separations[0][0] > 3, "the flanks come apart: {:?}", done.separations);
-    // Phases are those of the turned input here and those of nominal time there: some 1e-5 of a cycle.
-    assert!(off < 2e-3 * size, "{off:.2e} mm of {size:.2e} mm");
+    [found, wanted]
 }
 
 /// Coefficients of order n of f(phi + by).
@@ -309,7 +324,7 @@ fn turning(polar_inertia: f64) -> LumpedShaft {
     }
 }
 
-/// Few coordinates show the natural frequencies of all nodes up to the limit, and miss them less the higher it is.
+/// Few coordinates show the natural frequencies of all nodes, those far below the limit the better.
 #[test]
 fn reduced_shafts_have_the_natural_frequencies_of_the_whole() {
     let (structure, _) = heavy();
@@ -321,9 +336,8 @@ fn reduced_shafts_have_the_natural_frequencies_of_the_whole() {
     let [low, high] = [reduced(3000.0), reduced(12_000.0)];
     assert!(low.compared > 10 && high.compared > low.compared, "{low:?}, {high:?}");
     assert!(high.modes > low.modes && high.coordinates[1] < high.coordinates[0], "{low:?}, {high:?}");
-    for found in [low, high] {
-        assert!(found.error < 5e-3, "{found:?}");
-    }
+    // Modes that are left out begin at twice the limit; their share falls with the fourth power of the distance.
+    assert!(low.error < 5e-3 && high.error < 2e-2, "{low:?}, {high:?}");
 }
 
 /// A bearing that holds its shaft's turn is refused by name, a speed that is none by its value.
