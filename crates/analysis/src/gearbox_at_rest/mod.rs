@@ -4,9 +4,11 @@
 //! |---|---|
 //! | `parts` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `motion` | from rest on, in time |
 //! | `result` | what is read off all positions |
 
 mod meshes;
+mod motion;
 mod parts;
 mod result;
 
@@ -17,6 +19,7 @@ use scene::gearbox::Gearbox;
 
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
 use meshes::ReducedMesh;
+pub use motion::GearboxMotionResult;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 
 /// Solves a gearbox at all positions that its file asks for.
@@ -87,7 +90,18 @@ pub fn solve_gearbox(
         warnings.push(format!("{error}; the window was widened to {} teeth", reduced[i].window()));
     };
     warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
-    Ok(result::result(file, meshes, &train, &reduced, positions, warnings))
+    let rest = motion::AtRest {
+        file,
+        structure: &structure,
+        meshes: &meshes,
+        operation: &operation,
+        train: &train,
+        reduced: &reduced,
+        positions: &positions,
+    };
+    let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, observer)).transpose()?;
+    let result = result::result(file, meshes, &train, &reduced, positions, warnings);
+    Ok(GearboxResult { motion: moved, ..result })
 }
 
 fn count(file: &Gearbox) -> u32 {

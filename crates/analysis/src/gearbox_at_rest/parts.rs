@@ -14,9 +14,7 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
     let mut shafts = Vec::with_capacity(file.shafts.len());
     for own in &file.shafts {
         let named = |source| GearboxError::Shaft { shaft: own.name.clone(), source };
-        // At rest nothing has weight: the density is any.
-        let density = Material::STEEL.density_t_per_mm3();
-        let material = Material::new(own.young_mpa, own.poisson, density).map_err(named)?;
+        let material = Material::new(own.young_mpa, own.poisson, own.density).map_err(named)?;
         let mut pieces = Vec::with_capacity(own.sections.len());
         for section in &own.sections {
             let round = BeamSection::new(section.outer, section.inner, material).map_err(named)?;

@@ -4,7 +4,7 @@ use gearbox::{GearboxPosition, Mesh, Train, face_load_factor};
 use geometry::GearPair;
 use scene::gearbox::Gearbox;
 
-use super::meshes::ReducedMesh;
+use super::{GearboxMotionResult, meshes::ReducedMesh};
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -27,6 +27,8 @@ pub struct GearboxResult {
     pub positions: Vec<GearboxPosition>,
     /// What the user should hear.
     pub warnings: Vec<String>,
+    /// In motion, where the file asks for it.
+    pub motion: Option<GearboxMotionResult>,
 }
 
 /// A mesh over all positions.
@@ -135,5 +137,6 @@ pub(super) fn result(
         pairs: meshes.into_iter().map(|m| m.pair).collect(),
         positions,
         warnings,
+        motion: None,
     }
 }

@@ -40,6 +40,7 @@ pub use orders::{
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
 pub(crate) use resolved::unresolved;
 pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
+pub(crate) use setup::body;
 pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
     motion_options, refuse_unstable, scheme, speed, stated_body, steady_by, torque,

@@ -97,9 +97,16 @@ impl MappedMesh {
         &self.map
     }
 
-    /// Length of the loaded contact lines of the last evaluation, mm.
-    pub fn loaded_length(&self) -> f64 {
-        self.map.loaded_length(self.kept.last(), &self.contact)
+    /// Mean over a cycle of the loaded length of contact lines, mm, under a force (N) and the mean tilt.
+    pub fn mean_loaded_length(&self, force: f64, phases: usize) -> f64 {
+        let tilt = self.map.tilts().map_or(0.0, |[low, high]| 0.5 * (low + high));
+        let at = |i: usize| {
+            let phase = i as f64 / phases as f64;
+            let place = self.map.place(phase, tilt);
+            let contact = self.map.contact(&place, self.map.approach(phase, tilt, force), Wanted::default());
+            self.map.loaded_length(&place, &contact)
+        };
+        (0..phases).map(at).sum::<f64>() / phases.max(1) as f64
     }
 }
 

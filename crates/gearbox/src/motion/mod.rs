@@ -4,12 +4,13 @@
 //! |---|---|
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
-//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `mapped_mesh`, `moving_exact` |
+//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `run` | from equilibrium on, row by row |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
+mod contact_spring;
 mod energy;
 mod free_coordinates;
 mod instant;
@@ -26,6 +27,7 @@ mod run;
 mod spring_mesh;
 mod start;
 
+pub use contact_spring::ContactSpring;
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use mapped_mesh::{MapRequest, MappedMesh};

@@ -14,7 +14,7 @@ use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12};
 /// Flanks that press along one line of action.
 ///
 /// ```text
-/// delta = h . d + e(c) - j,   V = k(c) delta^2/2,   F = k delta  (delta > 0),   0 else
+/// delta = h . d + e(c) - j,   e: excess and pitch errors,   V = k(c) delta^2/2,   F = k delta  (delta > 0),   0 else
 /// ```
 #[derive(Debug, Clone)]
 struct Flanks {
@@ -22,7 +22,7 @@ struct Flanks {
     lever: Vector12,
     /// j: clearance, mm.
     clearance: f64,
-    /// Whether the teeth's errors press (+1) or relieve (-1) these flanks.
+    /// Whether excess and errors press (+1) or relieve (-1) these flanks.
     errors: f64,
     at: Pressed,
 }
@@ -49,6 +49,7 @@ impl Pressed {
 pub struct SpringMesh {
     sides: [Option<Flanks>; 2],
     stiffness: Fourier,
+    excess: Fourier,
     errors: PitchErrors,
     damping: f64,
     cycles: f64,
@@ -73,7 +74,15 @@ impl SpringMesh {
             errors: 1.0,
             at: Pressed::default(),
         };
-        Ok(Self { sides: [Some(drive), None], stiffness, errors: PitchErrors::default(), damping: 0.0, cycles: 0.0 })
+        let (excess, errors) = (Fourier::constant(0.0), PitchErrors::default());
+        Ok(Self { sides: [Some(drive), None], stiffness, excess, errors, damping: 0.0, cycles: 0.0 })
+    }
+
+    /// With flanks that are thicker than nominal ones, mm along the normal over the phase, 2 pi a mesh cycle: the static
+    /// transmission error is in it.
+    #[must_use]
+    pub fn with_excess(self, excess: Fourier) -> Self {
+        Self { excess, ..self }
     }
 
     /// With pitch errors of both gears.
@@ -121,8 +130,10 @@ impl MeshElement for SpringMesh {
     }
 
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
-        let [k, slope] = self.stiffness.with_slope(TAU * (self.cycles - self.cycles.floor()));
-        let [error, error_rate] = self.errors.at(self.cycles);
+        let phase = TAU * (self.cycles - self.cycles.floor());
+        let ([k, slope], [excess, along]) = (self.stiffness.with_slope(phase), self.excess.with_slope(phase));
+        let [own, own_rate] = self.errors.at(self.cycles);
+        let [error, error_rate] = [excess + own, TAU * along + own_rate];
         let mut reply = MeshReply { force: Vector12::zeros(), tangent: SMatrix::zeros(), normal_force: 0.0 };
         for side in self.sides.iter_mut().flatten() {
             let compression = side.lever.dot(displacements) + side.errors * error - side.clearance;

@@ -1,5 +1,6 @@
-//! Files of a gearbox at rest: positions, shaft lines, line loads, headline numbers, closing table.
+//! Files of a gearbox: positions, shaft lines, line loads, rows in time, headline numbers, closing table.
 
+mod motion;
 mod rows;
 mod summary;
 mod table;
@@ -12,12 +13,16 @@ use crate::{ReportError, ResultFiles};
 pub use summary::gearbox_summary;
 pub use table::gearbox_table;
 
-/// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`.
+/// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`, and `motion.csv` of one in motion.
 ///
 /// # Errors
 /// When the system refuses.
 pub fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn ResultFiles) -> Result<(), ReportError> {
     files.write("positions.csv", rows::positions(file, result).as_bytes())?;
     files.write("shafts.csv", rows::shafts(file, result).as_bytes())?;
-    files.write("line_load.csv", rows::line_loads(result).as_bytes())
+    files.write("line_load.csv", rows::line_loads(result).as_bytes())?;
+    match &result.motion {
+        Some(own) => files.write("motion.csv", motion::motion(file, own).as_bytes()),
+        None => Ok(()),
+    }
 }

@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
 };
+use super::motion::motion;
 use super::raw::{RawBearing, RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
 use super::values::{Checked, missing, needed_number, needed_word, numbers, square};
 use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Word, study::setting};
@@ -60,6 +61,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
         housing,
         positions_per_cycle: s.whole("positions_per_cycle", &raw.analysis.positions_per_cycle, 32, 1, 10_000)?,
         cycles: s.whole("cycles", &raw.analysis.cycles, 1, 1, 10_000)?,
+        motion: raw.motion.as_ref().map(|table| motion(s, table)).transpose()?,
     })
 }
 
@@ -112,6 +114,7 @@ fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<GearboxShaft> {
         sections: all(&raw.section, |t| section(s, t))?,
         young_mpa: s.number("young_mpa", &raw.young_mpa, 2.06e5, 1.0, 1e12)?,
         poisson: s.number("poisson", &raw.poisson, 0.3, 0.0, 0.499)?,
+        density: 1e-12 * s.number("density_kg_m3", &raw.density_kg_m3, 7850.0, 1.0, 1e5)?,
         held: raw.held.as_ref().is_some_and(|h| *h.get_ref()),
         name,
     })
@@ -169,7 +172,8 @@ fn bearing(s: &Source<'_>, table: &Spanned<RawBearing>, shafts: &[(String, f64)]
             diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
         }
     }
-    Ok(GearboxBearing { name, shaft, position, stiffness })
+    let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
+    Ok(GearboxBearing { name, shaft, position, stiffness, damping })
 }
 
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
@@ -235,14 +239,19 @@ fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) ->
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[input]", (&raw.shaft, &raw.position_mm), shafts)?;
     let rotation = s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?;
-    Ok(GearboxInput { shaft, position, rotation })
+    Ok(GearboxInput { shaft, position, rotation, inertia: inertia(s, &raw.inertia_kg_m2)? })
 }
 
 fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) -> Checked<GearboxTorque> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[torque]]", (&raw.shaft, &raw.position_mm), shafts)?;
     let torque = 1e3 * needed_number(s, table, "[[torque]]", "torque_nm", &raw.torque_nm, 0.0, 1e12)?;
-    Ok(GearboxTorque { shaft, position, torque })
+    Ok(GearboxTorque { shaft, position, torque, inertia: inertia(s, &raw.inertia_kg_m2)? })
+}
+
+/// Inertia of a machine at a coupling, t mm^2.
+fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
+    Ok(1e3 * s.number("inertia_kg_m2", value, 0.0, 0.0, 1e9)?)
 }
 
 /// Shaft and place of a part.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::GearboxMotion;
 use crate::{Rotation, Scene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -29,6 +30,8 @@ pub struct Gearbox {
     pub positions_per_cycle: u32,
     /// Cycles of the first mesh.
     pub cycles: u32,
+    /// How it runs in time; none: at rest alone.
+    pub motion: Option<GearboxMotion>,
 }
 
 /// A shaft.
@@ -44,6 +47,8 @@ pub struct GearboxShaft {
     pub young_mpa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Density, t/mm^3; it matters in motion.
+    pub density: f64,
     /// Rigid in rigid bearings.
     pub held: bool,
 }
@@ -70,6 +75,8 @@ pub struct GearboxBearing {
     pub position: f64,
     /// Stiffness for displacements x, y, z and turns about them: N/mm, N, N mm.
     pub stiffness: [[f64; 6]; 6],
+    /// Damping along x, y, z, N s/mm.
+    pub damping: [f64; 3],
 }
 
 /// A gear on a shaft.
@@ -106,6 +113,8 @@ pub struct GearboxInput {
     pub position: f64,
     /// Sense in which it turns.
     pub rotation: Rotation,
+    /// Inertia of what drives it, t mm^2.
+    pub inertia: f64,
 }
 
 /// A load on a shaft, against its rotation.
@@ -117,4 +126,6 @@ pub struct GearboxTorque {
     pub position: f64,
     /// N mm, >= 0.
     pub torque: f64,
+    /// Inertia of what is driven, t mm^2.
+    pub inertia: f64,
 }

@@ -4,14 +4,17 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
+//! | `motion` | how it runs in time |
 //! | `raw`, `check`, `values` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
+mod motion;
 mod raw;
 mod read;
 mod values;
 
+pub use motion::{GearboxDrive, GearboxMotion, MeshModel};
 pub use file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
 };

@@ -3,23 +3,33 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::motion::RawMotion;
 use crate::spanned::{Number, Numbers, Rows, Switch, Whole, Word, Words};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[
-    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis"]),
-    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "held"]),
+    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "motion"]),
+    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "density_kg_m3", "held"]),
     ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
     (
         "[bearing]",
-        &["name", "shaft", "position_mm", "stiffness_n_per_mm", "tilt_stiffness_nm_per_rad", "matrix_n_mm_rad"],
+        &[
+            "name",
+            "shaft",
+            "position_mm",
+            "stiffness_n_per_mm",
+            "tilt_stiffness_nm_per_rad",
+            "matrix_n_mm_rad",
+            "damping_n_s_per_mm",
+        ],
     ),
     ("[gear]", &["name", "shaft", "position_mm", "key_deg"]),
     ("[mesh]", &["name", "scene", "set", "pinion", "wheel"]),
-    ("input", &["shaft", "position_mm", "rotation"]),
-    ("[torque]", &["shaft", "position_mm", "torque_nm"]),
+    ("input", &["shaft", "position_mm", "rotation", "inertia_kg_m2"]),
+    ("[torque]", &["shaft", "position_mm", "torque_nm", "inertia_kg_m2"]),
     ("housing", &["matrix_n_mm_rad"]),
     ("analysis", &["positions_per_cycle", "cycles"]),
+    ("motion", super::motion::KEYS),
 ];
 
 /// The same, as messages look them up.
@@ -45,6 +55,7 @@ pub(super) struct RawGearbox {
     pub housing: Option<Spanned<RawHousing>>,
     #[serde(default)]
     pub analysis: RawAnalysis,
+    pub motion: Option<Spanned<RawMotion>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -56,6 +67,7 @@ pub(super) struct RawShaft {
     pub section: Vec<Spanned<RawSection>>,
     pub young_mpa: Number,
     pub poisson: Number,
+    pub density_kg_m3: Number,
     pub held: Switch,
 }
 
@@ -76,6 +88,7 @@ pub(super) struct RawBearing {
     pub stiffness_n_per_mm: Numbers,
     pub tilt_stiffness_nm_per_rad: Numbers,
     pub matrix_n_mm_rad: Rows,
+    pub damping_n_s_per_mm: Numbers,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -103,6 +116,7 @@ pub(super) struct RawInput {
     pub shaft: Word,
     pub position_mm: Number,
     pub rotation: Word,
+    pub inertia_kg_m2: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -111,6 +125,7 @@ pub(super) struct RawTorque {
     pub shaft: Word,
     pub position_mm: Number,
     pub torque_nm: Number,
+    pub inertia_kg_m2: Number,
 }
 
 #[derive(Debug, Default, Deserialize)]

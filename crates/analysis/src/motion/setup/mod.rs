@@ -10,7 +10,7 @@ mod stable;
 pub use elasticity::{ElasticHeadline, KeptModes};
 pub(crate) use elasticity::{Elasticity, Vibration, mesh_range_hz};
 pub use inertia::InertiaHeadline;
-pub(crate) use options::pair_drive;
+pub(crate) use options::{body, pair_drive};
 pub use options::{RPM, bearing, drive, motion_options, scheme, speed, stated_body, steady_by, torque};
 pub use prepare::QuasiStatic;
 pub(crate) use prepare::{MotionInputs, PreparedMotion, fastest_hz, prepare};

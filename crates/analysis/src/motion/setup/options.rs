@@ -93,7 +93,12 @@ pub fn torque(stated: &TorqueScene, mean: f64) -> Torque {
 }
 
 /// Mass and inertia of the mesh (of the whole gear, where it has a part of the teeth), unless the scene states others.
-fn body(scene: &Scene, meshes: &[SceneMesh; 2], stated: &BodyScene, i: usize) -> Result<RigidBody, AnalysisError> {
+pub(crate) fn body(
+    scene: &Scene,
+    meshes: &[SceneMesh; 2],
+    stated: &BodyScene,
+    i: usize,
+) -> Result<RigidBody, AnalysisError> {
     let gear = &meshes[i].gear;
     let own = fem::mass_properties(gear.mesh(), &material(scene, i)?)
         .map_err(|e| AnalysisError::Body { place: meshes[i].facts.source.clone(), source: Box::new(e) })?;
