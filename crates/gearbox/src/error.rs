@@ -168,7 +168,9 @@ pub enum GearboxError {
         what: &'static str,
     },
     /// Flanks that a mesh does not have would touch.
-    #[error("the driving flanks are {gap_mm:.4} mm apart, and the backlash is {backlash_mm:.4} mm: the others would touch")]
+    #[error(
+        "the driving flanks are {gap_mm:.4} mm apart, and the backlash is {backlash_mm:.4} mm: the others would touch"
+    )]
     BeyondBacklash {
         /// Gap along the normal, mm.
         gap_mm: f64,
@@ -266,9 +268,7 @@ impl GearboxError {
             Self::BeyondBacklash { .. } => {
                 "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
             }
-            Self::HeldTurn { .. } => {
-                "give a row and a column of zeros for the turn about z, or a matrix of five rows"
-            }
+            Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
             Self::Motion(source) => match &**source {
                 MotionError::Mechanism { source, .. } => return source.hint(),
                 other => other.hint(),

@@ -143,7 +143,8 @@ impl AtRest<'_> {
         let of = |gear: usize| {
             let own = self.file.meshes.iter().zip(self.reduced);
             let found = own.flat_map(|(m, r)| (0..2).map(move |g| (m.gears[g], r, g))).find(|(at, ..)| *at == gear);
-            found.map_or(Ok(RigidBody { mass: 0.0, transverse_inertia: 0.0, polar_inertia: 0.0 }), |(_, r, g)| r.body(g))
+            found
+                .map_or(Ok(RigidBody { mass: 0.0, transverse_inertia: 0.0, polar_inertia: 0.0 }), |(_, r, g)| r.body(g))
         };
         (0..self.file.gears.len()).map(of).collect()
     }
@@ -171,8 +172,7 @@ impl AtRest<'_> {
     fn spring(&self, mesh: usize) -> Result<ContactSpring, GearboxError> {
         let stands = self.stands(mesh);
         let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
-        let named =
-            |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
+        let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
         let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
         ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
     }

@@ -201,9 +201,11 @@ impl MovingMesh for MappedMesh {
     fn reach(&self) -> f64 {
         let force = self.contact.force / self.map.largest_force();
         // Without contact a tilt does nothing.
-        let tilt = self.map.tilts().filter(|_| force > 0.0).map_or(0.0, |[low, high]| {
-            (self.tilt - 0.5 * (low + high)).abs() / (0.5 * (high - low))
-        });
+        let tilt = self
+            .map
+            .tilts()
+            .filter(|_| force > 0.0)
+            .map_or(0.0, |[low, high]| (self.tilt - 0.5 * (low + high)).abs() / (0.5 * (high - low)));
         force.max(tilt)
     }
 }

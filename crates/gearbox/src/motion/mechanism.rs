@@ -2,9 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{
-    Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh,
-};
+use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
 use crate::{
     Assembly, GearboxError, Mesh, Meshing, Operation, Structure, Train, Vector12,
     static_gearbox::{at_mesh, check, turn},
@@ -69,9 +67,7 @@ impl GearboxMechanism {
         }
         let given = match options.drive {
             Drive::Speed(_) => 0.0,
-            Drive::Torque { torque, .. } => {
-                torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount)
-            }
+            Drive::Torque { torque, .. } => torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount),
         };
         let loads = [free.basis.tr_mul(&outputs), free.basis.tr_mul(&free.input) * given];
         let mut deviations = free.basis.clone();

@@ -22,9 +22,7 @@ impl PitchErrors {
     /// [`GearboxError::OutOfRange`] where an entry is no number.
     pub fn new(teeth: [Vec<f64>; 2]) -> Result<Self, GearboxError> {
         match teeth.iter().flatten().copied().find(|e| !e.is_finite()) {
-            Some(value) => {
-                Err(GearboxError::OutOfRange { part: "teeth".into(), quantity: "pitch error, mm", value })
-            }
+            Some(value) => Err(GearboxError::OutOfRange { part: "teeth".into(), quantity: "pitch error, mm", value }),
             None => Ok(Self { teeth }),
         }
     }

@@ -92,12 +92,7 @@ impl ReducedBodies {
     }
 
     /// Holds natural frequencies against those of all nodes; held shafts are left out on both sides.
-    fn compare(
-        &mut self,
-        assembly: &Assembly,
-        held: &[bool],
-        [k, m]: [&DMatrix<f64>; 2],
-    ) -> Result<(), GearboxError> {
+    fn compare(&mut self, assembly: &Assembly, held: &[bool], [k, m]: [&DMatrix<f64>; 2]) -> Result<(), GearboxError> {
         let limit = self.certificate.limit;
         let frequencies = |k: DMatrix<f64>, m: DMatrix<f64>| -> Result<Vec<f64>, GearboxError> {
             if k.is_empty() {

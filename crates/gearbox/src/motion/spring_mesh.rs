@@ -68,12 +68,8 @@ impl SpringMesh {
             let (part, quantity) = (mesh.name.clone(), "mesh stiffness, N/mm");
             return Err(GearboxError::OutOfRange { part, quantity, value: least });
         }
-        let drive = Flanks {
-            lever: lever(&line(mesh, meshing.side())?),
-            clearance: 0.0,
-            errors: 1.0,
-            at: Pressed::default(),
-        };
+        let drive =
+            Flanks { lever: lever(&line(mesh, meshing.side())?), clearance: 0.0, errors: 1.0, at: Pressed::default() };
         let (excess, errors) = (Fourier::constant(0.0), PitchErrors::default());
         Ok(Self { sides: [Some(drive), None], stiffness, excess, errors, damping: 0.0, cycles: 0.0 })
     }

@@ -53,7 +53,8 @@ fn train(drive: Drive, sense: Sense, error: f64) -> GearboxMechanism {
         } else {
             teeth[1].clear();
         }
-        let spring = SpringMesh::new(mesh, meshing, stiffness())?.with_damping(20.0).with_coast_flanks(mesh, meshing)?;
+        let spring =
+            SpringMesh::new(mesh, meshing, stiffness())?.with_damping(20.0).with_coast_flanks(mesh, meshing)?;
         Ok(Box::new(spring.with_errors(PitchErrors::new(teeth)?)))
     })
     .unwrap()
@@ -96,12 +97,13 @@ fn energy_of_a_train_of_two_stages_is_accounted_for() {
         assert!(energy.input_work > 0.0 && energy.output_work < 0.0 && energy.dissipated > 0.0, "{said}");
         assert!(energy.shafts > 0.0 && energy.supports > 0.0 && energy.meshes > 0.0 && energy.kinetic > 0.0, "{said}");
         let power = |p: &GearboxInstant| p.input_torque * p.input[1];
-        let work: f64 =
-            rows.windows(2).map(|w| 0.5 * (power(&w[0]) + power(&w[1])) * (w[1].time - w[0].time)).sum();
+        let work: f64 = rows.windows(2).map(|w| 0.5 * (power(&w[0]) + power(&w[1])) * (w[1].time - w[0].time)).sum();
         // Trapezoids on 60 rows a cycle, with the ripple of both meshes in the torque.
         assert!((work / energy.input_work - 1.0).abs() < 2e-3, "{work} beside {said}");
-        let out: f64 = rows.windows(2).map(|w| 0.5 * (w[0].output_speeds[0] + w[1].output_speeds[0])
-            * (w[1].time - w[0].time)).sum();
+        let out: f64 = rows
+            .windows(2)
+            .map(|w| 0.5 * (w[0].output_speeds[0] + w[1].output_speeds[0]) * (w[1].time - w[0].time))
+            .sum();
         let of_load = -(sense.sign() as f64) * OUTPUT * out;
         let off = of_load / energy.output_work - 1.0;
         assert!(off.abs() < 1e-3, "{of_load} beside {said}");
@@ -211,11 +213,8 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let mut operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
     operation.held = vec![0, 1];
     let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
-    let options = MotionOptions {
-        drive: Drive::Torque { start: speed, torque: None },
-        modal_damping: 0.0,
-        limit: TAU * 1000.0,
-    };
+    let options =
+        MotionOptions { drive: Drive::Torque { start: speed, torque: None }, modal_damping: 0.0, limit: TAU * 1000.0 };
     let mut mechanism = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
         Ok(Box::new(SpringMesh::new(mesh, meshing, k.clone())?.with_coast_flanks(mesh, meshing)?))
     })

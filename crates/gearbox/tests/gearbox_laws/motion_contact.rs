@@ -5,8 +5,8 @@ use std::{f64::consts::TAU, sync::Arc};
 use gearbox::{
     Disc, ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Operation, StaticGearbox, Structure, Torque, Vector12,
     motion::{
-        ContactSpring, Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MotionPlan,
-        MovingExactMesh, MovingMesh,
+        ContactSpring, Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions,
+        MotionPlan, MovingExactMesh, MovingMesh,
     },
 };
 use geometry::Sense;
@@ -48,8 +48,7 @@ impl Box1 {
             found = Some((gears, options));
             Ok(Box::new(element))
         };
-        let mut rest =
-            StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), &mut made).unwrap();
+        let mut rest = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), &mut made).unwrap();
         let positions: Vec<_> = (0..8).map(|i| rest.solve(TAU / 23.0 * f64::from(i) / 8.0).unwrap()).collect();
         let (gears, options) = found.unwrap();
         let stands = positions.iter().map(|p| Vector12::from(p.meshes[0].displacements)).collect();
@@ -146,7 +145,8 @@ fn a_spring_of_the_contact_stands_for_it_near_its_load() {
     let (of_spring, run) = box1.run(Box::new(spring.with_damping(1.0)), 12.0);
     assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
     let (of_contact, _) = box1.run(Box::new(MovingExactMesh::new(exact, 1.0)), 12.0);
-    let mean = |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).sum::<f64>() / rows.len() as f64;
+    let mean =
+        |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).sum::<f64>() / rows.len() as f64;
     let (own, wanted) = (mean(&of_spring), mean(&of_contact));
     assert!((own / wanted - 1.0).abs() < 0.02, "mean DTE {own:.3e} mm beside {wanted:.3e} mm");
 }

@@ -14,7 +14,7 @@ mod raw;
 mod read;
 mod values;
 
-pub use motion::{GearboxDrive, GearboxMotion, MeshModel};
 pub use file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
 };
+pub use motion::{GearboxDrive, GearboxMotion, MeshModel};

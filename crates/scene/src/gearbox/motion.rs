@@ -99,8 +99,7 @@ pub(super) struct RawMotion {
 
 pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
     let raw = table.get_ref();
-    let drive =
-        s.choice("drive", &raw.drive, &[("speed", GearboxDrive::Speed), ("torque", GearboxDrive::Torque)])?;
+    let drive = s.choice("drive", &raw.drive, &[("speed", GearboxDrive::Speed), ("torque", GearboxDrive::Torque)])?;
     let given = |key: &str, value: &Number, low: f64, high: f64| match value {
         Some(_) => s.number(key, value, 0.0, low, high).map(Some),
         None => Ok(None),
@@ -108,7 +107,11 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
     let input_torque = given("input_torque_nm", &raw.input_torque_nm, 0.0, 1e12)?.map(|t| 1e3 * t);
     if let (GearboxDrive::Speed, Some(own)) = (drive, &raw.input_torque_nm) {
         let said = "an input of given speed has a torque of its own";
-        return Err(s.conflict(&own.span(), said, "take `drive = \"torque\"`, or leave the torque out: it is a result"));
+        return Err(s.conflict(
+            &own.span(),
+            said,
+            "take `drive = \"torque\"`, or leave the torque out: it is a result",
+        ));
     }
     let models = [("mapped", MeshModel::Mapped), ("spring", MeshModel::Spring), ("exact", MeshModel::Exact)];
     let method = s.choice_of::<Integration>("method", &raw.method)?;
